@@ -1,0 +1,113 @@
+// Source text: bytes as they came, their encoding and line ends, and lines to read them by. Nothing about CNC.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/span.h"
+
+namespace cnctrans {
+
+enum class Encoding : std::uint8_t { utf8, windows1252 };
+enum class Eol : std::uint8_t { lf, crlf, cr };
+
+/// One line of a source: text without its line end (NUL, ^Z, EOT inside are left to the reader).
+struct SourceLine {
+  std::string_view text;
+  std::uint32_t number = 0;  ///< 1-based
+  Eol eol = Eol::lf;
+  bool has_eol = true;  ///< false only on a last line without a line end
+};
+
+/// A whole source file in memory (memory-mapped when it comes from disk). Bytes are never changed: comments and texts
+/// keep their bytes. Lines are found on demand; LF, CRLF and CR are accepted, also mixed.
+class SourceText {
+ public:
+  /// Opens a file; nullptr and a message in `error` when it can't be read.
+  static std::shared_ptr<const SourceText> open(const std::string& path, std::string* error);
+  static std::shared_ptr<const SourceText> from_string(std::string name, std::string bytes);
+
+  ~SourceText();
+  SourceText(const SourceText&) = delete;
+  SourceText& operator=(const SourceText&) = delete;
+
+  [[nodiscard]] const std::string& name() const { return name_; }    ///< path as given
+  [[nodiscard]] std::string stem() const;                            ///< file name without folder and extension
+  [[nodiscard]] std::string extension() const;                       ///< lower case, without the dot
+  [[nodiscard]] std::string_view bytes() const { return bytes_; }    ///< everything, BOM included
+  [[nodiscard]] std::string_view text() const;                       ///< bytes without a BOM
+  [[nodiscard]] bool has_bom() const { return has_bom_; }
+  [[nodiscard]] Encoding encoding() const { return encoding_; }      ///< UTF-8 when valid, else Windows-1252
+  [[nodiscard]] Eol main_eol() const { return eol_; }                ///< of the first line that has one
+  /// All lines; built at the first call.
+  [[nodiscard]] const std::vector<SourceLine>& lines() const;
+
+ private:
+  SourceText() = default;
+  std::string name_;
+  std::string_view bytes_;
+  std::string owned_;
+  void* map_ = nullptr;
+  std::size_t map_size_ = 0;
+  bool has_bom_ = false;
+  Encoding encoding_ = Encoding::utf8;
+  Eol eol_ = Eol::lf;
+  mutable std::vector<SourceLine> lines_;
+  mutable bool lines_ready_ = false;
+};
+using SourcePtr = std::shared_ptr<const SourceText>;
+
+/// Names and texts of the files that spans point into. Index 0 is "no file".
+class FileTable {
+ public:
+  FileId add(SourcePtr source);
+  /// A file known by name only (a stream, or text that is gone).
+  FileId add_name(std::string name);
+  [[nodiscard]] const std::string& name(FileId id) const;
+  [[nodiscard]] const SourceText* source(FileId id) const;
+  [[nodiscard]] SourcePtr source_ptr(FileId id) const;
+  [[nodiscard]] std::size_t size() const { return files_.size(); }
+
+ private:
+  struct Entry {
+    std::string name;
+    SourcePtr source;
+  };
+  std::vector<Entry> files_{Entry{}};
+};
+
+/// Reads a file in windows of whole lines, so that memory stays flat whatever its size.
+class LineWindowReader {
+ public:
+  explicit LineWindowReader(std::size_t window_bytes = 1U << 20U);
+  ~LineWindowReader();
+  LineWindowReader(const LineWindowReader&) = delete;
+  LineWindowReader& operator=(const LineWindowReader&) = delete;
+
+  [[nodiscard]] bool open(const std::string& path, std::string* error);
+  /// The next window: whole lines, ending with a line end except at the end of the file. Empty at the end. The view is
+  /// valid until the next call. A line longer than the window makes the window grow.
+  std::string_view next();
+  [[nodiscard]] std::size_t bytes_read() const;
+  [[nodiscard]] std::size_t file_size() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Takes the next line off the front of `text` (LF, CRLF or CR end it). False when `text` is empty.
+bool take_line(std::string_view& text, SourceLine& line);
+
+bool valid_utf8(std::string_view bytes);
+/// Windows-1252 <-> UTF-8. Undefined bytes map to their C1 code point, so the round trip is exact.
+std::string windows1252_to_utf8(std::string_view bytes);
+/// nullopt when a character does not exist there; `bad` gets its byte offset.
+std::optional<std::string> utf8_to_windows1252(std::string_view text, std::size_t* bad = nullptr);
+std::string_view eol_text(Eol eol);
+
+}  // namespace cnctrans

@@ -1,0 +1,36 @@
+# Targets of the house: every folder globs its own sources, so that adding a file needs no edit here.
+
+set(CNC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
+                 -Wimplicit-fallthrough -Werror)
+
+add_library(cnc_options INTERFACE)
+target_include_directories(cnc_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/include)
+target_compile_options(cnc_options INTERFACE ${CNC_WARNINGS})
+if(CNCTRANS_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+# cnc_library(folder LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
+function(cnc_library folder)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  string(REPLACE "/" "_" name ${folder})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+  # The dialects' folders of frontends/ and backends/ are libraries of their own.
+  if(sources)
+    add_library(cnc_${name} STATIC ${sources})
+    target_link_libraries(cnc_${name} PUBLIC cnc_options ${ARG_LINK})
+  else()
+    add_library(cnc_${name} INTERFACE)
+    target_link_libraries(cnc_${name} INTERFACE cnc_options ${ARG_LINK})
+  endif()
+endfunction()
+
+function(cnc_executable folder name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+  if(sources)
+    add_executable(${name} ${sources})
+    target_link_libraries(${name} PRIVATE cnc_options ${ARG_LINK})
+  endif()
+endfunction()
