@@ -13,10 +13,12 @@ endif()
 
 # cnc_library(folder LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
 function(cnc_library folder)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXCLUDE" "LINK" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-  # The dialects' folders of frontends/ and backends/ are libraries of their own.
+  if(ARG_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX ${ARG_EXCLUDE})
+  endif()
   if(sources)
     add_library(cnc_${name} STATIC ${sources})
     target_link_libraries(cnc_${name} PUBLIC cnc_options ${ARG_LINK})
