@@ -11,7 +11,7 @@ if(CNCTRANS_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# cnc_library(folder LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
+# cnc_library(folder [EXCLUDE regex] LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
 function(cnc_library folder)
   cmake_parse_arguments(ARG "" "EXCLUDE" "LINK" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
@@ -21,10 +21,19 @@ function(cnc_library folder)
   endif()
   if(sources)
     add_library(cnc_${name} STATIC ${sources})
-    target_link_libraries(cnc_${name} PUBLIC cnc_options ${ARG_LINK})
   else()
     add_library(cnc_${name} INTERFACE)
-    target_link_libraries(cnc_${name} INTERFACE cnc_options ${ARG_LINK})
+  endif()
+  cnc_link(cnc_${name} cnc_options ${ARG_LINK})
+endfunction()
+
+# cnc_link(target libraries...): what the users of a floor link too; a folder without sources is an interface library.
+function(cnc_link target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL INTERFACE_LIBRARY)
+    target_link_libraries(${target} INTERFACE ${ARGN})
+  else()
+    target_link_libraries(${target} PUBLIC ${ARGN})
   endif()
 endfunction()
 
