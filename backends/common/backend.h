@@ -1,0 +1,62 @@
+// What a backend is to the rest of the house: IR in, text out.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+#include "ir/passes/capabilities.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+
+namespace cnctrans::backends {
+
+enum class Unsupported : std::uint8_t { error, warn, comment };
+enum class Numbering : std::uint8_t { keep, none, renumber };
+
+struct WriteOptions {
+  const machine::Profile* profile = nullptr;  ///< of the target; never null when called
+  Unsupported unsupported = Unsupported::error;
+  Numbering numbering = Numbering::keep;
+  std::int32_t number_step = 10;
+  bool annotate = false;   ///< the source line as a comment beside its translation
+  std::string main_stem;   ///< file stem wanted for the main program (where legal)
+};
+
+/// Target line -> source span, for reports and for verification messages. Index 0 is line 1.
+struct SourceMap {
+  std::vector<Span> lines;
+};
+struct OutputFile {
+  std::string name;   ///< as the target control wants it, with extension
+  std::string text;   ///< UTF-8 where the program's texts are, LF line ends; the translator encodes
+  SourceMap map;
+  bool main = false;
+};
+
+/// Writes plain blocks of a straight-line program one by one; false: the block needs the whole-program writer.
+class StreamWriter {
+ public:
+  virtual ~StreamWriter() = default;
+  virtual void begin(const ir::Program& frame, std::string& out) = 0;
+  virtual bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) = 0;
+  virtual void end(std::string& out) = 0;
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  [[nodiscard]] virtual std::string_view dialect() const = 0;
+  [[nodiscard]] virtual const ir::Capabilities& capabilities() const = 0;
+  /// Writes a legal program (one that passed legalisation for `capabilities()`).
+  virtual std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
+                                        Diagnostics& diagnostics) const = 0;
+  virtual std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const = 0;
+};
+
+}  // namespace cnctrans::backends

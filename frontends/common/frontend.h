@@ -1,0 +1,59 @@
+// What a frontend is to the rest of the house: text in, IR out.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+#include "frontends/common/syntax.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+
+namespace cnctrans::frontends {
+
+/// scanner: word scanner first, the grammar for the rest. antlr: the grammar for every block. both: both, and every
+/// difference is a diagnostic (error CNC-READERS).
+enum class Reader : std::uint8_t { scanner, antlr, both };
+
+struct ReadOptions {
+  Reader reader = Reader::scanner;
+  const machine::Profile* profile = nullptr;  ///< never null when called
+};
+
+/// Counts for `check` and the corpus table.
+struct ReadStats {
+  std::uint64_t lines = 0;
+  std::uint64_t blocks = 0;        ///< lines that are blocks (not blank, not pure comment)
+  std::uint64_t blocks_read = 0;   ///< understood; the rest is Opaque with a diagnostic
+  std::uint64_t scanner_blocks = 0;
+};
+
+/// How a line of a straight-line stream was taken.
+enum class StreamLine : std::uint8_t {
+  statement,      ///< `out` is the statement (Block; also empty lines and comments)
+  program_end,    ///< `out` is the last block; an End follows it: the program is complete, trailing lines may follow
+  needs_program,  ///< the construct needs the whole program: give up streaming
+};
+
+/// Reads a straight-line program line by line. Views in `out` point into the line given.
+class StreamReader {
+ public:
+  virtual ~StreamReader() = default;
+  virtual StreamLine read(const SourceLine& line, ir::Statement& out, Diagnostics& diagnostics) = 0;
+  /// The program frame so far: title, name, spaces; valid from the first line on.
+  [[nodiscard]] virtual const ir::Program& frame() const = 0;
+};
+
+class Frontend {
+ public:
+  virtual ~Frontend() = default;
+  [[nodiscard]] virtual std::string_view dialect() const = 0;
+  /// Reads a whole file. Always returns a program; what could not be read is Opaque with a diagnostic.
+  virtual ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                           ReadStats* stats) const = 0;
+  virtual std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options, std::string_view file_name) const = 0;
+};
+
+}  // namespace cnctrans::frontends

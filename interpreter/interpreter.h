@@ -1,0 +1,68 @@
+// Runs a program on a machine and yields a trace. Knows no dialect.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "interpreter/trace.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+
+namespace cnctrans::interpreter {
+
+struct Options {
+  std::uint64_t max_events = 50'000'000;
+  std::uint64_t max_steps = 500'000'000;  ///< statements carried out; an endless loop without motion ends here
+  std::uint16_t skip_mask = 0;            ///< block-skip switches that are on
+  std::vector<std::pair<std::string, std::string>> set;  ///< NAME=VALUE of --set
+  bool optional_stops = false;
+  /// Finds a routine that the program itself does not have (library); null when there is none. The program returned
+  /// stays alive as long as the callback does; its spaces are matched to the main program's by prefix.
+  std::function<const ir::Program*(const ir::RoutineName&)> library;
+};
+
+struct Result {
+  EndReason reason = EndReason::program_end;
+  std::string error_code;   ///< with EndReason::error
+  std::string error_text;
+  Span error_span;
+  std::uint64_t steps = 0;
+  std::uint64_t blocks = 0;
+  std::uint64_t events = 0;
+  /// Final values of every variable that was ever set, for --vars: name as in the contract -> JSON text of the value.
+  std::vector<std::pair<std::string, std::string>> variables;
+  /// Statements carried out at least once, by Statement::id (for coverage).
+  std::vector<bool> covered;
+};
+
+/// Runs the main routine of `program`. Statically wrong programs (unknown label, unknown subprogram) are refused before
+/// anything moves: diagnostics, and a single `end` event.
+Result run(const ir::Program& program, const machine::Profile& profile, const Options& options, TraceSink& sink,
+           Diagnostics& diagnostics);
+
+/// Straight-line execution for streams: blocks come one after the other, nothing is kept.
+class BlockRunner {
+ public:
+  BlockRunner(const machine::Profile& profile, const Options& options, TraceSink& sink, Diagnostics& diagnostics);
+  ~BlockRunner();
+  BlockRunner(const BlockRunner&) = delete;
+  BlockRunner& operator=(const BlockRunner&) = delete;
+  /// False when the run has ended (error, limit): see result().
+  bool step(const ir::Statement& block);
+  /// Program end reached at `where`.
+  Result finish(const Span& where);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Statically visible faults: jumps and ranges to labels that are not there, calls of unknown routines, bad nesting.
+void check_program(const ir::Program& program, const Options& options, Diagnostics& diagnostics);
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,87 @@
+// Events of a run, and where they go. The JSON form is the contract of docs/trace.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/source.h"
+#include "ir/axis.h"
+#include "ir/modal.h"
+
+namespace cnctrans::interpreter {
+
+enum class EventKind : std::uint8_t {
+  rapid, linear, arc, thread, dwell, feed_stop, spindle, tool, offset, comp, coolant, m, probe, message, stop, end
+};
+/// Machine position of every axis of the channel: mm (radius) or degrees. Bit n of `known`: axis n is known.
+struct Position {
+  std::array<double, ir::axis::count_max> value{};
+  std::uint32_t known = 0;
+};
+enum class EndReason : std::uint8_t { program_end, error, event_limit, step_limit };
+
+/// One flat struct for all kinds: the fields a kind has are listed in docs/trace.md.
+struct Event {
+  EventKind kind = EventKind::rapid;
+  FileId file = 0;
+  std::uint32_t line = 0;
+  Position to;
+  double feed = 0;
+  ir::FeedMode feed_mode = ir::FeedMode::per_minute;
+  // arc
+  ir::Plane plane = ir::Plane::xy;
+  double center_u = 0, center_v = 0;
+  bool cw = false;
+  std::int32_t turns = 0;
+  // thread
+  double pitch = 0, pitch_change = 0, start_angle = 0;
+  // dwell
+  double amount = 0;
+  bool revolutions = false;
+  // spindle, tool, offset, comp, coolant, m, stop
+  std::int32_t number = 0;
+  std::string state;        ///< cw ccw off oriented / off left right / coolant state
+  bool css = false;
+  double value = 0;
+  bool has_limit = false;
+  double limit = 0;
+  double angle = 0;
+  std::string text;         ///< tool name, message, error text
+  bool change = false;
+  bool optional_stop = false;
+  // end
+  EndReason reason = EndReason::program_end;
+  std::string code;
+};
+
+class TraceSink {
+ public:
+  virtual ~TraceSink() = default;
+  virtual void on_event(const Event& e) = 0;
+};
+/// Keeps all events.
+class TraceRecorder : public TraceSink {
+ public:
+  void on_event(const Event& e) override { events.push_back(e); }
+  std::vector<Event> events;
+};
+/// Counts only: for `run` without --trace.
+class TraceCounter : public TraceSink {
+ public:
+  void on_event(const Event& e) override {
+    ++count;
+    last = e.kind;
+  }
+  std::uint64_t count = 0;
+  EventKind last = EventKind::end;
+};
+
+/// One JSON object without a line end, keys in the contract's order, numbers shortest round-trip.
+std::string to_json(const Event& e, const FileTable& files, const std::vector<std::string>& axis_names);
+std::string_view name(EventKind k);
+std::string_view name(EndReason r);
+
+}  // namespace cnctrans::interpreter

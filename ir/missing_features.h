@@ -1,0 +1,18 @@
+// The registry of what is not carried yet: the gap is code. Called where it would matter; docs' support matrix reads it.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace cnctrans::ir {
+
+struct MissingFeature {
+  std::string_view key;     ///< stable, e.g. "cycle.pocket"
+  std::string_view title;   ///< what it is, for people
+  std::string_view reason;  ///< why it is missing, and until when
+};
+std::span<const MissingFeature> missing_features();
+/// The entry; an unknown key is a programming error and aborts in debug builds.
+const MissingFeature& missing_feature(std::string_view key);
+
+}  // namespace cnctrans::ir

@@ -1,0 +1,34 @@
+// Legalisation: rewrites a program until a target can say it, in a fixed order, each pass small and testable alone. A
+// pass that cannot keep the meaning reports and leaves an Opaque statement; it never guesses.
+#pragma once
+
+#include "base/diagnostics.h"
+#include "ir/passes/capabilities.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+
+namespace cnctrans::ir {
+
+enum class CycleWriting : std::uint8_t { native, explode };
+struct LegaliseOptions {
+  CycleWriting cycles = CycleWriting::native;
+};
+struct LegaliseContext {
+  const Capabilities& target;
+  const machine::Profile& source_machine;
+  const machine::Profile& target_machine;
+  LegaliseOptions options;
+  Diagnostics& diagnostics;
+};
+
+/// Runs all passes in order. False when an error was reported.
+bool legalise(Program& program, const LegaliseContext& context);
+
+/// Names of the passes in order, for `cnctrans ir --passes` and tests; run one by name.
+std::vector<std::string_view> pass_names();
+bool run_pass(std::string_view name, Program& program, const LegaliseContext& context);
+
+/// For streams: true when no pass would touch this block (plain motion in forms the target has). Cheap: no allocation.
+bool plain_legal(const Block& block, const Capabilities& target);
+
+}  // namespace cnctrans::ir
