@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,19 +36,23 @@ class SourceText {
   SourceText(const SourceText&) = delete;
   SourceText& operator=(const SourceText&) = delete;
 
-  [[nodiscard]] const std::string& name() const { return name_; }    ///< path as given
-  [[nodiscard]] std::string stem() const;                            ///< file name without folder and extension
-  [[nodiscard]] std::string extension() const;                       ///< lower case, without the dot
-  [[nodiscard]] std::string_view bytes() const { return bytes_; }    ///< everything, BOM included
-  [[nodiscard]] std::string_view text() const;                       ///< bytes without a BOM
+  [[nodiscard]] const std::string& name() const { return name_; }  ///< path as given
+  [[nodiscard]] std::string stem() const;                          ///< file name without folder and extension
+  [[nodiscard]] std::string extension() const;                     ///< lower case, without the dot
+  [[nodiscard]] std::string_view bytes() const { return bytes_; }  ///< everything, BOM included
+  [[nodiscard]] std::string_view text() const;                     ///< bytes without a BOM
   [[nodiscard]] bool has_bom() const { return has_bom_; }
-  [[nodiscard]] Encoding encoding() const { return encoding_; }      ///< UTF-8 when valid, else Windows-1252
-  [[nodiscard]] Eol main_eol() const { return eol_; }                ///< of the first line that has one
-  /// All lines; built at the first call.
+  [[nodiscard]] Encoding encoding() const { return encoding_; }  ///< UTF-8 when valid, else Windows-1252
+  [[nodiscard]] Eol main_eol() const { return eol_; }            ///< of the first line that has one
+  /// All lines of `text()`; built at the first call (safe from several threads).
   [[nodiscard]] const std::vector<SourceLine>& lines() const;
+
+  /// One line, empty when there is no such line (1-based).
+  [[nodiscard]] std::string_view line_text(std::uint32_t number) const;
 
  private:
   SourceText() = default;
+  void set_bytes(std::string_view bytes);
   std::string name_;
   std::string_view bytes_;
   std::string owned_;
@@ -57,7 +62,7 @@ class SourceText {
   Encoding encoding_ = Encoding::utf8;
   Eol eol_ = Eol::lf;
   mutable std::vector<SourceLine> lines_;
-  mutable bool lines_ready_ = false;
+  mutable std::once_flag lines_once_;
 };
 using SourcePtr = std::shared_ptr<const SourceText>;
 
@@ -67,6 +72,8 @@ class FileTable {
   FileId add(SourcePtr source);
   /// A file known by name only (a stream, or text that is gone).
   FileId add_name(std::string name);
+  /// Gives the text of a file that was added by name, so that diagnostics can show its lines.
+  void attach(FileId id, SourcePtr source);
   [[nodiscard]] const std::string& name(FileId id) const;
   [[nodiscard]] const SourceText* source(FileId id) const;
   [[nodiscard]] SourcePtr source_ptr(FileId id) const;
@@ -92,22 +99,30 @@ class LineWindowReader {
   /// The next window: whole lines, ending with a line end except at the end of the file. Empty at the end. The view is
   /// valid until the next call. A line longer than the window makes the window grow.
   std::string_view next();
+  /// Why `next()` came to an early end; empty when it did not. To be asked after the last window.
+  [[nodiscard]] const std::string& read_error() const;
   [[nodiscard]] std::size_t bytes_read() const;
-  [[nodiscard]] std::size_t file_size() const;
+  [[nodiscard]] std::size_t file_size() const;  ///< 0 when it is not a regular file
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// Takes the next line off the front of `text` (LF, CRLF or CR end it). False when `text` is empty.
+/// Takes the next line off the front of `text` (LF, CRLF or CR end it) and counts `line.number` up by one. False, and
+/// `line` unchanged, when `text` is empty.
 bool take_line(std::string_view& text, SourceLine& line);
 
+/// Well-formed UTF-8 (no overlong forms, no surrogates, nothing above U+10FFFF). ASCII runs at memory speed.
 bool valid_utf8(std::string_view bytes);
+/// Length in bytes (1-4) of the well-formed UTF-8 character at the front of `bytes`; 0 when there is none.
+std::size_t utf8_length(std::string_view bytes, char32_t* code_point = nullptr);
 /// Windows-1252 <-> UTF-8. Undefined bytes map to their C1 code point, so the round trip is exact.
 std::string windows1252_to_utf8(std::string_view bytes);
 /// nullopt when a character does not exist there; `bad` gets its byte offset.
 std::optional<std::string> utf8_to_windows1252(std::string_view text, std::size_t* bad = nullptr);
+/// `text` as it is when valid UTF-8, else read as Windows-1252.
+std::string to_utf8(std::string_view text);
 std::string_view eol_text(Eol eol);
 
 }  // namespace cnctrans
