@@ -1,0 +1,45 @@
+#include "ir/missing_features.h"
+
+#include <array>
+#include <cassert>
+
+namespace cnctrans::ir {
+
+namespace {
+// Keys in alphabetical order. A row disappears in the commit that builds the feature.
+constexpr std::array features{
+    MissingFeature{"block.word", "a word whose meaning is not carried", "no IR action for it yet"},
+    MissingFeature{"cycle.milling", "milling cycles (pockets, slots, faces, bosses)",
+                   "the cycle nodes are planned; only hole cycles are carried"},
+    MissingFeature{"cycle.pattern", "hole patterns", "points of a pattern are not expanded yet"},
+    MissingFeature{"cycle.turning", "turning cycles (stock removal, grooves, threads)",
+                   "the cycle nodes are planned; only hole cycles are carried"},
+    MissingFeature{"language.files", "file operations", "no output file model yet"},
+    MissingFeature{"language.statement", "a statement of the control that the IR does not carry",
+                   "read and kept, not executed"},
+    MissingFeature{"language.synchronised", "synchronised actions and couplings", "depends on the machine's real time"},
+    MissingFeature{"language.system_variable", "a system variable without a neutral meaning",
+                   "its value is known only to the machine"},
+    MissingFeature{"motion.polynomial", "polynomial interpolation", "planned with the whole motion chapter"},
+    MissingFeature{"motion.probe", "probing moves and cycles", "executed as moves to the expected contact later"},
+    MissingFeature{"motion.spline", "splines", "planned with the whole motion chapter"},
+    MissingFeature{"motion.transformation", "kinematic transformations and inclined planes",
+                   "needs the machine's kinematics in the profile"},
+    MissingFeature{"text.unread", "a block that could not be read", "not a block of this language, or damaged"},
+    MissingFeature{"work_zone", "work zones and protection zones", "no effect on the path; kept and reported"},
+};
+}  // namespace
+
+std::span<const MissingFeature> missing_features() {
+  return features;
+}
+
+const MissingFeature& missing_feature(std::string_view key) {
+  for (const auto& f : features) {
+    if (f.key == key) return f;
+  }
+  assert(false && "unknown key of the missing-features registry");
+  return features.front();
+}
+
+}  // namespace cnctrans::ir
