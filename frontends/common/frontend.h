@@ -25,8 +25,8 @@ struct ReadOptions {
 /// Counts for `check` and the corpus table.
 struct ReadStats {
   std::uint64_t lines = 0;
-  std::uint64_t blocks = 0;        ///< lines that are blocks (not blank, not pure comment)
-  std::uint64_t blocks_read = 0;   ///< understood; the rest is Opaque with a diagnostic
+  std::uint64_t blocks = 0;       ///< lines that are blocks (not blank, not pure comment)
+  std::uint64_t blocks_read = 0;  ///< understood; the rest is Opaque with a diagnostic
   std::uint64_t scanner_blocks = 0;
 };
 
@@ -53,7 +53,8 @@ class Frontend {
   /// Reads a whole file. Always returns a program; what could not be read is Opaque with a diagnostic.
   virtual ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                            ReadStats* stats) const = 0;
-  virtual std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options, std::string_view file_name) const = 0;
+  virtual std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
+                                               std::string_view file_name) const = 0;
 };
 
 }  // namespace cnctrans::frontends

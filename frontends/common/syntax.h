@@ -14,7 +14,8 @@ namespace cnctrans::syntax {
 enum class ExprKind : std::uint8_t {
   number,    ///< text = digits as written, number = value
   string,    ///< text = content without the quotes
-  variable,  ///< text = name as the dialect spells it, folded to capitals ("P", "R", "L", "ALPHA", "$P_UIFR"); args = index or indices
+  variable,  ///< text = name as the dialect spells it, folded to capitals ("P", "R", "L", "ALPHA", "$P_UIFR"); args =
+             ///< index or indices
   unary,     ///< text = operator, args[0]
   binary,    ///< text = operator, args[0], args[1]
   call,      ///< text = function name in capitals; args
@@ -34,11 +35,11 @@ struct Expr {
 
 /// An address with its value: `G1`, `X-10.5`, `XP100`, `X=R1*2`, `CR=5`, `X=IC(3)`, `M2=3`, `E60001=L1`.
 struct Word {
-  std::string_view address;  ///< letters as written, e.g. "X", "CR", "G" (a view into the line)
-  std::int32_t extension = -1;   ///< numeric address extension: M2=3 -> 2, I1=.. -> 1; -1 none
-  bool equals = false;           ///< an `=` was written
-  bool has_value = false;        ///< false: bare address (`Z` alone)
-  bool is_expression = false;    ///< value is `block.exprs[expr]`, else `number` and `number_text`
+  std::string_view address;     ///< letters as written, e.g. "X", "CR", "G" (a view into the line)
+  std::int32_t extension = -1;  ///< numeric address extension: M2=3 -> 2, I1=.. -> 1; -1 none
+  bool equals = false;          ///< an `=` was written
+  bool has_value = false;       ///< false: bare address (`Z` alone)
+  bool is_expression = false;   ///< value is `block.exprs[expr]`, else `number` and `number_text`
   std::int32_t expr = -1;
   double number = 0;
   std::string_view number_text;  ///< as written, sign included ("-0.500", "5.", "+3")
@@ -67,8 +68,8 @@ struct Comment {
 struct Block {
   std::uint16_t skip_mask = 0;  ///< bit n = skip level n (0-based as in the IR)
   WordPos skip_pos;
-  std::string_view number;      ///< digits of the block number as written ("0010"); empty: none
-  char number_mark = 'N';       ///< 'N', or ':' for a main block
+  std::string_view number;  ///< digits of the block number as written ("0010"); empty: none
+  char number_mark = 'N';   ///< 'N', or ':' for a main block
   WordPos number_pos;
   std::vector<std::string_view> labels;  ///< identifier labels before the block (`LAB:`)
   std::vector<Word> words;               ///< in source order
