@@ -1,0 +1,191 @@
+#include "translator/loader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "base/text.h"
+
+namespace cnctrans::translator {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool listed(const std::vector<std::string_view>& list, std::string_view extension) {
+  return std::find(list.begin(), list.end(), extension) != list.end();
+}
+
+bool letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+
+/// What looks_like_lathe gathers from the words outside comments.
+struct LatheEvidence {
+  bool y_word = false;
+  bool cutting_speed = false;
+  bool diameters = false;
+
+  void word(std::string_view name, std::string_view rest) {
+    const std::string upper = to_upper_ascii(name);
+    if (upper == "DIAMON" || upper == "DIAM" || upper == "LIMS") diameters = true;
+    const bool value = !rest.empty() && (rest[0] == '-' || rest[0] == '+' || rest[0] == '.' || rest[0] == '=' ||
+                                         (rest[0] >= '0' && rest[0] <= '9'));
+    if (upper == "Y" && value) y_word = true;
+    if (upper != "G") return;
+    int code = -1;
+    std::from_chars(rest.data(), rest.data() + rest.size(), code);
+    if (code == 96) cutting_speed = true;
+    if (code == 151 || code == 152) diameters = true;
+  }
+};
+
+}  // namespace
+
+bool looks_like_lathe(std::string_view text, char comment_open, char comment_close) {
+  LatheEvidence evidence;
+  std::size_t i = 0;
+  while (i < text.size() && !evidence.y_word) {
+    const char c = text[i];
+    if (c == comment_open) {
+      const std::size_t close = text.find_first_of(comment_close == 0 ? std::string_view("\r\n") : std::string_view(&comment_close, 1), i);
+      i = close == std::string_view::npos ? text.size() : close + 1;
+    } else if (c == '"') {
+      const std::size_t close = text.find_first_of("\"\r\n", i + 1);
+      i = close == std::string_view::npos ? text.size() : close + 1;
+    } else if (letter(c)) {
+      std::size_t end = i;
+      while (end < text.size() && letter(text[end])) ++end;
+      evidence.word(text.substr(i, end - i), text.substr(end, 8));
+      i = end;
+    } else {
+      ++i;
+    }
+  }
+  return !evidence.y_word && (evidence.cutting_speed || evidence.diameters);
+}
+
+std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine, const SourceText* source,
+                                               std::string* error) {
+  if (!machine.empty()) return machine::load(machine, error);
+  bool lathe = false;
+  if (source != nullptr) {
+    const std::string extension = source->extension();
+    if (listed(dialect.lathe_extensions, extension)) {
+      lathe = true;
+    } else if (!listed(dialect.mill_extensions, extension)) {
+      lathe = looks_like_lathe(source->text(), dialect.comment_open, dialect.comment_close);
+    }
+  }
+  return machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
+}
+
+Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader, std::vector<std::string> libraries)
+    : dialect_(dialect), profile_(profile), reader_(reader), folders_(std::move(libraries)) {}
+
+const ir::Program* Loader::read_main(const std::string& path, Diagnostics& diagnostics, std::string* error,
+                                     frontends::ReadStats* stats) {
+  const SourcePtr source = SourceText::open(path, error);
+  if (!source) return nullptr;
+  const fs::path parent = fs::path(path).parent_path();
+  folders_.insert(folders_.begin(), parent.empty() ? std::string(".") : parent.string());
+  main_path_ = path;
+  return read_source(source, diagnostics, stats);
+}
+
+const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
+  const FileId id = files_.add(source);
+  const frontends::ReadOptions options{reader_, &profile_};
+  mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));
+  ir::Program& program = *mains_.back();
+  program.texts->hold(source);
+  ir::number_statements(program);
+  return &program;
+}
+
+void Loader::list_candidates() {
+  if (listed_) return;
+  listed_ = true;
+  std::set<std::string> seen;
+  std::error_code ignored;
+  if (!main_path_.empty()) seen.insert(fs::weakly_canonical(main_path_, ignored).string());
+  for (const auto& folder : folders_) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      if (!entry.is_regular_file(ignored)) continue;
+      std::string extension = entry.path().extension().string();
+      if (!extension.empty()) extension.erase(0, 1);
+      std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+      if (listed(dialect_.mill_extensions, extension) || listed(dialect_.lathe_extensions, extension) ||
+          listed(dialect_.other_extensions, extension)) {
+        names.push_back(entry.path().string());
+      }
+    }
+    std::sort(names.begin(), names.end());
+    for (auto& n : names) {
+      if (!seen.insert(fs::weakly_canonical(n, ignored).string()).second) continue;
+      candidates_.push_back({n, to_upper_ascii(fs::path(n).stem().string()), nullptr, nullptr, false});
+    }
+  }
+}
+
+bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
+  if (c.unreadable) return false;
+  if (!c.source) {
+    std::string error;
+    c.source = SourceText::open(c.path, &error);
+    if (!c.source) {
+      c.unreadable = true;
+      return false;
+    }
+  }
+  if (c.program) return true;
+  const std::string wanted = name.text.empty() ? std::to_string(name.number) : name.text;
+  const std::string_view bytes = c.source->bytes();
+  const auto same = [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - 32 : a) == (b >= 'a' && b <= 'z' ? b - 32 : b); };
+  return std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end(), same) != bytes.end();
+}
+
+ir::Program* Loader::load(Candidate& c) {
+  if (!c.program) {
+    const FileId id = files_.add(c.source);
+    const frontends::ReadOptions options{reader_, &profile_};
+    c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, library_diagnostics_, nullptr));
+    c.program->texts->hold(c.source);
+    ir::number_statements(*c.program);
+  }
+  return c.program.get();
+}
+
+const ir::Program* Loader::find(const ir::RoutineName& name) {
+  list_candidates();
+  const auto use = [this](ir::Program* p) -> const ir::Program* {
+    if (std::find(called_.begin(), called_.end(), p) == called_.end()) called_.push_back(p);
+    return p;
+  };
+  for (auto& c : candidates_) {
+    if (!may_hold(c, name)) continue;
+    ir::Program* p = load(c);
+    if (p->find(name) != nullptr) return use(p);
+  }
+  for (auto& c : candidates_) {
+    const bool stem = !name.text.empty() ? c.stem == name.text : c.stem.find_first_not_of("0123456789") == std::string::npos && !c.stem.empty() && c.stem.size() < 18 && std::stoll(c.stem) == name.number;
+    if (!stem || c.unreadable) continue;
+    if (!c.source) {
+      std::string error;
+      c.source = SourceText::open(c.path, &error);
+      if (!c.source) continue;
+    }
+    ir::Program* p = load(c);
+    // The file is the routine: its first routine answers to the stem's name.
+    if (!p->routines.empty() && p->routines.front().name.empty()) p->routines.front().name = name;
+    if (p->find(name) != nullptr) return use(p);
+    for (auto& r : p->routines) {
+      if (r.kind == ir::RoutineKind::main) {
+        r.name = name;
+        return use(p);
+      }
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace cnctrans::translator

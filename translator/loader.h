@@ -1,0 +1,68 @@
+// Reads part programs and what they call: the file itself, its folder, and the library folders.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+#include "frontends/common/frontend.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+#include "translator/registry.h"
+
+namespace cnctrans::translator {
+
+/// The profile for a source: `machine` (built-in name or file) when given; else by the file's extension; else by
+/// unmistakable content (constant cutting speed or diameter programming without any Y word: lathe); else mill.
+std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine, const SourceText* source,
+                                               std::string* error);
+/// True when the text can only be for a lathe. Comments are skipped by the dialect's marks.
+bool looks_like_lathe(std::string_view text, char comment_open, char comment_close);
+
+/// Owns the files of one job. Programs found in libraries are read once.
+class Loader {
+ public:
+  Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader, std::vector<std::string> libraries);
+
+  /// Reads the main file. nullptr and `error` when it can't be opened.
+  const ir::Program* read_main(const std::string& path, Diagnostics& diagnostics, std::string* error,
+                               frontends::ReadStats* stats = nullptr);
+  const ir::Program* read_source(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats = nullptr);
+  /// The program that holds the routine, or nullptr: header number or name first, then the stem of the file.
+  const ir::Program* find(const ir::RoutineName& name);
+  /// Library programs read so far, in the order they were asked for.
+  [[nodiscard]] const std::vector<const ir::Program*>& called() const { return called_; }
+  /// Diagnostics of library files that were used.
+  [[nodiscard]] const Diagnostics& library_diagnostics() const { return library_diagnostics_; }
+  FileTable& files() { return files_; }
+
+ private:
+  struct Candidate {
+    std::string path;
+    std::string stem;  ///< capitals
+    SourcePtr source;
+    std::unique_ptr<ir::Program> program;
+    bool unreadable = false;
+  };
+  void list_candidates();
+  ir::Program* load(Candidate& c);
+  bool may_hold(Candidate& c, const ir::RoutineName& name);
+
+  const Dialect& dialect_;
+  const machine::Profile& profile_;
+  frontends::Reader reader_;
+  std::vector<std::string> folders_;
+  std::string main_path_;
+  FileTable files_;
+  std::vector<std::unique_ptr<ir::Program>> mains_;
+  std::vector<Candidate> candidates_;
+  bool listed_ = false;
+  std::vector<const ir::Program*> called_;
+  Diagnostics library_diagnostics_;
+};
+
+}  // namespace cnctrans::translator

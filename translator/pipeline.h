@@ -1,0 +1,96 @@
+// The pipeline as library calls: read, check, run, translate, verify.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backends/common/backend.h"
+#include "base/diagnostics.h"
+#include "interpreter/interpreter.h"
+#include "ir/passes/legalise.h"
+#include "translator/loader.h"
+#include "translator/registry.h"
+#include "verifier/compare.h"
+
+namespace cnctrans::translator {
+
+/// Progress of long jobs: part done 0..1. May be empty.
+using Progress = std::function<void(double)>;
+
+struct TranslateOptions {
+  std::string from, to;                 ///< registry names
+  std::string machine, target_machine;  ///< built-in name or file; empty: chosen
+  std::vector<std::string> libraries;
+  frontends::Reader reader = frontends::Reader::scanner;
+  backends::Unsupported unsupported = backends::Unsupported::error;
+  backends::Numbering numbering = backends::Numbering::keep;
+  std::int32_t number_step = 10;
+  bool annotate = false;
+  bool verify = false;
+  ir::CycleWriting cycles = ir::CycleWriting::native;
+  std::optional<Encoding> encoding;     ///< of the output; else as the input
+  std::optional<Eol> eol;
+  interpreter::Options run;             ///< limits, --set, --skip for the verification
+};
+
+/// One file of the result, ready to be written: encoded, with line ends.
+struct OutputText {
+  std::string name;
+  std::string bytes;
+  backends::SourceMap map;
+  bool main = false;
+};
+
+struct TranslateResult {
+  bool refused = false;             ///< nothing may be written
+  std::vector<OutputText> outputs;
+  Diagnostics diagnostics;
+  FileTable files;
+  bool verified = false;            ///< a verification ran
+  verifier::Verdict verdict;
+  FileTable target_files;           ///< of the verification
+  std::uint64_t lines = 0;
+  std::string error;                ///< could not even start (file missing, unknown dialect): usage
+};
+
+/// Translates one program in memory, with what it calls.
+TranslateResult translate(const std::string& path, const TranslateOptions& options);
+
+/// Compares a source with a translation made by anyone.
+struct VerifyResult {
+  Diagnostics source_diagnostics, target_diagnostics;
+  FileTable source_files, target_files;
+  verifier::Verdict verdict;
+  std::string error;
+};
+VerifyResult verify(const std::string& source, const std::vector<std::string>& targets, const TranslateOptions& options);
+
+struct RunOptions {
+  std::string dialect, machine;
+  std::vector<std::string> libraries;
+  frontends::Reader reader = frontends::Reader::scanner;
+  interpreter::Options run;
+};
+struct RunResult {
+  interpreter::Result result;
+  Diagnostics diagnostics;
+  FileTable files;
+  std::vector<std::string> axis_names;
+  std::string error;
+};
+/// `make_sink` gets the file table and axis names that events refer to. Straight-line programs stream.
+RunResult run(const std::string& path, const RunOptions& options,
+              const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&, const std::vector<std::string>&)>& make_sink);
+
+struct CheckResult {
+  Diagnostics diagnostics;
+  FileTable files;
+  frontends::ReadStats stats;
+  std::string error;
+};
+CheckResult check(const std::string& path, const RunOptions& options);
+
+}  // namespace cnctrans::translator

@@ -1,0 +1,28 @@
+#include "translator/registry.h"
+
+#include "backends/fagor/backend.h"
+#include "backends/num/backend.h"
+#include "backends/sinumerik/backend.h"
+#include "frontends/fagor/frontend.h"
+#include "frontends/num/frontend.h"
+#include "frontends/sinumerik/frontend.h"
+
+namespace cnctrans::translator {
+
+const std::vector<Dialect>& dialects() {
+  static const std::vector<Dialect> all{
+      {"fagor", "Fagor 8055", {"pim"}, {"pit"}, {}, ';', 0, frontends::fagor::make_frontend(), backends::fagor::make_backend()},
+      {"num", "NUM 760/1060", {}, {}, {"xpi", "num", "nc", "txt"}, '(', ')', frontends::num::make_frontend(), backends::num::make_backend()},
+      {"sinumerik", "Sinumerik 840D sl / 828D", {}, {}, {"mpf", "spf", "arc"}, ';', 0, frontends::sinumerik::make_frontend(), backends::sinumerik::make_backend()},
+  };
+  return all;
+}
+
+const Dialect* find_dialect(std::string_view name) {
+  for (const auto& d : dialects()) {
+    if (d.name == name) return &d;
+  }
+  return nullptr;
+}
+
+}  // namespace cnctrans::translator
