@@ -25,7 +25,7 @@ enum class Scope : std::uint8_t {
 struct SpaceSegment {
   std::int64_t lo = 0, hi = 0;
   Scope scope = Scope::global;
-  bool persistent = true;       ///< survives the program end
+  bool persistent = true;  ///< survives the program end
   bool read_only = false;
   bool stops_preparation = false;
 };
@@ -35,17 +35,17 @@ struct VariableSpace {
   std::vector<SpaceSegment> segments;  ///< empty: named space
   Scope scope = Scope::routine;        ///< of a named space
   Type type = Type::real;
-  bool starts_at_zero = false;         ///< reading before writing gives 0; else it gives 0 with a note
+  bool starts_at_zero = false;  ///< reading before writing gives 0; else it gives 0 with a note
   bool named() const { return segments.empty(); }
 };
 
 struct Parameter {
-  std::string name;      ///< formal name, or letter
+  std::string name;  ///< formal name, or letter
   Type type = Type::real;
   std::string type_text;
   bool by_reference = false;
   ExprPtr default_value;
-  VarRef variable;       ///< the variable it sets in the callee
+  VarRef variable;  ///< the variable it sets in the callee
 };
 
 enum class RoutineKind : std::uint8_t { main, sub };
@@ -55,13 +55,13 @@ struct Routine {
   RoutineKind kind = RoutineKind::main;
   Locality locality = Locality::global;
   RoutineName name;
-  std::string title;          ///< program title or comment of its header
-  std::string attributes;     ///< header attributes, kept as text
-  LineInfo header;            ///< line that opens it (header, SUB, PROC); span unknown when there is none
+  std::string title;       ///< program title or comment of its header
+  std::string attributes;  ///< header attributes, kept as text
+  LineInfo header;         ///< line that opens it (header, SUB, PROC); span unknown when there is none
   std::vector<Parameter> parameters;
-  bool has_signature = false; ///< PROC line present
-  bool saves_modals = false;  ///< modal state comes back at return (SAVE)
-  std::string header_text;    ///< further attributes of the header as written (DISPLOF...)
+  bool has_signature = false;  ///< PROC line present
+  bool saves_modals = false;   ///< modal state comes back at return (SAVE)
+  std::string header_text;     ///< further attributes of the header as written (DISPLOF...)
   Body body;
   FileId file = 0;
 };
@@ -74,9 +74,9 @@ struct FileLook {
   Eol eol = Eol::lf;
   bool bom = false;
   bool final_eol = true;
-  std::vector<std::string> leader;   ///< lines before the program (tape leader), raw
-  std::string trailer;               ///< bytes after the program (%, ^Z, EOT), raw
-  bool archive = false;              ///< several programs with archive headers
+  std::vector<std::string> leader;  ///< lines before the program (tape leader), raw
+  std::string trailer;              ///< bytes after the program (%, ^Z, EOT), raw
+  bool archive = false;             ///< several programs with archive headers
 };
 
 /// Text that outlives the source it came from.
@@ -87,17 +87,20 @@ class TextKeeper {
     return kept_.back();
   }
   void hold(SourcePtr source) { sources_.push_back(std::move(source)); }
+  /// Keeps another program's texts alive as well.
+  void share(std::shared_ptr<TextKeeper> other) { shared_.push_back(std::move(other)); }
 
  private:
   std::deque<std::string> kept_;
+  std::vector<std::shared_ptr<TextKeeper>> shared_;
   std::vector<SourcePtr> sources_;
 };
 
 struct Program {
-  std::string dialect;                 ///< registry name of the language it was read from ("" for hand-made IR)
-  std::vector<Routine> routines;       ///< [0] is the main program when there is one
+  std::string dialect;            ///< registry name of the language it was read from ("" for hand-made IR)
+  std::vector<Routine> routines;  ///< [0] is the main program when there is one
   std::vector<VariableSpace> spaces;
-  std::vector<std::string> axis_names; ///< names of axes from axis::first_extra on
+  std::vector<std::string> axis_names;  ///< names of axes from axis::first_extra on
   std::vector<FileLook> files;
   Units unit_hint = Units::metric;
   bool lathe = false;

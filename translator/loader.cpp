@@ -16,7 +16,9 @@ bool listed(const std::vector<std::string_view>& list, std::string_view extensio
   return std::find(list.begin(), list.end(), extension) != list.end();
 }
 
-bool letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+bool letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+}
 
 /// What looks_like_lathe gathers from the words outside comments.
 struct LatheEvidence {
@@ -46,7 +48,8 @@ bool looks_like_lathe(std::string_view text, char comment_open, char comment_clo
   while (i < text.size() && !evidence.y_word) {
     const char c = text[i];
     if (c == comment_open) {
-      const std::size_t close = text.find_first_of(comment_close == 0 ? std::string_view("\r\n") : std::string_view(&comment_close, 1), i);
+      const std::size_t close =
+          text.find_first_of(comment_close == 0 ? std::string_view("\r\n") : std::string_view(&comment_close, 1), i);
       i = close == std::string_view::npos ? text.size() : close + 1;
     } else if (c == '"') {
       const std::size_t close = text.find_first_of("\"\r\n", i + 1);
@@ -63,8 +66,8 @@ bool looks_like_lathe(std::string_view text, char comment_open, char comment_clo
   return !evidence.y_word && (evidence.cutting_speed || evidence.diameters);
 }
 
-std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine, const SourceText* source,
-                                               std::string* error) {
+std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
+                                               const SourceText* source, std::string* error) {
   if (!machine.empty()) return machine::load(machine, error);
   bool lathe = false;
   if (source != nullptr) {
@@ -78,7 +81,8 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
   return machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
 }
 
-Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader, std::vector<std::string> libraries)
+Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
+               std::vector<std::string> libraries)
     : dialect_(dialect), profile_(profile), reader_(reader), folders_(std::move(libraries)) {}
 
 const ir::Program* Loader::read_main(const std::string& path, Diagnostics& diagnostics, std::string* error,
@@ -113,7 +117,8 @@ void Loader::list_candidates() {
       if (!entry.is_regular_file(ignored)) continue;
       std::string extension = entry.path().extension().string();
       if (!extension.empty()) extension.erase(0, 1);
-      std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+      std::transform(extension.begin(), extension.end(), extension.begin(),
+                     [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
       if (listed(dialect_.mill_extensions, extension) || listed(dialect_.lathe_extensions, extension) ||
           listed(dialect_.other_extensions, extension)) {
         names.push_back(entry.path().string());
@@ -140,7 +145,9 @@ bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
   if (c.program) return true;
   const std::string wanted = name.text.empty() ? std::to_string(name.number) : name.text;
   const std::string_view bytes = c.source->bytes();
-  const auto same = [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - 32 : a) == (b >= 'a' && b <= 'z' ? b - 32 : b); };
+  const auto same = [](char a, char b) {
+    return (a >= 'a' && a <= 'z' ? a - 32 : a) == (b >= 'a' && b <= 'z' ? b - 32 : b);
+  };
   return std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end(), same) != bytes.end();
 }
 
@@ -148,7 +155,8 @@ ir::Program* Loader::load(Candidate& c) {
   if (!c.program) {
     const FileId id = files_.add(c.source);
     const frontends::ReadOptions options{reader_, &profile_};
-    c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, library_diagnostics_, nullptr));
+    c.program =
+        std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, library_diagnostics_, nullptr));
     c.program->texts->hold(c.source);
     ir::number_statements(*c.program);
   }
@@ -167,7 +175,10 @@ const ir::Program* Loader::find(const ir::RoutineName& name) {
     if (p->find(name) != nullptr) return use(p);
   }
   for (auto& c : candidates_) {
-    const bool stem = !name.text.empty() ? c.stem == name.text : c.stem.find_first_not_of("0123456789") == std::string::npos && !c.stem.empty() && c.stem.size() < 18 && std::stoll(c.stem) == name.number;
+    const bool stem = !name.text.empty()
+                          ? c.stem == name.text
+                          : c.stem.find_first_not_of("0123456789") == std::string::npos && !c.stem.empty() &&
+                                c.stem.size() < 18 && std::stoll(c.stem) == name.number;
     if (!stem || c.unreadable) continue;
     if (!c.source) {
       std::string error;

@@ -18,20 +18,22 @@ namespace cnctrans::translator {
 
 /// The profile for a source: `machine` (built-in name or file) when given; else by the file's extension; else by
 /// unmistakable content (constant cutting speed or diameter programming without any Y word: lathe); else mill.
-std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine, const SourceText* source,
-                                               std::string* error);
+std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
+                                               const SourceText* source, std::string* error);
 /// True when the text can only be for a lathe. Comments are skipped by the dialect's marks.
 bool looks_like_lathe(std::string_view text, char comment_open, char comment_close);
 
 /// Owns the files of one job. Programs found in libraries are read once.
 class Loader {
  public:
-  Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader, std::vector<std::string> libraries);
+  Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
+         std::vector<std::string> libraries);
 
   /// Reads the main file. nullptr and `error` when it can't be opened.
   const ir::Program* read_main(const std::string& path, Diagnostics& diagnostics, std::string* error,
                                frontends::ReadStats* stats = nullptr);
-  const ir::Program* read_source(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats = nullptr);
+  const ir::Program* read_source(const SourcePtr& source, Diagnostics& diagnostics,
+                                 frontends::ReadStats* stats = nullptr);
   /// The program that holds the routine, or nullptr: header number or name first, then the stem of the file.
   const ir::Program* find(const ir::RoutineName& name);
   /// Library programs read so far, in the order they were asked for.

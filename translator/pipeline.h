@@ -31,9 +31,9 @@ struct TranslateOptions {
   bool annotate = false;
   bool verify = false;
   ir::CycleWriting cycles = ir::CycleWriting::native;
-  std::optional<Encoding> encoding;     ///< of the output; else as the input
+  std::optional<Encoding> encoding;  ///< of the output; else as the input
   std::optional<Eol> eol;
-  interpreter::Options run;             ///< limits, --set, --skip for the verification
+  interpreter::Options run;  ///< limits, --set, --skip for the verification
 };
 
 /// One file of the result, ready to be written: encoded, with line ends.
@@ -45,15 +45,15 @@ struct OutputText {
 };
 
 struct TranslateResult {
-  bool refused = false;             ///< nothing may be written
+  bool refused = false;  ///< nothing may be written
   std::vector<OutputText> outputs;
   Diagnostics diagnostics;
   FileTable files;
-  bool verified = false;            ///< a verification ran
+  bool verified = false;  ///< a verification ran
   verifier::Verdict verdict;
-  FileTable target_files;           ///< of the verification
+  FileTable target_files;  ///< of the verification
   std::uint64_t lines = 0;
-  std::string error;                ///< could not even start (file missing, unknown dialect): usage
+  std::string error;  ///< could not even start (file missing, unknown dialect): usage
 };
 
 /// Translates one program in memory, with what it calls.
@@ -66,7 +66,8 @@ struct VerifyResult {
   verifier::Verdict verdict;
   std::string error;
 };
-VerifyResult verify(const std::string& source, const std::vector<std::string>& targets, const TranslateOptions& options);
+VerifyResult verify(const std::string& source, const std::vector<std::string>& targets,
+                    const TranslateOptions& options);
 
 struct RunOptions {
   std::string dialect, machine;
@@ -83,7 +84,8 @@ struct RunResult {
 };
 /// `make_sink` gets the file table and axis names that events refer to. Straight-line programs stream.
 RunResult run(const std::string& path, const RunOptions& options,
-              const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&, const std::vector<std::string>&)>& make_sink);
+              const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&,
+                                                                          const std::vector<std::string>&)>& make_sink);
 
 struct CheckResult {
   Diagnostics diagnostics;

@@ -11,9 +11,33 @@ namespace cnctrans::translator {
 
 const std::vector<Dialect>& dialects() {
   static const std::vector<Dialect> all{
-      {"fagor", "Fagor 8055", {"pim"}, {"pit"}, {}, ';', 0, frontends::fagor::make_frontend(), backends::fagor::make_backend()},
-      {"num", "NUM 760/1060", {}, {}, {"xpi", "num", "nc", "txt"}, '(', ')', frontends::num::make_frontend(), backends::num::make_backend()},
-      {"sinumerik", "Sinumerik 840D sl / 828D", {}, {}, {"mpf", "spf", "arc"}, ';', 0, frontends::sinumerik::make_frontend(), backends::sinumerik::make_backend()},
+      {"fagor",
+       "Fagor 8055",
+       {"pim"},
+       {"pit"},
+       {},
+       ';',
+       0,
+       frontends::fagor::make_frontend(),
+       backends::fagor::make_backend()},
+      {"num",
+       "NUM 760/1060",
+       {},
+       {},
+       {"xpi", "num", "nc", "txt"},
+       '(',
+       ')',
+       frontends::num::make_frontend(),
+       backends::num::make_backend()},
+      {"sinumerik",
+       "Sinumerik 840D sl / 828D",
+       {},
+       {},
+       {"mpf", "spf", "arc"},
+       ';',
+       0,
+       frontends::sinumerik::make_frontend(),
+       backends::sinumerik::make_backend()},
   };
   return all;
 }

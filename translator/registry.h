@@ -13,13 +13,13 @@
 namespace cnctrans::translator {
 
 struct Dialect {
-  std::string_view name;               ///< "fagor": what --from and --to take
-  std::string_view title;              ///< "Fagor 8055"
+  std::string_view name;                           ///< "fagor": what --from and --to take
+  std::string_view title;                          ///< "Fagor 8055"
   std::vector<std::string_view> mill_extensions;   ///< that say "mill", lower case
   std::vector<std::string_view> lathe_extensions;  ///< that say "lathe"
   std::vector<std::string_view> other_extensions;  ///< that a library folder may hold besides
-  char comment_open = ';';   ///< marks of comments, for a look at a text before it is read
-  char comment_close = 0;    ///< 0: to the end of the line
+  char comment_open = ';';                         ///< marks of comments, for a look at a text before it is read
+  char comment_close = 0;                          ///< 0: to the end of the line
   std::shared_ptr<const frontends::Frontend> frontend;
   std::shared_ptr<const backends::Backend> backend;
 };

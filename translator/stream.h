@@ -25,8 +25,10 @@ struct StreamResult {
   std::string error;
 };
 
-/// Tries to translate the file as a stream. Diagnostics other than notes end the attempt (the whole-program path reports).
-StreamResult translate_stream(const std::string& path, const TranslateOptions& options, const TextSink& sink, const Progress& progress);
+/// Tries to translate the file as a stream. Diagnostics other than notes end the attempt (the whole-program path
+/// reports).
+StreamResult translate_stream(const std::string& path, const TranslateOptions& options, const TextSink& sink,
+                              const Progress& progress);
 
 /// Tries to run the file as a stream.
 struct StreamRun {
@@ -34,7 +36,7 @@ struct StreamRun {
   interpreter::Result result;
   Diagnostics diagnostics;
 };
-StreamRun run_stream(const std::string& path, const Dialect& dialect, const machine::Profile& profile, const RunOptions& options,
-                     interpreter::TraceSink& sink, FileTable& files);
+StreamRun run_stream(const std::string& path, const Dialect& dialect, const machine::Profile& profile,
+                     const RunOptions& options, interpreter::TraceSink& sink, FileTable& files);
 
 }  // namespace cnctrans::translator

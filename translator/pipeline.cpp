@@ -1,0 +1,290 @@
+#include "translator/pipeline.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.h"
+#include "ir/text.h"
+#include "translator/encode.h"
+#include "translator/stream.h"
+
+namespace cnctrans::translator {
+
+namespace {
+
+std::string unknown_dialect(std::string_view name) {
+  std::string text = "unknown dialect '" + std::string(name) + "'; known:";
+  for (const auto& d : dialects()) text += " " + std::string(d.name);
+  return text;
+}
+
+/// Names of routines that statements of `program` call by a fixed name.
+void collect_calls(const ir::Program& program, std::vector<ir::RoutineName>& out) {
+  for (const auto& routine : program.routines) {
+    ir::for_each_statement(routine.body, [&out](const ir::Statement& s) {
+      if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) {
+        if (!c->computed) out.push_back(c->routine);
+      } else if (const auto* m = std::get_if<ir::ModalCall>(&s.node)) {
+        if (!m->off && !m->cycle && !m->call.computed) out.push_back(m->call.routine);
+      } else if (const auto* r = std::get_if<ir::Repeat>(&s.node)) {
+        if (r->has_program) out.push_back(r->program);
+      }
+    });
+  }
+}
+
+/// Variable references of a library program point into its own spaces; the frontends give every program of a dialect
+/// the same standard spaces first, so only the tail of named spaces can differ.
+bool same_spaces(const ir::Program& a, const ir::Program& b) {
+  if (a.spaces.size() != b.spaces.size()) return false;
+  for (std::size_t i = 0; i < a.spaces.size(); ++i) {
+    if (a.spaces[i].prefix != b.spaces[i].prefix) return false;
+  }
+  return true;
+}
+
+/// Takes the routines of every library file that is reached into `program`, so that they are translated with it.
+void join_libraries(ir::Program& program, Loader& loader, Diagnostics& diagnostics) {
+  std::vector<ir::RoutineName> wanted;
+  collect_calls(program, wanted);
+  std::set<const ir::Program*> joined;
+  while (!wanted.empty()) {
+    const ir::RoutineName name = wanted.back();
+    wanted.pop_back();
+    if (program.find(name) != nullptr) continue;
+    const ir::Program* found = loader.find(name);
+    if (found == nullptr || !joined.insert(found).second) continue;
+    if (!same_spaces(program, *found)) {
+      const Span where = found->routines.empty() ? Span{} : found->routines.front().header.span;
+      diagnostics.error("TRN-090", where,
+                        "the called program names other axes or variable spaces than the main program");
+      continue;
+    }
+    collect_calls(*found, wanted);
+    for (auto routine : found->routines) {
+      if (routine.kind == ir::RoutineKind::main) routine.kind = ir::RoutineKind::sub;
+      program.routines.push_back(std::move(routine));
+    }
+    program.files.insert(program.files.end(), found->files.begin(), found->files.end());
+    program.texts->share(found->texts);
+  }
+  ir::number_statements(program);
+}
+
+interpreter::Result replay(const ir::Program& program, const machine::Profile& profile, interpreter::Options options,
+                           Loader& loader, Diagnostics& diagnostics, std::vector<interpreter::Event>& events) {
+  options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
+  interpreter::TraceRecorder recorder;
+  auto result = interpreter::run(program, profile, options, recorder, diagnostics);
+  events = std::move(recorder.events);
+  return result;
+}
+
+/// Source and target of a verification.
+struct Replayed {
+  std::vector<interpreter::Event> events;
+  interpreter::Result result;
+};
+
+verifier::Verdict judge(const Replayed& source, const Replayed& target) {
+  using interpreter::EndReason;
+  // Two runs that end in the same error at the same event are compared up to there; one alone is a difference.
+  verifier::Verdict verdict = verifier::compare(source.events, target.events, {});
+  const bool source_ended = source.result.reason == EndReason::program_end;
+  const bool target_ended = target.result.reason == EndReason::program_end;
+  if (verdict.good() && (!source_ended || !target_ended)) {
+    verdict.status = verifier::Status::not_replayable;
+    const auto& bad = source_ended ? target.result : source.result;
+    verdict.reason = std::string(source_ended ? "the translation" : "the source") + " stopped before its end (" +
+                     std::string(interpreter::name(bad.reason)) +
+                     (bad.error_text.empty() ? "" : ": " + bad.error_text) + ")";
+  }
+  return verdict;
+}
+
+void verify_outputs(TranslateResult& result, const ir::Program& source, const machine::Profile& source_profile,
+                    Loader& loader, const Dialect& to, const machine::Profile& target_profile,
+                    const TranslateOptions& options) {
+  Replayed a, b;
+  Diagnostics source_diagnostics, target_diagnostics;
+  a.result = replay(source, source_profile, options.run, loader, source_diagnostics, a.events);
+  Loader target_loader(to, target_profile, frontends::Reader::scanner, {});
+  ir::Program target;
+  bool first = true;
+  for (const auto& out : result.outputs) {
+    const auto text = SourceText::from_string(out.name, out.bytes);
+    const ir::Program* read = target_loader.read_source(text, target_diagnostics);
+    if (first) {
+      target = *read;
+      first = false;
+      continue;
+    }
+    for (auto routine : read->routines) {
+      if (routine.kind == ir::RoutineKind::main) routine.kind = ir::RoutineKind::sub;
+      target.routines.push_back(std::move(routine));
+    }
+    target.texts->share(read->texts);
+  }
+  ir::number_statements(target);
+  interpreter::Options target_run = options.run;
+  target_run.set.clear();  // the source's names mean nothing there
+  b.result = replay(target, target_profile, target_run, target_loader, target_diagnostics, b.events);
+  result.verified = true;
+  result.verdict = judge(a, b);
+  result.target_files = target_loader.files();
+  if (!result.verdict.good()) {
+    result.diagnostics.append(source_diagnostics);
+    if (target_diagnostics.has_errors()) {
+      result.verdict.reason += "\n" + render_text(target_diagnostics, result.target_files);
+    }
+  }
+}
+
+/// Errors of reading may be written over only when the user asked for it.
+bool refused(const Diagnostics& d, const TranslateOptions& options) {
+  return d.has_errors() && options.unsupported == backends::Unsupported::error;
+}
+
+}  // namespace
+
+TranslateResult translate(const std::string& path, const TranslateOptions& options) {
+  TranslateResult result;
+  const Dialect* from = find_dialect(options.from);
+  const Dialect* to = find_dialect(options.to);
+  if (from == nullptr || to == nullptr) {
+    result.error = unknown_dialect(from == nullptr ? options.from : options.to);
+    return result;
+  }
+  const SourcePtr source = SourceText::open(path, &result.error);
+  if (!source) return result;
+  const auto source_profile = choose_profile(*from, options.machine, source.get(), &result.error);
+  if (!source_profile) return result;
+  const std::string target_name =
+      !options.target_machine.empty()
+          ? options.target_machine
+          : std::string(to->name) + (source_profile->kind == machine::Kind::lathe ? "-lathe" : "-mill");
+  const auto target_profile = machine::load(target_name, &result.error);
+  if (!target_profile) return result;
+
+  Loader loader(*from, *source_profile, options.reader, options.libraries);
+  frontends::ReadStats stats;
+  const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error, &stats);
+  if (program == nullptr) return result;
+  result.lines = stats.lines;
+
+  ir::Program source_program = *program;
+  Diagnostics library_notes;
+  join_libraries(source_program, loader, result.diagnostics);
+  result.diagnostics.append(loader.library_diagnostics());
+  interpreter::Options checks = options.run;
+  checks.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
+  interpreter::check_program(source_program, checks, result.diagnostics);
+  result.files = loader.files();
+
+  ir::Program work = source_program;
+  const ir::LegaliseContext context{
+      to->backend->capabilities(), *source_profile, *target_profile, {options.cycles}, result.diagnostics};
+  ir::legalise(work, context);
+  backends::WriteOptions write;
+  write.profile = &*target_profile;
+  write.unsupported = options.unsupported;
+  write.numbering = options.numbering;
+  write.number_step = options.number_step;
+  write.annotate = options.annotate;
+  write.main_stem = source->stem();
+  auto files = to->backend->write(work, write, result.diagnostics);
+  result.files = loader.files();
+  if (refused(result.diagnostics, options)) {
+    result.refused = true;
+    return result;
+  }
+  for (auto& f : files) {
+    OutputText out{f.name, {}, std::move(f.map), f.main};
+    out.bytes =
+        encode_output(f.text, options.encoding.value_or(source->encoding()), options.eol.value_or(source->main_eol()),
+                      source->has_bom() && !options.encoding, result.diagnostics);
+    result.outputs.push_back(std::move(out));
+  }
+  std::stable_partition(result.outputs.begin(), result.outputs.end(), [](const OutputText& o) { return o.main; });
+  if (options.verify) verify_outputs(result, source_program, *source_profile, loader, *to, *target_profile, options);
+  return result;
+}
+
+VerifyResult verify(const std::string& source, const std::vector<std::string>& targets,
+                    const TranslateOptions& options) {
+  VerifyResult result;
+  const Dialect* from = find_dialect(options.from);
+  const Dialect* to = find_dialect(options.to);
+  if (from == nullptr || to == nullptr) {
+    result.error = unknown_dialect(from == nullptr ? options.from : options.to);
+    return result;
+  }
+  const auto side = [&options, &result](const Dialect& dialect, const std::string& machine, const std::string& path,
+                                        Diagnostics& diagnostics, FileTable& files, Replayed& replayed, bool with_set) {
+    const SourcePtr text = SourceText::open(path, &result.error);
+    if (!text) return false;
+    const auto profile = choose_profile(dialect, machine, text.get(), &result.error);
+    if (!profile) return false;
+    Loader loader(dialect, *profile, options.reader, options.libraries);
+    const ir::Program* program = loader.read_main(path, diagnostics, &result.error);
+    if (program == nullptr) return false;
+    interpreter::Options run = options.run;
+    if (!with_set) run.set.clear();
+    replayed.result = replay(*program, *profile, run, loader, diagnostics, replayed.events);
+    files = loader.files();
+    return true;
+  };
+  Replayed a, b;
+  if (!side(*from, options.machine, source, result.source_diagnostics, result.source_files, a, true)) return result;
+  if (!side(*to, options.target_machine, targets.front(), result.target_diagnostics, result.target_files, b, false))
+    return result;
+  result.verdict = judge(a, b);
+  return result;
+}
+
+RunResult run(
+    const std::string& path, const RunOptions& options,
+    const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&, const std::vector<std::string>&)>&
+        make_sink) {
+  RunResult result;
+  const Dialect* dialect = find_dialect(options.dialect);
+  if (dialect == nullptr) {
+    result.error = unknown_dialect(options.dialect);
+    return result;
+  }
+  const SourcePtr source = SourceText::open(path, &result.error);
+  if (!source) return result;
+  const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
+  if (!profile) return result;
+  Loader loader(*dialect, *profile, options.reader, options.libraries);
+  const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error);
+  if (program == nullptr) return result;
+  result.axis_names = program->axis_names;
+  const auto sink = make_sink(loader.files(), program->axis_names);
+  interpreter::Options run_options = options.run;
+  run_options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
+  result.result = interpreter::run(*program, *profile, run_options, *sink, result.diagnostics);
+  result.files = loader.files();
+  return result;
+}
+
+CheckResult check(const std::string& path, const RunOptions& options) {
+  CheckResult result;
+  const Dialect* dialect = find_dialect(options.dialect);
+  if (dialect == nullptr) {
+    result.error = unknown_dialect(options.dialect);
+    return result;
+  }
+  const SourcePtr source = SourceText::open(path, &result.error);
+  if (!source) return result;
+  const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
+  if (!profile) return result;
+  Loader loader(*dialect, *profile, options.reader, options.libraries);
+  const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error, &result.stats);
+  if (program == nullptr) return result;
+  ir::check_well_formed(*program, result.diagnostics);
+  result.files = loader.files();
+  return result;
+}
+
+}  // namespace cnctrans::translator
