@@ -28,6 +28,9 @@ bool legalise(Program& program, const LegaliseContext& context);
 std::vector<std::string_view> pass_names();
 bool run_pass(std::string_view name, Program& program, const LegaliseContext& context);
 
+/// The passes that look at one block under a known modal state and nothing else: a stream runs them on single blocks.
+std::vector<std::string_view> block_local_passes();
+
 /// For streams: true when no pass would touch this block (plain motion in forms the target has). Cheap: no allocation.
 bool plain_legal(const Block& block, const Capabilities& target);
 
