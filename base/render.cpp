@@ -151,12 +151,9 @@ std::string printable(std::string_view text) {
 
 std::string_view colour_of(Severity s) {
   switch (s) {
-    case Severity::error:
-      return "\x1b[1;31m";
-    case Severity::warning:
-      return "\x1b[1;35m";
-    case Severity::note:
-      break;
+    case Severity::error: return "\x1b[1;31m";
+    case Severity::warning: return "\x1b[1;35m";
+    case Severity::note: break;
   }
   return "\x1b[1;36m";
 }
@@ -210,12 +207,9 @@ std::string utf8_name(const FileTable& files, FileId id) {
 
 std::string_view severity_text(Severity s) {
   switch (s) {
-    case Severity::error:
-      return "error";
-    case Severity::warning:
-      return "warning";
-    case Severity::note:
-      break;
+    case Severity::error: return "error";
+    case Severity::warning: return "warning";
+    case Severity::note: break;
   }
   return "note";
 }

@@ -291,12 +291,9 @@ bool take_line(std::string_view& text, SourceLine& line) {
 
 std::string_view eol_text(Eol eol) {
   switch (eol) {
-    case Eol::crlf:
-      return "\r\n";
-    case Eol::cr:
-      return "\r";
-    case Eol::lf:
-      break;
+    case Eol::crlf: return "\r\n";
+    case Eol::cr: return "\r";
+    case Eol::lf: break;
   }
   return "\n";
 }

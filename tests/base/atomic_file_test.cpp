@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/text.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace cnctrans {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace cnctrans {
 namespace {
