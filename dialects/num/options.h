@@ -1,0 +1,40 @@
+// Options of a NUM machine profile (reference 1): where the manual is silent, or controls differ. Name, values,
+// default.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace cnctrans::dialects::num {
+
+struct OptionRow {
+  std::string_view name;
+  std::string_view values;  ///< separated by blanks; "*" = free
+  std::string_view fallback;
+  std::string_view title;
+};
+
+namespace option {
+inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
+                                  letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
+                                  peck_law = "num.peck_law";
+}  // namespace option
+
+inline constexpr std::array options{
+    OptionRow{option::family, "7xx 10xx flx", "10xx", "the control; 7xx has no IF, WHILE, VAR"},
+    OptionRow{option::centre, "absolute_in_G90 incremental", "absolute_in_G90", "meaning of I J K under G90"},
+    OptionRow{option::rotary_modulo, "*", "BC", "letters of the axes whose sign is a direction; - for none"},
+    OptionRow{option::letter_o, "true false", "true", "GO is read as G0, with a warning"},
+    OptionRow{option::range_order, "number position", "number", "what puts the two labels of a G77 range in order"},
+    OptionRow{option::m30, "none end", "none", "whether M30 ends the program"},
+    OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
+};
+
+constexpr std::string_view option_default(std::string_view name) {
+  for (const auto& o : options) {
+    if (o.name == name) return o.fallback;
+  }
+  return {};
+}
+
+}  // namespace cnctrans::dialects::num
