@@ -12,11 +12,11 @@ namespace cnctrans::verifier {
 
 /// How far two values may be apart. Lengths in mm, angles in degrees, times in seconds.
 struct Tolerances {
-  double length = 0.0011;      ///< end points (a target with 3 decimals rounds by 0.0005)
-  double center = 0.002;       ///< arc centres
+  double length = 0.0011;  ///< end points (a target with 3 decimals rounds by 0.0005)
+  double center = 0.002;   ///< arc centres
   double angle = 0.0011;
   double feed_relative = 1e-3;
-  double seconds = 0.0051;     ///< a dwell unit of 0.01 s rounds by 0.005
+  double seconds = 0.0051;  ///< a dwell unit of 0.01 s rounds by 0.005
   double speed_relative = 1e-3;
 };
 
@@ -28,16 +28,16 @@ struct Options {
 };
 
 enum class Status : std::uint8_t {
-  verified,         ///< every event agrees within 1e-6
-  within_tolerance, ///< agrees within the tolerances; `max_length` says how far apart
+  verified,          ///< every event agrees within 1e-6
+  within_tolerance,  ///< agrees within the tolerances; `max_length` says how far apart
   differs,
   nothing_to_compare,  ///< no motion in the source's trace: an empty trace never verifies
-  not_replayable    ///< one of the runs ended in an error or by a limit
+  not_replayable       ///< one of the runs ended in an error or by a limit
 };
 
 /// The first true difference.
 struct Difference {
-  std::string what;          ///< one sentence: "end point of the linear move: X 10 there, X 20 here"
+  std::string what;  ///< one sentence: "end point of the linear move: X 10 there, X 20 here"
   FileId source_file = 0, target_file = 0;
   std::uint32_t source_line = 0, target_line = 0;
   std::size_t source_event = 0, target_event = 0;
@@ -45,18 +45,20 @@ struct Difference {
 
 struct Verdict {
   Status status = Status::nothing_to_compare;
-  std::uint64_t events = 0;        ///< compared after normalisation
+  std::uint64_t events = 0;  ///< compared after normalisation
   std::uint64_t moves = 0;
-  double max_length = 0;           ///< mm
+  double max_length = 0;  ///< mm
   Difference difference;
-  std::string reason;              ///< with not_replayable
+  std::string reason;  ///< with not_replayable
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }
 };
 
-/// Aligns and compares. Normalised first: a linear or rapid move split in collinear parts with the same feed is one move;
-/// repeated commands that change nothing (spindle already so, coolant already so, offset again) are dropped on both sides;
-/// order inside one block of non-motion events is not compared across a motion-free stretch, order against motion is.
-Verdict compare(const std::vector<interpreter::Event>& source, const std::vector<interpreter::Event>& target, const Options& options);
+/// Aligns and compares. Normalised first: a linear or rapid move split in collinear parts with the same feed is one
+/// move; repeated commands that change nothing (spindle already so, coolant already so, offset again) are dropped on
+/// both sides; order inside one block of non-motion events is not compared across a motion-free stretch, order against
+/// motion is.
+Verdict compare(const std::vector<interpreter::Event>& source, const std::vector<interpreter::Event>& target,
+                const Options& options);
 
 /// Text for people: status line, and with a difference both source lines.
 std::string describe(const Verdict& verdict, const FileTable& source_files, const FileTable& target_files);

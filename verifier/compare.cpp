@@ -1,0 +1,346 @@
+#include "verifier/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/text.h"
+#include "verifier/normalise.h"
+
+namespace cnctrans::verifier {
+
+using interpreter::Event;
+using interpreter::EventKind;
+using interpreter::Position;
+
+namespace {
+
+constexpr double exact = 1e-6;
+
+bool rotary(std::size_t axis) {
+  return ir::is_rotary_letter(static_cast<ir::AxisId>(axis));
+}
+
+std::string axis_label(std::size_t axis) {
+  const auto fixed = ir::fixed_axis_name(static_cast<ir::AxisId>(axis));
+  return fixed.empty() ? "axis " + std::to_string(axis) : std::string(fixed);
+}
+
+bool close_relative(double a, double b, double tolerance) {
+  return std::fabs(a - b) <= tolerance * std::max({1.0, std::fabs(a), std::fabs(b)});
+}
+
+/// Letters and digits in capitals: what must survive of a message on a control with a smaller character set.
+std::string message_core(std::string_view text) {
+  std::string core;
+  for (const char c : to_upper_ascii(text)) {
+    if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) core += c;
+  }
+  return core;
+}
+constexpr std::size_t message_core_kept = 24;
+
+/// Walks two normalised traces side by side.
+class Comparison {
+ public:
+  Comparison(std::vector<const Event*> a, std::vector<const Event*> b, const Options& options, Verdict& verdict)
+      : a_(std::move(a)), b_(std::move(b)), options_(options), verdict_(verdict) {}
+
+  void run() {
+    while (i_ < a_.size() && j_ < b_.size()) {
+      if (!step()) return;
+    }
+    while (i_ < a_.size() && negligible(*a_[i_], from_a_)) take_a();
+    while (j_ < b_.size() && negligible(*b_[j_], from_b_)) take_b();
+    if (i_ < a_.size()) {
+      differ(fmt::format("the translation ends too early: {} of the source has no counterpart",
+                         interpreter::name(a_[i_]->kind)),
+             i_, b_.size());
+    } else if (j_ < b_.size()) {
+      differ(fmt::format("the translation does more: {} has no counterpart in the source",
+                         interpreter::name(b_[j_]->kind)),
+             a_.size(), j_);
+    }
+  }
+
+ private:
+  bool step() {
+    const Event& a = *a_[i_];
+    const Event& b = *b_[j_];
+    if (a.kind != b.kind) {
+      // A move below the tolerance may exist on one side only (rounded away).
+      if (negligible(a, from_a_)) return take_a();
+      if (negligible(b, from_b_)) return take_b();
+      return differ(fmt::format("{} there, {} here", interpreter::name(a.kind), interpreter::name(b.kind)), i_, j_);
+    }
+    if (is_motion(a.kind)) return step_motion(a, b);
+    const std::string what = state_difference(a, b);
+    if (!what.empty()) return differ(what, i_, j_);
+    ++verdict_.events;
+    ++i_;
+    ++j_;
+    return true;
+  }
+
+  bool step_motion(const Event& a, const Event& b) {
+    const double apart = distance(a.to, b.to);
+    if (!ends_agree(a.to, b.to)) {
+      const bool straight = a.kind == EventKind::linear || a.kind == EventKind::rapid;
+      if (straight && same_feed(a, b)) {
+        // One side has split the move: the shorter part must lie on the longer one.
+        if (on_segment(a.to, from_b_, b.to)) return take_a();
+        if (on_segment(b.to, from_a_, a.to)) return take_b();
+      }
+      if (negligible(a, from_a_)) return take_a();
+      if (negligible(b, from_b_)) return take_b();
+      return differ(end_difference(a, b), i_, j_);
+    }
+    const std::string what = motion_difference(a, b);
+    if (!what.empty()) return differ(what, i_, j_);
+    verdict_.max_length = std::max(verdict_.max_length, apart);
+    ++verdict_.events;
+    ++verdict_.moves;
+    from_a_ = a.to;
+    from_b_ = b.to;
+    ++i_;
+    ++j_;
+    return true;
+  }
+
+  bool take_a() {
+    if (is_motion(a_[i_]->kind)) from_a_ = a_[i_]->to;
+    ++i_;
+    ++verdict_.events;
+    return true;
+  }
+  bool take_b() {
+    if (is_motion(b_[j_]->kind)) from_b_ = b_[j_]->to;
+    ++j_;
+    ++verdict_.events;
+    return true;
+  }
+
+  bool differ(std::string what, std::size_t i, std::size_t j) {
+    auto& d = verdict_.difference;
+    d.what = std::move(what);
+    d.source_event = i;
+    d.target_event = j;
+    if (i < a_.size() || !a_.empty()) {
+      const Event& e = *a_[std::min(i, a_.size() - 1)];
+      d.source_file = e.file;
+      d.source_line = e.line;
+    }
+    if (j < b_.size() || !b_.empty()) {
+      const Event& e = *b_[std::min(j, b_.size() - 1)];
+      d.target_file = e.file;
+      d.target_line = e.line;
+    }
+    verdict_.status = Status::differs;
+    return false;
+  }
+
+  static std::uint32_t common(const Position& a, const Position& b) { return a.known & b.known; }
+
+  static double distance(const Position& a, const Position& b) {
+    double sum = 0;
+    const std::uint32_t axes = common(a, b);
+    for (std::size_t k = 0; k < a.value.size(); ++k) {
+      if ((axes >> k & 1U) != 0) sum += (a.value[k] - b.value[k]) * (a.value[k] - b.value[k]);
+    }
+    return std::sqrt(sum);
+  }
+
+  [[nodiscard]] bool ends_agree(const Position& a, const Position& b) const {
+    const std::uint32_t axes = common(a, b);
+    for (std::size_t k = 0; k < a.value.size(); ++k) {
+      if ((axes >> k & 1U) == 0) continue;
+      if (std::fabs(a.value[k] - b.value[k]) > (rotary(k) ? options_.tolerances.angle : options_.tolerances.length))
+        return false;
+    }
+    return true;
+  }
+
+  /// `p` strictly between `from` and `to`, on the line, within the tolerance.
+  [[nodiscard]] bool on_segment(const Position& p, const Position& from, const Position& to) const {
+    const double whole = distance(from, to);
+    const double part = distance(from, p);
+    if (whole <= options_.tolerances.length || part >= whole) return false;
+    Position foot = from;
+    for (std::size_t k = 0; k < foot.value.size(); ++k) foot.value[k] += (to.value[k] - from.value[k]) * part / whole;
+    return ends_agree(p, foot);
+  }
+
+  [[nodiscard]] bool negligible(const Event& e, const Position& from) const {
+    if (e.kind != EventKind::linear && e.kind != EventKind::rapid) return false;
+    return distance(from, e.to) <= options_.tolerances.length;
+  }
+
+  [[nodiscard]] bool same_feed(const Event& a, const Event& b) const {
+    if (a.kind == EventKind::rapid) return true;
+    return a.feed_mode == b.feed_mode && close_relative(a.feed, b.feed, options_.tolerances.feed_relative);
+  }
+
+  static std::string end_difference(const Event& a, const Event& b) {
+    std::string there, here;
+    const std::uint32_t axes = common(a.to, b.to);
+    for (std::size_t k = 0; k < a.to.value.size(); ++k) {
+      if ((axes >> k & 1U) == 0 || std::fabs(a.to.value[k] - b.to.value[k]) <= exact) continue;
+      there += fmt::format(" {}{}", axis_label(k), shortest(a.to.value[k]));
+      here += fmt::format(" {}{}", axis_label(k), shortest(b.to.value[k]));
+    }
+    return fmt::format("end of the {} move:{} in the source,{} in the translation", interpreter::name(a.kind), there,
+                       here);
+  }
+
+  std::string motion_difference(const Event& a, const Event& b) {
+    if (a.kind != EventKind::rapid && a.kind != EventKind::thread && !same_feed(a, b)) {
+      return fmt::format("feed {} ({}) in the source, {} ({}) in the translation", shortest(a.feed),
+                         ir::name(a.feed_mode), shortest(b.feed), ir::name(b.feed_mode));
+    }
+    if (a.kind == EventKind::arc) return arc_difference(a, b);
+    if (a.kind == EventKind::thread && (!close_relative(a.pitch, b.pitch, options_.tolerances.feed_relative) ||
+                                        std::fabs(a.pitch_change - b.pitch_change) > exact ||
+                                        std::fabs(a.start_angle - b.start_angle) > options_.tolerances.angle)) {
+      return fmt::format("thread pitch {} in the source, {} in the translation (or its change or start angle)",
+                         shortest(a.pitch), shortest(b.pitch));
+    }
+    return {};
+  }
+
+  std::string arc_difference(const Event& a, const Event& b) {
+    if (a.plane != b.plane)
+      return fmt::format("arc in plane {} in the source, {} in the translation", ir::name(a.plane), ir::name(b.plane));
+    if (a.cw != b.cw)
+      return fmt::format("arc {} in the source, {} in the translation", a.cw ? "clockwise" : "counter-clockwise",
+                         b.cw ? "clockwise" : "counter-clockwise");
+    if (a.turns != b.turns)
+      return fmt::format("{} added full turns in the source, {} in the translation", a.turns, b.turns);
+    const double apart = std::hypot(a.center_u - b.center_u, a.center_v - b.center_v);
+    if (apart > options_.tolerances.center) {
+      return fmt::format("arc centre {} {} in the source, {} {} in the translation", shortest(a.center_u),
+                         shortest(a.center_v), shortest(b.center_u), shortest(b.center_v));
+    }
+    verdict_.max_length = std::max(verdict_.max_length, apart);
+    // A tiny arc and a full circle have the same end point: they must be the same on both sides.
+    const bool full_a = distance(from_a_, a.to) <= exact;
+    const bool full_b = distance(from_b_, b.to) <= exact;
+    if (full_a != full_b)
+      return fmt::format("{} in the source, {} in the translation", full_a ? "a full circle" : "an arc",
+                         full_b ? "a full circle" : "an arc");
+    return {};
+  }
+
+  [[nodiscard]] std::string state_difference(const Event& a, const Event& b) const {
+    const auto& t = options_.tolerances;
+    switch (a.kind) {
+      case EventKind::dwell:
+        if (a.revolutions != b.revolutions || std::fabs(a.amount - b.amount) > t.seconds) {
+          return fmt::format("dwell of {} {} in the source, {} {} in the translation", shortest(a.amount),
+                             a.revolutions ? "revolutions" : "s", shortest(b.amount),
+                             b.revolutions ? "revolutions" : "s");
+        }
+        return {};
+      case EventKind::spindle:
+        if (a.number != b.number || a.state != b.state ||
+            (a.state != "off" && (a.css != b.css || !close_relative(a.value, b.value, t.speed_relative))) ||
+            a.has_limit != b.has_limit || (a.has_limit && !close_relative(a.limit, b.limit, t.speed_relative)) ||
+            (a.state == "oriented" && std::fabs(a.angle - b.angle) > t.angle)) {
+          return fmt::format("spindle {} {} {} in the source, {} {} {} in the translation", a.number, a.state,
+                             shortest(a.value), b.number, b.state, shortest(b.value));
+        }
+        return {};
+      case EventKind::tool:
+        if (a.change != b.change || (options_.tool_numbers && (a.number != b.number || a.text != b.text))) {
+          return fmt::format("tool {}{} in the source, {}{} in the translation", a.number, a.change ? " (change)" : "",
+                             b.number, b.change ? " (change)" : "");
+        }
+        return {};
+      case EventKind::offset:
+        return options_.offset_numbers && a.number != b.number
+                   ? fmt::format("offset {} in the source, {} in the translation", a.number, b.number)
+                   : "";
+      case EventKind::comp:
+      case EventKind::coolant:
+        return a.state != b.state ? fmt::format("{} {} in the source, {} in the translation", interpreter::name(a.kind),
+                                                a.state, b.state)
+                                  : "";
+      case EventKind::m:
+        return a.number != b.number ? fmt::format("M{} in the source, M{} in the translation", a.number, b.number) : "";
+      case EventKind::message: {
+        const std::string x = message_core(a.text);
+        const std::string y = message_core(b.text);
+        const std::size_t n = std::min(x.size(), y.size());
+        const bool same = x == y || (n >= message_core_kept && x.compare(0, n, y, 0, n) == 0);
+        return same ? "" : fmt::format("message \"{}\" in the source, \"{}\" in the translation", a.text, b.text);
+      }
+      case EventKind::stop: return a.optional_stop != b.optional_stop ? "an optional stop on one side only" : "";
+      case EventKind::end:
+        return a.reason != b.reason ? fmt::format("the run ends by {} in the source, by {} in the translation",
+                                                  interpreter::name(a.reason), interpreter::name(b.reason))
+                                    : "";
+      default: return {};
+    }
+  }
+
+  std::vector<const Event*> a_, b_;
+  const Options& options_;
+  Verdict& verdict_;
+  std::size_t i_ = 0, j_ = 0;
+  Position from_a_{}, from_b_{};
+};
+
+std::string source_line_text(const FileTable& files, FileId file, std::uint32_t line) {
+  const SourceText* source = files.source(file);
+  if (source == nullptr || line == 0 || line > source->lines().size()) return {};
+  return std::string(source->lines()[line - 1].text);
+}
+
+constexpr std::array<std::string_view, 5> status_names{"verified", "verified within tolerance", "differs",
+                                                       "nothing to compare", "not replayable"};
+
+}  // namespace
+
+Verdict compare(const std::vector<Event>& source, const std::vector<Event>& target, const Options& options) {
+  Verdict verdict;
+  verdict.status = Status::verified;
+  Comparison(normalise(source, options.offset_numbers), normalise(target, options.offset_numbers), options, verdict)
+      .run();
+  if (verdict.status != Status::verified) return verdict;
+  // An empty trace never verifies: nothing was proved.
+  const auto moved = [](const std::vector<Event>& events) {
+    return std::any_of(events.begin(), events.end(), [](const Event& e) { return is_motion(e.kind); });
+  };
+  if (!moved(source) || !moved(target)) {
+    verdict.status = Status::nothing_to_compare;
+  } else if (verdict.max_length > exact) {
+    verdict.status = Status::within_tolerance;
+  }
+  return verdict;
+}
+
+std::string_view name(Status s) {
+  return status_names[static_cast<std::size_t>(s)];
+}
+
+std::string describe(const Verdict& v, const FileTable& source_files, const FileTable& target_files) {
+  switch (v.status) {
+    case Status::verified: return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves);
+    case Status::within_tolerance:
+      return fmt::format("verified: {} events, {} moves, within {} mm", v.events, v.moves, rounded(v.max_length, 6));
+    case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
+    case Status::not_replayable: return "not verified: " + v.reason;
+    case Status::differs: break;
+  }
+  const auto& d = v.difference;
+  std::string text = fmt::format("not verified: after {} equal events: {}", v.events, d.what);
+  text += fmt::format("\n  source      {}:{}: {}", source_files.name(d.source_file), d.source_line,
+                      source_line_text(source_files, d.source_file, d.source_line));
+  text += fmt::format("\n  translation {}:{}: {}", target_files.name(d.target_file), d.target_line,
+                      source_line_text(target_files, d.target_file, d.target_line));
+  if (!v.reason.empty()) text += "\n" + v.reason;
+  return text;
+}
+
+}  // namespace cnctrans::verifier

@@ -1,0 +1,86 @@
+#include "verifier/normalise.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace cnctrans::verifier {
+
+using interpreter::Event;
+using interpreter::EventKind;
+
+bool is_motion(EventKind k) {
+  return k == EventKind::rapid || k == EventKind::linear || k == EventKind::arc || k == EventKind::thread ||
+         k == EventKind::probe;
+}
+
+bool is_barrier(EventKind k) {
+  return is_motion(k) || k == EventKind::dwell || k == EventKind::stop || k == EventKind::end ||
+         k == EventKind::message;
+}
+
+namespace {
+
+/// The state that commands leave behind, to see which of them change nothing.
+class StateFilter {
+ public:
+  bool changes(const Event& e) {
+    switch (e.kind) {
+      case EventKind::spindle: {
+        Spindle now{e.state, e.css, e.state == "off" ? 0 : e.value, e.has_limit ? e.limit : 0, e.angle};
+        auto& known = spindles_[e.number];
+        if (known == now) return false;
+        known = now;
+        return true;
+      }
+      case EventKind::coolant: return update(coolant_, e.state);
+      case EventKind::comp: return update(comp_, e.state);
+      case EventKind::offset: return update(offset_, std::to_string(e.number));
+      default: return true;
+    }
+  }
+
+ private:
+  struct Spindle {
+    std::string state = "off";
+    bool css = false;
+    double value = 0, limit = 0, angle = 0;
+    bool operator==(const Spindle&) const = default;
+  };
+  static bool update(std::string& known, const std::string& now) {
+    if (known == now) return false;
+    known = now;
+    return true;
+  }
+  std::map<std::int32_t, Spindle> spindles_;
+  std::string coolant_ = "off", comp_ = "off", offset_;
+};
+
+}  // namespace
+
+std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets) {
+  std::vector<const Event*> out;
+  out.reserve(events.size());
+  StateFilter filter;
+  std::size_t stretch = 0;
+  const auto close_stretch = [&out, &stretch] {
+    std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(stretch), out.end(),
+                     [](const Event* a, const Event* b) { return a->kind < b->kind; });
+  };
+  for (const auto& e : events) {
+    if (e.kind == EventKind::feed_stop) continue;  // timing, not path: see docs/verify.md
+    if (e.kind == EventKind::offset && !keep_offsets) continue;
+    if (!filter.changes(e)) continue;
+    if (is_barrier(e.kind)) {
+      close_stretch();
+      out.push_back(&e);
+      stretch = out.size();
+    } else {
+      out.push_back(&e);
+    }
+  }
+  close_stretch();
+  return out;
+}
+
+}  // namespace cnctrans::verifier

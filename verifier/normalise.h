@@ -1,0 +1,19 @@
+// Brings a trace into the form in which two traces are compared.
+#pragma once
+
+#include <vector>
+
+#include "interpreter/trace.h"
+
+namespace cnctrans::verifier {
+
+/// What splits a trace into stretches: inside a stretch the order of state changes (spindle, coolant, tool, ...) is
+/// free, across a barrier it is not.
+[[nodiscard]] bool is_barrier(interpreter::EventKind k);
+[[nodiscard]] bool is_motion(interpreter::EventKind k);
+
+/// Drops commands that change nothing (the spindle already runs so, the coolant is already so, the same offset or
+/// compensation side again) and orders the state changes of each stretch by kind, keeping the order inside a kind.
+std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets);
+
+}  // namespace cnctrans::verifier
