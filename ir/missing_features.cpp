@@ -9,6 +9,8 @@ namespace {
 // Keys in alphabetical order. A row disappears in the commit that builds the feature.
 constexpr std::array features{
     MissingFeature{"block.word", "a word whose meaning is not carried", "no IR action for it yet"},
+    MissingFeature{"cycle.hole", "hole cycles beyond drilling and pecking (tapping, boring, variable pecks)",
+                   "the node carries them; their sequence is not confirmed on every control"},
     MissingFeature{"cycle.milling", "milling cycles (pockets, slots, faces, bosses)",
                    "the cycle nodes are planned; only hole cycles are carried"},
     MissingFeature{"cycle.pattern", "hole patterns", "points of a pattern are not expanded yet"},
