@@ -1,0 +1,150 @@
+#include "dialects/sinumerik/addresses.h"
+
+#include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/g_functions.h"
+#include "dialects/sinumerik/operators.h"
+
+namespace cnctrans::sinumerik {
+
+namespace {
+
+using enum NamedWord;
+
+constexpr NamedWordRow words[] = {
+    // arcs, polar, contour elements (14.3, 14.4)
+    {"CR", arc_radius}, {"AR", opening_angle}, {"TURN", turns}, {"RP", polar_radius}, {"AP", polar_angle},
+    {"ANG", line_angle}, {"ANG1", unsupported}, {"ANG2", unsupported}, {"RND", round}, {"RNDM", round_modal},
+    {"CHR", chamfer_leg}, {"CHF", chamfer_chord}, {"FRC", corner_feed}, {"FRCM", unsupported},
+    // threads, spindles (14.3, 14.7)
+    {"SF", thread_start}, {"DITS", timing}, {"DITE", timing}, {"LIMS", spindle_limit}, {"SPOS", spindle_position},
+    {"SPOSA", spindle_position}, {"SVC", unsupported}, {"FZ", unsupported},
+    // frames
+    {"RPL", rotation_in_plane},
+    // feed, dynamics, tolerances (motion 5)
+    {"ADIS", timing}, {"ADISPOS", timing}, {"CTOL", timing}, {"OTOL", timing}, {"STOLF", timing}, {"OVR", timing},
+    {"OVRRAP", timing}, {"ACC", timing}, {"FB", unsupported}, {"FD", unsupported},
+    // radius compensation and tool data
+    {"DISC", compensation}, {"OFFN", compensation}, {"DISR", unsupported}, {"DISCL", unsupported}, {"FAD", unsupported},
+    {"TOFFL", unsupported}, {"TOFFR", compensation}, {"TOFF", unsupported}, {"DL", unsupported}, {"ISD", unsupported},
+    {"CUTMOD", unsupported}, {"TCARR", unsupported},
+    // orientation, splines, polynomials, probing, oscillation
+    {"LEAD", unsupported}, {"TILT", unsupported}, {"THETA", unsupported}, {"NUT", unsupported}, {"PW", unsupported},
+    {"SD", unsupported}, {"PL", unsupported}, {"STAT", unsupported}, {"TU", unsupported}, {"MEAS", unsupported},
+    {"MEAW", unsupported}, {"FP", unsupported}, {"SPP", unsupported}, {"SPN", unsupported}, {"ALF", unsupported},
+    {"DISPR", unsupported}, {"PRIO", unsupported}, {"OST1", unsupported}, {"OST2", unsupported},
+};
+
+constexpr ProcedureRow procedure_rows[] = {
+    {"MSG", Procedure::message}, {"SETAL", Procedure::set_alarm}, {"STOPRE", Procedure::stop_preparation},
+    {"RET", Procedure::repeat_return}, {"GOTOS", Procedure::program_start},
+    {"WORKPIECE", Procedure::screen}, {"GROUP_BEGIN", Procedure::screen}, {"GROUP_END", Procedure::screen},
+    {"GROUP_ADDEND", Procedure::screen}, {"SEFORM", Procedure::screen}, {"MMC", Procedure::screen},
+    {"E_HEAD", Procedure::screen}, {"ENDPROC", Procedure::screen},
+    {"FGROUP", Procedure::timing}, {"CYCLE832", Procedure::timing}, {"BRISKA", Procedure::timing},
+    {"SOFTA", Procedure::timing}, {"DRIVEA", Procedure::timing}, {"JERKA", Procedure::timing},
+    {"DISPLOF", Procedure::timing}, {"DISPLON", Procedure::timing}, {"SBLOF", Procedure::timing},
+    {"SBLON", Procedure::timing}, {"WAITP", Procedure::timing}, {"WAITS", Procedure::timing},
+    {"SPCON", Procedure::timing}, {"SPCOF", Procedure::timing}, {"WRTPR", Procedure::timing},
+    {"IPTRLOCK", Procedure::timing}, {"IPTRUNLOCK", Procedure::timing}, {"DELAYFSTON", Procedure::timing},
+    {"DELAYFSTOF", Procedure::timing}, {"FINEA", Procedure::timing}, {"COARSEA", Procedure::timing},
+    {"IPOENDA", Procedure::timing}, {"ADISPOSA", Procedure::timing}, {"IPOBRKA", Procedure::timing},
+    {"FPRAON", Procedure::unsupported}, {"SETMS", Procedure::unsupported}, {"GEOAX", Procedure::unsupported},
+    {"TRANSMIT", Procedure::unsupported}, {"TRACYL", Procedure::unsupported}, {"TRAANG", Procedure::unsupported},
+    {"TRAORI", Procedure::unsupported}, {"TRACON", Procedure::unsupported}, {"TRAFOOF", Procedure::unsupported},
+    {"PRESETON", Procedure::unsupported}, {"DRFOF", Procedure::unsupported}, {"TRAILON", Procedure::unsupported},
+    {"TRAILOF", Procedure::unsupported}, {"TANG", Procedure::unsupported}, {"TANGON", Procedure::unsupported},
+    {"TANGOF", Procedure::unsupported}, {"TANGDEL", Procedure::unsupported}, {"TLIFT", Procedure::unsupported},
+    {"COUPDEF", Procedure::unsupported}, {"COUPON", Procedure::unsupported}, {"COUPONC", Procedure::unsupported},
+    {"COUPOF", Procedure::unsupported}, {"COUPOFS", Procedure::unsupported}, {"COUPDEL", Procedure::unsupported},
+    {"LEADON", Procedure::unsupported}, {"LEADOF", Procedure::unsupported}, {"SPLINEPATH", Procedure::unsupported},
+    {"POLYPATH", Procedure::unsupported}, {"CTABDEF", Procedure::unsupported}, {"CTABEND", Procedure::unsupported},
+    {"CONTPRON", Procedure::unsupported}, {"CONTDCON", Procedure::unsupported}, {"EXECUTE", Procedure::unsupported},
+    {"EXECTAB", Procedure::unsupported}, {"CALCDAT", Procedure::unsupported}, {"INTERSEC", Procedure::unsupported},
+    {"CPROTDEF", Procedure::unsupported}, {"NPROTDEF", Procedure::unsupported}, {"CPROT", Procedure::unsupported},
+    {"NPROT", Procedure::unsupported}, {"EXECSTRING", Procedure::unsupported}, {"CALLPATH", Procedure::unsupported},
+    {"WRITE", Procedure::unsupported}, {"READ", Procedure::unsupported}, {"DELETE", Procedure::unsupported},
+    {"ISFILE", Procedure::unsupported}, {"CHANDATA", Procedure::unsupported}, {"NEWCONF", Procedure::unsupported},
+    {"GET", Procedure::unsupported}, {"GETD", Procedure::unsupported}, {"RELEASE", Procedure::unsupported},
+    {"AXTOCHAN", Procedure::unsupported}, {"INIT", Procedure::unsupported}, {"START", Procedure::unsupported},
+    {"WAITM", Procedure::unsupported}, {"WAITMC", Procedure::unsupported}, {"WAITE", Procedure::unsupported},
+    {"SETM", Procedure::unsupported}, {"CLEARM", Procedure::unsupported}, {"SETINT", Procedure::unsupported},
+    {"DISABLE", Procedure::unsupported}, {"ENABLE", Procedure::unsupported}, {"CLRINT", Procedure::unsupported},
+    {"CANCEL", Procedure::unsupported}, {"LOCK", Procedure::unsupported}, {"UNLOCK", Procedure::unsupported},
+    {"RESET", Procedure::unsupported}, {"GETSELT", Procedure::unsupported}, {"GETEXET", Procedure::unsupported},
+    {"TCA", Procedure::unsupported}, {"TCI", Procedure::unsupported}, {"SETPIECE", Procedure::unsupported},
+    {"DELDL", Procedure::unsupported}, {"DZERO", Procedure::unsupported}, {"FXS", Procedure::unsupported},
+    {"PUTFTOC", Procedure::unsupported}, {"PUTFTOCF", Procedure::unsupported}, {"FCTDEF", Procedure::unsupported},
+    {"TOFFON", Procedure::unsupported}, {"TOFFOF", Procedure::unsupported}, {"WAITC", Procedure::unsupported},
+    {"WAITENC", Procedure::unsupported}, {"ORIRESET", Procedure::unsupported}, {"TMON", Procedure::unsupported},
+    {"TMOF", Procedure::unsupported},
+};
+
+constexpr std::string_view keywords[] = {
+    "IF", "ELSE", "ENDIF", "LOOP", "ENDLOOP", "FOR", "TO", "ENDFOR", "WHILE", "ENDWHILE", "REPEAT", "REPEATB", "UNTIL", "ENDLABEL",
+    "CASE", "OF", "DEFAULT", "GOTO", "GOTOB", "GOTOF", "GOTOC", "GOTOS", "DEF", "REDEF", "DEFINE", "AS", "EXTERN", "PROC", "CALL",
+    "PCALL", "MCALL", "EXTCALL", "ISOCALL", "BLOCK", "WHEN", "WHENEVER", "FROM", "EVERY", "DO", "ID", "IDS", "VAR", "INT", "REAL",
+    "BOOL", "CHAR", "STRING", "AXIS", "FRAME", "NCK", "CHAN", "TRUE", "FALSE", "SET", "REP", "SAVE", "PREPRO", "ACTBLOCNO", "NO_AXIS",
+    "SYNR", "SYNW", "SYNRW", "INIPO", "INIRE", "INICF", "PRLOC", "PHU", "LLI", "ULI", "APR", "APW", "APX", "APRP", "APRB", "APWP",
+    "APWB", "POS", "POSA", "POSP", "FA", "FL", "AX", "IP", "PO", "MEASA", "MEAWA", "MEAC"};
+
+char capital(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+bool same_name(std::string_view name, std::string_view capitals) {
+  if (name.size() != capitals.size()) return false;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (capital(name[i]) != capitals[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::span<const NamedWordRow> named_words() {
+  return words;
+}
+
+const NamedWordRow* named_word(std::string_view name) {
+  for (const auto& r : words) {
+    if (same_name(name, r.name)) return &r;
+  }
+  return nullptr;
+}
+
+Attribute attribute(std::string_view name) {
+  struct Row {
+    std::string_view name;
+    Attribute attribute;
+  };
+  constexpr Row rows[] = {{"AC", Attribute::ac},   {"IC", Attribute::ic},   {"DC", Attribute::dc},   {"ACP", Attribute::acp},
+                          {"ACN", Attribute::acn}, {"DAC", Attribute::dac}, {"DIC", Attribute::dic}, {"RAC", Attribute::rac},
+                          {"RIC", Attribute::ric}, {"CAC", Attribute::unsupported}, {"CIC", Attribute::unsupported},
+                          {"CDC", Attribute::unsupported}, {"CACP", Attribute::unsupported}, {"CACN", Attribute::unsupported},
+                          {"GP", Attribute::unsupported}, {"QU", Attribute::unsupported}, {"PO", Attribute::unsupported}};
+  for (const auto& r : rows) {
+    if (r.name == name) return r.attribute;
+  }
+  return Attribute::none;
+}
+
+std::span<const ProcedureRow> procedures() {
+  return procedure_rows;
+}
+
+Procedure procedure(std::string_view capitals) {
+  for (const auto& r : procedure_rows) {
+    if (r.name == capitals) return r.use;
+  }
+  return Procedure::none;
+}
+
+bool is_reserved(std::string_view capitals) {
+  for (const auto& k : keywords) {
+    if (k == capitals) return true;
+  }
+  return g_function(capitals) != nullptr || named_word(capitals) != nullptr || procedure(capitals) != Procedure::none ||
+         attribute(capitals) != Attribute::none || expression_function(capitals) != nullptr || is_word_operator(capitals) ||
+         cycle(capitals) != nullptr;
+}
+
+}  // namespace cnctrans::sinumerik

@@ -1,0 +1,48 @@
+// Addresses of more than one letter, position attributes, procedures without effect on the path (reference-language 1.5, 14; motion 5).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace cnctrans::sinumerik {
+
+enum class NamedWord : std::uint8_t {
+  arc_radius, opening_angle, turns, polar_radius, polar_angle, line_angle, round, round_modal, chamfer_leg, chamfer_chord,
+  corner_feed, thread_start, spindle_limit, spindle_position, rotation_in_plane,
+  timing,       ///< tolerances, overrides, accelerations: the nominal path is the same
+  compensation, ///< acts only on the compensated path
+  unsupported
+};
+struct NamedWordRow {
+  std::string_view name;  ///< capitals
+  NamedWord use;
+};
+std::span<const NamedWordRow> named_words();
+/// Any case; null when it is no address of the control.
+const NamedWordRow* named_word(std::string_view name);
+
+/// `X=AC(10)`: how a position is meant.
+enum class Attribute : std::uint8_t { none, ac, ic, dc, acp, acn, dac, dic, rac, ric, unsupported };
+/// Capitals; `none` when the function is no position attribute.
+Attribute attribute(std::string_view name);
+
+/// What a predefined procedure (`NAME(...)` or `NAME`) is to a translation.
+enum class Procedure : std::uint8_t {
+  none,         ///< not predefined: a subprogram
+  message, set_alarm, stop_preparation, repeat_return, program_start,
+  screen,       ///< operator screens, blanks, groups: no effect on machining
+  timing,       ///< dynamics, feed groups, single-block and display switches
+  unsupported   ///< acts on the machine and is not carried
+};
+struct ProcedureRow {
+  std::string_view name;
+  Procedure use;
+};
+std::span<const ProcedureRow> procedures();
+Procedure procedure(std::string_view capitals);
+
+/// True when a user variable, label or subprogram may not have this name (capitals).
+bool is_reserved(std::string_view capitals);
+
+}  // namespace cnctrans::sinumerik
