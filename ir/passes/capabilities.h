@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -51,7 +52,9 @@ struct Capabilities {
   bool computed_jump = false;      ///< label number from an expression
   bool repeat_range = false;       ///< Repeat in place
   bool repeat_other_program = false;
-  bool repeat_count_expression = false;
+  bool repeat_count_expression = false;  ///< else a number or a variable
+  bool repeat_needs_identifiers = false;  ///< the labels of a Repeat must be identifiers
+  std::int64_t repeat_max = 9999;         ///< largest count of a Repeat or a call
   bool block_repeat = false;       ///< Block::repeat
   bool modal_call = false;
   bool modal_cycle_by_call = false;  ///< a modal cycle is written as a modal call (definition does not run by itself)
@@ -64,6 +67,7 @@ struct Capabilities {
   bool identifier_labels = false;
   bool number_labels = true;
   std::int64_t label_max = 99999999;
+  std::string label_prefix = "LAB";      ///< identifier labels that a pass makes: LAB1, LAB20
   bool duplicate_labels = false;
 
   // expressions
@@ -78,6 +82,9 @@ struct Capabilities {
   std::set<Function> functions;
   Compare compare = Compare::exact;
   std::int32_t constant_decimals = 15;  ///< places of a constant inside an expression
+  double constant_max = 1e300;          ///< largest constant inside an expression
+  bool condition_right_chain = false;   ///< single_relation: the right side may be a chain, else a number or variable
+  std::function<bool(const SystemRef&)> system_data;  ///< machine data that the backend can name; empty: none
   std::int32_t word_decimals = 4;       ///< places of a metric length word
   std::int32_t word_decimals_inch = 5;
 
@@ -97,6 +104,14 @@ struct Capabilities {
   std::vector<VariablePool> pools;
 
   // words
+  /// An action that must stand alone in its block (no motion, no other action beside it). Empty: none.
+  std::function<bool(const Action&)> own_block;
+  /// Motions that the backend writes.
+  std::set<MotionKind> motions = {MotionKind::modal, MotionKind::rapid, MotionKind::linear, MotionKind::arc_cw,
+                                  MotionKind::arc_ccw};
+  std::set<FrameUse> frame_uses = {FrameUse::normal};
+  std::set<CornerKind> corners;
+  bool polar = false, line_angle = false;
   bool distance_per_word = false;    ///< X=IC(..)
   bool distance_inside_block = false;  ///< G90/G91 act from their place in the block on
   std::set<CenterMode> centers;      ///< arc centre forms
@@ -105,6 +120,8 @@ struct Capabilities {
   bool arc_angle = false;
   bool helix_turns = false, helix_pitch = false;
   bool full_circle_needs_end = false;  ///< both end coordinates must be written
+  /// What a centre word of each form means on a diameter axis; modal: as the end point. Not named: radius.
+  std::map<CenterMode, WordScale> center_scales;
   bool diameter_switch = true;       ///< Setting::diameter can be written
   bool diameter_absolute_only = false;
   DiameterMode fixed_diameter = DiameterMode::radius;  ///< lathe mode of a control without a switch
@@ -115,10 +132,18 @@ struct Capabilities {
   bool inverse_time = true;
   bool length_comp_switch = false;   ///< Setting::length_comp can be written
   bool frame_rotation = true;
+  /// Programmable frame: which slot takes which operations. Empty slot: the target has none.
+  std::map<FrameSlot, std::set<FrameCombine>> frames;
+  std::int32_t work_offset_rows = 99;  ///< settable offsets that a program can select
+  bool work_offset_off = true;
+  bool units_with_feed = true;         ///< a unit switch that holds for F as well
+  bool units_geometry_only = false;    ///< a unit switch that leaves F alone
+  bool gear_needed = false;            ///< a gear range must be programmed (profile option "default_gear")
   FeedMemory feed_memory = FeedMemory::shared;
   bool frame_chain = false;          ///< FrameSlot::chain (else shift/rotation/scale/mirror slots)
   bool spindle_limit = true;
   std::int32_t skip_levels = 1;
+  bool skip_several = false;         ///< several levels on one block
   bool skip_on_structures = true;
   bool message_values = false;       ///< values inside messages
   std::size_t message_length = 200;

@@ -2,6 +2,11 @@
 // pass that cannot keep the meaning reports and leaves an Opaque statement; it never guesses.
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "base/diagnostics.h"
 #include "ir/passes/capabilities.h"
 #include "ir/program.h"
@@ -13,12 +18,24 @@ enum class CycleWriting : std::uint8_t { native, explode };
 struct LegaliseOptions {
   CycleWriting cycles = CycleWriting::native;
 };
+
+/// What became of a name of the source, for the head comment and the report.
+struct Renamed {
+  enum class Kind : std::uint8_t { variable, label, routine } kind = Kind::variable;
+  std::string from, to;
+  std::string routine;  ///< of a label or a local variable; empty: whole program
+};
+struct LegaliseReport {
+  std::vector<Renamed> renamed;
+};
+
 struct LegaliseContext {
   const Capabilities& target;
   const machine::Profile& source_machine;
   const machine::Profile& target_machine;
   LegaliseOptions options;
   Diagnostics& diagnostics;
+  LegaliseReport* report = nullptr;  ///< may be null
 };
 
 /// Runs all passes in order. False when an error was reported.
@@ -29,6 +46,9 @@ std::vector<std::string_view> pass_names();
 bool run_pass(std::string_view name, Program& program, const LegaliseContext& context);
 
 /// The passes that look at one block under a known modal state and nothing else: a stream runs them on single blocks.
+std::vector<std::string_view> block_local_passes();
+
+/// The passes that look at one block and the modal state before it only (for streams), in order.
 std::vector<std::string_view> block_local_passes();
 
 /// For streams: true when no pass would touch this block (plain motion in forms the target has). Cheap: no allocation.
