@@ -188,7 +188,8 @@ struct FrameChange {
   bool by_distance_mode = false;  ///< `replace_named` in absolute mode, `add` in incremental mode
   std::vector<FrameWord> words;   ///< translate, scale (per axis), mirror; rotation centre
   bool has_angle = false;
-  Value angle;                    ///< rotate: degrees in the plane in force
+  Value angle;                    ///< rotate: degrees in the plane in force, or about `rotation_axis`
+  AxisId rotation_axis = axis::none;  ///< rotate about this axis whatever the plane; none: the normal of the plane in force
   bool uniform_scale = false;     ///< scale: words[0] holds for all axes
 };
 struct FrameOp {

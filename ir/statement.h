@@ -122,6 +122,7 @@ struct Switch {
   std::vector<Jump> fallback;  ///< none or one
 };
 /// The blocks from the one labelled `first` to the one labelled `last` (inclusive) are carried out `count` times, here.
+/// `last` empty (no text, not computed): from `first` up to this statement, itself not included.
 struct Repeat {
   LabelRef first, last;
   ExprPtr count;               ///< null: 1
