@@ -191,6 +191,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   write.numbering = options.numbering;
   write.number_step = options.number_step;
   write.annotate = options.annotate;
+  write.single_output = options.single_output;
   write.main_stem = source->stem();
   auto files = to->backend->write(work, write, result.diagnostics);
   result.files = loader.files();

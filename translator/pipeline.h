@@ -30,6 +30,7 @@ struct TranslateOptions {
   std::int32_t number_step = 10;
   bool annotate = false;
   bool verify = false;
+  bool single_output = false;  ///< everything in one file (standard output): as an archive where the target has one
   ir::CycleWriting cycles = ir::CycleWriting::native;
   std::optional<Encoding> encoding;  ///< of the output; else as the input
   std::optional<Eol> eol;
@@ -74,6 +75,7 @@ struct RunOptions {
   std::vector<std::string> libraries;
   frontends::Reader reader = frontends::Reader::scanner;
   interpreter::Options run;
+  bool may_stream = false;  ///< straight-line programs may run in flat memory (the sink must not keep or print events)
 };
 struct RunResult {
   interpreter::Result result;

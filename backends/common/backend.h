@@ -25,6 +25,7 @@ struct WriteOptions {
   Numbering numbering = Numbering::keep;
   std::int32_t number_step = 10;
   bool annotate = false;   ///< the source line as a comment beside its translation
+  bool single_output = false;  ///< one file for everything: subprograms in the same file, or an archive
   std::string main_stem;   ///< file stem wanted for the main program (where legal)
 };
 

@@ -1,0 +1,48 @@
+// The commands of the executable. Each is one library call and the printing around it; each returns an exit status.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cnctrans::cli {
+
+/// Exit statuses of the contract (docs/trace.md).
+enum Exit : int { ok = 0, refused = 1, usage = 2, limit_or_difference = 3 };
+
+/// What the command line says; every command reads the fields it has options for.
+struct Arguments {
+  std::string from, to, dialect;
+  std::string machine, target_machine;
+  std::vector<std::string> libraries;
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string unsupported = "error";
+  std::string reader = "scanner";
+  std::string numbering = "keep";
+  std::int32_t number_step = 10;
+  std::string encoding, eol;
+  std::string cycles = "native";
+  std::string report;
+  std::string diagnostics = "text";
+  bool verify = false;
+  bool annotate = false;
+  bool quiet = false;
+  std::vector<std::string> set;
+  std::string skip;
+  std::uint64_t max_events = 50'000'000;
+  std::uint64_t max_steps = 500'000'000;
+  std::string trace, vars;
+  bool json = false;
+  bool places = false;
+  std::string shell;
+};
+
+int convert(const Arguments& a);
+int run(const Arguments& a);
+int verify(const Arguments& a);
+int check(const Arguments& a);
+int print_ir(const Arguments& a);
+int list_dialects(const Arguments& a);
+
+}  // namespace cnctrans::cli

@@ -1,0 +1,136 @@
+#include <filesystem>
+#include <memory>
+
+#include "base/text.h"
+#include "cli/common.h"
+#include "translator/stream.h"
+
+namespace cnctrans::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return !path.empty() && (path.back() == '/' || fs::is_directory(path, ignored));
+}
+
+bool write_file(const fs::path& path, std::string_view bytes, std::string* error) {
+  std::error_code ignored;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), ignored);
+  AtomicFile file(path.string());
+  return file.open(error) && file.write(bytes, error) && file.commit(error);
+}
+
+/// Where one output goes.
+fs::path target_path(const Arguments& a, const translator::OutputText& out) {
+  if (is_folder(a.output)) return fs::path(a.output) / out.name;
+  if (out.main) return a.output;
+  return fs::path(a.output).parent_path() / out.name;
+}
+
+int write_outputs(const Arguments& a, const translator::TranslateResult& result, bool unverified) {
+  if (a.output.empty() || a.output == "-") {
+    if (unverified) {
+      write_all(stderr, "cnctrans: the translation is not printed; use -o to keep it as FILE.unverified\n");
+      return limit_or_difference;
+    }
+    for (const auto& out : result.outputs) write_all(stdout, out.bytes);
+    return std::fflush(stdout) == 0 ? ok : refused;
+  }
+  for (const auto& out : result.outputs) {
+    fs::path path = target_path(a, out);
+    if (unverified) path += ".unverified";
+    std::string error;
+    if (!write_file(path, out.bytes, &error)) {
+      write_all(stderr, "cnctrans: " + error + "\n");
+      return refused;
+    }
+    if (!a.quiet) write_all(stderr, "wrote " + path.string() + "\n");
+  }
+  return unverified ? limit_or_difference : ok;
+}
+
+/// The whole-program path: in memory, with calls, verified on request.
+int convert_whole(const Arguments& a, const translator::TranslateOptions& options, const std::string& input) {
+  translator::TranslateOptions with = options;
+  with.single_output = a.output.empty() || a.output == "-";
+  const auto result = translator::translate(input, with);
+  if (!result.error.empty()) return usage_error(result.error);
+  print_diagnostics(a, result.diagnostics, result.files);
+  if (result.refused) {
+    write_all(stderr, "cnctrans: " + input + ": refused, nothing is written\n");
+    return refused;
+  }
+  const bool bad = result.verified && !result.verdict.good();
+  const int status = write_outputs(a, result, bad);
+  if (result.verified)
+    write_all(stderr, input + ": " + verifier::describe(result.verdict, result.files, result.target_files) + "\n");
+  return status;
+}
+
+/// A temporary file that vanishes; for streams to standard output, which may have to be thrown away.
+struct Spool {
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{std::tmpfile(), &std::fclose};
+  bool copy_to_stdout() const {
+    std::rewind(file.get());
+    std::string buffer(1U << 16U, '\0');
+    while (true) {
+      const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file.get());
+      if (n == 0) return std::fflush(stdout) == 0;
+      if (!write_all(stdout, std::string_view(buffer).substr(0, n))) return false;
+    }
+  }
+};
+
+/// Tries the stream; nullopt: the whole-program path must do it.
+std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options,
+                                  const std::string& input) {
+  if (options.verify || options.annotate || is_folder(a.output)) return std::nullopt;
+  ProgressLine progress(input);
+  const auto tell = [&progress](double part) { progress(part); };
+  const bool to_stdout = a.output.empty() || a.output == "-";
+  std::string error;
+  translator::StreamResult result;
+  if (to_stdout) {
+    const Spool spool;
+    if (!spool.file) return std::nullopt;
+    result = translator::translate_stream(
+        input, options, [&spool](std::string_view t) { return write_all(spool.file.get(), t); }, tell);
+    if (result.outcome == translator::StreamOutcome::done && !spool.copy_to_stdout()) return refused;
+  } else {
+    AtomicFile file(a.output);
+    if (!file.open(&error)) return std::nullopt;
+    result = translator::translate_stream(
+        input, options, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
+    if (result.outcome == translator::StreamOutcome::done && !file.commit(&error)) {
+      write_all(stderr, "cnctrans: " + error + "\n");
+      return refused;
+    }
+  }
+  if (result.outcome != translator::StreamOutcome::done) return std::nullopt;
+  print_diagnostics(a, result.diagnostics, result.files);
+  if (!to_stdout && !a.quiet) write_all(stderr, "wrote " + a.output + "\n");
+  return ok;
+}
+
+}  // namespace
+
+int convert(const Arguments& a) {
+  if (a.from.empty() || a.to.empty()) return usage_error("--from and --to are needed");
+  if (a.inputs.empty()) return usage_error("no input file");
+  if (a.inputs.size() > 1 && !is_folder(a.output)) return usage_error("several input files need -o FOLDER/");
+  if (!a.report.empty())
+    return usage_error("--report is not built yet; the diagnostics go to stderr, --diagnostics=json for tools");
+  translator::TranslateOptions options;
+  if (!translate_options(a, options)) return usage;
+  int status = ok;
+  for (const auto& input : a.inputs) {
+    const auto streamed = convert_stream(a, options, input);
+    status = std::max(status, streamed ? *streamed : convert_whole(a, options, input));
+  }
+  return status;
+}
+
+}  // namespace cnctrans::cli

@@ -1,0 +1,130 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/completion.h"
+
+namespace {
+
+using cnctrans::cli::Arguments;
+
+constexpr const char* version_text = "cnctrans 0.1.0";
+
+void add_reading(CLI::App& app, Arguments& a) {
+  app.add_option("--machine", a.machine, "machine profile: a built-in name (fagor-lathe) or a JSON file");
+  app.add_option("--lib", a.libraries, "folder where called programs are looked up (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--reader", a.reader, "block reader: scanner, antlr, or both (compares them)")
+      ->check(CLI::IsMember({"scanner", "antlr", "both"}));
+  app.add_option("--diagnostics", a.diagnostics, "form of the diagnostics on stderr: text or json")
+      ->check(CLI::IsMember({"text", "json"}));
+  app.add_flag("-q,--quiet", a.quiet, "no summary lines");
+}
+
+void add_running(CLI::App& app, Arguments& a) {
+  app.add_option("--set", a.set, "NAME=VALUE: initial value of a variable (repeatable)")->allow_extra_args(false);
+  app.add_option("--skip", a.skip, "block-skip switches that are on, such as 0,3");
+  app.add_option("--max-events", a.max_events, "stop the run after so many events");
+  app.add_option("--max-steps", a.max_steps, "stop the run after so many statements");
+}
+
+void add_converting(CLI::App& app, Arguments& a) {
+  app.add_option("--from", a.from, "dialect of the input: see 'cnctrans dialects'");
+  app.add_option("--to", a.to, "dialect of the output");
+  app.add_option("input", a.inputs, "part programs")->type_name("FILE");
+  app.add_option("-o,--output", a.output, "file, or folder ending in /; without it standard output");
+  app.add_option("--target-machine", a.target_machine, "machine profile of the target");
+  app.add_option("--unsupported", a.unsupported, "what becomes of a construct without counterpart")
+      ->check(CLI::IsMember({"error", "warn", "comment"}));
+  app.add_flag("--verify", a.verify, "replay source and translation and compare them");
+  app.add_option("--numbering", a.numbering, "block numbers of the output: keep, none or renumber")
+      ->check(CLI::IsMember({"keep", "none", "renumber"}));
+  app.add_option("--number-step", a.number_step, "step of renumbered blocks")->check(CLI::Range(1, 1000));
+  app.add_option("--cycles", a.cycles, "native canned cycles where exact, or explode all")
+      ->check(CLI::IsMember({"native", "explode"}));
+  app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");
+  app.add_option("--encoding", a.encoding, "of the output; else as the input")
+      ->check(CLI::IsMember({"utf-8", "windows-1252"}));
+  app.add_option("--eol", a.eol, "line ends of the output; else as the input")
+      ->check(CLI::IsMember({"lf", "crlf", "cr"}));
+  app.add_option("--report", a.report, "write a report (.html, .json, .sarif, .md)");
+  add_reading(app, a);
+  add_running(app, a);
+}
+
+CLI::App* add_dialect_command(CLI::App& app, Arguments& a, const char* name, const char* what, const char* footer) {
+  CLI::App* sub = app.add_subcommand(name, what);
+  sub->add_option("--dialect", a.dialect, "language of the program: see 'cnctrans dialects'")->required();
+  sub->add_option("program", a.inputs, "part program")->required()->type_name("FILE");
+  add_reading(*sub, a);
+  sub->footer(footer);
+  return sub;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments a;
+  CLI::App app{
+      "Translates CNC part programs between controls, keeps the program, and proves that the machine moves the same "
+      "way.",
+      "cnctrans"};
+  app.set_version_flag("--version", version_text);
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Examples:\n  cnctrans --from fagor --to sinumerik part.pim -o PART.MPF --verify\n"
+      "  cnctrans --from num --to fagor *.xpi -o out/ --lib subs\n  cnctrans run --dialect fagor part.pim --trace - | "
+      "head\n"
+      "Exit status: 0 written, 1 refused, 2 wrong usage, 3 the verification found a difference.");
+  add_converting(app, a);
+
+  CLI::App* convert = app.add_subcommand("convert", "translate (the default command)");
+  add_converting(*convert, a);
+  convert->footer("Example:\n  cnctrans convert --from sinumerik --to num PART.MPF -o part.xpi");
+  CLI::App* run = add_dialect_command(
+      app, a, "run", "run a program in the reference interpreter",
+      "Examples:\n  cnctrans run --dialect num part.xpi --trace moves.jsonl --vars -\n"
+      "  cnctrans run --dialect fagor part.pim --set P100=3 --skip 0 --max-events 1000\n"
+      "Exit status: 0 ran to the end, 1 refused or ended in an error, 2 wrong usage, 3 a limit stopped it.");
+  add_running(*run, a);
+  run->add_option("--trace", a.trace, "write the events, one JSON object a line (- is standard output)");
+  run->add_option("--vars", a.vars, "write the final values of variables as JSON");
+  CLI::App* verify = app.add_subcommand("verify", "compare a program with a translation made by anyone");
+  verify->add_option("--from", a.from, "dialect of the source")->required();
+  verify->add_option("--to", a.to, "dialect of the translation")->required();
+  verify->add_option("files", a.inputs, "source, translation, and its further files")->required()->type_name("FILE");
+  verify->add_option("--target-machine", a.target_machine, "machine profile of the target");
+  add_reading(*verify, a);
+  add_running(*verify, a);
+  verify->footer("Example:\n  cnctrans verify --from fagor --to sinumerik part.pim PART.MPF");
+  CLI::App* check = add_dialect_command(app, a, "check", "read programs and report",
+                                        "Example:\n  cnctrans check --dialect sinumerik subs/*.SPF");
+  CLI::App* ir = add_dialect_command(app, a, "ir", "print the intermediate representation",
+                                     "Example:\n  cnctrans ir --dialect num part.xpi");
+  ir->add_flag("--json", a.json, "as JSON");
+  ir->add_flag("--places", a.places, "with source places");
+  CLI::App* list = app.add_subcommand("dialects", "list the dialects and built-in machines");
+  list->add_flag("-q,--quiet", a.quiet, "dialects only");
+  CLI::App* completion = app.add_subcommand("completion", "print a shell completion script");
+  completion->add_option("shell", a.shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  completion->footer("Example:\n  cnctrans completion bash > /etc/bash_completion.d/cnctrans");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int status = app.exit(e);
+    return status == 0 ? 0 : cnctrans::cli::usage;
+  }
+  if (run->parsed()) return cnctrans::cli::run(a);
+  if (verify->parsed()) return cnctrans::cli::verify(a);
+  if (check->parsed()) return cnctrans::cli::check(a);
+  if (ir->parsed()) return cnctrans::cli::print_ir(a);
+  if (list->parsed()) return cnctrans::cli::list_dialects(a);
+  if (completion->parsed()) {
+    std::fputs(cnctrans::cli::completion(app, a.shell).c_str(), stdout);
+    return cnctrans::cli::ok;
+  }
+  return cnctrans::cli::convert(a);
+}

@@ -1,0 +1,84 @@
+#include <cstdio>
+
+#include "base/text.h"
+#include "cli/common.h"
+#include "ir/text.h"
+
+namespace cnctrans::cli {
+
+int verify(const Arguments& a) {
+  translator::TranslateOptions options;
+  if (!translate_options(a, options)) return usage;
+  if (a.inputs.size() < 2) return usage_error("verify takes the source program and its translation");
+  const std::vector<std::string> targets(a.inputs.begin() + 1, a.inputs.end());
+  const auto result = translator::verify(a.inputs.front(), targets, options);
+  if (!result.error.empty()) return usage_error(result.error);
+  print_diagnostics(a, result.source_diagnostics, result.source_files);
+  print_diagnostics(a, result.target_diagnostics, result.target_files);
+  const std::string text = verifier::describe(result.verdict, result.source_files, result.target_files) + "\n";
+  write_all(stdout, text);
+  return result.verdict.good() ? ok : limit_or_difference;
+}
+
+int check(const Arguments& a) {
+  translator::RunOptions options;
+  if (!run_options(a, options)) return usage;
+  if (a.inputs.empty()) return usage_error("check takes at least one file");
+  int status = ok;
+  for (const auto& input : a.inputs) {
+    const auto result = translator::check(input, options);
+    if (!result.error.empty()) return usage_error(result.error);
+    print_diagnostics(a, result.diagnostics, result.files);
+    if (!a.quiet) {
+      const auto& s = result.stats;
+      std::printf("%s: %llu lines, %llu blocks, %llu read, %zu errors, %zu warnings\n", input.c_str(),
+                  static_cast<unsigned long long>(s.lines), static_cast<unsigned long long>(s.blocks),
+                  static_cast<unsigned long long>(s.blocks_read), result.diagnostics.error_count(),
+                  result.diagnostics.warning_count());
+    }
+    if (result.diagnostics.has_errors()) status = refused;
+  }
+  return status;
+}
+
+int print_ir(const Arguments& a) {
+  translator::RunOptions options;
+  if (!run_options(a, options)) return usage;
+  if (a.inputs.size() != 1) return usage_error("ir takes one program");
+  const auto* dialect = translator::find_dialect(a.dialect);
+  if (dialect == nullptr) return usage_error("unknown dialect '" + a.dialect + "'");
+  std::string error;
+  const auto source = SourceText::open(a.inputs.front(), &error);
+  if (!source) return usage_error(error);
+  const auto profile = translator::choose_profile(*dialect, a.machine, source.get(), &error);
+  if (!profile) return usage_error(error);
+  translator::Loader loader(*dialect, *profile, options.reader, options.libraries);
+  Diagnostics diagnostics;
+  const ir::Program* program = loader.read_main(a.inputs.front(), diagnostics, &error);
+  if (program == nullptr) return usage_error(error);
+  print_diagnostics(a, diagnostics, loader.files());
+  write_all(stdout, a.json ? ir::to_json(*program) + "\n" : ir::to_text(*program, {a.places}));
+  return diagnostics.has_errors() ? refused : ok;
+}
+
+int list_dialects(const Arguments& a) {
+  for (const auto& d : translator::dialects()) {
+    std::string line(d.name);
+    line += std::string(line.size() < 12 ? 12 - line.size() : 1, ' ') + std::string(d.title);
+    const auto add = [&line](const char* what, const std::vector<std::string_view>& list) {
+      for (const auto& e : list) line += std::string("  .") + std::string(e) + what;
+    };
+    add(" (mill)", d.mill_extensions);
+    add(" (lathe)", d.lathe_extensions);
+    add("", d.other_extensions);
+    write_all(stdout, line + "\n");
+  }
+  if (!a.quiet) {
+    std::string machines = "machines:";
+    for (const auto& m : machine::builtin_names()) machines += " " + m;
+    write_all(stdout, machines + "\n");
+  }
+  return ok;
+}
+
+}  // namespace cnctrans::cli
