@@ -257,6 +257,17 @@ RunResult run(
   if (!source) return result;
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
   if (!profile) return result;
+  if (options.may_stream) {
+    FileTable files;
+    const auto counter = make_sink(files, {});
+    StreamRun streamed = run_stream(path, *dialect, *profile, options, *counter, files);
+    if (streamed.outcome == StreamOutcome::done) {
+      result.result = std::move(streamed.result);
+      result.diagnostics = std::move(streamed.diagnostics);
+      result.files = std::move(files);
+      return result;
+    }
+  }
   Loader loader(*dialect, *profile, options.reader, options.libraries);
   const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error);
   if (program == nullptr) return result;

@@ -277,24 +277,25 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   if (!reader || options.reader != frontends::Reader::scanner) return run;
   interpreter::BlockRunner runner(profile, options.run, sink, run.diagnostics);
   ir::Statement statement;
+  Span last;
   std::string_view window = windows.first;
   std::uint32_t number = 0;
   bool going = true;
-  bool ended = false;
-  while (!window.empty() && going) {
+  while (!window.empty()) {
     SourceLine line;
-    while (going && take_line(window, line)) {
+    while (take_line(window, line)) {
       line.number = ++number;
+      // Lines after the end are read as well: one that can't be read refuses the program before anything moves.
       const auto kind = reader->read(line, statement, run.diagnostics);
-      if (kind == frontends::StreamLine::needs_program || run.diagnostics.has_errors()) return run;
-      going = runner.step(statement);
-      if (kind == frontends::StreamLine::program_end) ended = true;
-      if (ended) going = false;
+      if (kind == frontends::StreamLine::needs_program || (going && run.diagnostics.has_errors())) return run;
+      if (!going) continue;
+      last = statement.line.span;
+      going = runner.step(statement) && kind != frontends::StreamLine::program_end;
     }
-    if (going) window = windows.reader.next();
+    window = windows.reader.next();
   }
   run.outcome = StreamOutcome::done;
-  run.result = runner.finish(statement.line.span);
+  run.result = runner.finish(last);
   return run;
 }
 
