@@ -39,6 +39,8 @@ enum class PeckLaw : std::uint8_t {
   count,          ///< `count` equal pecks: the bottom is reference + count * first
   arithmetic,     ///< each peck smaller by `degression`
   geometric,      ///< each peck the former times `degression`
+  linear,         ///< from `first` evenly to `minimum` over n = max(2, ceil(2 D / (first + minimum))) pecks, D the depth
+                  ///< below the reference; then all times one factor, so that they end at the bottom
   balanced        ///< constant, but a last remainder below two pecks is shared between the last two
 };
 struct Pecks {

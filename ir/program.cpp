@@ -54,7 +54,8 @@ constexpr std::array<std::string_view, 11> hole_names{"drill",        "peck_full
                                                       "bore_shift",   "back_bore", "bore_manual"};
 constexpr std::array<std::string_view, 5> base_names{"absolute", "from_initial", "from_reference", "from_surface",
                                                      "distance_mode"};
-constexpr std::array<std::string_view, 6> law_names{"none", "constant", "count", "arithmetic", "geometric", "balanced"};
+constexpr std::array<std::string_view, 7> law_names{"none",      "constant", "count",   "arithmetic",
+                                                    "geometric", "linear",   "balanced"};
 }  // namespace
 
 std::string_view name(HoleKind k) {
