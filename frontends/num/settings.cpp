@@ -1,0 +1,42 @@
+#include "frontends/num/settings.h"
+
+#include <cctype>
+#include <string>
+
+#include "dialects/num/mcodes.h"
+#include "dialects/num/options.h"
+
+namespace cnctrans::frontends::num {
+
+namespace facts = dialects::num;
+
+Settings make_settings(const machine::Profile& profile) {
+  Settings s;
+  const auto option = [&profile](std::string_view name) { return profile.option(name, facts::option_default(name)); };
+  s.lathe = profile.kind == machine::Kind::lathe;
+  s.structured = option(facts::option::family) != "7xx";
+  s.centre_absolute = option(facts::option::centre) != "incremental";
+  s.letter_o = option(facts::option::letter_o) != "false";
+  s.range_by_position = option(facts::option::range_order) == "position";
+  s.m30_ends = option(facts::option::m30) == "end";
+  s.pecks_constant = option(facts::option::peck_law) == "constant";
+  s.power_on = profile.power_on;
+  for (const auto& axis : profile.axes) {
+    if (axis.id < 32) s.axes |= 1U << axis.id;
+  }
+  for (const char c : option(facts::option::rotary_modulo)) {
+    const ir::AxisId id = ir::fixed_axis(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
+    if (id != ir::axis::none && ir::is_rotary_letter(id)) s.modulo |= 1U << id;
+  }
+  for (const auto& row : facts::m_codes) {
+    s.m[static_cast<std::size_t>(row.code)] = {row.meaning, row.order, row.argument, true};
+  }
+  for (const auto& m : profile.m_codes) {
+    if (m.code < 0 || m.code > 999) continue;
+    s.m[static_cast<std::size_t>(m.code)] = {m.meaning, m.order, static_cast<std::int16_t>(m.argument), true};
+  }
+  if (s.m30_ends) s.m[30] = {machine::MMeaning::program_end, ir::Order::after, 0, true};
+  return s;
+}
+
+}  // namespace cnctrans::frontends::num

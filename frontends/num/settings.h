@@ -1,0 +1,35 @@
+// What the reader needs of a machine profile, looked up once: options, axes, the meaning of every M function.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ir/block.h"
+#include "machine/profile.h"
+
+namespace cnctrans::frontends::num {
+
+struct MEntry {
+  machine::MMeaning meaning = machine::MMeaning::machine_function;
+  ir::Order order = ir::Order::before;
+  std::int16_t argument = 0;
+  bool known = false;
+};
+
+struct Settings {
+  bool lathe = false;
+  bool structured = true;        ///< 10xx and later: IF, WHILE, VAR
+  bool centre_absolute = true;   ///< I J K absolute under G90
+  bool letter_o = true;          ///< GO is G0
+  bool range_by_position = false;
+  bool m30_ends = false;
+  bool pecks_constant = false;   ///< P..Q as constant pecks and a last one
+  std::uint32_t axes = 0;        ///< bit n: the machine has axis n
+  std::uint32_t modulo = 0;      ///< bit n: the sign of an absolute value is a direction
+  ir::ModalState power_on;
+  std::array<MEntry, 1000> m{};
+};
+
+Settings make_settings(const machine::Profile& profile);
+
+}  // namespace cnctrans::frontends::num
