@@ -87,6 +87,16 @@ class TextKeeper {
     return kept_.back();
   }
   void hold(SourcePtr source) { sources_.push_back(std::move(source)); }
+  /// The held source of this name; null when it is not held.
+  [[nodiscard]] SourcePtr source(std::string_view name) const {
+    for (const SourcePtr& s : sources_) {
+      if (s && s->name() == name) return s;
+    }
+    for (const auto& other : shared_) {
+      if (SourcePtr s = other->source(name)) return s;
+    }
+    return nullptr;
+  }
   /// Keeps another program's texts alive as well.
   void share(std::shared_ptr<TextKeeper> other) { shared_.push_back(std::move(other)); }
 
