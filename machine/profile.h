@@ -20,16 +20,29 @@ struct AxisSpec {
   ir::AxisId id = ir::axis::x;
   std::string name;
   bool rotary = false;
-  bool diameter = false;      ///< words of this axis follow Setting::diameter
-  double start = 0;           ///< mm (radius) or degrees at program start
-  double reference_point = 0; ///< machine coordinate of the reference point
+  bool diameter = false;       ///< words of this axis follow Setting::diameter
+  double start = 0;            ///< mm (radius) or degrees at program start
+  double reference_point = 0;  ///< machine coordinate of the reference point
 };
 
 /// What a machine function does here.
 enum class MMeaning : std::uint8_t {
   machine_function,  ///< no known meaning: event `m`
-  stop, optional_stop, program_end, subprogram_end, spindle_cw, spindle_ccw, spindle_stop, spindle_orient, tool_change,
-  coolant_off, coolant_flood, coolant_mist, coolant_second, gear, none
+  stop,
+  optional_stop,
+  program_end,
+  subprogram_end,
+  spindle_cw,
+  spindle_ccw,
+  spindle_stop,
+  spindle_orient,
+  tool_change,
+  coolant_off,
+  coolant_flood,
+  coolant_mist,
+  coolant_second,
+  gear,
+  none
 };
 struct MCode {
   std::int32_t code = 0;
@@ -53,21 +66,21 @@ struct Tool {
 using FrameOrder = std::vector<ir::FrameSlot>;
 
 struct Profile {
-  std::string name;       ///< "fagor-mill"
-  std::string dialect;    ///< registry name of the control's language
+  std::string name;     ///< "fagor-mill"
+  std::string dialect;  ///< registry name of the control's language
   Kind kind = Kind::mill;
   std::vector<AxisSpec> axes;
   ir::ModalState power_on;
   FrameOrder frame_order;
-  double power_on_feed = 0;        ///< 0: none programmed
+  double power_on_feed = 0;  ///< 0: none programmed
   std::vector<MCode> m_codes;
   std::vector<Tool> tools;
   /// Settable work offsets, row 1..: axis -> mm (radius). Missing rows are zero.
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets;
   /// Named options ("num.g02_center" = "absolute"): policies where the manual is silent. Unknown names are an error.
   std::map<std::string, std::string> options;
-  double max_rapid = 10000;        ///< mm/min, for reports only
-  double arc_tolerance = 0.02;     ///< mm: |r0 - r1| of an arc by centre
+  double max_rapid = 10000;     ///< mm/min, for reports only
+  double arc_tolerance = 0.02;  ///< mm: |r0 - r1| of an arc by centre
   std::int32_t call_depth = 16;
 
   [[nodiscard]] const AxisSpec* axis(ir::AxisId id) const;

@@ -1,0 +1,12 @@
+# Script behind cnc_embed_texts().
+set(text "// Generated from text files; do not edit.\n#include \"${HEADER}\"\n\nnamespace cnctrans::machine {\n")
+string(APPEND text "extern const EmbeddedText ${SYMBOL}[] = {\n")
+set(count 0)
+foreach(f IN LISTS FILES)
+  get_filename_component(stem ${f} NAME_WE)
+  file(READ ${f} content)
+  string(APPEND text "    {\"${stem}\", R\"__embed__(${content})__embed__\"},\n")
+  math(EXPR count "${count}+1")
+endforeach()
+string(APPEND text "};\nextern const std::size_t ${SYMBOL}_count = ${count};\n}  // namespace cnctrans::machine\n")
+file(WRITE ${OUT} "${text}")

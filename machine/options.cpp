@@ -1,0 +1,87 @@
+#include "machine/options.h"
+
+#include <array>
+
+#include "base/text.h"
+
+namespace cnctrans::machine {
+namespace {
+
+constexpr std::array specs{
+    // Read by the interpreter, whatever the control.
+    OptionSpec{"calls.local_levels", "number", "0",
+               "levels of own local parameters that may be open at once; 0: no limit"},
+    OptionSpec{"cycle.positioning", "modal|rapid", "modal",
+               "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
+    OptionSpec{"cycle.rotary_triggers", "no|yes", "no", "a rotary axis word alone runs the modal hole cycle too"},
+    OptionSpec{"frame.change_keeps", "machine|programmed", "machine",
+               "what an incremental word adds to after a frame change: the present point seen in the new frame, or the "
+               "coordinate programmed last (the difference of the frames is travelled)"},
+    OptionSpec{"frame.rotation_centre", "as_written|scaled_and_mirrored", "as_written",
+               "whether the centre of a rotation goes through scale and mirror"},
+    OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",
+               "a helix whose pitch does not fit its travel: refused, or run with the nearest pitch"},
+    OptionSpec{"machine_move.units", "modal|machine", "modal",
+               "unit of machine coordinates: as the other words, or always millimetres"},
+    OptionSpec{"polar.pole_follows_arc", "no|yes", "no", "the centre of an arc becomes the pole"},
+    OptionSpec{"work_offset.write", "on_select|at_once", "on_select",
+               "when a written row of the work offset table counts: when it is selected again, or at once"},
+    // Read by the language readers and writers.
+    OptionSpec{"fagor.tool_change", "turret|m6", "m6", "T changes at once, or selects for M06"},
+    OptionSpec{"fagor.mcall_repeat", "sub_only|move_and_sub", "move_and_sub", "what a block repeat does under MCALL"},
+    OptionSpec{"num.family", "7xx|10xx|flx", "10xx", "series of the control"},
+    OptionSpec{"num.g02_center", "absolute|incremental", "absolute", "I J K of an arc under G90"},
+    OptionSpec{"num.linear_unit_um", "number", "1", "micrometres in one unit of a linear E parameter"},
+    OptionSpec{"num.rotary_modulo", "no|yes", "yes", "the sign of an absolute rotary word is its direction"},
+    OptionSpec{"num.rotary_unit", "number", "0.0001", "degrees in one unit of a rotary E parameter"},
+    OptionSpec{"num.lenient_letter_o", "no|yes", "yes", "the letter O is read as the digit 0 in GO, with a warning"},
+    OptionSpec{"num.missing_range_end", "error|to_last_lower", "error", "a block range whose last block is missing"},
+    OptionSpec{"num.m30", "none|end", "none", "M30 ends the program"},
+    OptionSpec{"num.peck_law", "degressive|constant", "degressive", "pecks of a deep hole with first and last size"},
+    OptionSpec{"num.range_order", "number|position", "number", "how the two ends of a block range are put in order"},
+    OptionSpec{"num.structured", "no|yes", "no", "structured statements may be written"},
+    OptionSpec{"num.default_gear", "text", "M41", "gear word written when the source has none"},
+    OptionSpec{"sinumerik.tool_change", "immediate|m6", "m6", "T changes at once, or selects for M6 (MD22550)"},
+    OptionSpec{"sinumerik.r_count", "number", "100", "number of R parameters"},
+    OptionSpec{"sinumerik.pud_visible", "no|yes", "no",
+               "variables of the main program are seen in subprograms (MD11120)"},
+    OptionSpec{"sinumerik.exact_greater", "no|yes", "no", "> and < compare exactly (MD10280 bit 0)"},
+};
+
+bool is_one_of(std::string_view value, std::string_view list) {
+  while (!list.empty()) {
+    const auto bar = list.find('|');
+    if (list.substr(0, bar) == value) return true;
+    if (bar == std::string_view::npos) return false;
+    list.remove_prefix(bar + 1);
+  }
+  return false;
+}
+
+}  // namespace
+
+std::span<const OptionSpec> option_specs() {
+  return specs;
+}
+
+const OptionSpec* find_option(std::string_view name) {
+  for (const auto& s : specs) {
+    if (s.name == name) return &s;
+  }
+  return nullptr;
+}
+
+bool check_option(std::string_view name, std::string_view value, std::string* error) {
+  const auto* spec = find_option(name);
+  if (spec == nullptr) {
+    *error = "there is no option \"" + std::string(name) + "\"";
+    return false;
+  }
+  if (spec->values == "text") return true;
+  if (spec->values == "number" ? parse_decimal(value).has_value() : is_one_of(value, spec->values)) return true;
+  *error = "option \"" + std::string(name) + "\" does not take \"" + std::string(value) + "\" but " +
+           std::string(spec->values);
+  return false;
+}
+
+}  // namespace cnctrans::machine

@@ -1,0 +1,104 @@
+#include "machine/profile.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "machine/options.h"
+
+namespace cnctrans::machine {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+
+std::string fault(std::string_view text) {
+  std::string error;
+  EXPECT_FALSE(from_json(text, &error));
+  return error;
+}
+
+TEST(Profile, EveryDialectHasAMillAndALathe) {
+  EXPECT_THAT(builtin_names(), IsSupersetOf({"fagor-mill", "fagor-lathe", "num-mill", "num-lathe", "sinumerik-mill",
+                                             "sinumerik-lathe"}));
+}
+
+TEST(Profile, BuiltinsLoadAndKeepTheirContract) {
+  for (const auto& name : builtin_names()) {
+    std::string error;
+    const auto p = load(name, &error);
+    ASSERT_TRUE(p) << name << ": " << error;
+    EXPECT_EQ(p->name, name);
+    EXPECT_EQ(name, p->dialect + (p->kind == Kind::mill ? "-mill" : "-lathe"));
+    // The contract of the trace: mills have X Y Z A B C, lathes X Z C; the start is 0 everywhere.
+    const bool mill = p->kind == Kind::mill;
+    EXPECT_EQ(p->axes.size(), mill ? 6U : 3U);
+    EXPECT_EQ(p->axis(ir::axis::y) != nullptr, mill);
+    EXPECT_EQ(p->axis(ir::axis::x)->diameter, !mill);
+    EXPECT_TRUE(p->axis(ir::axis::c)->rotary);
+    EXPECT_EQ(p->power_on.plane, mill ? ir::Plane::xy : ir::Plane::zx);
+    for (const auto& a : p->axes) EXPECT_EQ(a.start, 0);
+  }
+}
+
+TEST(Profile, JsonFormReadsBack) {
+  std::string error;
+  for (const auto& name : builtin_names()) {
+    const auto p = load(name, &error);
+    ASSERT_TRUE(p);
+    const auto text = to_json(*p);
+    const auto q = from_json(text, &error);
+    ASSERT_TRUE(q) << error;
+    EXPECT_EQ(to_json(*q), text);
+    EXPECT_EQ(q->power_on, p->power_on);
+    EXPECT_EQ(q->frame_order, p->frame_order);
+  }
+}
+
+TEST(Profile, ExtendsABuiltinAndReplacesWhatIsWritten) {
+  std::string error;
+  const auto p = from_json(R"({"extends": "fagor-lathe", "name": "shop 7",
+      "axes": [{"name": "X", "diameter": true, "start": 100}, {"name": "Z", "start": 250.5}, {"name": "Y"}],
+      "m_codes": [{"code": 107, "meaning": "coolant_flood", "text": "pump 2"}],
+      "tools": [{"number": 3, "radius": 0.8}],
+      "work_offsets": {"1": {"X": -12.5, "Z": 300}}})",
+                           &error);
+  ASSERT_TRUE(p) << error;
+  EXPECT_EQ(p->dialect, "fagor");
+  EXPECT_EQ(p->axes.size(), 3U);
+  EXPECT_EQ(p->axis(ir::axis::z)->start, 250.5);
+  EXPECT_EQ(p->m_code(107)->meaning, MMeaning::coolant_flood);
+  EXPECT_EQ(p->m_code(3)->meaning, MMeaning::spindle_cw);
+  EXPECT_EQ(p->work_offsets.at(1).at(ir::axis::x), -12.5);
+  EXPECT_EQ(p->tools.at(0).radius, 0.8);
+}
+
+TEST(Profile, FaultsAreNamed) {
+  EXPECT_THAT(fault("{"), HasSubstr("JSON"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "colour": 1})"), HasSubstr("colour"));
+  EXPECT_THAT(fault(R"({"extends": "nobody"})"), HasSubstr("nobody"));
+  EXPECT_THAT(fault(R"({"name": "a", "axes": [{"name": "Q"}]})"), HasSubstr("id"));
+  EXPECT_THAT(fault(R"({"name": "a", "axes": [{"name": "X"}, {"name": "X"}]})"), HasSubstr("twice"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "power_on": {"plane": "xx"}})"), HasSubstr("power_on.plane"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "frame_order": ["shift", "shift"]})"), HasSubstr("twice"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "options": {"helix.pitch_mismatch": "maybe"}})"), HasSubstr("maybe"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "options": {"helix.picth": "error"}})"), HasSubstr("helix.picth"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "work_offsets": {"0": {"X": 1}}})"), HasSubstr("row"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "arc_tolerance": "big"})"), HasSubstr("arc_tolerance"));
+  EXPECT_THAT(fault(R"([])"), HasSubstr("object"));
+  std::string error;
+  EXPECT_FALSE(load("no-such-machine", &error));
+  EXPECT_THAT(error, HasSubstr("no-such-machine"));
+}
+
+TEST(Profile, OptionsFallBackToTheTable) {
+  const Profile p;
+  for (const auto& s : option_specs()) {
+    EXPECT_EQ(p.option(s.name), s.fallback);
+    std::string error;
+    EXPECT_TRUE(check_option(s.name, s.fallback, &error)) << error;
+  }
+  EXPECT_EQ(p.option("helix.pitch_mismatch", "nearest"), "nearest");
+}
+
+}  // namespace
+}  // namespace cnctrans::machine
