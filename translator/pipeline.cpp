@@ -280,6 +280,26 @@ RunResult run(
   return result;
 }
 
+RewriteResult rewrite(const SourcePtr& source, const std::string& dialect_name, const std::string& machine) {
+  RewriteResult result;
+  const Dialect* dialect = find_dialect(dialect_name);
+  if (dialect == nullptr) {
+    result.error = unknown_dialect(dialect_name);
+    return result;
+  }
+  const auto profile = choose_profile(*dialect, machine, source.get(), &result.error);
+  if (!profile) return result;
+  Loader loader(*dialect, *profile, frontends::Reader::scanner, {});
+  const ir::Program* program = loader.read_source(source, result.diagnostics);
+  result.program = *program;
+  backends::WriteOptions write;
+  write.profile = &*profile;
+  write.main_stem = source->stem();
+  write.single_output = true;
+  result.files = dialect->backend->write(result.program, write, result.diagnostics);
+  return result;
+}
+
 CheckResult check(const std::string& path, const RunOptions& options) {
   CheckResult result;
   const Dialect* dialect = find_dialect(options.dialect);

@@ -89,6 +89,15 @@ RunResult run(const std::string& path, const RunOptions& options,
               const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&,
                                                                           const std::vector<std::string>&)>& make_sink);
 
+/// Reads a program and writes it in its own language, without any pass: identity tests, and tidy-up of own programs.
+struct RewriteResult {
+  ir::Program program;
+  std::vector<backends::OutputFile> files;
+  Diagnostics diagnostics;
+  std::string error;
+};
+RewriteResult rewrite(const SourcePtr& source, const std::string& dialect, const std::string& machine);
+
 struct CheckResult {
   Diagnostics diagnostics;
   FileTable files;
