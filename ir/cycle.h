@@ -45,7 +45,7 @@ enum class PeckLaw : std::uint8_t {
 };
 struct Pecks {
   PeckLaw law = PeckLaw::none;
-  Value first;                 ///< size of the first peck, unsigned
+  Value first;                 ///< size of the first peck, unsigned (law `count`: signed along the axis)
   Level first_to;              ///< or: first peck ends at this level (when given)
   Value count;
   Value degression;
@@ -54,6 +54,10 @@ struct Pecks {
   Value reapproach;            ///< distance above the last bottom where feeding starts again
   bool reapproach_automatic = false;  ///< reapproach by rule of the source (0.6 mm up to depth 30, else depth/50, at most 7)
   bool first_from_surface = false;    ///< pecks are counted from the surface, not from the reference plane
+  bool lift_rapid = false;            ///< peck_break: the lift is a rapid, then rapid to `reapproach`; else at feed
+  Value dwell;                        ///< seconds (after `dwell_scale`) after every peck but the last
+  Value first_feed_factor;            ///< the first peck's feed is the feed times this, when `has_first_feed_factor`
+  bool has_first_feed_factor = false;
 };
 
 /// What brings a modal cycle to life after its definition.
@@ -82,6 +86,7 @@ struct HoleCycle {
   bool rigid = false;
   Value orient_angle, shift_u, shift_v, shift_w;
   bool reference_may_be_below = false;
+  bool approach_by_retract = false;  ///< first rapid to the retract level, then to the reference plane
 };
 
 /// A cycle that the IR carries by its source's own name and words until its node is written; see missing_features.
