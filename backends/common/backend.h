@@ -24,9 +24,9 @@ struct WriteOptions {
   Unsupported unsupported = Unsupported::error;
   Numbering numbering = Numbering::keep;
   std::int32_t number_step = 10;
-  bool annotate = false;   ///< the source line as a comment beside its translation
+  bool annotate = false;       ///< the source line as a comment beside its translation
   bool single_output = false;  ///< one file for everything: subprograms in the same file, or an archive
-  std::string main_stem;   ///< file stem wanted for the main program (where legal)
+  std::string main_stem;       ///< file stem wanted for the main program (where legal)
 };
 
 /// Target line -> source span, for reports and for verification messages. Index 0 is line 1.
@@ -34,8 +34,8 @@ struct SourceMap {
   std::vector<Span> lines;
 };
 struct OutputFile {
-  std::string name;   ///< as the target control wants it, with extension
-  std::string text;   ///< UTF-8 where the program's texts are, LF line ends; the translator encodes
+  std::string name;  ///< as the target control wants it, with extension
+  std::string text;  ///< UTF-8 where the program's texts are, LF line ends; the translator encodes
   SourceMap map;
   bool main = false;
 };

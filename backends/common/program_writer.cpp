@@ -1,0 +1,311 @@
+#include "backends/common/program_writer.h"
+
+#include <algorithm>
+
+#include "backends/common/comments.h"
+#include "base/text.h"
+
+namespace cnctrans::backends {
+namespace {
+
+bool has_one_shots(const ir::Program& program) {
+  bool found = false;
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      found = found || (b != nullptr && b->has_motion && !b->motion.keeps_modal);
+    });
+  }
+  return found;
+}
+
+bool has_ids(const ir::Program& program) {
+  for (const ir::Routine& r : program.routines) {
+    if (!r.body.empty()) return r.body.front().id != 0;
+  }
+  return true;
+}
+
+}  // namespace
+
+ProgramWriter::ProgramWriter(const ir::Program& program, const WriteOptions& options, const Style& style,
+                             Diagnostics& diagnostics)
+    : numbered_(has_ids(program) ? ir::Program{} : program),
+      program_(has_ids(program) ? program : numbered_),
+      options_(options),
+      style_(style),
+      diagnostics_(diagnostics),
+      same_dialect_(program.dialect == style.dialect),
+      labels_(program),
+      tracker_(has_one_shots(program)) {
+  if (&program_ == &numbered_) ir::number_statements(numbered_);
+}
+
+std::vector<OutputFile> ProgramWriter::write() {
+  if (options_.numbering == Numbering::renumber && !labels_.renumberable()) {
+    diagnostics_.note("TRN-212", {}, "the block numbers are kept: " + labels_.why_not());
+  }
+  write_program();
+  finish_line();
+  resolve_numbers();
+  return std::move(files_);
+}
+
+void ProgramWriter::resolve_numbers() {
+  if (options_.numbering != Numbering::renumber) return;
+  for (OutputFile& f : files_) renumbering_.resolve(f.text);
+}
+
+// ---- files and lines -----------------------------------------------------------------------------------------------
+
+void ProgramWriter::open_file(std::string name, bool main) {
+  finish_line();
+  OutputFile file;
+  file.name = std::move(name);
+  file.main = main;
+  files_.push_back(std::move(file));
+  next_number_ = 0;
+}
+
+void ProgramWriter::emit(std::string_view text, const Span& span) {
+  if (files_.empty()) open_file("", true);
+  OutputFile& f = files_.back();
+  f.text += text;
+  f.text += '\n';
+  f.map.lines.push_back(span);
+}
+
+void ProgramWriter::raw_line(std::string_view text, const Span& span) {
+  finish_line();
+  emit(text, span);
+}
+
+void ProgramWriter::start_routine(std::size_t index) {
+  finish_line();
+  routine_ = index;
+  depth_ = 0;
+  tracker_.start_routine();
+  settings_.fill(std::nullopt);
+}
+
+void ProgramWriter::begin_line(const ir::LineInfo& info) {
+  finish_line();
+  info_ = &info;
+  line_open_ = true;
+  first_of_source_line_ = true;
+  if (is_join(info)) {
+    tracker_.join();
+    settings_.fill(std::nullopt);
+  }
+}
+
+bool ProgramWriter::is_join(const ir::LineInfo& info) const {
+  if (std::any_of(info.labels.begin(), info.labels.end(), [](std::string_view l) { return !l.empty(); })) return true;
+  return !info.number.empty() && labels_.is_target(routine_, info.number);
+}
+
+void ProgramWriter::keyword_line(const ir::LineInfo& info, std::string_view keyword) {
+  begin_line(info);
+  add(std::string(keyword), Rank::head);
+  finish_line();
+}
+
+std::string ProgramWriter::label_text(const ir::LineInfo& /*info*/) {
+  return {};
+}
+
+/// Skip mark, block number, indentation and labels of the first target line of a source line.
+std::string ProgramWriter::line_head(bool numbered) {
+  std::string head;
+  const std::uint16_t mask = info_->skip_mask;
+  for (std::size_t level = 0; level < 16; ++level) {
+    if ((mask >> level & 1U) == 0) continue;
+    if (level >= style_.skip_marks.size()) {
+      refuse("TRN-201", {}, "block skip level " + std::to_string(level) + " does not exist on the target control");
+      continue;
+    }
+    head += style_.skip_marks[level];
+  }
+  if (!head.empty() && head.back() != '/') head += ' ';
+  const bool renumber = options_.numbering == Numbering::renumber && labels_.renumberable();
+  if (renumber && numbered) {
+    next_number_ += options_.number_step;
+    if (first_of_source_line_ && !info_->number.empty()) renumbering_.set(routine_, info_->number, next_number_);
+    head += 'N' + std::to_string(next_number_) + ' ';
+  } else if (!renumber && first_of_source_line_ && !info_->number.empty()) {
+    const bool wanted = options_.numbering != Numbering::none || labels_.is_target(routine_, info_->number);
+    if (wanted) {
+      head += same_dialect_ ? info_->number_mark : 'N';
+      head += info_->number;
+      head += ' ';
+    }
+  }
+  head.append(depth_ * style_.indent, ' ');
+  if (first_of_source_line_) head += label_text(*info_);
+  return head;
+}
+
+std::string ProgramWriter::line_comments() {
+  std::string out;
+  if (!first_of_source_line_) return out;
+  for (const ir::CommentText& c : info_->comments) {
+    bool lossy = false;
+    if (!out.empty()) out += ' ';
+    out += comment(c.text, style_.comment, same_dialect_, &lossy);
+    if (lossy) {
+      diagnostics_.note("TRN-209", word_span(info_->span, c.pos),
+                        "a character of this comment does not exist on the target control and became '?'");
+    }
+  }
+  return out;
+}
+
+void ProgramWriter::emit_comments_before() {
+  for (const ir::CommentText& c : info_->comments) {
+    emit(comment(c.text, style_.comment, same_dialect_, nullptr), info_->span);
+  }
+}
+
+void ProgramWriter::next_line() {
+  if (!line_open_ || line_.empty()) return;
+  const ir::LineInfo* info = info_;
+  finish_line();
+  info_ = info;
+  line_open_ = true;
+  first_of_source_line_ = false;
+}
+
+void ProgramWriter::finish_line() {
+  if (!line_open_) return;
+  line_open_ = false;
+  if (first_of_source_line_) {
+    for (std::uint16_t i = 0; style_.blank_lines && i < info_->blank_lines_before; ++i) emit(style_.blank_line, {});
+  }
+  if (refused()) return emit_refusal();
+  const std::string words = line_.text(style_.order_by_rank);
+  line_.clear();
+  const bool before = style_.comment.line_before && !words.empty() && !same_dialect_ && first_of_source_line_;
+  if (before) emit_comments_before();
+  const std::string remarks = before ? std::string{} : line_comments();
+  std::string text = line_head(!words.empty());
+  if (refused()) return emit_refusal();
+  const bool only_head = words.empty() && remarks.empty();
+  if (only_head && trim(text).empty()) return;  // nothing was said
+  text += words;
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  if (only_head) {
+    if (!style_.only_label.empty()) text += ' ' + std::string(style_.only_label);
+  } else if (!remarks.empty()) {
+    if (!text.empty()) text.append(words.empty() ? 1 : style_.comment.gap, ' ');
+    text += remarks;
+  }
+  annotate();
+  emit(text, info_->span);
+}
+
+void ProgramWriter::annotate() {
+  if (!options_.annotate || !info_->span.known() || annotated_ == info_->span) return;
+  annotated_ = info_->span;
+  const std::string source(trim(source_line(info_->span)));
+  if (source.empty()) return;
+  CommentStyle foreign = style_.comment;
+  foreign.blank_after_open = false;
+  emit(comment("< " + source, foreign, false, nullptr), info_->span);
+}
+
+// ---- bodies --------------------------------------------------------------------------------------------------------
+
+void ProgramWriter::body(const ir::Body& statements) {
+  const ir::Statement* before = nullptr;
+  for (const ir::Statement& s : statements) {
+    statement(s, before);
+    before = &s;
+  }
+}
+
+void ProgramWriter::nested_body(const ir::Body& statements) {
+  finish_line();
+  ++depth_;
+  tracker_.join();
+  settings_.fill(std::nullopt);
+  body(statements);
+  finish_line();
+  tracker_.join();
+  settings_.fill(std::nullopt);
+  --depth_;
+}
+
+void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* before) {
+  current_ = &s;
+  if (s.line.joined && before != nullptr && line_open_ && !refused()) {
+    if (!joins(*before, s)) next_line();
+  } else if (!(s.line.joined && line_open_ && refused())) {
+    begin_line(s.line);
+  }
+  dispatch(s);
+}
+
+bool ProgramWriter::joins(const ir::Statement& /*before*/, const ir::Statement& next) {
+  if (same_dialect_) return true;
+  return std::holds_alternative<ir::End>(next.node) || std::holds_alternative<ir::Block>(next.node);
+}
+
+void ProgramWriter::dispatch(const ir::Statement& s) {
+  struct Visitor {
+    ProgramWriter& w;
+    void operator()(const ir::Block& n) const { w.block(n); }
+    void operator()(const ir::Assign& n) const { w.assign(n); }
+    void operator()(const ir::If& n) const { w.if_else(n); }
+    void operator()(const ir::While& n) const { w.while_loop(n); }
+    void operator()(const ir::Until& n) const { w.until_loop(n); }
+    void operator()(const ir::For& n) const { w.for_loop(n); }
+    void operator()(const ir::Loop& n) const { w.endless_loop(n); }
+    void operator()(const ir::Exit& /*n*/) const { w.exit_loop(); }
+    void operator()(const ir::Jump& n) const { w.jump(n); }
+    void operator()(const ir::Switch& n) const { w.switch_jump(n); }
+    void operator()(const ir::Repeat& n) const { w.repeat(n); }
+    void operator()(const ir::CallRoutine& n) const { w.call(n); }
+    void operator()(const ir::ModalCall& n) const { w.modal_call(n); }
+    void operator()(const ir::Return& n) const { w.return_from(n); }
+    void operator()(const ir::End& n) const { w.end_program(n); }
+    void operator()(const ir::Message& n) const { w.message(n); }
+    void operator()(const ir::Declare& n) const { w.declare(n); }
+    void operator()(const ir::Label& /*n*/) const { w.label(); }
+    void operator()(const ir::Opaque& n) const { w.opaque(n); }
+  };
+  std::visit(Visitor{*this}, s.node);
+  const bool leaves = std::holds_alternative<ir::CallRoutine>(s.node) || std::holds_alternative<ir::Repeat>(s.node);
+  if (leaves) {
+    tracker_.join();
+    settings_.fill(std::nullopt);
+  }
+}
+
+std::string ProgramWriter::number_target(std::size_t routine, const ir::LabelRef& label) {
+  if (options_.numbering == Numbering::renumber && labels_.renumberable()) {
+    return 'N' + Renumbering::mark(routine, label.text);
+  }
+  return 'N' + label.text;
+}
+
+// ---- what is known -------------------------------------------------------------------------------------------------
+
+const ir::Facts* ProgramWriter::facts() {
+  if (current_ == nullptr || current_->id == 0) return nullptr;
+  if (!facts_) facts_ = ir::analyse(program_, options_.profile->power_on);
+  return &facts_->before(current_->id);
+}
+
+std::optional<std::uint8_t> ProgramWriter::setting(ir::Setting s) {
+  auto& known = settings_[static_cast<std::size_t>(s)];
+  if (!known) {
+    if (const ir::Facts* f = facts()) known = f->settings[static_cast<std::size_t>(s)];
+  }
+  return known;
+}
+
+void ProgramWriter::note_setting(ir::Setting s, std::uint8_t value) {
+  settings_[static_cast<std::size_t>(s)] = value;
+}
+
+}  // namespace cnctrans::backends

@@ -1,0 +1,148 @@
+// What becomes of a construct that the target cannot say, and the statements that every language refuses by default.
+#include <utility>
+
+#include "backends/common/comments.h"
+#include "backends/common/program_writer.h"
+#include "base/text.h"
+
+namespace cnctrans::backends {
+
+Span ProgramWriter::span_of(WordPos pos) const {
+  if (info_ == nullptr) return {};
+  return word_span(info_->span, pos);
+}
+
+std::string ProgramWriter::source_line(const Span& span) const {
+  if (!span.known()) return {};
+  for (const ir::FileLook& look : program_.files) {
+    if (look.file != span.file) continue;
+    if (const SourcePtr s = program_.texts->source(look.name)) return std::string(s->line_text(span.line));
+  }
+  return {};
+}
+
+void ProgramWriter::refuse(std::string_view code, WordPos pos, std::string what, std::string hint) {
+  const bool first = !refused();
+  if (first) {
+    refusal_code_ = code;
+    refusal_moves_ = true;
+  }
+  if (options_.unsupported == Unsupported::error) {
+    diagnostics_.error(code, span_of(pos), std::move(what), std::move(hint));
+  } else {
+    diagnostics_.warning(code, span_of(pos), std::move(what) + "; the line is left out", std::move(hint));
+  }
+}
+
+/// The remark stands in place of the line: number and labels stay, so that jumps still find it.
+void ProgramWriter::emit_refusal() {
+  const std::string code = std::exchange(refusal_code_, std::string{});
+  line_.clear();
+  std::string source(trim(source_line(info_->span)));
+  if (source.empty() && current_ != nullptr) {
+    if (const auto* o = std::get_if<ir::Opaque>(&current_->node)) source = std::string(trim(o->text));
+  }
+  std::string text = line_head(true);
+  refusal_code_.clear();
+  CommentStyle remark = style_.comment;
+  remark.blank_after_open = false;
+  text += comment("!! " + code + ' ' + source, remark, false, nullptr);
+  emit(text, info_->span);
+  if (options_.unsupported == Unsupported::comment && refusal_moves_) {
+    first_of_source_line_ = false;
+    emit(line_head(true) + m_word(0), info_->span);
+  }
+}
+
+void ProgramWriter::remark_body(const ir::Body& statements) {
+  for (const ir::Statement& s : statements) {
+    if (s.line.joined) continue;
+    const std::string source(trim(source_line(s.line.span)));
+    CommentStyle remark = style_.comment;
+    remark.blank_after_open = false;
+    raw_line(comment("!! " + source, remark, false, nullptr), s.line.span);
+  }
+}
+
+void ProgramWriter::opaque(const ir::Opaque& o) {
+  if (same_dialect()) {
+    add(std::string(trim(o.text)), Rank::head);
+    return;
+  }
+  if (o.harmless) {
+    diagnostics_.note("TRN-205", current_->line.span,
+                      "'" + o.text + "' has no counterpart and no effect on the part; it is kept as a remark");
+    refusal_code_ = "TRN-205";
+    refusal_moves_ = false;
+    return;
+  }
+  refuse("TRN-205", {}, "'" + o.text + "' is not translated");
+}
+
+void ProgramWriter::label() {}
+
+namespace {
+constexpr std::string_view no_statement = "TRN-201";
+}
+
+void ProgramWriter::assign(const ir::Assign& /*a*/) {
+  refuse(no_statement, {}, "an assignment has no counterpart here");
+}
+void ProgramWriter::if_else(const ir::If& i) {
+  refuse(no_statement, {}, "IF has no counterpart here");
+  finish_line();
+  remark_body(i.then_body);
+  remark_body(i.else_body);
+}
+void ProgramWriter::while_loop(const ir::While& w) {
+  refuse(no_statement, {}, "a WHILE loop has no counterpart here");
+  finish_line();
+  remark_body(w.body);
+}
+void ProgramWriter::until_loop(const ir::Until& u) {
+  refuse(no_statement, {}, "an UNTIL loop has no counterpart here");
+  finish_line();
+  remark_body(u.body);
+}
+void ProgramWriter::for_loop(const ir::For& f) {
+  refuse(no_statement, {}, "a FOR loop has no counterpart here");
+  finish_line();
+  remark_body(f.body);
+}
+void ProgramWriter::endless_loop(const ir::Loop& l) {
+  refuse(no_statement, {}, "an endless loop has no counterpart here");
+  finish_line();
+  remark_body(l.body);
+}
+void ProgramWriter::exit_loop() {
+  refuse(no_statement, {}, "leaving a loop has no counterpart here");
+}
+void ProgramWriter::jump(const ir::Jump& /*j*/) {
+  refuse(no_statement, {}, "a jump has no counterpart here");
+}
+void ProgramWriter::switch_jump(const ir::Switch& /*s*/) {
+  refuse(no_statement, {}, "a choice of jumps by a value has no counterpart here");
+}
+void ProgramWriter::repeat(const ir::Repeat& /*r*/) {
+  refuse(no_statement, {}, "the repetition of a range of blocks has no counterpart here");
+}
+void ProgramWriter::call(const ir::CallRoutine& /*c*/) {
+  refuse(no_statement, {}, "this call has no counterpart here");
+}
+void ProgramWriter::modal_call(const ir::ModalCall& /*c*/) {
+  refuse(no_statement, {}, "a modal call has no counterpart here");
+}
+void ProgramWriter::return_from(const ir::Return& /*r*/) {
+  refuse(no_statement, {}, "this return has no counterpart here");
+}
+void ProgramWriter::end_program(const ir::End& /*e*/) {
+  refuse(no_statement, {}, "this end has no counterpart here");
+}
+void ProgramWriter::message(const ir::Message& /*m*/) {
+  refuse(no_statement, {}, "this message has no counterpart here");
+}
+void ProgramWriter::declare(const ir::Declare& /*d*/) {
+  refuse(no_statement, {}, "a definition of variables has no counterpart here");
+}
+
+}  // namespace cnctrans::backends

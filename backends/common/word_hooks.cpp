@@ -1,0 +1,155 @@
+// Default words of actions and motions: what ISO-like languages have in common; the rest is refused.
+#include "backends/common/program_writer.h"
+
+namespace cnctrans::backends {
+namespace {
+
+constexpr std::string_view no_word = "TRN-202";
+
+}  // namespace
+
+void ProgramWriter::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  const std::string_view code = modal_code(style_, m.setting, m.value);
+  if (code.empty()) {
+    return refuse(no_word, a.pos,
+                  "the setting '" + std::string(ir::name(m.setting)) + ' ' +
+                      std::string(ir::setting_value_name(m.setting, m.value)) + "' has no counterpart here");
+  }
+  add(std::string(code), Rank::setting, a.pos);
+}
+
+void ProgramWriter::set_feed(const ir::Action& a, const ir::SetFeed& f) {
+  if (f.zero_is_maximum && f.value.is(0)) {
+    return refuse(no_word, a.pos, "F0 means the greatest feed of the source machine, which is not known here",
+                  "write the feed as a number");
+  }
+  add(word("F", f.value, a.pos), Rank::feed, a.pos);
+}
+
+void ProgramWriter::set_spindle(const ir::Action& a, const ir::SetSpindle& s) {
+  if (s.number != 1) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
+  add(word("S", s.value, a.pos), Rank::spindle, a.pos);
+}
+
+void ProgramWriter::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
+  if (!t.name.empty()) return refuse(no_word, a.pos, "a tool called by its name has no counterpart here");
+  add(word("T", t.number, a.pos), Rank::tool, a.pos);
+}
+
+void ProgramWriter::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
+  add(word("D", t.number, a.pos), Rank::offset, a.pos);
+}
+
+void ProgramWriter::exact_stop(const ir::Action& a) {
+  if (style_.exact_stop_block.empty()) return refuse(no_word, a.pos, "exact stop in one block has no counterpart here");
+  add(std::string(style_.exact_stop_block), Rank::setting, a.pos);
+}
+
+void ProgramWriter::preparation_stop(const ir::Action& a) {
+  if (style_.preparation_stop.empty()) {
+    diagnostics_.note("TRN-211", span_of(a.pos),
+                      "the stop of the block preparation has no counterpart and is left out");
+    return;
+  }
+  add(std::string(style_.preparation_stop), Rank::setting, a.pos);
+}
+
+void ProgramWriter::spindle_orient(const ir::Action& a, const ir::SpindleOrient& /*s*/) {
+  refuse(no_word, a.pos, "orienting the spindle has no counterpart here");
+}
+void ProgramWriter::spindle_limit(const ir::Action& a, const ir::SpindleLimit& /*s*/) {
+  refuse(no_word, a.pos, "a spindle speed limit has no counterpart here");
+}
+void ProgramWriter::work_offset(const ir::Action& a, const ir::WorkOffset& /*w*/) {
+  refuse(no_word, a.pos, "this work offset has no counterpart here");
+}
+void ProgramWriter::frame_op(const ir::Action& a, const ir::FrameOp& /*f*/) {
+  refuse(no_word, a.pos, "this shift, rotation, scale or mirror has no counterpart here");
+}
+void ProgramWriter::pole_set(const ir::Action& a, const ir::PoleSet& /*p*/) {
+  refuse(no_word, a.pos, "a polar origin has no counterpart here");
+}
+void ProgramWriter::dwell(const ir::Action& a, const ir::Dwell& /*d*/) {
+  refuse(no_word, a.pos, "this dwell has no counterpart here");
+}
+void ProgramWriter::cycle_define(const ir::Action& a, const ir::CycleDefine& /*c*/) {
+  refuse("TRN-214", a.pos, "this cycle has no counterpart here");
+}
+void ProgramWriter::cycle_cancel(const ir::Action& a) {
+  refuse("TRN-214", a.pos, "ending a cycle has no counterpart here");
+}
+void ProgramWriter::corner(const ir::Action& a, const ir::Corner& /*c*/) {
+  refuse(no_word, a.pos, "a rounded or chamfered corner has no counterpart here");
+}
+void ProgramWriter::tangential_end(const ir::Action& a, const ir::TangentialEnd& /*t*/) {
+  refuse(no_word, a.pos, "a tangential entry or exit has no counterpart here");
+}
+void ProgramWriter::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {
+  if (same_dialect_) return add(std::string(w.word), Rank::motion_extra, a.pos);
+  refuse("TRN-205", a.pos, "the word '" + std::string(w.word) + "' is not translated");
+}
+
+// ---- motion --------------------------------------------------------------------------------------------------------
+
+void ProgramWriter::motion(const ir::Motion& m) {
+  frame_use(m);
+  if (m.kind != ir::MotionKind::modal) {
+    const bool known_already = !m.explicit_code && tracker_.text() == m.kind;
+    const std::string_view own = same_dialect_ ? m.code_text : std::string_view{};
+    const std::string_view code = own.empty() ? motion_code(style_, m.kind) : own;
+    if (code.empty()) {
+      return refuse(no_word, m.code_pos, "a motion '" + std::string(ir::name(m.kind)) + "' has no counterpart here");
+    }
+    if (!known_already) add(std::string(code), Rank::motion_code, m.code_pos);
+    tracker_.wrote(m.kind, m.keeps_modal);
+  } else if (m.moves()) {
+    auto kind = tracker_.needed(std::nullopt);
+    if (kind == ir::MotionKind::modal) {
+      if (const ir::Facts* f = facts()) kind = tracker_.needed(f->motion);
+    }
+    if (kind == ir::MotionKind::modal) {
+      return refuse("TRN-211", {}, "the motion code in force here is not known, and the target needs one",
+                    "write G0, G1, G2 or G3 in this block");
+    }
+    if (kind) add(std::string(motion_code(style_, *kind)), Rank::motion_code);
+  }
+  for (const ir::CoordWord& w : m.coords) coordinate(m, w);
+  for (const ir::CenterWord& w : m.centers) center(m, w);
+  if (m.radius_given) radius(m);
+  if (m.extra) motion_extra(m, *m.extra);
+}
+
+void ProgramWriter::frame_use(const ir::Motion& m) {
+  if (m.frame == ir::FrameUse::normal) return;
+  refuse(no_word, m.frame_pos, "a move in machine coordinates has no counterpart here");
+}
+
+void ProgramWriter::coordinate(const ir::Motion& /*m*/, const ir::CoordWord& w) {
+  if (w.mode != ir::WordMode::modal || w.scale != ir::WordScale::modal) {
+    return refuse(no_word, w.pos,
+                  "a coordinate that is absolute, incremental, radius or diameter by itself has no counterpart here");
+  }
+  if (w.direction != ir::RotaryDirection::as_value) {
+    return refuse(no_word, w.pos, "the direction of this rotary move has no counterpart here");
+  }
+  add(word(axis_name(w.axis), w.value, w.pos), Rank::coordinate, w.pos);
+}
+
+void ProgramWriter::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
+  if (w.mode != ir::CenterMode::from_start || w.scale == ir::WordScale::diameter) {
+    return refuse(no_word, w.pos, "this form of an arc's centre has no counterpart here");
+  }
+  constexpr std::string_view letters = "IJK";
+  if (w.axis > ir::axis::z) return refuse(no_word, w.pos, "the centre of an arc on this axis has no counterpart here");
+  add(word(letters.substr(w.axis, 1), w.value, w.pos), Rank::center, w.pos);
+}
+
+void ProgramWriter::radius(const ir::Motion& m) {
+  add(word(style_.radius_address, m.radius, m.radius_pos), Rank::radius, m.radius_pos);
+}
+
+void ProgramWriter::motion_extra(const ir::Motion& m, const ir::MotionExtra& /*e*/) {
+  refuse(no_word, m.code_pos, "this form of a motion has no counterpart here");
+}
+
+}  // namespace cnctrans::backends
