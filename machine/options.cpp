@@ -44,6 +44,8 @@ constexpr std::array specs{
     OptionSpec{"num.structured", "no|yes", "no", "structured statements may be written"},
     OptionSpec{"num.default_gear", "text", "M41", "gear word written when the source has none"},
     OptionSpec{"sinumerik.tool_change", "immediate|m6", "m6", "T changes at once, or selects for M6 (MD22550)"},
+    OptionSpec{"sinumerik.undefined_names", "error|global", "error",
+               "a name that nothing defines: refused, or a global user variable (GUD) that starts at 0"},
     OptionSpec{"sinumerik.r_count", "number", "100", "number of R parameters"},
     OptionSpec{"sinumerik.pud_visible", "no|yes", "no",
                "variables of the main program are seen in subprograms (MD11120)"},
