@@ -34,6 +34,7 @@ struct ReadStats {
 enum class StreamLine : std::uint8_t {
   statement,      ///< `out` is the statement (Block; also empty lines and comments)
   program_end,    ///< `out` is the last block; an End follows it: the program is complete, trailing lines may follow
+  no_statement,   ///< the line is no statement (header): what it says is in frame()
   needs_program,  ///< the construct needs the whole program: give up streaming
 };
 
