@@ -183,7 +183,8 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
 
   ir::Program work = source_program;
   const ir::LegaliseContext context{
-      to->backend->capabilities(), *source_profile, *target_profile, {options.cycles}, result.diagnostics};
+      to->backend->capabilities_for(*target_profile), *source_profile, *target_profile, {options.cycles},
+      result.diagnostics};
   ir::legalise(work, context);
   backends::WriteOptions write;
   write.profile = &*target_profile;

@@ -64,7 +64,8 @@ class StreamTranslation {
         options_(options),
         result_(result),
         sink_(sink),
-        tracker_(source.power_on) {}
+        tracker_(source.power_on),
+        legal_(to.backend->capabilities_for(target)) {}
 
   void run(const std::string& path, const Progress& progress) {
     Windows windows;
@@ -142,7 +143,7 @@ class StreamTranslation {
     ir::Program program = frame();
     program.routines.front().body = std::move(prefix_);
     ir::number_statements(program);
-    const ir::LegaliseContext context{to_.backend->capabilities(), source_, target_, {options_.cycles}, diagnostics_};
+    const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, diagnostics_};
     ir::run_pass("safe_start", program, context);
     writer_->begin(program, out_);
     for (auto& s : program.routines.front().body) {
@@ -167,7 +168,7 @@ class StreamTranslation {
 
   bool put(const ir::Statement& s) {
     const auto* block = std::get_if<ir::Block>(&s.node);
-    if (block != nullptr && !ir::plain_legal(*block, to_.backend->capabilities())) return put_legalised(s);
+    if (block != nullptr && !ir::plain_legal(*block, legal_)) return put_legalised(s);
     if (block != nullptr) tracker_.follow(*block);
     if (!writer_->write(s, out_, diagnostics_) || diagnostics_.has_errors()) {
       give_up();
@@ -183,7 +184,7 @@ class StreamTranslation {
     ir::number_statements(program);
     machine::Profile source = source_;
     source.power_on = tracker_.state();
-    const ir::LegaliseContext context{to_.backend->capabilities(), source, target_, {options_.cycles}, diagnostics_};
+    const ir::LegaliseContext context{legal_, source, target_, {options_.cycles}, diagnostics_};
     for (const std::string_view pass : ir::block_local_passes()) {
       if (!ir::run_pass(pass, program, context)) {
         give_up();
@@ -192,7 +193,7 @@ class StreamTranslation {
     }
     for (const auto& piece : program.routines.front().body) {
       const auto* block = std::get_if<ir::Block>(&piece.node);
-      if (block == nullptr || !ir::plain_legal(*block, to_.backend->capabilities()) || diagnostics_.has_errors() ||
+      if (block == nullptr || !ir::plain_legal(*block, legal_) || diagnostics_.has_errors() ||
           diagnostics_.warning_count() != 0 || !writer_->write(piece, out_, diagnostics_)) {
         give_up();
         return false;
@@ -225,6 +226,7 @@ class StreamTranslation {
   std::unique_ptr<frontends::StreamReader> reader_;
   std::unique_ptr<backends::StreamWriter> writer_;
   ModalTracker tracker_;
+  const ir::Capabilities& legal_;
   Diagnostics& diagnostics_ = result_.diagnostics;
   ir::Statement statement_;
   ir::Body prefix_;

@@ -54,6 +54,10 @@ class Backend {
   virtual ~Backend() = default;
   [[nodiscard]] virtual std::string_view dialect() const = 0;
   [[nodiscard]] virtual const ir::Capabilities& capabilities() const = 0;
+  /// What the language can say on this machine, where lathe and mill differ. Default: capabilities().
+  [[nodiscard]] virtual const ir::Capabilities& capabilities_for(const machine::Profile& /*target*/) const {
+    return capabilities();
+  }
   /// Writes a legal program (one that passed legalisation for `capabilities()`).
   virtual std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                         Diagnostics& diagnostics) const = 0;
