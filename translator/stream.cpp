@@ -121,6 +121,7 @@ class StreamTranslation {
       give_up();
       return false;
     }
+    if (kind == frontends::StreamLine::no_statement) return true;
     if (!prefix_done_) return take_prefix(kind);
     if (!put(statement_)) return false;
     return kind != frontends::StreamLine::program_end || put_end();
@@ -289,6 +290,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
       line.number = ++number;
       // Lines after the end are read as well: one that can't be read refuses the program before anything moves.
       const auto kind = reader->read(line, statement, run.diagnostics);
+      if (kind == frontends::StreamLine::no_statement) continue;
       if (kind == frontends::StreamLine::needs_program || (going && run.diagnostics.has_errors())) return run;
       if (!going) continue;
       last = statement.line.span;
