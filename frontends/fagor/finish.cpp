@@ -1,0 +1,116 @@
+// What a file's blocks owe to each other: done when all of it is known.
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "frontends/fagor/program_reader.h"
+
+namespace cnctrans::fagor {
+
+namespace {
+
+std::shared_ptr<const ir::FrameChange> cleared(ir::FrameSlot slot) {
+  ir::FrameChange f;
+  f.slot = slot;
+  f.combine = ir::FrameCombine::clear;
+  return std::make_shared<const ir::FrameChange>(std::move(f));
+}
+
+/// Selecting a plane puts the pole on its origin (§3.6.2).
+ir::Action pole_at_origin(ir::Plane plane) {
+  const ir::PlaneAxes axes = ir::plane_axes(plane);
+  ir::FrameChange at;
+  at.words.push_back({axes.u, ir::Value(0), ir::WordScale::modal, {}});
+  at.words.push_back({axes.v, ir::Value(0), ir::WordScale::modal, {}});
+  ir::Action a;
+  a.data = ir::PoleSet{std::make_shared<const ir::FrameChange>(std::move(at))};
+  return a;
+}
+
+/// Adds to every block what its functions do besides their own: see finish_program.
+void complete_block(ir::Block& b, const FileFacts& facts, bool clear_preset) {
+  for (std::size_t i = 0; i < b.actions.size(); ++i) {
+    std::vector<ir::Action> more;
+    if (const auto* set = std::get_if<ir::ModalSet>(&b.actions[i].data); set && set->setting == ir::Setting::plane && facts.polar) {
+      more.push_back(pole_at_origin(static_cast<ir::Plane>(set->value)));
+    } else if (std::holds_alternative<ir::WorkOffset>(b.actions[i].data)) {
+      ir::Action a;
+      if (clear_preset) {
+        a.data = ir::FrameOp{cleared(ir::FrameSlot::preset)};
+        more.push_back(a);
+      }
+      if (facts.table_shift) {
+        a.data = ir::FrameOp{cleared(ir::FrameSlot::shift)};
+        more.push_back(a);
+      }
+    }
+    b.actions.insert(b.actions.begin() + static_cast<std::ptrdiff_t>(i) + 1, more.begin(), more.end());
+    i += more.size();
+  }
+}
+
+/// A use of the plane is sure when no label that something jumps to stands between the plane function and the use.
+bool sure(const PlaneUse& use, const FileFacts& facts) {
+  if (use.from_caller) return false;
+  for (std::size_t i = use.first_label; i < use.last_label; ++i) {
+    if (facts.computed_jumps) return false;
+    if (std::find(facts.jump_targets.begin(), facts.jump_targets.end(), facts.labels[i]) != facts.jump_targets.end()) return false;
+  }
+  return true;
+}
+
+void judge_planes(LowerState& state) {
+  const FileFacts& facts = state.facts;
+  const auto usual = static_cast<std::size_t>(state.profile().power_on.plane);
+  bool others = false;
+  for (std::size_t p = 0; p < facts.planes.size(); ++p) others = others || (facts.planes[p] && p != usual);
+  for (const auto& use : facts.plane_uses) {
+    if (sure(use, facts)) continue;
+    state.set_line(use.span);
+    if (others) {
+      state.error("FAG-026", {}, "this block depends on the plane, and the program reaches it with more than one plane in its text", "write the plane function (G17, G18, G19) before the block");
+    } else if (use.from_caller) {
+      state.warning("FAG-026", {}, "this block depends on the plane that the calling program has set; the usual plane is assumed", "write the plane function (G17, G18, G19) in the subroutine");
+    }
+  }
+}
+
+bool calls_outside(const ir::Program& program) {
+  bool outside = false;
+  const auto look = [&](const ir::CallRoutine& call) { outside = outside || call.computed || !program.find(call.routine); };
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) look(*c);
+      if (const auto* m = std::get_if<ir::ModalCall>(&s.node); m && !m->off) look(m->call);
+    });
+  }
+  return outside;
+}
+
+}  // namespace
+
+void finish_program(ir::Program& program, LowerState& state) {
+  const FileFacts& facts = state.facts;
+  judge_planes(state);
+  // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
+  const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
+  if (clear_preset || facts.polar || facts.table_shift) {
+    for (auto& r : program.routines) {
+      ir::for_each_statement(r.body, [&](ir::Statement& s) {
+        if (auto* b = std::get_if<ir::Block>(&s.node)) complete_block(*b, facts, clear_preset);
+      });
+    }
+  }
+  if (facts.table_shift && facts.shift) {
+    state.set_line(facts.first_table_shift);
+    state.error("FAG-027", {}, "G58 or G59 and G158 in one program: what the next G54 cancels depends on which came last", "use only one of the two");
+  }
+  const bool inch_machine = state.profile().power_on.units == ir::Units::inch;
+  if (facts.first_machine_move.known() && facts.units[inch_machine ? 0 : 1]) {
+    state.set_line(facts.first_machine_move);
+    state.warning("FAG-030", {}, "coordinates with G53 are in the unit of the machine, not in the unit of the program; they are read in the program's unit",
+                  "check the machine positions");
+  }
+}
+
+}  // namespace cnctrans::fagor

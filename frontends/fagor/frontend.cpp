@@ -1,0 +1,86 @@
+#include "frontends/fagor/frontend.h"
+
+#include "base/text.h"
+#include "frontends/fagor/program_reader.h"
+
+namespace cnctrans::frontends::fagor {
+
+namespace {
+
+using cnctrans::fagor::BlockLowerer;
+using cnctrans::fagor::BlockResult;
+using cnctrans::fagor::LineReader;
+using cnctrans::fagor::LowerState;
+using cnctrans::fagor::ParseError;
+
+/// Word blocks, comments, header and program end; anything else needs the whole program.
+class FagorStream : public StreamReader {
+ public:
+  FagorStream(FileId file, const ReadOptions& options, std::string_view file_name)
+      : file_(file), state_(*options.profile, quiet_), reader_(options.reader) {
+    frame_.dialect = "fagor";
+    frame_.spaces = cnctrans::fagor::make_spaces();
+    frame_.lathe = state_.lathe();
+    frame_.unit_hint = options.profile->power_on.units;
+    ir::Routine& main = frame_.routines.emplace_back();
+    main.kind = ir::RoutineKind::main;
+    main.file = file;
+    main.name.text = to_upper_ascii(SourceText::from_string(std::string(file_name), {})->stem());
+  }
+
+  StreamLine read(const SourceLine& line, ir::Statement& out, Diagnostics& diagnostics) override {
+    state_.set_diagnostics(diagnostics);
+    state_.set_line(cnctrans::fagor::line_span(file_, line));
+    if (cnctrans::fagor::without_control(line.text).size() != line.text.size()) return StreamLine::needs_program;
+    if (!line.text.empty() && line.text.front() == '%') return header(line, out);
+    ParseError error;
+    if (!reader_.read(line.text, block_, error, state_) || !block_.statements.empty()) return StreamLine::needs_program;
+    first_ = first_ && block_.words.empty() && block_.number.empty();
+    cnctrans::fagor::fill_line(block_, state_.line(), out.line);
+    if (!std::holds_alternative<ir::Block>(out.node)) out.node = ir::Block{};
+    BlockResult result;
+    lowerer_.lower(block_, std::get<ir::Block>(out.node), result);
+    if (result.needs_program || result.call || !result.opaque.empty()) return StreamLine::needs_program;
+    return result.end ? StreamLine::program_end : StreamLine::statement;
+  }
+
+  [[nodiscard]] const ir::Program& frame() const override { return frame_; }
+
+ private:
+  StreamLine header(const SourceLine& line, ir::Statement& out) {
+    ir::Routine& main = frame_.routines[0];
+    if (!first_ || main.header.span.known() || line.text.size() == 1) return StreamLine::needs_program;
+    if (!cnctrans::fagor::read_header(trim(line.text), main.title, main.attributes)) return StreamLine::needs_program;
+    main.header.span = state_.line();
+    out.line.clear();
+    out.line.span = state_.line();
+    out.node = ir::Block{};
+    return StreamLine::no_statement;
+  }
+
+  FileId file_;
+  Diagnostics quiet_;
+  LowerState state_;
+  LineReader reader_;
+  BlockLowerer lowerer_{state_};
+  syntax::Block block_;
+  ir::Program frame_;
+  bool first_ = true;
+};
+
+class FagorFrontend : public Frontend {
+ public:
+  [[nodiscard]] std::string_view dialect() const override { return "fagor"; }
+  ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics, ReadStats* stats) const override {
+    return cnctrans::fagor::ProgramReader(options, file, diagnostics).read(source, stats);
+  }
+  std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options, std::string_view file_name) const override {
+    return std::make_unique<FagorStream>(file, options, file_name);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Frontend> make_frontend() { return std::make_unique<FagorFrontend>(); }
+
+}  // namespace cnctrans::frontends::fagor

@@ -1,0 +1,116 @@
+// ISO blocks: words to actions and at most one motion. The hot path of a CAM file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "frontends/common/syntax.h"
+#include "frontends/fagor/lower_state.h"
+#include "ir/block.h"
+
+namespace cnctrans::fagor {
+
+/// What a block is besides its ir::Block.
+struct BlockResult {
+  const syntax::Word* end = nullptr;      ///< M30 or M02: the program ends after the block
+  const syntax::Word* call = nullptr;     ///< G180...: the block is a call of the subroutine of that number
+  std::string_view opaque;                ///< not empty: the block is kept as text; key of the missing feature
+  bool harmless = false;                  ///< with `opaque`: no effect on the path
+  bool needs_program = false;             ///< depends on the rest of the file: no streaming
+};
+
+class BlockLowerer {
+ public:
+  explicit BlockLowerer(LowerState& state) : state_(state) {}
+  /// `out` is cleared and filled; after an error it is worthless and `result.opaque` says so.
+  void lower(const syntax::Block& in, ir::Block& out, BlockResult& result);
+
+ private:
+  using GCode = dialects::fagor::GCode;
+  using Word = syntax::Word;
+  struct GWord {
+    const GCode* row;
+    const Word* word;
+  };
+  static constexpr std::size_t max_g = 16, max_m = 16;
+
+  // collecting
+  void gather(const syntax::Block& in);
+  void gather_g(const Word& w);
+  void gather_m(const Word& w);
+  void check_groups();
+  [[nodiscard]] const Word* letter(char c) const { return (seen_ & bit(c)) != 0 ? letters_[index(c)] : nullptr; }
+  const Word* take(char c);
+  static constexpr std::size_t index(char c) { return static_cast<std::size_t>(c - 'A'); }
+  static constexpr std::uint32_t bit(char c) { return 1U << index(c); }
+  ir::Value value(const Word& w);
+  ir::Value value_of(char c);
+  template <class Data>
+  ir::Action& act(Data data, const Word* word, ir::Order order = ir::Order::before);
+
+  // G functions
+  void apply(const GWord& g);
+  void apply_offset(const GWord& g);
+  void apply_frame(const GWord& g);
+  void apply_special(const GWord& g);
+  void setting(const GWord& g, ir::Order order);
+  void compensation(const GWord& g);
+  void plane(const GWord& g, ir::Plane p);
+  void plane_axes(const GWord& g);
+  void dwell(const GWord& g);
+  void corner(const GWord& g);
+  void pole(const GWord& g);
+  void rotation(const GWord& g);
+  void look_ahead(const GWord& g);
+  void hole_cycle(const GWord& g);
+  void home(const GWord& g);
+  void give_up(const GWord& g);
+  std::shared_ptr<const ir::FrameChange> frame_of(ir::FrameSlot slot, ir::FrameKind kind, ir::FrameCombine combine);
+  void take_coordinates_into(ir::FrameChange& change);
+  void own_words_noted(const GWord& g);
+  const Word* corner_radius(const Word& code);
+
+  // the rest of the block
+  void motion();
+  void coordinates(ir::Motion& m);
+  void centers(ir::Motion& m);
+  void radius_and_polar(ir::Motion& m);
+  void thread(ir::Motion& m);
+  void technology();
+  void machine_functions();
+  void machine_function(const Word& w);
+  void repeat();
+  void leftovers();
+  ir::MotionExtra& extra();
+
+  LowerState& state_;
+  const syntax::Block* in_ = nullptr;
+  ir::Block* out_ = nullptr;
+  BlockResult* result_ = nullptr;
+
+  std::array<GWord, max_g> g_{};
+  std::size_t g_count_ = 0;
+  std::array<const Word*, max_m> m_{};
+  std::size_t m_count_ = 0;
+  std::array<const Word*, 9> coords_{};
+  std::size_t coord_count_ = 0;
+  std::array<const Word*, 26> letters_{};
+  std::array<const Word*, 2> radii_{};
+  std::size_t radius_count_ = 0, radii_taken_ = 0;
+  std::uint32_t seen_ = 0, unused_ = 0;
+  bool coords_taken_ = false;
+
+  const GWord* motion_code_ = nullptr;
+  const Word* absolute_centre_ = nullptr;
+  const Word* tangent_arc_ = nullptr;
+  const Word* three_points_ = nullptr;
+  const Word* machine_coords_ = nullptr;
+  const Word* home_ = nullptr;
+  bool cycle_ = false;
+  bool stop_dwell_ = false;
+  bool has_extra_ = false;
+  ir::MotionExtra extra_;
+};
+
+}  // namespace cnctrans::fagor

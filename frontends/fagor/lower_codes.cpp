@@ -1,0 +1,463 @@
+// What each G function makes of its block. The rows are in dialects/fagor/g_codes.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "frontends/fagor/lower_block.h"
+#include "frontends/fagor/lower_expr.h"
+
+namespace cnctrans::fagor {
+
+namespace {
+
+using dialects::fagor::Use;
+using ir::Order;
+
+template <class Value>
+bool positive(const Value& v) {
+  return !v.literal() || v.number > 0;
+}
+ir::AxisId axis_of(const syntax::Word& w) { return ir::fixed_axis(word_letter(w)); }
+
+std::string the_function(const syntax::Word& w) { return "the function " + std::string(word_text(w)); }
+
+}  // namespace
+
+void BlockLowerer::apply(const GWord& g) {
+  switch (g.row->use) {
+    case Use::motion: motion_code_ = &g; return;
+    case Use::setting: setting(g, Order::before); return;
+    case Use::setting_after: setting(g, Order::after); return;
+    case Use::compensation: compensation(g); return;
+    case Use::plane: plane(g, static_cast<ir::Plane>(g.row->value)); return;
+    case Use::plane_axes: plane_axes(g); return;
+    case Use::dwell: dwell(g); return;
+    case Use::absolute_centre: absolute_centre_ = g.word; return;
+    case Use::tangent_arc: tangent_arc_ = g.word; return;
+    case Use::three_point_arc: three_points_ = g.word; return;
+    case Use::round:
+    case Use::chamfer:
+    case Use::tangent_entry:
+    case Use::tangent_exit: corner(g); return;
+    case Use::machine_coordinates:
+    case Use::work_offset:
+    case Use::numbered_offset:
+    case Use::table_shift:
+    case Use::shift:
+    case Use::preset: apply_offset(g); return;
+    case Use::mirror_off:
+    case Use::mirror_axis:
+    case Use::mirror_axes:
+    case Use::scale:
+    case Use::rotation:
+    case Use::pole: apply_frame(g); return;
+    default: apply_special(g); return;
+  }
+}
+
+void BlockLowerer::apply_special(const GWord& g) {
+  switch (g.row->use) {
+    case Use::soft_corner:
+      setting(g, Order::before);
+      state_.note("FAG-008", g.word->pos, "G50 (controlled corner rounding) is read as G05: the programmed path is the same");
+      return;
+    case Use::look_ahead: look_ahead(g); return;
+    case Use::home: home(g); return;
+    case Use::hole_cycle: hole_cycle(g); return;
+    case Use::cycle_cancel: act(ir::CycleCancel{}, g.word); result_->needs_program = true; return;
+    case Use::call: result_->call = g.word; return;
+    default: give_up(g); return;
+  }
+}
+
+/// Not translated, or without effect on the path: the whole block is kept as text.
+void BlockLowerer::give_up(const GWord& g) {
+  result_->opaque = g.row->feature;
+  if (g.row->use == Use::no_path) {
+    result_->harmless = true;
+    state_.note("FAG-008", g.word->pos, the_function(*g.word) + " (" + std::string(g.row->title) + ") has no effect on the path; the block is kept as text");
+    return;
+  }
+  state_.error("FAG-007", g.word->pos, the_function(*g.word) + " (" + std::string(g.row->title) + ") is not translated yet");
+}
+
+void BlockLowerer::setting(const GWord& g, Order order) {
+  ir::ModalSet set;
+  set.setting = g.row->setting;
+  set.value = g.row->value;
+  if (g.row->use == Use::soft_corner || g.row->use == Use::look_ahead) {
+    set.setting = ir::Setting::path_mode;
+    set.value = static_cast<std::uint8_t>(ir::PathMode::continuous);
+  }
+  if (set.setting == ir::Setting::feed_mode) set.feed_memory = ir::FeedMemory::per_mode;
+  if (set.setting == ir::Setting::units) {
+    state_.units_by_text = static_cast<ir::Units>(set.value);
+    state_.facts.units[set.value] = true;
+  }
+  act(set, g.word, order);
+}
+
+void BlockLowerer::compensation(const GWord& g) {
+  ir::ModalSet set;
+  set.setting = ir::Setting::comp;
+  set.value = g.row->value;
+  state_.comp_by_text = static_cast<ir::CompSide>(set.value);
+  act(set, g.word);
+  if (const Word* n = take('N')) {
+    act(ir::OpaqueWord{word_text(*n)}, n);
+    state_.note("FAG-008", n->pos, "the collision detection " + std::string(word_text(*n)) + " is kept as text: it does not change the programmed path");
+  }
+}
+
+void BlockLowerer::plane(const GWord& g, ir::Plane p) {
+  state_.plane_code(p);
+  ir::ModalSet set;
+  set.setting = ir::Setting::plane;
+  set.value = static_cast<std::uint8_t>(p);
+  act(set, g.word);
+}
+
+/// G16 with two axes: the three main planes only; a third letter names the longitudinal axis.
+void BlockLowerer::plane_axes(const GWord& g) {
+  coords_taken_ = true;
+  const auto pair = [this](ir::AxisId a, ir::AxisId b) { return axis_of(*coords_[0]) == a && axis_of(*coords_[1]) == b; };
+  if (coord_count_ < 2) {
+    state_.error("FAG-014", g.word->pos, "G16 needs the two axes of the plane");
+  } else if (pair(ir::axis::x, ir::axis::y)) {
+    plane(g, ir::Plane::xy);
+  } else if (pair(ir::axis::z, ir::axis::x)) {
+    plane(g, ir::Plane::zx);
+  } else if (pair(ir::axis::y, ir::axis::z)) {
+    plane(g, ir::Plane::yz);
+  } else {
+    state_.error("FAG-007", g.word->pos, "a plane of other axes than XY, ZX or YZ is not translated yet");
+    result_->opaque = "motion.transformation";
+  }
+  out_->actions.empty() ? void() : void(out_->actions.back().text = {});  // the axes belong to the code: not written as one word
+}
+
+void BlockLowerer::dwell(const GWord& g) {
+  const Word* k = take('K');
+  if (k && (k->expr >= 0 || k->number != 0)) {
+    if (k->expr < 0 && (k->number < 0 || k->number > 99999)) state_.error("FAG-013", k->pos, "a dwell is 1 to 99999 hundredths of a second");
+    ir::Dwell d;
+    d.value = value(*k);
+    d.scale = 0.01;
+    act(std::move(d), g.word);
+    return;
+  }
+  if (state_.comp_by_text != ir::CompSide::off) {
+    state_.warning("FAG-028", g.word->pos, "G04 without a time under radius compensation: the control drops the compensation at this point and takes it up again",
+                   "the translation keeps the stop; check the contour around it");
+  }
+  act(ir::PreparationStop{}, g.word);
+}
+
+/// The first R after the code belongs to it; another R is the arc's.
+const syntax::Word* BlockLowerer::corner_radius(const Word& code) {
+  const std::size_t count = std::min<std::size_t>(radius_count_, radii_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (radii_[i]->pos.column < code.pos.column) continue;
+    const Word* r = radii_[i];
+    if (i == 1) std::swap(radii_[0], radii_[1]);
+    radii_taken_ = 1;
+    return r;
+  }
+  return nullptr;
+}
+
+void BlockLowerer::corner(const GWord& g) {
+  const Word* r = radii_taken_ == 0 ? corner_radius(*g.word) : nullptr;
+  if (!r) {
+    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs a radius R after it");
+    return;
+  }
+  ir::Value v = value(*r);
+  if (!positive(v)) state_.error("FAG-013", r->pos, "the R of " + std::string(word_text(*g.word)) + " must be greater than zero");
+  result_->needs_program = true;
+  if (g.row->use == Use::tangent_entry || g.row->use == Use::tangent_exit) {
+    const auto end = g.row->use == Use::tangent_entry ? ir::TangentEnd::entry : ir::TangentEnd::exit;
+    act(ir::TangentialEnd{end, std::move(v)}, g.word, Order::with);
+    return;
+  }
+  ir::Corner c;
+  c.kind = g.row->use == Use::round ? ir::CornerKind::round : ir::CornerKind::chamfer_leg;
+  c.value = std::move(v);
+  act(std::move(c), g.word, Order::with);
+}
+
+// --- offsets --------------------------------------------------------------------------------------------------------
+
+std::shared_ptr<const ir::FrameChange> BlockLowerer::frame_of(ir::FrameSlot slot, ir::FrameKind kind, ir::FrameCombine combine) {
+  ir::FrameChange f;
+  f.slot = slot;
+  f.kind = kind;
+  f.combine = combine;
+  return std::make_shared<const ir::FrameChange>(std::move(f));
+}
+
+void BlockLowerer::take_coordinates_into(ir::FrameChange& change) {
+  coords_taken_ = true;
+  for (std::size_t i = 0; i < coord_count_; ++i) {
+    const Word& w = *coords_[i];
+    if (!state_.has_axis(axis_of(w))) state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w));
+    ir::FrameWord f;
+    f.axis = axis_of(w);
+    f.value = value(w);
+    f.pos = w.pos;
+    change.words.push_back(std::move(f));
+  }
+}
+
+void BlockLowerer::apply_offset(const GWord& g) {
+  ir::FrameChange change;
+  change.kind = ir::FrameKind::translate;
+  switch (g.row->use) {
+    case Use::machine_coordinates:
+      if (coord_count_ == 0) {
+        ir::WorkOffset none;
+        none.off = true;
+        act(std::move(none), g.word);
+        return;
+      }
+      machine_coords_ = g.word;
+      if (!state_.facts.first_machine_move.known()) state_.facts.first_machine_move = word_span(state_.line(), g.word->pos);
+      return;
+    case Use::work_offset: act(ir::WorkOffset{ir::Value(g.row->value), false}, g.word); return;
+    case Use::numbered_offset: {
+      const Word* n = take('N');
+      if (!n || !n->has_value) {
+        state_.error("FAG-014", g.word->pos, "G159 needs the number of the offset N");
+        return;
+      }
+      if (n->expr < 0 && (n->number < 1 || n->number > 20 || n->number != std::floor(n->number))) state_.error("FAG-013", n->pos, "zero offsets are N1 to N20");
+      act(ir::WorkOffset{value(*n), false}, g.word);
+      out_->actions.back().text = {};
+      return;
+    }
+    case Use::table_shift: {  // the table's row, axis by axis, on top of the offset in force
+      state_.facts.table_shift = true;
+      if (!state_.facts.first_table_shift.known()) state_.facts.first_table_shift = word_span(state_.line(), g.word->pos);
+      result_->needs_program = true;
+      change.slot = ir::FrameSlot::shift;
+      change.combine = ir::FrameCombine::replace;
+      for (const auto& axis : state_.profile().axes) {
+        ir::Expr datum;
+        ir::SystemRef ref;
+        ref.datum = ir::Datum::work_offset;
+        ref.axis = axis.id;
+        ref.text = "ORG" + axis.name;
+        ref.args.push_back(ir::number(g.row->value));
+        datum.node = std::move(ref);
+        ir::FrameWord f;
+        f.axis = axis.id;
+        f.scale = ir::WordScale::radius;
+        f.value = ir::Value(std::make_shared<const ir::Expr>(std::move(datum)));
+        change.words.push_back(std::move(f));
+      }
+      break;
+    }
+    case Use::shift:
+      state_.facts.shift = true;
+      result_->needs_program = true;
+      change.slot = ir::FrameSlot::shift;
+      change.combine = coord_count_ == 0 ? ir::FrameCombine::clear : ir::FrameCombine::replace_named;
+      take_coordinates_into(change);
+      break;
+    case Use::preset:
+      if (const Word* s = take('S')) act(ir::SpindleLimit{1, value(*s), false}, s);
+      if (coord_count_ == 0) {
+        if ((seen_ & bit('S')) == 0) state_.error("FAG-014", g.word->pos, "G92 needs coordinates or a speed limit S");
+        return;
+      }
+      state_.facts.preset = true;
+      result_->needs_program = true;
+      change.slot = ir::FrameSlot::preset;
+      change.combine = ir::FrameCombine::preset;
+      take_coordinates_into(change);
+      break;
+    default: return;
+  }
+  act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(change))}, g.word);
+}
+
+// --- mirror, scale, rotation, pole ----------------------------------------------------------------------------------
+
+void BlockLowerer::apply_frame(const GWord& g) {
+  result_->needs_program = true;
+  ir::FrameChange change;
+  switch (g.row->use) {
+    case Use::mirror_off: act(ir::FrameOp{frame_of(ir::FrameSlot::mirror, ir::FrameKind::mirror, ir::FrameCombine::clear)}, g.word); return;
+    case Use::mirror_axis:
+    case Use::mirror_axes: {
+      change.slot = ir::FrameSlot::mirror;
+      change.kind = ir::FrameKind::mirror;
+      change.combine = ir::FrameCombine::replace_named;
+      if (g.row->use == Use::mirror_axes) take_coordinates_into(change);
+      else change.words.push_back({g.row->value, ir::Value(1), ir::WordScale::modal, {}});
+      for (auto& w : change.words) w.value = ir::Value(1);
+      if (change.words.empty()) state_.error("FAG-014", g.word->pos, "G14 needs the axes to be mirrored");
+      break;
+    }
+    case Use::scale: {
+      const Word* s = take('S');
+      if (coord_count_ != 0) {
+        state_.error("FAG-007", g.word->pos, "a scale factor of single axes acts on the compensated path and on the feed; it is not translated yet");
+        result_->opaque = "motion.transformation";
+        return;
+      }
+      if (!s) {
+        state_.error("FAG-014", g.word->pos, "G72 needs a factor S");
+        return;
+      }
+      change.slot = ir::FrameSlot::scale;
+      change.kind = ir::FrameKind::scale;
+      change.uniform_scale = true;
+      change.words.push_back({ir::axis::x, value(*s), ir::WordScale::radius, s->pos});
+      break;
+    }
+    case Use::rotation: rotation(g); return;
+    case Use::pole: pole(g); return;
+    default: return;
+  }
+  act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(change))}, g.word);
+}
+
+/// Successive rotations add up; G73 alone ends them all.
+void BlockLowerer::rotation(const GWord& g) {
+  ir::FrameChange change;
+  change.slot = ir::FrameSlot::rotation;
+  change.kind = ir::FrameKind::rotate;
+  const Word* q = take('Q');
+  const Word* i = take('I');
+  const Word* j = take('J');
+  change.combine = q ? ir::FrameCombine::add : ir::FrameCombine::clear;
+  if (q) {
+    change.has_angle = true;
+    change.angle = value(*q);
+  }
+  if ((i == nullptr) != (j == nullptr) || (i && !q)) {
+    state_.error("FAG-014", g.word->pos, "G73 needs the angle Q, and both I and J or neither");
+    return;
+  }
+  if (i) {
+    const ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
+    change.words.push_back({p.u, value(*i), ir::WordScale::modal, i->pos});
+    change.words.push_back({p.v, value(*j), ir::WordScale::modal, j->pos});
+  }
+  act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(change))}, g.word);
+}
+
+/// I is the abscissa of the plane, J the ordinate; alone: the present point.
+void BlockLowerer::pole(const GWord& g) {
+  state_.facts.polar = true;
+  const Word* i = take('I');
+  const Word* j = take('J');
+  if ((i == nullptr) != (j == nullptr)) {
+    state_.error("FAG-014", g.word->pos, "G93 needs both I and J, or neither");
+    return;
+  }
+  ir::FrameChange at;
+  if (i) {
+    const ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
+    at.words.push_back({p.u, value(*i), ir::WordScale::modal, i->pos});
+    at.words.push_back({p.v, value(*j), ir::WordScale::modal, j->pos});
+  }
+  act(ir::PoleSet{std::make_shared<const ir::FrameChange>(std::move(at))}, g.word);
+}
+
+// --- others ---------------------------------------------------------------------------------------------------------
+
+void BlockLowerer::own_words_noted(const GWord& g) {
+  coords_taken_ = true;
+  for (const Word& w : in_->words) {
+    if (&w == g.word || word_letter(w) == 'M' || word_letter(w) == 'G') continue;
+    (void)take(word_letter(w));
+    act(ir::OpaqueWord{word_text(w)}, &w);
+  }
+}
+
+void BlockLowerer::look_ahead(const GWord& g) {
+  if (!letter('E')) state_.error("FAG-014", g.word->pos, "G51 needs the contour error E");
+  setting(g, Order::before);
+  own_words_noted(g);
+  state_.note("FAG-008", g.word->pos, "G51 (look-ahead machining) is read as G05: the programmed path is the same", "its values are kept as text");
+}
+
+void BlockLowerer::home(const GWord& g) {
+  result_->needs_program = true;
+  if (coord_count_ == 0) {
+    state_.error("FAG-007", g.word->pos, "G74 without axes runs a subroutine that only the machine knows; it is not translated yet");
+    result_->opaque = "block.word";
+    return;
+  }
+  home_ = g.word;
+  ir::ModalSet off;
+  off.setting = ir::Setting::comp;
+  off.value = static_cast<std::uint8_t>(ir::CompSide::off);
+  act(off, nullptr);
+  state_.comp_by_text = ir::CompSide::off;
+  if (state_.lathe()) return;
+  off.setting = ir::Setting::length_comp;
+  off.value = static_cast<std::uint8_t>(ir::OnOff::off);
+  act(off, nullptr);
+}
+
+/// G81 G82 G83 of the mill (25.2, 25.3): the word of the longitudinal axis is the reference plane, I the bottom (or one peck),
+/// K the dwell, J the number of pecks.
+void BlockLowerer::hole_cycle(const GWord& g) {
+  cycle_ = true;
+  result_->needs_program = true;
+  const ir::AxisId normal = ir::plane_axes(state_.plane_by_text()).w;
+  ir::HoleCycle c;
+  c.reference.given = true;
+  c.reference.base = ir::LevelBase::from_initial;
+  for (std::size_t i = 0; i < coord_count_; ++i) {
+    if (axis_of(*coords_[i]) != normal) continue;
+    c.reference.base = ir::LevelBase::distance_mode;
+    c.reference.otherwise = ir::LevelBase::from_initial;
+    c.reference.value = value(*coords_[i]);
+    std::copy(coords_.begin() + static_cast<std::ptrdiff_t>(i) + 1, coords_.begin() + static_cast<std::ptrdiff_t>(coord_count_),
+              coords_.begin() + static_cast<std::ptrdiff_t>(i));
+    --coord_count_;
+    break;
+  }
+  const Word* depth = take('I');
+  const Word* dwell = g.row->value == 83 ? nullptr : take('K');
+  const Word* count = g.row->value == 83 ? take('J') : nullptr;
+  if (!depth || !depth->has_value) {
+    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the depth I");
+    return;
+  }
+  c.bottom.given = true;
+  c.bottom.value = value(*depth);
+  if (g.row->value == 82 && !dwell) state_.error("FAG-014", g.word->pos, "G82 needs the dwell K");
+  if (dwell) {
+    c.dwell_bottom = value(*dwell);
+    c.dwell_scale = 0.01;
+  }
+  if (g.row->value != 83) {
+    c.bottom.base = ir::LevelBase::distance_mode;
+    c.bottom.otherwise = ir::LevelBase::from_reference;
+  } else if (!count || (count->expr < 0 && (count->number < 1 || count->number != std::floor(count->number)))) {
+    state_.error("FAG-014", g.word->pos, "G83 needs the number of pecks J, a whole number from 1");
+    return;
+  } else {  // bottom = reference + J * I; the tool feeds again from 1 mm above the last depth
+    const ir::Value peck = c.bottom.value, pecks = value(*count);
+    c.kind = ir::HoleKind::peck_full;
+    c.bottom.base = ir::LevelBase::from_reference;
+    c.bottom.value = peck.literal() && pecks.literal() ? ir::Value(peck.number * pecks.number)
+                                                       : ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(peck), ir::as_expr(pecks)));
+    c.pecks.law = ir::PeckLaw::count;
+    c.pecks.first = peck.literal() ? ir::Value(std::fabs(peck.number)) : ir::Value(ir::call(ir::Function::abs, {peck.expr}));
+    c.pecks.count = pecks;
+    c.pecks.reapproach = ir::Value(state_.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
+  }
+  ir::CycleDefine define;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
+  act(std::move(define), g.word, Order::after);
+}
+
+}  // namespace cnctrans::fagor

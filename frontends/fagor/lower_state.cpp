@@ -1,0 +1,77 @@
+#include "frontends/fagor/lower_state.h"
+
+#include "dialects/fagor/limits.h"
+
+namespace cnctrans::fagor {
+
+std::vector<ir::VariableSpace> make_spaces() {
+  ir::VariableSpace p;
+  p.prefix = "P";
+  for (const auto& range : dialects::fagor::parameter_ranges) {
+    ir::SpaceSegment s;
+    s.lo = range.lo;
+    s.hi = range.hi;
+    s.scope = range.local ? ir::Scope::level : ir::Scope::global;
+    s.persistent = !range.local;
+    p.segments.push_back(s);
+  }
+  return {p};
+}
+
+LowerState::LowerState(const machine::Profile& profile, Diagnostics& diagnostics)
+    : profile_(&profile), diagnostics_(&diagnostics), lathe_(profile.kind == machine::Kind::lathe) {
+  units_by_text = profile.power_on.units;
+  tool_changer_ = profile.option("fagor.tool_changer", lathe_ ? "no" : "yes") == "yes";
+  rollover_ = profile.option("fagor.rotary_rollover", "yes") == "yes";
+  for (const auto& axis : profile.axes) {
+    if (axis.id < axes_.size()) axes_[axis.id] = true;
+  }
+  for (std::size_t code = 0; code < g_rows_.size(); ++code) g_rows_[code] = dialects::fagor::find_g(static_cast<int>(code), lathe_);
+  for (const auto& m : profile.m_codes) {
+    if (m.code >= 0 && m.code < static_cast<std::int32_t>(m_rows_.size())) m_rows_[static_cast<std::size_t>(m.code)] = &m;
+  }
+  start_routine(false);
+}
+
+const machine::MCode* LowerState::m(int code) const {
+  if (code >= 0 && code < static_cast<int>(m_rows_.size())) return m_rows_[static_cast<std::size_t>(code)];
+  return profile_->m_code(code);
+}
+
+void LowerState::error(std::string_view code, WordPos pos, std::string message, std::string hint) {
+  ++errors_;
+  diagnostics_->error(code, word_span(line_, pos), std::move(message), std::move(hint));
+}
+void LowerState::warning(std::string_view code, WordPos pos, std::string message, std::string hint) {
+  diagnostics_->warning(code, word_span(line_, pos), std::move(message), std::move(hint));
+}
+void LowerState::note(std::string_view code, WordPos pos, std::string message, std::string hint) {
+  diagnostics_->note(code, word_span(line_, pos), std::move(message), std::move(hint));
+}
+
+void LowerState::start_routine(bool subroutine) {
+  plane_ = profile_->power_on.plane;
+  plane_from_caller_ = in_subroutine_ = subroutine;
+  labels_at_plane_ = facts.labels.size();
+  comp_by_text = ir::CompSide::off;
+  motion_by_text = ir::MotionKind::modal;
+}
+
+void LowerState::pass_label(std::string_view digits) {
+  const std::size_t first = digits.find_first_not_of('0');
+  facts.labels.emplace_back(first == std::string_view::npos ? "0" : digits.substr(first));
+}
+
+void LowerState::plane_code(ir::Plane plane) {
+  plane_ = plane;
+  plane_from_caller_ = false;
+  labels_at_plane_ = facts.labels.size();
+  facts.planes[static_cast<std::size_t>(plane)] = true;
+}
+
+ir::Plane LowerState::plane_by_text() {
+  facts.plane_uses.push_back({line_, plane_from_caller_, labels_at_plane_, facts.labels.size()});
+  return plane_;
+}
+
+}  // namespace cnctrans::fagor

@@ -1,0 +1,105 @@
+// What lowering knows while it goes through a file: the machine, the report, and what the text has said so far.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "dialects/fagor/g_codes.h"
+#include "frontends/common/syntax.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+
+namespace cnctrans::fagor {
+
+/// Space of the arithmetic parameters in every program this frontend makes.
+inline constexpr ir::SpaceId parameter_space = 0;
+/// The spaces of a Fagor program: `P` with its ranges and scopes.
+std::vector<ir::VariableSpace> make_spaces();
+
+/// A block whose reading depends on the plane: decided by the last plane function in the text, judged at the file's end.
+struct PlaneUse {
+  Span span;
+  bool from_caller = false;         ///< in a subroutine before any plane function of its own
+  std::size_t first_label = 0, last_label = 0;  ///< labels passed since the plane function: indices into LowerState::labels
+};
+
+/// Features of the file that change how other blocks are completed at its end.
+struct FileFacts {
+  std::array<bool, 3> planes{};     ///< programmed by G17 G18 G19 G16
+  bool polar = false;               ///< polar words, or G93
+  bool preset = false;              ///< G92 with axes
+  bool table_shift = false;         ///< G58 G59
+  bool shift = false;               ///< G158
+  bool calls = false;               ///< routines that may stand in other files
+  bool computed_jumps = false;
+  std::array<bool, 2> units{};      ///< programmed by G71 [0], G70 [1]
+  Span first_table_shift, first_machine_move;
+  std::vector<std::string> jump_targets;
+  std::vector<PlaneUse> plane_uses;
+  std::vector<std::string> labels;  ///< in text order
+};
+
+class LowerState {
+ public:
+  LowerState(const machine::Profile& profile, Diagnostics& diagnostics);
+
+  // machine
+  [[nodiscard]] const machine::Profile& profile() const { return *profile_; }
+  [[nodiscard]] bool lathe() const { return lathe_; }
+  [[nodiscard]] bool has_axis(ir::AxisId id) const { return id < axes_.size() && axes_[id]; }
+  [[nodiscard]] const dialects::fagor::GCode* g(int code) const {
+    return code >= 0 && code <= dialects::fagor::max_g_code ? g_rows_[static_cast<std::size_t>(code)] : nullptr;
+  }
+  [[nodiscard]] const machine::MCode* m(int code) const;
+  [[nodiscard]] bool tool_changer() const { return tool_changer_; }
+  [[nodiscard]] bool rollover() const { return rollover_; }  ///< rotary axes: the sign of an absolute value is the sense
+
+  // report; places are words of the line at hand
+  void set_line(const Span& line) { line_ = line; }
+  [[nodiscard]] const Span& line() const { return line_; }
+  void set_diagnostics(Diagnostics& d) { diagnostics_ = &d; }
+  void error(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  void warning(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  void note(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  /// Counts errors reported since the start: a block is given up when it grew.
+  [[nodiscard]] std::size_t errors() const { return errors_; }
+
+  // what the text has said
+  void start_routine(bool subroutine);
+  [[nodiscard]] bool in_subroutine() const { return in_subroutine_; }
+  void pass_label(std::string_view digits);
+  void plane_code(ir::Plane plane);
+  [[nodiscard]] ir::Plane plane_now() const { return plane_; }
+  /// The plane by the text; remembered as a use that the file's end has to confirm.
+  ir::Plane plane_by_text();
+  ir::CompSide comp_by_text = ir::CompSide::off;
+  ir::Units units_by_text = ir::Units::metric;
+  ir::MotionKind motion_by_text = ir::MotionKind::modal;
+  FileFacts facts;
+
+ private:
+  const machine::Profile* profile_;
+  Diagnostics* diagnostics_;
+  bool lathe_ = false;
+  bool tool_changer_ = false;
+  bool rollover_ = true;
+  std::array<bool, 9> axes_{};
+  std::array<const dialects::fagor::GCode*, dialects::fagor::max_g_code + 1> g_rows_{};
+  std::array<const machine::MCode*, 256> m_rows_{};
+  Span line_;
+  std::size_t errors_ = 0;
+  ir::Plane plane_ = ir::Plane::xy;
+  bool plane_from_caller_ = false;
+  bool in_subroutine_ = false;
+  std::size_t labels_at_plane_ = 0;
+};
+
+/// The word as written, and an ISO word's letter in capitals.
+inline std::string_view word_text(const syntax::Word& w) { return {w.address.data(), w.pos.length}; }
+inline char word_letter(const syntax::Word& w) { return static_cast<char>(w.address[0] & 0x5F); }
+
+}  // namespace cnctrans::fagor

@@ -1,0 +1,300 @@
+#include "frontends/fagor/lower_statement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/fagor/limits.h"
+#include "frontends/fagor/lower_expr.h"
+
+namespace cnctrans::fagor {
+
+namespace {
+
+namespace facts = dialects::fagor;
+using syntax::Expr;
+using syntax::ExprKind;
+using Node = decltype(ir::Statement::node);
+
+/// Without effect on the path: single-block, stop and feed-hold switches, screens, texts in files.
+constexpr std::array<std::string_view, 10> harmless_words = {"ESBLK", "DSBLK", "ESTOP", "DSTOP", "EFHOLD", "DFHOLD", "DGWZ", "PAGE", "SYMBOL", "ODW"};
+constexpr std::array<std::string_view, 4> screen_variables = {"DW", "DWH", "DWB", "SK"};
+
+template <class List>
+bool holds(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+std::string without_zeros(std::string_view digits) {
+  const std::size_t first = digits.find_first_not_of('0');
+  return std::string(first == std::string_view::npos ? "0" : digits.substr(first));
+}
+bool whole(double n, double limit) { return n >= 0 && n <= limit && n == std::floor(n); }
+
+class StatementLowerer {
+ public:
+  StatementLowerer(const syntax::Block& block, std::string_view text, LowerState& state) : block_(block), text_(text), state_(state) {}
+
+  Node lower(const syntax::Statement& s);
+
+ private:
+  Node assign(const syntax::Statement& s);
+  Node condition(const syntax::Statement& s);
+  Node jump(const syntax::Statement& s);
+  Node repeat(const syntax::Statement& s);
+  Node call(const syntax::Statement& s);
+  Node message(const syntax::Statement& s);
+  Node error(const syntax::Statement& s);
+  Node kept(const syntax::Statement& s, std::string_view feature, bool harmless);
+  Node malformed(const syntax::Statement& s, std::string what);
+  ir::LabelRef label(const Expr& e);
+  void routine(const Expr& e, ir::CallRoutine& call);
+  ir::Body body_of(const syntax::Statement& action);
+
+  const syntax::Block& block_;
+  std::string_view text_;
+  LowerState& state_;
+};
+
+Node StatementLowerer::kept(const syntax::Statement& s, std::string_view feature, bool harmless) {
+  if (harmless) {
+    state_.note("FAG-023", s.pos, "the statement " + s.keyword + " has no effect on the path; it is kept as text");
+  } else {
+    state_.error("FAG-022", s.pos, "the statement " + s.keyword + " is not translated yet");
+  }
+  return ir::Opaque{std::string(text_), std::string(feature), harmless};
+}
+
+Node StatementLowerer::malformed(const syntax::Statement& s, std::string what) {
+  state_.error("FAG-024", s.pos, std::move(what));
+  return ir::Opaque{std::string(text_), "text.unread", false};
+}
+
+Node StatementLowerer::assign(const syntax::Statement& s) {
+  bool screen = true, input = false;
+  for (std::size_t i = 0; i + 1 < s.args.size(); i += 2) {
+    screen = screen && holds(screen_variables, s.args[i].text);
+    input = input || s.args[i].text == "IB" || s.args[i + 1].kind == ExprKind::string;
+  }
+  syntax::Statement named = s;
+  if (screen || input) named.keyword = s.args[0].text;
+  if (screen) return kept(named, "language.statement", true);
+  if (input) return kept(named, "language.statement", false);
+  if (s.args.size() / 2 > static_cast<std::size_t>(facts::max_assignments)) {
+    state_.warning("FAG-024", s.pos, "the control takes 26 assignments in a block");
+  }
+  ir::Assign a;
+  for (std::size_t i = 0; i + 1 < s.args.size(); i += 2) {
+    ir::Assign::Item item;
+    const bool target = lower_target(s.args[i], state_, item);
+    item.value = lower_expr(s.args[i + 1], state_);
+    if (target) a.items.push_back(std::move(item));
+  }
+  if (a.items.size() * 2 != s.args.size()) return ir::Opaque{std::string(text_), "language.system_variable", false};
+  return a;
+}
+
+ir::Body StatementLowerer::body_of(const syntax::Statement& action) {
+  ir::Statement st;
+  st.line.span = word_span(state_.line(), action.pos);
+  st.line.joined = true;
+  st.node = lower(action);
+  ir::Body body;
+  body.push_back(std::move(st));
+  return body;
+}
+
+Node StatementLowerer::condition(const syntax::Statement& s) {
+  ir::If node;
+  node.one_line = true;
+  node.condition = lower_expr(s.args.at(0), state_);
+  node.then_body = body_of(s.children.at(0));
+  if (s.children.size() > 1) {
+    node.has_else = true;
+    node.else_body = body_of(s.children[1]);
+  }
+  return node;
+}
+
+ir::LabelRef StatementLowerer::label(const Expr& e) {
+  ir::LabelRef l;
+  if (e.kind != ExprKind::number) {
+    l.computed = lower_expr(e, state_);
+    state_.facts.computed_jumps = true;
+    return l;
+  }
+  if (!whole(e.number, static_cast<double>(facts::max_label))) {
+    state_.error("FAG-015", e.pos, "a label is a whole number from 0 to 99999999");
+  }
+  l.text = without_zeros(e.text);
+  l.is_number = true;
+  state_.facts.jump_targets.push_back(l.text);
+  return l;
+}
+
+Node StatementLowerer::jump(const syntax::Statement& s) {
+  ir::Jump j;
+  j.target = label(s.args.at(0));
+  j.search = ir::Search::whole_first;
+  return j;
+}
+
+Node StatementLowerer::repeat(const syntax::Statement& s) {
+  ir::Repeat r;
+  r.first = label(s.args.at(0));
+  r.last = label(s.args.at(1));
+  r.search = ir::Search::whole_first;
+  if (s.args.size() > 2) {
+    r.has_program = true;
+    if (s.args[2].kind != ExprKind::number) return kept(s, "language.statement", false);
+    r.program.number = static_cast<std::int64_t>(s.args[2].number);
+  }
+  for (const auto& w : block_.words) {
+    if (!w.has_value || (w.expr < 0 && !whole(w.number, static_cast<double>(facts::max_repeat)))) {
+      state_.error("FAG-016", w.pos, "a repeat count is a whole number from 0 to 9999, or a parameter");
+    }
+    r.count = ir::as_expr(lower_value(w, block_, state_));
+  }
+  return r;
+}
+
+void StatementLowerer::routine(const Expr& e, ir::CallRoutine& call) {
+  state_.facts.calls = true;
+  if (e.kind != ExprKind::number) {
+    call.computed = lower_expr(e, state_);
+    return;
+  }
+  if (!whole(e.number, static_cast<double>(facts::max_oem_subroutine))) state_.error("FAG-013", e.pos, "a subroutine has a number from 0 to 9999");
+  call.routine.number = static_cast<std::int64_t>(e.number);
+}
+
+/// CALL and LL share the caller's local parameters; PCALL and MCALL open a level.
+Node StatementLowerer::call(const syntax::Statement& s) {
+  ir::CallRoutine call;
+  routine(s.args.at(0), call);
+  const bool level = s.keyword == "PCALL" || s.keyword == "MCALL";
+  if (level) call.level = ir::CallLevel::new_level;
+  for (std::size_t i = 1; i + 1 < s.args.size(); i += 2) {
+    const char letter = parameter_letter(s.args[i]);
+    if (letter == 0) return malformed(s, "an argument of " + s.keyword + " is a local parameter: A to Z or P0 to P25");
+    if (s.args[i + 1].kind == ExprKind::missing) return malformed(s, std::string("the argument ") + letter + " has no value");
+    ir::Argument a;
+    a.name = std::string(1, letter);
+    a.value = lower_expr(s.args[i + 1], state_);
+    call.arguments.push_back(std::move(a));
+  }
+  if (s.keyword != "MCALL") return call;
+  ir::ModalCall modal;
+  modal.here = true;
+  modal.call = std::move(call);
+  return modal;
+}
+
+Node StatementLowerer::message(const syntax::Statement& s) {
+  if (s.args.size() != 1 || s.args[0].kind != ExprKind::string) return malformed(s, "MSG needs one text in quotes");
+  if (s.args[0].text.size() > static_cast<std::size_t>(facts::max_message)) {
+    state_.warning("FAG-034", s.args[0].pos, "the control shows at most 59 characters of a message");
+  }
+  ir::Message m;
+  m.kind = trim(s.args[0].text).empty() ? ir::MessageKind::clear : ir::MessageKind::show;
+  m.parts = message_parts(s.args[0].text, state_);
+  return m;
+}
+
+Node StatementLowerer::error(const syntax::Statement& s) {
+  ir::Message m;
+  m.kind = ir::MessageKind::error;
+  for (const auto& a : s.args) {
+    if (a.kind == ExprKind::string) m.parts = message_parts(a.text, state_);
+    else m.number = lower_expr(a, state_);
+  }
+  if (s.args.empty() || s.args.size() > 2) return malformed(s, "ERROR needs a number, a text or both");
+  return m;
+}
+
+Node StatementLowerer::lower(const syntax::Statement& s) {
+  const std::string& k = s.keyword;
+  if (k == "=") return assign(s);
+  if (k == "IF") return condition(s);
+  if (k == "GOTO") return jump(s);
+  if (k == "RPT") return repeat(s);
+  if (k == "CALL" || k == "LL" || k == "PCALL" || k == "MCALL") return call(s);
+  if (k == "MSG") return message(s);
+  if (k == "ERROR") return error(s);
+  if (k == "RET") {
+    if (!state_.in_subroutine()) return malformed(s, "RET stands outside a subroutine");
+    return ir::Return{{}, "RET"};
+  }
+  if (k == "MDOFF") {
+    ir::ModalCall off;
+    off.off = true;
+    return off;
+  }
+  if (k == "WRITE" || k == "OPEN") return kept(s, "language.files", true);
+  if (k == "PROBE" || k == "DIGIT" || k == "TRACE") return kept(s, "motion.probe", false);
+  return kept(s, "language.statement", holds(harmless_words, k));
+}
+
+}  // namespace
+
+std::vector<ir::ExprPtr> message_parts(std::string_view text, LowerState& state) {
+  std::vector<ir::ExprPtr> parts;
+  std::string plain;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t digits = i + 2;
+    while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9') ++digits;
+    if (text[i] != '?' || i + 2 >= text.size() || (text[i + 1] != 'P' && text[i + 1] != 'p') || digits == i + 2 || digits > i + 7) {
+      plain += text[i++];
+      continue;
+    }
+    const double n = parse_decimal(text.substr(i + 2, digits - i - 2)).value_or(0);
+    if (!facts::valid_parameter(static_cast<std::int64_t>(n))) state.error("FAG-018", {}, "the parameter in " + std::string(text.substr(i, digits - i)) + " does not exist");
+    if (!plain.empty()) parts.push_back(ir::string_literal(std::move(plain)));
+    plain.clear();
+    parts.push_back(ir::numbered(parameter_space, static_cast<std::int64_t>(n)));
+    i = digits;
+  }
+  if (!plain.empty() || parts.empty()) parts.push_back(ir::string_literal(std::move(plain)));
+  return parts;
+}
+
+std::int64_t subroutine_number(const syntax::Statement& s, LowerState& state) {
+  const Expr& e = s.args.at(0);
+  if (e.kind == ExprKind::number && whole(e.number, static_cast<double>(facts::max_oem_subroutine))) return static_cast<std::int64_t>(e.number);
+  state.error("FAG-013", e.pos, "a subroutine has a fixed number from 0 to 9999");
+  return -1;
+}
+
+void lower_statement(const syntax::Block& block, std::string_view text, LowerState& state, ir::Statement& out) {
+  const syntax::Statement& s = block.statements.front();
+  if (!block.words.empty() && s.keyword != "RPT") {
+    state.error("FAG-016", block.words.front().pos, "a repeat count after a ( ) statement is for RPT only");
+  }
+  out.node = StatementLowerer(block, text, state).lower(s);
+}
+
+void lower_g_call(const syntax::Block& block, const syntax::Word& code, LowerState& state, ir::Statement& out) {
+  ir::CallRoutine call;
+  call.routine.number = static_cast<std::int64_t>(code.number);
+  state.facts.calls = true;
+  for (const auto& w : block.words) {
+    if (&w == &code) continue;
+    const char c = word_letter(w);
+    const bool named = c == 'P' && w.extension >= 0;
+    if ((named && w.extension > 25) || (c == 'P' && !w.equals) || c == 'G') {
+      state.error("FAG-024", w.pos, std::string(word_text(w)) + " is no argument of " + std::string(word_text(code)), "arguments are local parameters: A5, P3=2");
+      continue;
+    }
+    ir::Argument a;
+    a.name = std::string(1, named ? facts::parameter_letter(w.extension) : c);
+    a.value = ir::as_expr(lower_value(w, block, state));
+    call.arguments.push_back(std::move(a));
+  }
+  if (!call.arguments.empty()) call.level = ir::CallLevel::new_level;
+  out.node = std::move(call);
+}
+
+}  // namespace cnctrans::fagor

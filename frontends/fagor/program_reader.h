@@ -1,0 +1,54 @@
+// A whole file to a program: header, local subroutines, main part, subroutines.
+#pragma once
+
+#include <set>
+#include <string_view>
+
+#include "frontends/common/frontend.h"
+#include "frontends/fagor/line_reader.h"
+#include "frontends/fagor/lower_block.h"
+#include "frontends/fagor/lower_state.h"
+
+namespace cnctrans::fagor {
+
+class ProgramReader {
+ public:
+  ProgramReader(const frontends::ReadOptions& options, FileId file, Diagnostics& diagnostics);
+  ir::Program read(const SourcePtr& source, frontends::ReadStats* stats);
+
+ private:
+  void line(const SourceLine& source_line);
+  void percent(std::string_view text);
+  void block(std::string_view text);
+  void open_subroutine(const syntax::Statement& statement);
+  void close_subroutine();
+  void iso_block(std::string_view text);
+  void add(ir::Statement statement);
+  void add_trivia();
+  void unread(std::string_view text, const ParseError& error);
+  void describe_file(const SourceText& source);
+  void settle_main();
+  [[nodiscard]] ir::Routine& current() { return program_.routines[current_]; }
+  [[nodiscard]] ir::Statement fresh() const;
+
+  FileId file_;
+  LowerState state_;
+  LineReader reader_;
+  BlockLowerer lowerer_{state_};
+  syntax::Block block_;
+  ir::Program program_;
+  std::size_t current_ = 0;
+  bool main_has_code_ = false;
+  bool header_allowed_ = true;
+  bool local_group_ = false;   ///< LSUB groups were read and the start mark was not
+  bool ended_ = false;         ///< a lone % after code: only blank lines may follow
+  bool control_noted_ = false;
+  ir::Body pending_;           ///< comments and blank lines that wait for the block they belong to
+  std::set<std::pair<bool, std::int64_t>> numbers_;
+  frontends::ReadStats stats_;
+};
+
+/// Completes what depends on the whole file: pole and frame resets, planes, units of machine moves.
+void finish_program(ir::Program& program, LowerState& state);
+
+}  // namespace cnctrans::fagor
