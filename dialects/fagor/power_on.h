@@ -12,8 +12,8 @@ inline constexpr ir::ModalState power_on(bool lathe) {
   s.distance = ir::Distance::absolute;                                  // ISYSTEM
   s.units = ir::Units::metric;                                          // INCHES
   s.diameter = lathe ? ir::DiameterMode::diameter : ir::DiameterMode::radius;  // DFORMAT of X
-  s.feed_mode = lathe ? ir::FeedMode::per_rev : ir::FeedMode::per_minute;      // IFEED
-  s.path_mode = ir::PathMode::exact_stop;                               // ICORNER: G07
+  s.feed_mode = ir::FeedMode::per_minute;                               // IFEED
+  s.path_mode = ir::PathMode::continuous;                               // ICORNER: G05
   s.motion = ir::MotionKind::rapid;                                     // IMOVE: G00
   s.length_comp = lathe ? ir::OnOff::on : ir::OnOff::off;               // lathe: always; mill: G43
   return s;

@@ -108,8 +108,8 @@ void finish_program(ir::Program& program, LowerState& state) {
   const bool inch_machine = state.profile().power_on.units == ir::Units::inch;
   if (facts.first_machine_move.known() && facts.units[inch_machine ? 0 : 1]) {
     state.set_line(facts.first_machine_move);
-    state.warning("FAG-030", {}, "coordinates with G53 are in the unit of the machine, not in the unit of the program; they are read in the program's unit",
-                  "check the machine positions");
+    state.warning("FAG-030", {}, "coordinates with G53 are in the unit of the machine, not in the unit of the program",
+                  "they are taken in the machine's unit; check the machine positions");
   }
 }
 

@@ -344,9 +344,6 @@ void BlockLowerer::radius_and_polar(ir::Motion& m) {
   }
   state_.facts.polar = true;
   result_->needs_program = true;
-  if (state_.profile().option("fagor.porgmove") == "1") {
-    state_.error("FAG-007", (r ? r : q)->pos, "polar coordinates with a pole that moves with every arc (PORGMOVE=1) are not translated yet");
-  }
   if (q && !r && !arc && m.centers.empty() && !m.coords.empty()) {
     extra().has_line_angle = true;
     extra().line_angle = value(*q);
