@@ -63,17 +63,12 @@ class FirstError : public antlr4::BaseErrorListener {
     pos = {static_cast<std::uint32_t>(begin + 1), static_cast<std::uint32_t>(t.getStopIndex() - begin + 1)};
     const std::string text(line.substr(begin, t.getStopIndex() - begin + 1));
     switch (t.getType()) {
-      case NumLexer::NUMBER:
-        return "the number `" + text + "` has no address before it";
-      case NumLexer::MESSAGE:
-        return "a `$` message must be the last thing in a block";
-      case NumLexer::PERCENT:
-        return "a program header must stand alone in its line";
+      case NumLexer::NUMBER: return "the number `" + text + "` has no address before it";
+      case NumLexer::MESSAGE: return "a `$` message must be the last thing in a block";
+      case NumLexer::PERCENT: return "a program header must stand alone in its line";
       case NumLexer::L:
-      case NumLexer::E:
-        return "a variable stands here that nothing uses (an assignment needs `=`)";
-      default:
-        return "`" + text + "` can't stand here";
+      case NumLexer::E: return "a variable stands here that nothing uses (an assignment needs `=`)";
+      default: return "`" + text + "` can't stand here";
     }
   }
 };
@@ -112,7 +107,8 @@ std::string_view after_number(std::string_view line) {
   return line.substr(i < line.size() ? i : line.size());
 }
 
-/// True when the block begins with a keyword of the structured statements.
+}  // namespace
+
 bool begins_with_keyword(std::string_view line) {
   constexpr std::array<std::string_view, 27> keywords = {
       "DOWNTO", "REPEAT", "SEARCH", "DELETE", "WHILE", "UNTIL", "BUILD", "R.OFF", "THEN",
@@ -127,8 +123,6 @@ bool begins_with_keyword(std::string_view line) {
   }
   return false;
 }
-
-}  // namespace
 
 struct BlockParser::State {
   bool structured = true;

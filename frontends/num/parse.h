@@ -31,6 +31,9 @@ struct ParseError {
   std::string message;
 };
 
+/// True when the block begins with a keyword of the structured statements (`IF L1`, `VAR`; not `IF100`).
+bool begins_with_keyword(std::string_view line);
+
 /// Reads blocks one after another; lexer, token stream and parser are made once. Not for several threads at once.
 class BlockParser {
  public:

@@ -1,0 +1,175 @@
+// Drilling cycles G81..G83, G85, G87, G89 (reference 11). The other ones are read and refused.
+#include <cmath>
+#include <utility>
+
+#include "frontends/num/actions.h"
+#include "frontends/num/lower.h"
+
+namespace cnctrans::frontends::num {
+
+using slot::e;
+using slot::letter;
+
+ir::AxisId Lowering::cycle_axis() const {
+  if (settings_.lathe) return ir::axis::z;
+  return state_.tool_axis != ir::axis::none ? state_.tool_axis : ir::plane_axes(state_.plane).w;
+}
+
+bool Lowering::has_position_word(bool plane_only) const {
+  const ir::PlaneAxes plane = ir::plane_axes(state_.plane);
+  const ir::AxisId tool = cycle_axis();
+  for (const auto& c : out_->motion.coords) {
+    if (c.axis == tool) continue;
+    if (!plane_only || c.axis == plane.u || c.axis == plane.v) return true;
+  }
+  return false;
+}
+
+void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here) {
+  ir::CycleDefine define;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{*cycle});
+  define.here = here;
+  ir::Action& action = act(at, Step::special, std::move(define));
+  if (&at != marks_.cycle) action.text = {};
+  state_.cycle = std::move(cycle);
+}
+
+/// Words that all cycles share, into `cycle`; what is not given stays.
+bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
+  const auto level = [this](const Word& w) {
+    ir::Level l;
+    l.value = axis_value(w, cycle_axis());
+    l.given = true;
+    return l;
+  };
+  if (const Word* er = use(e('R'))) {
+    const bool reference_was_retract = !has(e('H'));
+    cycle.retract = level(*er);
+    if (reference_was_retract) cycle.reference = cycle.retract;
+  }
+  if (const Word* eh = use(e('H'))) cycle.reference = level(*eh);
+  if (const Word* ef = use(e('F'))) {
+    if (number != 82 && number != 83 && number != 89) {
+      report_.refuse("NUM-027", ef->pos, "EF (dwell) in this cycle is not described", {}, "cycle.hole");
+      return false;
+    }
+    cycle.dwell_bottom = value(*ef);
+  }
+  const Word* p = use(letter('P'));
+  const Word* q = use(letter('Q'));
+  const Word* ep = use(e('P'));
+  const bool pecks = number == 83 || number == 87;
+  for (const Word* w : {p, q, ep}) {
+    if (w != nullptr && !pecks) {
+      report_.refuse("NUM-027", w->pos, "`" + std::string(text_of(*w)) + "` belongs to no word of this cycle", {},
+                     "cycle.hole");
+      return false;
+    }
+  }
+  if (ep != nullptr) cycle.pecks.reapproach = value(*ep);
+  if (p == nullptr && q == nullptr) return true;
+  if (p == nullptr) {
+    report_.refuse("NUM-027", q->pos, "Q (last peck) needs P (first peck)", {}, "cycle.hole");
+    return false;
+  }
+  const bool falling = q != nullptr && (p->is_expression || q->is_expression || p->number != q->number);
+  for (const Word* w : {p, q}) {
+    if (w == nullptr || w->is_expression || w->number > 0) continue;
+    report_.refuse("NUM-027", w->pos, "the size of a peck must be above 0", {}, "cycle.hole");
+    return false;
+  }
+  if (falling && settings_.pecks_constant) {
+    report_.refuse("NUM-027", q->pos,
+                   "pecks of one size and a last one of another (num.peck_law = constant) are not carried yet", {},
+                   "cycle.hole");
+    return false;
+  }
+  cycle.pecks.law = falling ? ir::PeckLaw::linear : ir::PeckLaw::constant;
+  cycle.pecks.first = value(*p);
+  if (falling) cycle.pecks.minimum = value(*q);
+  return true;
+}
+
+/// The coordinate along the tool axis is the bottom and no move.
+bool Lowering::cycle_bottom(ir::HoleCycle& cycle, const Word& g) {
+  auto& coords = out_->motion.coords;
+  for (auto it = coords.begin(); it != coords.end(); ++it) {
+    if (it->axis != cycle_axis()) continue;
+    cycle.bottom.value = std::move(it->value);
+    cycle.bottom.given = true;
+    coords.erase(it);
+    if (state_.distance != ir::Distance::incremental) return true;
+    report_.refuse("NUM-026", g.pos, "what the depth of a cycle counts from under G91 is not described",
+                   "write the cycle under G90", "cycle.hole");
+    return false;
+  }
+  report_.refuse("NUM-026", g.pos, "the cycle has no depth (" + std::string(ir::fixed_axis_name(cycle_axis())) + ")");
+  return false;
+}
+
+void Lowering::define_cycle(const Word& g) {
+  const int number = static_cast<int>(g.number);
+  ir::HoleCycle cycle;
+  switch (number) {
+    case 81:
+    case 82: cycle.kind = ir::HoleKind::drill; break;
+    case 83: cycle.kind = ir::HoleKind::peck_full; break;
+    default:
+      report_.refuse("NUM-004", g.pos,
+                     "`" + std::string(text_of(g)) + "`: only the cycles G81, G82 and G83 are carried yet", {},
+                     "cycle.hole");
+      return;
+  }
+  if (marks_.motion && out_->motion.kind != ir::MotionKind::rapid) {
+    report_.refuse("NUM-026", out_->motion.code_pos,
+                   "a cycle positions in rapid: this motion function can't stand beside it");
+    return;
+  }
+  if (settings_.lathe || state_.tool_axis != ir::axis::none) cycle.axis = cycle_axis();
+  if (number == 83) cycle.pecks.reapproach = ir::Value(1);
+  if (!cycle_bottom(cycle, g)) return;
+  // Without ER the tool goes back to the height from which the cycle was called.
+  cycle.retract = cycle.reference =
+      ir::Level{ir::Value(0), ir::LevelBase::from_initial, ir::LevelBase::from_initial, true};
+  const int pecks = number;
+  if (!cycle_words(cycle, pecks)) return;
+  if (number == 83 && cycle.pecks.law == ir::PeckLaw::none) cycle.kind = ir::HoleKind::drill;
+  state_.cycle_code = number;
+  out_->has_motion = out_->has_motion || !out_->motion.coords.empty();
+  put_cycle(g, std::make_shared<const ir::HoleCycle>(std::move(cycle)), true);
+}
+
+/// ER, EH, P, Q ... while a cycle is active.
+void Lowering::change_cycle() {
+  ir::HoleCycle cycle = *state_.cycle;
+  const Word* at = nullptr;
+  for (const int s : {e('R'), e('H'), e('F'), e('P'), letter('P'), letter('Q')}) {
+    if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
+  }
+  for (const auto& c : out_->motion.coords) {
+    if (c.axis != cycle_axis()) continue;
+    report_.refuse("NUM-026", c.pos, "the depth of a cycle can't be changed while it is active",
+                   "write the cycle again");
+    return;
+  }
+  const bool plane_given = has(e('R'));
+  const bool to_plane = plane_given && out_->motion.coords.empty();
+  if (!cycle_words(cycle, state_.cycle_code)) return;
+  if (to_plane) {
+    // The block goes to the plane at once and drills nothing.
+    auto& m = out_->motion;
+    m.kind = ir::MotionKind::rapid;
+    m.keeps_modal = false;
+    auto& c = m.coords.emplace_back();
+    c.axis = cycle_axis();
+    c.mode = ir::WordMode::absolute;
+    c.value = cycle.retract.value;
+    c.pos = at->pos;
+    out_->has_motion = true;
+  } else {
+    out_->has_motion = out_->has_motion || !out_->motion.coords.empty();
+  }
+  put_cycle(*at, std::make_shared<const ir::HoleCycle>(std::move(cycle)), !out_->motion.coords.empty() && !to_plane);
+}
+
+}  // namespace cnctrans::frontends::num

@@ -1,0 +1,268 @@
+#include "frontends/num/expressions.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "dialects/num/functions.h"
+#include "dialects/num/variables.h"
+
+namespace cnctrans::frontends::num {
+
+namespace facts = dialects::num;
+using facts::EMeaning;
+using syntax::ExprKind;
+
+namespace {
+
+/// What an E parameter is to the neutral machine; `scale` = system units of one neutral unit.
+struct Neutral {
+  ir::SystemRef ref;
+  double scale = 1;
+};
+
+double axis_units(ir::AxisId axis) {
+  return ir::is_rotary_letter(axis) ? facts::units_per_degree : facts::units_per_mm;
+}
+
+ir::SystemRef table_ref(ir::Datum datum, std::int64_t number, std::string text) {
+  ir::SystemRef r;
+  r.datum = datum;
+  r.text = std::move(text);
+  r.args.push_back(ir::number(static_cast<double>(number)));
+  return r;
+}
+
+ir::SystemRef offset_ref(ir::AxisId axis, int component, std::string text) {
+  ir::SystemRef r = table_ref(ir::Datum::work_offset, facts::offset_row, std::move(text));
+  r.axis = axis;
+  r.args.push_back(ir::number(component));
+  return r;
+}
+
+ir::SystemRef axis_ref(ir::Datum datum, ir::AxisId axis, std::string text) {
+  ir::SystemRef r;
+  r.datum = datum;
+  r.axis = axis;
+  r.text = std::move(text);
+  return r;
+}
+
+/// nullopt: known to the machine only.
+std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number, bool lathe) {
+  const std::int64_t index = facts::e_index(row, number);
+  const auto axis = static_cast<ir::AxisId>(index);
+  std::string text = "E" + std::to_string(number);
+  switch (row.meaning) {
+    case EMeaning::pref: return Neutral{offset_ref(axis, facts::offset_pref, std::move(text)), axis_units(axis)};
+    case EMeaning::dec1: return Neutral{offset_ref(axis, facts::offset_dec1, std::move(text)), axis_units(axis)};
+    case EMeaning::dec3: return Neutral{offset_ref(axis, facts::offset_dec3, std::move(text)), axis_units(axis)};
+    case EMeaning::shift:
+      return Neutral{axis_ref(ir::Datum::programmed_shift, axis, std::move(text)), axis_units(axis)};
+    case EMeaning::position:
+      return Neutral{axis_ref(ir::Datum::machine_position, axis, std::move(text)), axis_units(axis)};
+    case EMeaning::tool_radius:
+      return Neutral{table_ref(ir::Datum::tool_radius, index, std::move(text)), facts::units_per_mm};
+    case EMeaning::tool_length:
+    case EMeaning::tool_length_z: {
+      if (row.meaning == EMeaning::tool_length_z && !lathe) return std::nullopt;  // tip radius of a mill
+      Neutral n{table_ref(ir::Datum::tool_length, index, std::move(text)), facts::units_per_mm};
+      if (lathe) n.ref.axis = row.meaning == EMeaning::tool_length ? ir::axis::x : ir::axis::z;
+      return n;
+    }
+    case EMeaning::active_offset:
+      return Neutral{axis_ref(ir::Datum::offset_number, ir::axis::none, std::move(text)), 1};
+    case EMeaning::feed_override:
+      return Neutral{axis_ref(ir::Datum::feed_override, ir::axis::none, std::move(text)), 1};
+    default: return std::nullopt;
+  }
+}
+
+ir::ExprPtr system(ir::SystemRef ref, WordPos pos) {
+  ir::Expr e;
+  e.node = std::move(ref);
+  e.pos = pos;
+  return std::make_shared<const ir::Expr>(std::move(e));
+}
+
+bool whole(const syntax::Expr& e) {
+  return e.kind == ExprKind::number && e.number >= 0 && e.number < 1e9 && e.number == std::floor(e.number) &&
+         e.text.find('.') == std::string::npos;
+}
+
+/// Bit operations work on the integer parts.
+ir::ExprPtr integer_part(ir::ExprPtr e) {
+  if (const auto* n = std::get_if<ir::Number>(&e->node)) {
+    if (n->value == std::trunc(n->value)) return e;
+  }
+  return ir::call(ir::Function::trunc, {std::move(e)});
+}
+
+}  // namespace
+
+std::int64_t variable_number(const syntax::Expr& e) {
+  return !e.args.empty() && whole(e.args[0]) ? static_cast<std::int64_t>(e.args[0].number) : -1;
+}
+
+std::optional<ir::VarRef> Expressions::l_variable(const syntax::Expr& e) {
+  const std::int64_t n = variable_number(e);
+  if (n < 0 || facts::l_range(n) == nullptr) {
+    report_.refuse("NUM-017", e.pos, "there is no variable L" + (e.args.empty() ? "" : e.args[0].text),
+                   "variables are L0-L19, L100-L199 and, from 10xx on, L900-L959");
+    return std::nullopt;
+  }
+  ir::VarRef ref;
+  ref.space = facts::space_l;
+  ref.index = ir::number(static_cast<double>(n));
+  return ref;
+}
+
+std::optional<ir::VarRef> Expressions::symbol(const syntax::Expr& e) {
+  if (e.text[0] == '\'' || (e.text.size() > 1 && e.text[1] == '.')) {
+    report_.refuse("NUM-024", e.pos, "`" + e.text + "` reads a state of the control that is not carried",
+                   "replace it by a variable that the program sets", "language.system_variable");
+    return std::nullopt;
+  }
+  if (!declared(e.text)) undeclared_.push_back({e.text, word_span(report_.line(), e.pos)});
+  ir::VarRef ref;
+  ref.space = facts::space_symbol;
+  ref.name = e.text;
+  for (const auto& i : e.args) {
+    ir::ExprPtr index = lower(i);
+    if (!index) return std::nullopt;
+    ref.indices.push_back(std::move(index));
+  }
+  return ref;
+}
+
+ir::ExprPtr Expressions::parameter(const syntax::Expr& e) {
+  const std::int64_t n = variable_number(e);
+  const facts::EParameter* row = facts::e_parameter(n);
+  if (row == nullptr) {
+    report_.refuse("NUM-018", e.pos, "there is no parameter E" + (e.args.empty() ? "" : e.args[0].text));
+    return nullptr;
+  }
+  if (row->meaning == EMeaning::user || row->meaning == EMeaning::scale_factor) {
+    ir::VarRef ref;
+    ref.space = facts::space_e;
+    ref.index = ir::number(static_cast<double>(n));
+    return ir::at(ir::variable(std::move(ref), ir::Type::integer), e.pos);
+  }
+  auto found = neutral(*row, n, settings_.lathe);
+  if (!found) {
+    report_.refuse("NUM-019", e.pos,
+                   "E" + std::to_string(n) + " (" + std::string(row->title) + ") is known to the machine only",
+                   "its value can't be had here", "language.system_variable");
+    return nullptr;
+  }
+  ir::ExprPtr value = system(std::move(found->ref), e.pos);
+  return found->scale == 1
+             ? value
+             : ir::at(ir::binary(ir::BinaryOp::multiply, std::move(value), ir::number(found->scale)), e.pos);
+}
+
+ir::ExprPtr Expressions::variable(const syntax::Expr& e) {
+  if (e.text == "E") return parameter(e);
+  auto ref = e.text == "L" ? l_variable(e) : symbol(e);
+  return ref ? ir::at(ir::variable(std::move(*ref)), e.pos) : nullptr;
+}
+
+ir::ExprPtr Expressions::lower(const syntax::Expr& e) {
+  switch (e.kind) {
+    case ExprKind::number: return ir::at(ir::number(e.number, e.text), e.pos);
+    case ExprKind::variable: return variable(e);
+    case ExprKind::unary: {
+      ir::ExprPtr inner = lower(e.args.at(0));
+      if (!inner || e.text == "+") return inner;
+      return ir::at(ir::unary(ir::UnaryOp::negate, std::move(inner)), e.pos);
+    }
+    case ExprKind::call: {
+      ir::ExprPtr inner = lower(e.args.at(0));
+      const auto f = facts::function_by_letter(e.text.empty() ? ' ' : e.text[0]);
+      return inner && f ? ir::at(ir::call(*f, {std::move(inner)}), e.pos) : nullptr;
+    }
+    case ExprKind::binary: {
+      ir::ExprPtr left = lower(e.args.at(0));
+      ir::ExprPtr right = lower(e.args.at(1));
+      const auto op = facts::operator_by_text(e.text);
+      if (!left || !right || !op) return nullptr;
+      if (*op == ir::BinaryOp::bit_and || *op == ir::BinaryOp::bit_or) {
+        left = integer_part(std::move(left));
+        right = integer_part(std::move(right));
+      }
+      return ir::at(ir::binary(*op, std::move(left), std::move(right)), e.pos);
+    }
+    default:
+      report_.refuse("NUM-024", e.pos, "`" + e.text + "` is no value", {}, "language.system_variable");
+      return nullptr;
+  }
+}
+
+ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis) {
+  const bool sign = e.kind == ExprKind::unary;
+  const syntax::Expr& inner = sign ? e.args.at(0) : e;
+  ir::ExprPtr value = lower(e);
+  if (!value || inner.kind != ExprKind::variable || inner.text != "E") return value;
+  // System units: micrometres or 1/10000 degree. A datum is in neutral units already below its scaling.
+  const facts::EParameter* row = facts::e_parameter(variable_number(inner));
+  if (row == nullptr || row->unit == facts::EUnit::none) {
+    if (row != nullptr && row->meaning != EMeaning::user) return value;
+    return ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(axis)));
+  }
+  ir::ExprPtr plain = lower(inner);
+  if (const auto* product = std::get_if<ir::Binary>(&plain->node)) plain = product->left;
+  return sign && e.text == "-" ? ir::at(ir::unary(ir::UnaryOp::negate, std::move(plain)), e.pos) : plain;
+}
+
+bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value, ir::Assign::Item& item) {
+  const std::int64_t n = variable_number(target);
+  const facts::EParameter* row = facts::e_parameter(n);
+  const std::string name = "E" + (target.args.empty() ? std::string() : target.args[0].text);
+  if (row == nullptr) {
+    report_.refuse("NUM-018", target.pos, "there is no parameter " + name);
+    return false;
+  }
+  if (!row->writable) {
+    report_.refuse("NUM-020", target.pos, name + " (" + std::string(row->title) + ") can only be read");
+    return false;
+  }
+  if (row->meaning == EMeaning::display) {
+    report_.carry("NUM-034", target.pos,
+                  name + " (" + std::string(row->title) + ") does not change the path; kept as text",
+                  "language.system_variable");
+    return false;
+  }
+  value = integer_part(std::move(value));  // E parameters hold integers: a value is truncated
+  if (row->meaning == EMeaning::user || row->meaning == EMeaning::scale_factor) {
+    item.target.space = facts::space_e;
+    item.target.index = ir::number(static_cast<double>(n));
+    item.value = std::move(value);
+    return true;
+  }
+  auto found = neutral(*row, n, settings_.lathe);
+  if (!found) {
+    report_.refuse("NUM-019", target.pos, name + " (" + std::string(row->title) + ") is known to the machine only",
+                   "what writing it does can't be told here", "language.system_variable");
+    return false;
+  }
+  item.to_system = true;
+  item.system = std::move(found->ref);
+  item.value = found->scale == 1 ? std::move(value)
+                                 : ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(found->scale));
+  return true;
+}
+
+bool Expressions::assignment(const syntax::Statement& s, ir::Assign::Item& item) {
+  const syntax::Expr& target = s.args.at(0);
+  item.pos = s.pos;
+  ir::ExprPtr value = lower(s.args.at(1));
+  if (!value) return false;
+  if (target.text == "E") return assign_parameter(target, std::move(value), item);
+  auto ref = target.text == "L" ? l_variable(target) : symbol(target);
+  if (!ref) return false;
+  item.target = std::move(*ref);
+  item.value = std::move(value);
+  return true;
+}
+
+}  // namespace cnctrans::frontends::num

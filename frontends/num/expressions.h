@@ -1,0 +1,56 @@
+// syntax expressions -> IR expressions. NUM variables become spaces L, E (memory) and symbols; an E parameter that
+// mirrors machine data becomes a neutral datum in millimetres or degrees, with its scaling written out.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "frontends/common/syntax.h"
+#include "frontends/num/report.h"
+#include "frontends/num/settings.h"
+#include "ir/statement.h"
+
+namespace cnctrans::frontends::num {
+
+class Expressions {
+ public:
+  Expressions(const Settings& settings, Report& report) : settings_(settings), report_(report) {}
+
+  /// Null after a refusal.
+  ir::ExprPtr lower(const syntax::Expr& e);
+  /// The variable as the value of an axis word: an E parameter is in system units there.
+  ir::ExprPtr lower_axis_value(const syntax::Expr& e, ir::AxisId axis);
+  /// Target and value of one assignment; false after a refusal.
+  bool assignment(const syntax::Statement& s, ir::Assign::Item& item);
+
+  /// Symbols declared so far, and those used: an undeclared one is a fault (see frontend.cpp).
+  void declare(std::string name) { declared_.insert(std::move(name)); }
+  [[nodiscard]] bool declared(const std::string& name) const { return declared_.count(name) != 0; }
+  struct Use {
+    std::string name;
+    Span span;
+  };
+  [[nodiscard]] const std::vector<Use>& undeclared() const { return undeclared_; }
+  void forget_symbols() {
+    declared_.clear();
+    undeclared_.clear();
+  }
+
+ private:
+  ir::ExprPtr variable(const syntax::Expr& e);
+  ir::ExprPtr parameter(const syntax::Expr& e);
+  std::optional<ir::VarRef> symbol(const syntax::Expr& e);
+  std::optional<ir::VarRef> l_variable(const syntax::Expr& e);
+  bool assign_parameter(const syntax::Expr& target, ir::ExprPtr value, ir::Assign::Item& item);
+
+  const Settings& settings_;
+  Report& report_;
+  std::set<std::string> declared_;
+  std::vector<Use> undeclared_;
+};
+
+/// The number of an L or E variable.
+std::int64_t variable_number(const syntax::Expr& e);
+
+}  // namespace cnctrans::frontends::num

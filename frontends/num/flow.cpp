@@ -1,0 +1,98 @@
+// Jumps (G79) and calls (G77) (reference 13.1, 13.2).
+#include <utility>
+
+#include "dialects/num/limits.h"
+#include "frontends/num/lower.h"
+
+namespace cnctrans::frontends::num {
+
+namespace facts = dialects::num;
+
+bool Lowering::label(const Word& w, ir::LabelRef& out) {
+  out.is_number = true;
+  if (w.is_expression) {
+    out.computed = value(w).expr;
+    return out.computed != nullptr;
+  }
+  const auto n = static_cast<std::int64_t>(w.number);
+  if (w.number < 0 || static_cast<double>(n) != w.number || n > facts::label_max) {
+    report_.refuse("NUM-016", w.pos,
+                   "`" + std::string(text_of(w)) + "`: block numbers are whole and go from 0 to 32767");
+    return false;
+  }
+  out.text = std::to_string(n);
+  return true;
+}
+
+bool Lowering::jump(const Flow& flow, const syntax::Statement* test, ir::Statement& out) {
+  if (flow.label_count != 1) {
+    report_.refuse("NUM-015", flow.word->pos, "G79 needs one block number to go to");
+    return false;
+  }
+  ir::Jump jump;
+  if (test != nullptr) {
+    jump.condition = expressions_.lower(test->args.at(0));
+    if (!jump.condition) return false;
+  }
+  if (!label(*flow.labels[0], jump.target)) return false;
+  out.node = std::move(jump);
+  return true;
+}
+
+bool Lowering::call(const Flow& flow, ir::Statement& out) {
+  ir::ExprPtr count;
+  if (flow.repeat != nullptr) {
+    const Word& s = *flow.repeat;
+    if (!s.is_expression && (s.number < 1 || s.number > static_cast<double>(facts::call_repeat_max) ||
+                             s.number != static_cast<double>(static_cast<int>(s.number)))) {
+      report_.refuse("NUM-014", s.pos, "G77 repeats 1 to 100 times");
+      return false;
+    }
+    count = ir::as_expr(value(s));
+  }
+  ir::LabelRef first, last;
+  if (flow.label_count > 2 || (flow.label_count == 0 && flow.program == nullptr)) {
+    report_.refuse("NUM-014", flow.word->pos, "G77 needs a program (H), or the first and last block of a range (N N)");
+    return false;
+  }
+  if (flow.label_count > 0) {
+    if (!label(*flow.labels[0], first)) return false;
+    last = first;
+    if (flow.label_count == 2 && !label(*flow.labels[1], last)) return false;
+  }
+  // The control puts the two numbers in order.
+  const bool literal = flow.label_count == 2 && !first.computed && !last.computed;
+  if (literal && !settings_.range_by_position && flow.labels[0]->number > flow.labels[1]->number)
+    std::swap(first, last);
+  if (flow.program == nullptr) {
+    ir::Repeat repeat;
+    repeat.first = std::move(first);
+    repeat.last = std::move(last);
+    repeat.count = std::move(count);
+    repeat.order_free = settings_.range_by_position || (flow.label_count == 2 && !literal);
+    out.node = std::move(repeat);
+    return true;
+  }
+  ir::CallRoutine call;
+  const Word& h = *flow.program;
+  if (h.is_expression) {
+    call.computed = value(h).expr;
+    if (!call.computed) return false;
+  } else {
+    call.routine.number = static_cast<std::int64_t>(h.number);
+    if (h.number != static_cast<double>(call.routine.number)) call.routine.text = std::string(h.number_text);
+  }
+  call.count = std::move(count);
+  call.has_range = flow.label_count > 0;
+  call.first = std::move(first);
+  call.last = std::move(last);
+  out.node = std::move(call);
+  return true;
+}
+
+bool Lowering::flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out) {
+  const bool ok = flow.code->kind == GKind::jump ? jump(flow, test, out) : call(flow, out);
+  return ok && !report_.refused();
+}
+
+}  // namespace cnctrans::frontends::num

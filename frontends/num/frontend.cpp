@@ -1,0 +1,111 @@
+#include "frontends/num/frontend.h"
+
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/num/limits.h"
+#include "dialects/num/variables.h"
+#include "frontends/common/word_scanner.h"
+#include "frontends/num/lines.h"
+
+namespace cnctrans::frontends::num {
+
+namespace facts = dialects::num;
+
+namespace {
+
+/// Straight-line programs line by line: word blocks only, of one program, without anything to report.
+class NumStream : public StreamReader {
+ public:
+  NumStream(FileId file, const ReadOptions& options, std::string_view file_name)
+      : file_(file),
+        settings_(make_settings(*options.profile)),
+        lower_(settings_, ignored_),
+        reader_(options.reader, settings_.structured) {
+    frame_.dialect = "num";
+    frame_.spaces = facts::spaces();
+    frame_.lathe = settings_.lathe;
+    ir::Routine main;
+    main.file = file;
+    std::string_view stem = file_name.substr(file_name.find_last_of("/\\") + 1);
+    stem = stem.substr(0, stem.rfind('.'));
+    main.name = name_of_file(stem);
+    frame_.routines.push_back(std::move(main));
+  }
+
+  StreamLine read(const SourceLine& line, ir::Statement& out, Diagnostics& diagnostics) override {
+    const Span span{file_, line.number, 1, line.number, static_cast<std::uint32_t>(line.text.size() + 1)};
+    ParseError error;
+    if (line.text.size() > facts::block_length || !reader_.read(line.text, syntax_, error) ||
+        !reader_.difference().empty()) {
+      return StreamLine::needs_program;
+    }
+    if (!syntax_.plain) return header(span, out);
+    if (!std::holds_alternative<ir::Block>(out.node)) out.node = ir::Block{};
+    fill_line(syntax_, span, out.line);
+    started_ = started_ || !syntax_.words.empty() || !syntax_.number.empty();
+    if (syntax_.number.size() > 5 || (syntax_.number.size() == 5 && syntax_.number > "32767"))
+      return StreamLine::needs_program;
+    const bool good = lower_.words(syntax_, span, line.text, std::get<ir::Block>(out.node), flow_);
+    if (!good || flow_.code != nullptr || flow_.linear_after || !ignored_.empty()) {
+      (void)diagnostics;  // the whole-program path reports
+      return StreamLine::needs_program;
+    }
+    return flow_.end ? StreamLine::program_end : StreamLine::statement;
+  }
+
+  [[nodiscard]] const ir::Program& frame() const override { return frame_; }
+
+ private:
+  StreamLine header(const Span& span, ir::Statement& out) {
+    const auto& list = syntax_.statements;
+    if (started_ || list.size() != 1 || list[0].keyword != "%" || list[0].args.empty() ||
+        frame_.routines[0].header.span.known()) {
+      return StreamLine::needs_program;
+    }
+    auto& main = frame_.routines[0];
+    const double n = list[0].args[0].number;
+    if (n != static_cast<double>(static_cast<std::int64_t>(n)) || syntax_.comments.size() > 1)
+      return StreamLine::needs_program;
+    main.name = {static_cast<std::int64_t>(n), {}};
+    main.header.span = span;
+    if (!syntax_.comments.empty()) main.title = std::string(trim(syntax_.comments[0].text));
+    out.node = ir::Block{};
+    out.line.clear();
+    out.line.span = span;
+    out.line.joined = true;  // the header is in the frame: nothing of its own is to be written here
+    return StreamLine::statement;
+  }
+
+  FileId file_;
+  Settings settings_;
+  Diagnostics ignored_;
+  Lowering lower_;
+  BlockReader reader_;
+  ir::Program frame_;
+  syntax::Block syntax_;
+  Flow flow_;
+  bool started_ = false;
+};
+
+class NumFrontend : public Frontend {
+ public:
+  [[nodiscard]] std::string_view dialect() const override { return "num"; }
+  ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                   ReadStats* stats) const override {
+    ReadStats own;
+    return FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
+  }
+  [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
+                                                     std::string_view file_name) const override {
+    return std::make_unique<NumStream>(file, options, file_name);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Frontend> make_frontend() {
+  return std::make_unique<NumFrontend>();
+}
+
+}  // namespace cnctrans::frontends::num

@@ -1,0 +1,244 @@
+// The statements of one line, in the order the control carries them out: assignments, message, words, jump or call,
+// end.
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/num/variables.h"
+#include "frontends/num/lines.h"
+
+namespace cnctrans::frontends::num {
+
+namespace facts = dialects::num;
+
+void FileReader::block(const Span& span, std::string_view text) {
+  Report& report = lower_.report();
+  report.start(span);
+  const bool contour = lower_.state().turning_profile;
+  const syntax::Statement* test = nullptr;
+  for (const auto& s : syntax_.statements) {
+    if (s.keyword == "TEST") test = &s;
+  }
+  const std::size_t errors = diagnostics_.error_count();
+  const auto refused = [&] {
+    if (diagnostics_.error_count() == errors) ++stats_.blocks_read;
+    opaque(span, text, report.feature().empty() ? "text.unread" : report.feature(), report.harmless());
+  };
+  if (!syntax_.statements.empty() && syntax_.words.empty() && structured(syntax_.statements[0])) {
+    if (report.refused()) return refused();
+    ++stats_.blocks_read;
+    return;
+  }
+  // Words first into a scratch block: a line that is refused leaves one Opaque statement and nothing else.
+  const bool good = lower_.words(syntax_, span, text, scratch_, flow_);
+  if (contour && lower_.state().turning_profile && good) {
+    report.note("NUM-040", {}, "a block of the blank's contour of G64; it is no move and is kept as text");
+    return opaque(span, text, "cycle.turning", false);
+  }
+  if (!good) return refused();
+  if (!assignments()) return refused();
+  ++stats_.blocks_read;
+  words(test);
+}
+
+bool FileReader::assignments() {
+  // First all of them are looked at, so that a refused line leaves nothing behind.
+  Report& report = lower_.report();
+  ir::Assign assign;
+  std::vector<const syntax::Statement*> declarations;
+  const syntax::Statement* text = nullptr;
+  const auto take = [&](const syntax::Statement& s) {
+    ir::Assign::Item item;
+    if (lower_.expressions().assignment(s, item)) assign.items.push_back(std::move(item));
+  };
+  for (const auto& s : syntax_.statements) {
+    if (s.keyword == "ASSIGN" && in_var_ && s.args[0].text[0] == '[')
+      declarations.push_back(&s);
+    else if (s.keyword == "ASSIGN")
+      take(s);
+    else if (s.keyword == "DECL")
+      declarations.push_back(&s);
+    else if (s.keyword == "MSG")
+      text = &s;
+    else if (s.keyword == "TEST") {
+      for (const auto& c : s.children) take(c);
+    } else {
+      report.refuse("NUM-023", s.pos, "`" + s.keyword + "`: not carried yet", {}, "language.statement");
+    }
+  }
+  for (const auto* d : declarations) declare(*d);
+  if (report.refused()) return false;
+  if (!assign.items.empty()) put_node(std::move(assign));
+  if (text != nullptr) message(*text);
+  return true;
+}
+
+void FileReader::declare(const syntax::Statement& s) {
+  Report& report = lower_.report();
+  const syntax::Expr& target = s.args[0];
+  if (!in_var_)
+    return report.refuse("NUM-023", s.pos, "a symbol alone declares it, which only VAR ... ENDV may do", {},
+                         "language.statement");
+  if (!target.args.empty())
+    return report.refuse("NUM-023", s.pos, "tables of symbols are not carried yet", {}, "language.statement");
+  ir::Declare::Item item;
+  item.name = target.text;
+  if (s.args.size() > 1) {
+    ir::ExprPtr value = lower_.expressions().lower(s.args[1]);
+    if (!value) return;
+    item.initial.push_back(std::move(value));
+  }
+  lower_.expressions().declare(target.text);
+  if (report.refused()) return;
+  ir::Declare declaration;
+  declaration.space = facts::space_symbol;
+  declaration.items.push_back(std::move(item));
+  put_node(std::move(declaration));
+}
+
+void FileReader::message(const syntax::Statement& s) {
+  std::string_view text = s.text;
+  if (!text.empty() && text[0] >= '0' && text[0] <= '6') {
+    if (text[0] != '0') {
+      lower_.report().note("NUM-035", s.pos, "a message to another place than the display; kept as text");
+      return opaque(span_, text_.substr(s.pos.column - 1, s.pos.length), "language.statement", true);
+    }
+    text.remove_prefix(1);
+  }
+  text = trim(text);
+  ir::Message m;
+  m.kind = text.empty() ? ir::MessageKind::clear : ir::MessageKind::show;
+  if (!text.empty()) m.parts.push_back(ir::string_literal(std::string(text)));
+  put_node(std::move(m));
+}
+
+void FileReader::words(const syntax::Statement* test) {
+  const bool has_flow = flow_.code != nullptr;
+  ir::Statement flow;
+  if (has_flow && !lower_.flow_statement(flow_, test, flow)) {
+    return opaque(span_, text_, "text.unread", false);
+  }
+  if (test != nullptr && (!has_flow || flow_.code->code != 79)) {
+    lower_.report().refuse("NUM-015", test->pos, "a test belongs to G79", {}, "motion.probe");
+    return opaque(span_, text_, "motion.probe", false);
+  }
+  if (has_flow) {
+    split_call(std::move(flow));
+  } else if (!scratch_.empty() || (first_ && !flow_.end)) {
+    put_node(std::move(scratch_));
+    scratch_ = ir::Block{};
+  }
+  if (flow_.linear_after) {
+    ir::Block linear;
+    linear.has_motion = true;
+    linear.motion.kind = ir::MotionKind::linear;
+    put_node(std::move(linear));
+  }
+  if (!flow_.end) return;
+  ended_ = true;
+  ir::End end;
+  end.text = flow_.end_text;
+  put_node(std::move(end));
+}
+
+/// A jump or call stands where the move would: what acts after a move comes behind it.
+void FileReader::split_call(ir::Statement flow) {
+  ir::Block before, after;
+  for (auto& a : scratch_.actions) (a.order == ir::Order::after ? after : before).actions.push_back(std::move(a));
+  if (!after.empty() && flow_.code->kind == facts::GKind::jump) {
+    lower_.report().refuse("NUM-013", after.actions[0].pos,
+                           "a function that acts after the block can't stand beside a jump",
+                           "put it into a block of its own");
+    return opaque(span_, text_, "text.unread", false);
+  }
+  if (!before.empty()) put_node(std::move(before));
+  ir::Statement s = with_line();
+  s.node = std::move(flow.node);
+  put(std::move(s));
+  if (!after.empty()) put_node(std::move(after));
+  scratch_ = ir::Block{};
+}
+
+bool FileReader::structured(const syntax::Statement& s) {
+  using Kind = StructureBuilder::Kind;
+  Report& report = lower_.report();
+  const auto wrong = [&](std::string_view what) {
+    report.refuse("NUM-022", s.pos, "`" + s.keyword + "` without its " + std::string(what));
+    return true;
+  };
+  const auto condition = [&] { return lower_.expressions().lower(s.args.at(0)); };
+  const auto open = [&](auto node) {
+    ir::Statement st = with_line();
+    st.node = std::move(node);
+    builder_.open(std::move(st));
+    return true;
+  };
+  if (s.keyword == "IF") {
+    ir::If node;
+    node.condition = condition();
+    return report.refused() || open(std::move(node));
+  }
+  if (s.keyword == "WHILE") {
+    ir::While node;
+    node.condition = condition();
+    return report.refused() || open(std::move(node));
+  }
+  if (s.keyword == "REPEAT") return open(ir::Until{});
+  if (s.keyword == "FOR") {
+    ir::For node;
+    const syntax::Expr& counter = s.args.at(0);
+    syntax::Statement assign;
+    assign.args = {counter, s.args.at(1)};
+    ir::Assign::Item start;
+    if (!lower_.expressions().assignment(assign, start) || start.to_system) {
+      if (!report.refused())
+        report.refuse("NUM-023", counter.pos, "machine data as a counter", {}, "language.statement");
+      return true;
+    }
+    node.counter = std::move(start.target);
+    node.from = std::move(start.value);
+    node.to = lower_.expressions().lower(s.args.at(2));
+    ir::ExprPtr step =
+        s.args.at(3).kind == syntax::ExprKind::missing ? nullptr : lower_.expressions().lower(s.args.at(3));
+    if (s.text == "DOWNTO") step = step ? ir::unary(ir::UnaryOp::negate, std::move(step)) : ir::number(-1);
+    node.step = std::move(step);
+    return report.refused() || open(std::move(node));
+  }
+  if (s.keyword == "ELSE") return builder_.else_branch(line_) || wrong("IF");
+  if (s.keyword == "ENDI") return builder_.close(Kind::if_, line_) || wrong("IF");
+  if (s.keyword == "ENDW") return builder_.close(Kind::while_, line_) || wrong("WHILE");
+  if (s.keyword == "ENDF") return builder_.close(Kind::for_, line_) || wrong("FOR");
+  if (s.keyword == "UNTIL") {
+    ir::ExprPtr c = condition();
+    return report.refused() || builder_.close_until(std::move(c), line_) || wrong("REPEAT");
+  }
+  if (s.keyword == "EXIT") {
+    if (!builder_.in_loop()) return wrong("loop");
+    put_node(ir::Exit{});
+    return true;
+  }
+  if (s.keyword == "THEN" || s.keyword == "DO" || s.keyword == "VAR" || s.keyword == "ENDV") {
+    if (s.keyword == "VAR") in_var_ = true;
+    if (s.keyword == "ENDV") {
+      if (!in_var_) return wrong("VAR");
+      in_var_ = false;
+    }
+    if (!line_.number.empty() || !line_.comments.empty()) put_node(ir::Block{});
+    return true;
+  }
+  if (s.keyword == "CARRIED") {
+    report.refuse("NUM-023", s.pos, "`" + s.text + "`: tables and the stack are not carried yet", {},
+                  "language.statement");
+    return true;
+  }
+  if (s.keyword == "EQUIV" || s.keyword == "INPUT") {
+    report.refuse("NUM-023", s.pos,
+                  s.keyword == "EQUIV" ? "another name for an address is not carried yet"
+                                       : "a value typed in by the operator is not carried",
+                  {}, "language.statement");
+    return true;
+  }
+  return false;
+}
+
+}  // namespace cnctrans::frontends::num

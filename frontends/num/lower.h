@@ -1,0 +1,181 @@
+// One read block (syntax::Block) -> IR. Word blocks first: they are the hot path, filled in place without allocation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "dialects/num/gcodes.h"
+#include "frontends/common/syntax.h"
+#include "frontends/num/expressions.h"
+#include "frontends/num/report.h"
+#include "frontends/num/settings.h"
+#include "ir/statement.h"
+
+namespace cnctrans::frontends::num {
+
+/// State along the text, for what can only be read with it. It follows the order of lines, not of execution.
+struct TextState {
+  bool known = true;  ///< false at the start of a called program: the caller's state counts
+  ir::Distance distance = ir::Distance::absolute;
+  ir::Plane plane = ir::Plane::xy;
+  ir::MotionKind motion = ir::MotionKind::linear;
+  std::shared_ptr<const ir::HoleCycle> cycle;  ///< the hole cycle in force
+  int cycle_code = 0;                          ///< its G number
+  ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
+  bool turning_profile = false;                ///< between G64 and G80: blocks are a contour, not moves
+};
+
+/// What a word block holds besides words of a Block: a jump, a call, the program's end.
+struct Flow {
+  const dialects::num::GCode* code = nullptr;  ///< G77 or G79
+  const syntax::Word* word = nullptr;
+  const syntax::Word* program = nullptr;        ///< H
+  const syntax::Word* repeat = nullptr;         ///< S of G77
+  std::array<const syntax::Word*, 3> labels{};  ///< N words
+  std::size_t label_count = 0;
+  bool end = false;
+  std::string_view end_text;
+  bool linear_after = false;  ///< G23 leaves G01 in force
+
+  void clear() { *this = Flow{}; }
+};
+
+class Lowering {
+ public:
+  Lowering(const Settings& settings, Diagnostics& diagnostics);
+
+  /// A new program: `main` starts in the power-on state, a called one in its caller's.
+  void start_program(bool main);
+  /// Words of `b` into `out` (cleared first) and `flow`. False: the line was refused or is carried as text (see
+  /// report()).
+  bool words(const syntax::Block& b, const Span& line, std::string_view text, ir::Block& out, Flow& flow);
+  /// The flow statement of the block, after words(). False after a refusal. `test` is the block's TEST statement or
+  /// null.
+  bool flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out);
+  /// Value of a word that is no axis word.
+  ir::Value value(const syntax::Word& w);
+
+  [[nodiscard]] Report& report() { return report_; }
+  [[nodiscard]] Expressions& expressions() { return expressions_; }
+  [[nodiscard]] TextState& state() { return state_; }
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+
+ private:
+  using Word = syntax::Word;
+  using GKind = dialects::num::GKind;
+  /// Order in which actions of a block are carried out.
+  enum class Step : std::uint8_t { setting, frame, value, machine_before, special, after };
+
+  // words.cpp: the pass over the words
+  bool take(const Word& w);
+  void code(const Word& w);
+  void code_action(const Word& w, const dialects::num::GCode& row);
+  void motion_code(const Word& w, ir::MotionKind kind);
+  void machine_function(const Word& w);
+  void coordinate(const Word& w, ir::AxisId axis);
+  template <class Data>
+  ir::Action& act(const Word& w, Step step, Data data, ir::Order order = ir::Order::before);
+  template <class E>
+  void setting(const Word& w, ir::Setting s, E v);
+  [[nodiscard]] std::string_view text_of(const Word& w) const { return text_.substr(w.pos.column - 1, w.pos.length); }
+  [[nodiscard]] ir::Value axis_value(const Word& w, ir::AxisId axis);
+  [[nodiscard]] bool check_literal(const Word& w, double limit);
+  void unknown(const Word& w, std::string_view why);
+
+  // resolve.cpp: what the words mean together
+  void resolve();
+  void resolve_distance();
+  void resolve_motion();
+  void resolve_arc(bool explicit_code);
+  void resolve_dwell();
+  void resolve_values();
+  void resolve_special();
+  void frame_shift(const Word& g59);
+  void rotation_words(ir::FrameChange& change, const Word& ed);
+  void preset(const Word& g92);
+  void mirror(const Word& g51);
+  void scale(const Word& w, bool on);
+  void tool_axis(const Word& g16);
+  void corner(const Word& eb);
+  void through_points();
+  std::vector<ir::FrameWord> take_frame_words();
+  void sort_actions();
+  void leftovers();
+
+  // cycles.cpp
+  void define_cycle(const Word& g);
+  void change_cycle();
+  bool cycle_words(ir::HoleCycle& cycle, int number);
+  bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);
+  void put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here);
+  [[nodiscard]] ir::AxisId cycle_axis() const;
+  [[nodiscard]] bool has_position_word(bool plane_only) const;
+
+  // flow.cpp
+  bool jump(const Flow& flow, const syntax::Statement* test, ir::Statement& out);
+  bool call(const Flow& flow, ir::Statement& out);
+  bool label(const Word& w, ir::LabelRef& out);
+
+  [[nodiscard]] bool has(int slot) const { return (present_ >> slot & 1U) != 0; }
+  [[nodiscard]] const Word* use(int slot);
+
+  const Settings& settings_;
+  Report report_;
+  Expressions expressions_;
+  TextState state_;
+
+  /// Words of the line at hand that change what others mean; null: not given.
+  struct Marks {
+    const Word* shift = nullptr;          ///< G59
+    const Word* preset = nullptr;         ///< G92
+    const Word* mirror = nullptr;         ///< G51
+    const Word* tool_axis = nullptr;      ///< G16
+    const Word* dwell = nullptr;          ///< G04
+    const Word* cycle = nullptr;          ///< G81..G89
+    const Word* orient = nullptr;         ///< M19
+    const Word* css = nullptr;            ///< G96
+    const Word* three_points = nullptr;   ///< G23
+    const Word* machine_frame = nullptr;  ///< G52
+    const Word* retract = nullptr;        ///< G75
+    bool any = false;                     ///< one of those above
+    bool motion = false;                  ///< a motion code stands in the block
+    bool cycle_off = false;
+    bool distance_after = false;      ///< the mode changes after the move: words stand before its code
+    bool unsorted = false;            ///< actions don't stand in the order of their steps
+    std::uint8_t distance_count = 0;  ///< G90 and G91 words
+    std::array<const Word*, 4> distances{};
+  };
+
+  const syntax::Block* block_ = nullptr;
+  std::string_view text_;
+  ir::Block* out_ = nullptr;
+  Flow* flow_ = nullptr;
+  Marks marks_;
+  std::uint64_t present_ = 0;              ///< bit: an address of this slot was given (axes too)
+  std::uint64_t used_ = 0;                 ///< and means something
+  std::array<const Word*, 64> pending_{};  ///< by slot, valid where present_ and no axis
+  std::vector<Step> steps_;                ///< of out_->actions
+};
+
+/// Slots: letters 0..25, E-letters 26..51, NU 52, unknown -1.
+constexpr int slot_of(std::string_view address) {
+  const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
+  if (address.size() == 1) return upper(address[0]) - 'A';
+  const char first = upper(address.front()), last = upper(address.back());
+  if (first == 'N' && last == 'U') return 52;
+  return first == 'E' && last >= 'A' && last <= 'Z' ? 26 + (last - 'A') : -1;
+}
+namespace slot {
+constexpr int letter(char c) {
+  return c - 'A';
+}
+constexpr int e(char c) {
+  return 26 + (c - 'A');
+}
+inline constexpr int nu = 52;
+}  // namespace slot
+
+}  // namespace cnctrans::frontends::num
