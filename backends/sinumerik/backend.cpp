@@ -1,0 +1,61 @@
+#include "backends/sinumerik/backend.h"
+
+#include "backends/common/comments.h"
+#include "backends/common/stream_writer.h"
+#include "backends/sinumerik/capabilities.h"
+#include "backends/sinumerik/tables.h"
+#include "backends/sinumerik/writer.h"
+#include "base/text.h"
+
+namespace cnctrans::backends::sinumerik {
+namespace {
+
+class Stream final : public PlainStreamWriter {
+ public:
+  using PlainStreamWriter::PlainStreamWriter;
+
+ protected:
+  void header(const ir::Program& frame, std::string& out) override {
+    const ir::Routine* main = frame.main();
+    if (main == nullptr || main->title.empty() || same_dialect()) return;
+    out += comment(trim(main->title), style.comment, false, nullptr);
+    out += '\n';
+  }
+};
+
+PlainTable table(const machine::Profile& profile) {
+  PlainTable t = plain_table(style, profile);
+  // Without constant cutting speed, which is not plain, the feed codes stand for themselves.
+  auto& feed = t.settings[static_cast<std::size_t>(Setting::feed_mode)];
+  for (const ir::FeedMode m : {ir::FeedMode::per_minute, ir::FeedMode::per_rev, ir::FeedMode::inverse_time}) {
+    feed[code_value(m)] = feed_code(m, ir::SpindleMode::rpm);
+  }
+  t.radius = "CR=";
+  t.work_offset_off = "G500";
+  t.work_offsets = {"", "G54", "G55", "G56", "G57"};
+  t.end_program = "M30";
+  t.dwell = "G4 F";
+  t.select_changes_too = profile.option("sinumerik.tool_change", "m6") == "immediate";
+  return t;
+}
+
+class Sinumerik final : public Backend {
+ public:
+  [[nodiscard]] std::string_view dialect() const override { return style.dialect; }
+  [[nodiscard]] const ir::Capabilities& capabilities() const override { return sinumerik::capabilities(); }
+  std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
+                                Diagnostics& diagnostics) const override {
+    return Writer(program, options, diagnostics).write();
+  }
+  [[nodiscard]] std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override {
+    return std::make_unique<Stream>(style, options, table(*options.profile));
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const Backend> make_backend() {
+  return std::make_shared<Sinumerik>();
+}
+
+}  // namespace cnctrans::backends::sinumerik

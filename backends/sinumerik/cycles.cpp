@@ -1,0 +1,216 @@
+#include "backends/sinumerik/cycles.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "dialects/sinumerik/cycles.h"
+#include "ir/cycles/hole.h"
+
+namespace cnctrans::backends::sinumerik {
+namespace {
+
+namespace dialect = cnctrans::sinumerik;
+using ir::HoleCycle;
+using ir::HoleKind;
+using ir::Level;
+using ir::LevelBase;
+using ir::Value;
+
+constexpr double tiny = 1e-9;
+
+using Arguments = std::map<std::string, Value, std::less<>>;
+
+bool zero(const Value& v) {
+  return v.is(0);
+}
+
+/// The value without its sign: depths and distances are unsigned on this control.
+Value unsigned_value(const Value& v) {
+  if (v.literal()) return v.number < 0 ? ir::negate(v) : v;
+  const auto* u = std::get_if<ir::Unary>(&v.expr->node);
+  if (u != nullptr && u->op == ir::UnaryOp::negate) return Value(u->operand);
+  return v;
+}
+
+Value seconds(const HoleCycle& c, const Value& v) {
+  const Value s = c.dwell_scale == 1 ? v : ir::scale(v, c.dwell_scale);
+  return c.dwell_in_revolutions ? ir::negate(unsigned_value(s)) : s;
+}
+
+/// RFP and SDIS. Without a surface the reference plane is the surface, except for the usual plane a little above zero.
+bool planes(const HoleCycle& c, Arguments& args) {
+  const Level& r = c.reference;
+  if (!r.given) return false;
+  if (c.surface.given) {
+    if (c.surface.base != LevelBase::absolute) return false;
+    args["RFP"] = c.surface.value;
+    if (r.base == LevelBase::from_surface) {
+      args["SDIS"] = unsigned_value(r.value);
+    } else if (r.base == LevelBase::absolute) {
+      const Value distance = ir::subtract(r.value, c.surface.value);
+      if (!distance.literal()) return false;
+      args["SDIS"] = unsigned_value(distance);
+    } else {
+      return false;
+    }
+    return true;
+  }
+  if (r.base != LevelBase::absolute) return false;
+  const bool pecks = c.kind == HoleKind::peck_full || c.kind == HoleKind::peck_break;
+  const bool usual = !pecks && r.value.literal() && c.bottom.value.literal() && c.bottom.base == LevelBase::absolute &&
+                     r.value.number > 0 && r.value.number <= 10 && c.bottom.value.number < 0;
+  args["RFP"] = usual ? Value(0) : r.value;
+  args["SDIS"] = usual ? r.value : Value(0);
+  return true;
+}
+
+bool bottom(const HoleCycle& c, Arguments& args) {
+  if (!c.bottom.given) return false;
+  switch (c.bottom.base) {
+    case LevelBase::absolute: args["DP"] = c.bottom.value; return true;
+    case LevelBase::from_surface:
+      if (!c.surface.given) return false;
+      args["DPR"] = unsigned_value(c.bottom.value);
+      return true;
+    default: return false;
+  }
+}
+
+/// The schedule: DAM 0 is the balanced law; equal pecks without remainder are the same under it.
+bool degression(const HoleCycle& c, Arguments& args) {
+  const ir::Pecks& p = c.pecks;
+  args["DAM"] = Value(0);
+  switch (p.law) {
+    case ir::PeckLaw::balanced:
+      if (!zero(p.minimum)) args["MDEP"] = p.minimum;
+      return zero(p.degression);
+    case ir::PeckLaw::geometric:
+      if (!p.degression.literal() || p.degression.number <= 0) return false;
+      args["DAM"] = ir::negate(p.degression);
+      if (!zero(p.minimum)) args["MDEP"] = p.minimum;
+      return true;
+    case ir::PeckLaw::arithmetic:
+      if (!p.degression.literal() || p.degression.number <= 0) return false;
+      args["DAM"] = p.degression;
+      if (!zero(p.minimum)) args["MDEP"] = p.minimum;
+      return true;
+    case ir::PeckLaw::constant: {
+      std::string error;
+      const auto numbers = ir::cycles::resolve(
+          c, {}, [](const Value& v) { return v.literal() ? std::optional<double>(v.number) : std::nullopt; }, &error);
+      if (!numbers) return false;
+      const double depth = std::abs((numbers->from_surface ? numbers->surface : numbers->reference) - numbers->bottom);
+      const double rest = std::fmod(depth, numbers->first);
+      return depth <= numbers->first + tiny || rest < tiny || numbers->first - rest < tiny;
+    }
+    default: return false;
+  }
+}
+
+bool first_peck(const HoleCycle& c, Arguments& args) {
+  const ir::Pecks& p = c.pecks;
+  if (!p.first_from_surface && !zero(args["SDIS"])) {  // counted from the reference plane: that becomes RFP
+    if (c.reference.base != LevelBase::absolute) return false;
+    args["RFP"] = c.reference.value;
+    args["SDIS"] = Value(0);
+    if (args.count("DPR") != 0) return false;
+  }
+  if (!p.first_to.given) {
+    args["FDPR"] = unsigned_value(p.first);
+    return true;
+  }
+  if (p.first_to.base == LevelBase::absolute) {
+    args["FDEP"] = p.first_to.value;
+    return true;
+  }
+  if (p.first_to.base != LevelBase::from_surface) return false;
+  args["FDPR"] = unsigned_value(p.first_to.value);
+  return true;
+}
+
+/// Dwells of CYCLE83: DTB after every peck, DTD at the final depth, where 0 or nothing means DTB.
+bool peck_dwells(const HoleCycle& c, Arguments& args) {
+  const bool every = !zero(c.pecks.dwell);
+  const bool last = !zero(c.dwell_bottom);
+  if (every && !last) return false;
+  args["DTB"] = every ? seconds(c, c.pecks.dwell) : Value(0);
+  if (last && !(every && ir::equal(c.pecks.dwell, c.dwell_bottom))) args["DTD"] = seconds(c, c.dwell_bottom);
+  return true;
+}
+
+bool pecks(const HoleCycle& c, Arguments& args) {
+  const ir::Pecks& p = c.pecks;
+  if (!first_peck(c, args) || !degression(c, args) || !peck_dwells(c, args)) return false;
+  if (p.has_first_feed_factor)
+    args["FRF"] = p.first_feed_factor;
+  else
+    args["FRF"] = Value(1);
+  args["DTS"] = seconds(c, c.dwell_top);
+  if (c.kind == HoleKind::peck_full) {
+    args["VARI"] = Value(1);
+    if (p.reapproach_automatic) return true;
+    args["DIS1"] = p.reapproach;
+    return !p.reapproach.literal() || p.reapproach.number > 0;
+  }
+  args["VARI"] = Value(0);
+  if (p.lift_rapid || !zero(c.dwell_top)) return false;
+  args["VRT"] = p.lift;
+  return !p.lift.literal() || p.lift.number > 0;
+}
+
+/// Name of the standard cycle and its arguments; empty: it can't be said exactly.
+std::string_view arguments(const HoleCycle& c, Arguments& args) {
+  if (c.has_feed || c.has_feed_out || c.reference_may_be_below || c.approach_by_retract) return {};
+  const bool pecking = c.kind == HoleKind::peck_full || c.kind == HoleKind::peck_break;
+  if (c.axis != ir::axis::none && (!pecking || c.axis > ir::axis::z)) return {};
+  if (c.axis != ir::axis::none) args["AXN"] = Value(c.axis + 1);
+  if (!c.retract.given || c.retract.base != LevelBase::absolute) return {};
+  args["RTP"] = c.retract.value;
+  if (!planes(c, args) || !bottom(c, args)) return {};
+  switch (c.kind) {
+    case HoleKind::drill:
+      if (!zero(c.dwell_top) || c.pecks.has_first_feed_factor) return {};
+      if (zero(c.dwell_bottom)) return "CYCLE81";
+      args["DTB"] = seconds(c, c.dwell_bottom);
+      return "CYCLE82";
+    case HoleKind::peck_full:
+    case HoleKind::peck_break: return pecks(c, args) ? "CYCLE83" : std::string_view{};
+    default: return {};
+  }
+}
+
+}  // namespace
+
+bool native_cycle(const ir::Cycle& cycle) {
+  if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node)) return dialect::cycle(named->name) != nullptr;
+  Arguments args;
+  return !arguments(std::get<HoleCycle>(cycle.node), args).empty();
+}
+
+std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(const Value&)>& print) {
+  Arguments args;
+  std::string name;
+  if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node)) {
+    name = named->name;
+    for (const auto& [word, value] : named->words) args[word] = value;
+  } else {
+    name = arguments(std::get<HoleCycle>(cycle.node), args);
+  }
+  const dialect::CycleRow* row = dialect::cycle(name);
+  if (row == nullptr) return {};
+  std::vector<std::string> texts;
+  for (const auto& [word, value] : args) {
+    const int at = dialect::parameter_index(*row, word);
+    if (at < 0) continue;
+    if (texts.size() <= static_cast<std::size_t>(at)) texts.resize(static_cast<std::size_t>(at) + 1);
+    texts[static_cast<std::size_t>(at)] = print(value);
+  }
+  std::string call = name + '(';
+  for (std::size_t i = 0; i < texts.size(); ++i) call += (i == 0 ? "" : ",") + texts[i];
+  return call + ')';
+}
+
+}  // namespace cnctrans::backends::sinumerik

@@ -1,0 +1,255 @@
+#include "backends/sinumerik/expressions.h"
+
+#include <array>
+#include <cmath>
+
+#include "dialects/sinumerik/operators.h"
+
+namespace cnctrans::backends::sinumerik {
+namespace {
+
+namespace dialect = cnctrans::sinumerik;
+
+constexpr int weakest = 12;
+constexpr int level_of(int priority) {
+  return weakest - priority;
+}
+
+constexpr auto make_binary() {
+  std::array<BinaryText, dialect::operators.size()> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto& row = dialect::operators[i];
+    table[i] = BinaryText{row.op, row.text, static_cast<std::uint8_t>(level_of(row.priority)),
+                          dialect::is_word_operator(row.text)};
+  }
+  return table;
+}
+constexpr auto make_functions() {
+  std::array<FunctionText, dialect::functions.size()> table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = {dialect::functions[i].function, dialect::functions[i].name};
+  return table;
+}
+constexpr int prefix_level = level_of(dialect::prefix_priority);
+constexpr int product_level = level_of(2);
+constexpr int sum_level = level_of(3);
+constexpr int concat_level = level_of(10);
+
+constexpr auto binary_table = make_binary();
+constexpr auto function_table = make_functions();
+constexpr std::array unary_table{UnaryText{ir::UnaryOp::negate, "-", prefix_level},
+                                 UnaryText{ir::UnaryOp::logical_not, "NOT", prefix_level},
+                                 UnaryText{ir::UnaryOp::bit_not, "B_NOT", prefix_level}};
+constexpr ExpressionStyle expression_style{.binary = binary_table, .unary = unary_table, .functions = function_table};
+
+struct SystemName {
+  ir::Datum datum;
+  std::string_view name;
+  bool axis;
+};
+constexpr std::array system_names{SystemName{ir::Datum::programmed_position, "$P_EP", true},
+                                  SystemName{ir::Datum::work_position, "$AA_IW", true},
+                                  SystemName{ir::Datum::machine_position, "$AA_IM", true},
+                                  SystemName{ir::Datum::work_offset, "$P_UIFR", true},
+                                  SystemName{ir::Datum::tool_number, "$P_TOOLNO", false},
+                                  SystemName{ir::Datum::offset_number, "$P_TOOL", false},
+                                  SystemName{ir::Datum::tool_radius, "$P_TOOLR", false},
+                                  SystemName{ir::Datum::active_offset, "$P_UIFRNUM", false},
+                                  SystemName{ir::Datum::part_count, "$AC_ACTUAL_PARTS", false},
+                                  SystemName{ir::Datum::cycle_time, "$AC_CYCLE_TIME", false}};
+
+const SystemName* system_name(ir::Datum datum) {
+  for (const SystemName& n : system_names) {
+    if (n.datum == datum) return &n;
+  }
+  return nullptr;
+}
+
+const ir::Call* as_call(const ir::ExprPtr& e, ir::Function f) {
+  const auto* c = e ? std::get_if<ir::Call>(&e->node) : nullptr;
+  return c != nullptr && c->function == f && c->args.size() == 1 ? c : nullptr;
+}
+
+std::optional<double> literal(const ir::ExprPtr& e) {
+  const auto* n = e ? std::get_if<ir::Number>(&e->node) : nullptr;
+  return n != nullptr ? std::optional<double>(n->value) : std::nullopt;
+}
+
+}  // namespace
+
+bool has_system_name(const ir::SystemRef& s) {
+  return system_name(s.datum) != nullptr;
+}
+
+Expressions::Expressions(const ir::Program& program, bool own)
+    : ExpressionPrinter(program, expression_style, NumberFormat{15, 12, own}), own_(own) {}
+
+std::string Expressions::assigned(const ir::ExprPtr& e, ir::Type type) {
+  if (type == ir::Type::integer) {
+    if (const ir::Call* c = as_call(e, ir::Function::to_integer)) return print(c->args[0]);
+  }
+  if (type == ir::Type::boolean) {
+    if (const ir::Call* c = as_call(e, ir::Function::to_boolean)) return print(c->args[0]);
+  }
+  const auto* b = e ? std::get_if<ir::Binary>(&e->node) : nullptr;
+  if (b != nullptr && ir::is_comparison(b->op) && !own_) return '(' + print(e) + ')';
+  return print(e);
+}
+
+std::string Expressions::condition(const ir::ExprPtr& e) {
+  if (const ir::Call* c = as_call(e, ir::Function::to_boolean)) return print(c->args[0]);
+  return print(e);
+}
+
+std::string Expressions::index(const ir::ExprPtr& e) {
+  return assigned(e, ir::Type::integer);
+}
+
+ir::Type Expressions::type_of(const ir::VarRef& v) const {
+  return v.space < program_.spaces.size() ? program_.spaces[v.space].type : ir::Type::real;
+}
+
+std::string Expressions::name(const ir::VarRef& v) {
+  if (v.name.empty()) {
+    const bool r = v.space < program_.spaces.size() && program_.spaces[v.space].prefix == "R";
+    if (!r) {
+      problem(v.index, "a variable of another control reached the writer");
+      return {};
+    }
+    const auto n = literal(v.index);
+    if (n && *n == std::floor(*n) && *n >= 0) return 'R' + std::to_string(static_cast<std::int64_t>(*n));
+    return "R[" + index(v.index) + ']';
+  }
+  std::string text = v.name;
+  for (std::size_t i = 0; i < v.indices.size(); ++i) text += (i == 0 ? "[" : ",") + index(v.indices[i]);
+  if (!v.indices.empty()) text += ']';
+  return text;
+}
+
+std::string Expressions::name(const ir::SystemRef& s) {
+  const SystemName* known = system_name(s.datum);
+  const bool own_name = own_ && !s.text.empty();
+  if (known == nullptr && !own_name) {
+    problem(nullptr, "the machine datum '" + s.text + "' has no name on this control");
+    return {};
+  }
+  std::string text = own_name ? s.text : std::string(known->name);
+  std::vector<std::string> indices;
+  if (s.datum == ir::Datum::work_offset) {
+    for (const ir::ExprPtr& a : s.args) indices.push_back(index(a));
+    indices.emplace_back(program_.axis_name(s.axis));
+    indices.emplace_back("TR");
+  } else {
+    if (s.axis != ir::axis::none) indices.emplace_back(program_.axis_name(s.axis));
+    for (const ir::ExprPtr& a : s.args) {
+      const auto* word = a ? std::get_if<ir::String>(&a->node) : nullptr;  // component names are kept as texts
+      indices.push_back(word != nullptr ? word->text : index(a));
+    }
+  }
+  for (std::size_t i = 0; i < indices.size(); ++i) text += (i == 0 ? "[" : ",") + indices[i];
+  if (!indices.empty()) text += ']';
+  return text;
+}
+
+std::string Expressions::variable(const ir::ExprPtr& /*e*/, const ir::VarRef& v) {
+  return name(v);
+}
+std::string Expressions::system(const ir::ExprPtr& /*e*/, const ir::SystemRef& s) {
+  return name(s);
+}
+
+Printed Expressions::number(const ir::Number& n) {
+  constexpr double pi = 3.14159265358979323846;
+  if (n.text.empty() && n.value == pi) return {"$PI", primary_level, false};
+  return ExpressionPrinter::number(n);
+}
+
+std::string Expressions::string(const ir::ExprPtr& /*e*/, const ir::String& s) {
+  std::string text = s.text;
+  if (!own_) {
+    for (char& c : text) {
+      if (c == '"') c = '\'';
+    }
+  }
+  return '"' + text + '"';
+}
+
+std::optional<Printed> Expressions::special(const ir::ExprPtr& e) {
+  if (const auto* b = std::get_if<ir::Binary>(&e->node)) return special_binary(e, *b);
+  if (const auto* c = std::get_if<ir::Call>(&e->node)) return special_call(e, *c);
+  const auto* n = std::get_if<ir::Number>(&e->node);
+  if (n != nullptr && e->type == ir::Type::boolean && n->text.empty()) {
+    return Printed{n->value != 0 ? "TRUE" : "FALSE", primary_level, false};
+  }
+  return std::nullopt;
+}
+
+std::optional<Printed> Expressions::special_binary(const ir::ExprPtr& e, const ir::Binary& b) {
+  const bool integers = b.left && b.right && b.left->type == ir::Type::integer && b.right->type == ir::Type::integer;
+  switch (b.op) {
+    case ir::BinaryOp::power: return power(e, b);
+    case ir::BinaryOp::concat: {  // the operator makes texts of its operands by itself
+      const auto bare = [](const ir::ExprPtr& x) {
+        const ir::Call* c = as_call(x, ir::Function::to_string);
+        return c != nullptr ? c->args[0] : x;
+      };
+      const std::string left = operand(bare(b.left), concat_level, true);
+      return Printed{left + "<<" + operand(bare(b.right), concat_level + 1, true), concat_level, false};
+    }
+    case ir::BinaryOp::modulo: {  // MOD is for INT only
+      if (own_ || integers) return std::nullopt;
+      const std::string left = operand(b.left, sum_level, true);
+      return Printed{left + "-TRUNC(" + operand(b.left, product_level, true) + '/' +
+                         operand(b.right, prefix_level, false) + ")*" + operand(b.right, prefix_level, false),
+                     sum_level, !left.empty() && left.front() == '-'};
+    }
+    case ir::BinaryOp::int_divide:
+      if (own_ || integers) return std::nullopt;
+      return Printed{
+          "TRUNC(" + operand(b.left, product_level, true) + '/' + operand(b.right, prefix_level, false) + ')',
+          primary_level, false};
+    default: return std::nullopt;
+  }
+}
+
+/// The control has no power operator: squares, roots and small whole powers exactly, else by logarithm.
+Printed Expressions::power(const ir::ExprPtr& /*e*/, const ir::Binary& b) {
+  const auto exponent = literal(b.right);
+  if (exponent == 2.0) return {"POT(" + print(b.left) + ')', primary_level, false};
+  if (exponent == 0.5) return {"SQRT(" + print(b.left) + ')', primary_level, false};
+  if (exponent == 1.0) return print_node(b.left);
+  if (exponent && *exponent == std::floor(*exponent) && *exponent >= 3 && *exponent <= 8) {
+    const std::string factor = operand(b.left, prefix_level, false);
+    std::string text = factor;
+    for (int i = 1; i < static_cast<int>(*exponent); ++i) text += '*' + factor;
+    return {std::move(text), product_level, false};
+  }
+  return {"EXP(" + operand(b.right, product_level, true) + "*LN(" + print(b.left) + "))", primary_level, false};
+}
+
+std::optional<Printed> Expressions::special_call(const ir::ExprPtr& e, const ir::Call& c) {
+  const auto one = [&](std::string_view before, std::string_view after) {
+    return Printed{std::string(before) + print(c.args[0]) + std::string(after), primary_level, false};
+  };
+  if (c.args.empty()) return std::nullopt;
+  switch (c.function) {
+    case ir::Function::atan: return one("ATAN2(", ",1)");
+    case ir::Function::to_integer:
+    case ir::Function::round: return one("ROUND(", ")");
+    case ir::Function::floor: {
+      const auto minus = ir::unary(ir::UnaryOp::negate, c.args[0]);
+      return Printed{"-ROUNDUP(" + print(minus) + ')', prefix_level, true};
+    }
+    case ir::Function::log10: {
+      return Printed{"LN(" + print(c.args[0]) + ")/LN(10)", product_level, false};
+    }
+    case ir::Function::to_boolean:
+      if (e->type == ir::Type::boolean && c.args[0]->type == ir::Type::boolean) return print_node(c.args[0]);
+      return Printed{'(' + operand(c.args[0], concat_level, true) + "<>0)", primary_level, false};
+    case ir::Function::to_string:
+      return Printed{"<<" + operand(c.args[0], concat_level + 1, true), concat_level, false};
+    default: return std::nullopt;
+  }
+}
+
+}  // namespace cnctrans::backends::sinumerik

@@ -1,0 +1,305 @@
+// Statements: assignments, structures, jumps, calls, messages, definitions (reference-language 3, 6-9).
+#include "backends/sinumerik/tables.h"
+#include "backends/sinumerik/writer.h"
+#include "base/text.h"
+
+namespace cnctrans::backends::sinumerik {
+
+/// Reports what the expression printer could not say; true when there was something.
+bool Writer::refused_problem(WordPos pos) {
+  WordPos at;
+  const std::string problem = expressions_.take_problem(&at);
+  if (problem.empty()) return refused();
+  refuse("TRN-203", at.column != 0 ? at : pos, problem);
+  return true;
+}
+
+void Writer::assign(const ir::Assign& a) {
+  for (const ir::Assign::Item& item : a.items) {
+    std::string text = item.to_system ? expressions_.name(item.system) : expressions_.name(item.target);
+    const ir::Type type = item.to_system ? ir::Type::real : expressions_.type_of(item.target);
+    text += '=';
+    text += expressions_.assigned(item.value, type);
+    if (refused_problem(item.pos)) return;
+    add(std::move(text), Rank::head, item.pos);
+  }
+}
+
+bool Writer::condition(const ir::ExprPtr& e, std::string& text) {
+  text = expressions_.condition(e);
+  return !refused_problem();
+}
+
+// ---- structures ----------------------------------------------------------------------------------------------------
+
+void Writer::if_else(const ir::If& i) {
+  std::string text;
+  if (!condition(i.condition, text)) {
+    finish_line();
+    remark_body(i.then_body);
+    return remark_body(i.else_body);
+  }
+  next_line();
+  add("IF " + text, Rank::head);
+  nested_body(i.then_body);
+  if (i.has_else || !i.else_body.empty()) {
+    keyword_line(i.else_line, "ELSE");
+    nested_body(i.else_body);
+  }
+  keyword_line(i.end_line, "ENDIF");
+}
+
+void Writer::while_loop(const ir::While& w) {
+  std::string text;
+  if (!condition(w.condition, text)) {
+    finish_line();
+    return remark_body(w.body);
+  }
+  next_line();
+  add("WHILE " + text, Rank::head);
+  nested_body(w.body);
+  keyword_line(w.end_line, "ENDWHILE");
+}
+
+void Writer::until_loop(const ir::Until& u) {
+  std::string text;
+  if (!condition(u.condition, text)) {
+    finish_line();
+    return remark_body(u.body);
+  }
+  next_line();
+  add("REPEAT", Rank::head);
+  nested_body(u.body);
+  keyword_line(u.end_line, "UNTIL " + text);
+}
+
+void Writer::for_loop(const ir::For& f) {
+  if (f.step) {
+    const auto step = ir::constant_value(f.step);
+    if (!step || *step != 1) refuse("TRN-201", {}, "a FOR loop of this control counts up by 1 only");
+  }
+  std::string text = "FOR " + expressions_.name(f.counter) + '=';
+  text += expressions_.assigned(f.from, ir::Type::integer);
+  text += " TO " + expressions_.assigned(f.to, ir::Type::integer);
+  if (refused_problem()) {
+    finish_line();
+    return remark_body(f.body);
+  }
+  next_line();
+  add(std::move(text), Rank::head);
+  nested_body(f.body);
+  keyword_line(f.end_line, "ENDFOR");
+}
+
+void Writer::endless_loop(const ir::Loop& l) {
+  next_line();
+  add("LOOP", Rank::head);
+  nested_body(l.body);
+  keyword_line(l.end_line, "ENDLOOP");
+}
+
+// ---- jumps ---------------------------------------------------------------------------------------------------------
+
+std::string Writer::target_text(const ir::LabelRef& label) {
+  if (label.computed) {
+    if (label.computed->type == ir::Type::string) return expressions_.print(label.computed);
+    return "\"N\"<<" + expressions_.operand(label.computed, primary_level, false);
+  }
+  return label.is_number ? number_target(label) : label.text;
+}
+
+std::string Writer::goto_text(const ir::Jump& j) {
+  std::string_view word;
+  switch (j.search) {
+    case ir::Search::forward: word = "GOTOF "; break;
+    case ir::Search::backward: word = "GOTOB "; break;
+    case ir::Search::forward_then_backward: word = j.quiet ? "GOTOC " : "GOTO "; break;
+    case ir::Search::to_start:
+      if (same_dialect()) return "GOTOS";
+      [[fallthrough]];
+    case ir::Search::whole_first:
+      refuse("TRN-206", {}, "a jump that searches from the program start has no counterpart here");
+      return {};
+  }
+  if (j.quiet && j.search != ir::Search::forward_then_backward) {
+    refuse("TRN-206", {}, "a jump that passes over a missing label must search both ways here");
+  }
+  return std::string(word) + target_text(j.target);
+}
+
+void Writer::jump(const ir::Jump& j) {
+  std::string text;
+  if (j.condition && !condition(j.condition, text)) return;
+  if (j.condition) text = "IF " + text + ' ';
+  text += goto_text(j);
+  if (refused_problem()) return;
+  add(std::move(text), Rank::tail);
+}
+
+void Writer::switch_jump(const ir::Switch& s) {
+  std::string text = "CASE(" + expressions_.assigned(s.value, ir::Type::integer) + ") OF";
+  for (const auto& [value, jump] : s.cases) {
+    text += ' ' + expressions_.print(value) + ' ' + goto_text(jump);
+  }
+  for (const ir::Jump& fallback : s.fallback) text += " DEFAULT " + goto_text(fallback);
+  if (refused_problem()) return;
+  add(std::move(text), Rank::head);
+}
+
+void Writer::repeat(const ir::Repeat& r) {
+  if (r.has_program) return refuse("TRN-201", {}, "a range of another program can't be repeated in place here");
+  const bool one_block = !r.last.text.empty() && r.first.text == r.last.text && r.first.is_number == r.last.is_number;
+  const bool to_here = r.last.text.empty() && !r.last.computed;
+  std::string text = (one_block ? "REPEATB " : "REPEAT ") + target_text(r.first);
+  if (!one_block && !to_here && r.last.text != "ENDLABEL") text += ' ' + target_text(r.last);
+  if (r.count) {
+    const bool number = ir::constant_value(r.count).has_value();
+    text += " P=";
+    text += number ? expressions_.print(r.count) : expressions_.assigned(r.count, ir::Type::integer);
+  }
+  if (refused_problem()) return;
+  add(std::move(text), Rank::head);
+}
+
+// ---- calls ---------------------------------------------------------------------------------------------------------
+
+std::size_t Writer::routine_of(const ir::RoutineName& name) const {
+  const auto& routines = program().routines;
+  for (std::size_t i = 0; i < routines.size(); ++i) {
+    if (routines[i].name == name) return i;
+  }
+  return routine_index();
+}
+
+std::string Writer::call_text(const ir::CallRoutine& c) {
+  if (c.tail || c.optional)
+    refuse("TRN-201", {}, "a call that does not come back, or that may fail, has no counterpart here");
+  if (c.has_range) {
+    const std::size_t in = c.routine.empty() ? routine_index() : routine_of(c.routine);
+    const auto border = [&](const ir::LabelRef& l) { return l.is_number ? number_target(in, l) : target_text(l); };
+    std::string text = "CALL ";
+    if (!c.routine.empty()) text += '"' + sub_name(c.routine) + "\" ";
+    return text + "BLOCK " + border(c.first) + " TO " + border(c.last);
+  }
+  if (c.computed) {
+    if (c.computed->type == ir::Type::string) return "CALL " + expressions_.print(c.computed);
+    return "CALL \"L\"<<" + expressions_.operand(c.computed, primary_level, false);
+  }
+  std::string text = sub_name(c.routine);
+  if (!c.arguments.empty()) {
+    text += '(';
+    for (std::size_t i = 0; i < c.arguments.size(); ++i) {
+      if (i != 0) text += ',';
+      const ir::Argument& a = c.arguments[i];
+      if (a.by_reference) {
+        text += expressions_.name(a.reference);
+      } else if (a.value) {
+        text += expressions_.print(a.value);
+      }
+    }
+    text += ')';
+  }
+  return text;
+}
+
+void Writer::call(const ir::CallRoutine& c) {
+  std::string text = call_text(c);
+  if (c.count) {
+    const bool number = ir::constant_value(c.count).has_value();
+    text += number ? " P" : " P=";
+    text += expressions_.assigned(c.count, ir::Type::integer);
+  }
+  if (refused_problem()) return;
+  add(std::move(text), Rank::tail);
+}
+
+void Writer::modal_call(const ir::ModalCall& c) {
+  if (c.off) return add("MCALL", Rank::head);
+  const std::string text = c.cycle ? cycle_text(*c.cycle, {}) : call_text(c.call);
+  if (refused_problem()) return;
+  if (c.here) {
+    add(text, Rank::head);
+    next_line();
+  }
+  add("MCALL " + text, Rank::head);
+}
+
+void Writer::return_from(const ir::Return& r) {
+  if (!r.values.empty()) return refuse("TRN-201", {}, "a return with values has no counterpart here");
+  add(same_dialect() && !r.text.empty() ? std::string(r.text) : "M17", Rank::tail);
+}
+
+void Writer::end_program(const ir::End& e) {
+  const bool sub = routine().kind == ir::RoutineKind::sub;
+  if (sub && !e.returns_from_sub) {
+    return refuse("TRN-201", {}, "the end of the whole program inside a subprogram: here M30 would only return from it",
+                  "let the subprogram return and end the main program");
+  }
+  add(same_dialect() && !e.text.empty() ? std::string(e.text) : "M30", Rank::tail);
+}
+
+// ---- messages, definitions -----------------------------------------------------------------------------------------
+
+std::string Writer::text_parts(const std::vector<ir::ExprPtr>& parts) {
+  std::string text;
+  for (const ir::ExprPtr& p : parts) {
+    const bool is_text = p && p->type == ir::Type::string;
+    if (!text.empty() || !is_text) text += "<<";
+    constexpr int tighter_than_concat = 3;
+    text += expressions_.operand(p, tighter_than_concat, true);
+  }
+  return text;
+}
+
+void Writer::message(const ir::Message& m) {
+  std::string text;
+  switch (m.kind) {
+    case ir::MessageKind::clear: text = "MSG()"; break;
+    case ir::MessageKind::show: text = "MSG(" + text_parts(m.parts) + ')'; break;
+    case ir::MessageKind::error: {
+      constexpr std::int64_t first_user_alarm = 65000;
+      const auto number = m.number ? ir::constant_value(m.number) : std::optional<double>(0);
+      const bool own_number = same_dialect() || (number && *number >= first_user_alarm && *number <= 69999);
+      text = "SETAL(";
+      if (own_number && m.number) {
+        text += expressions_.print(m.number);
+      } else if (number && *number >= 0 && *number <= 4999) {
+        text += std::to_string(first_user_alarm + static_cast<std::int64_t>(*number));
+      } else {
+        refuse("TRN-201", {}, "this error number has no counterpart among the user alarms (65000 to 69999)");
+      }
+      if (!m.parts.empty()) text += ',' + text_parts(m.parts);
+      text += ')';
+      break;
+    }
+  }
+  if (refused_problem()) return;
+  add(std::move(text), Rank::head);
+}
+
+void Writer::declare(const ir::Declare& d) {
+  std::string text = "DEF ";
+  const bool own_type = same_dialect() && !d.type_text.empty();
+  text += own_type ? d.type_text : std::string(type_word(d.type));
+  for (std::size_t i = 0; i < d.items.size(); ++i) {
+    const ir::Declare::Item& item = d.items[i];
+    text += (i == 0 ? " " : ",") + item.name;
+    for (std::size_t k = 0; k < item.dimensions.size(); ++k) {
+      text += (k == 0 ? "[" : ",") + expressions_.print(item.dimensions[k]);
+    }
+    if (!item.dimensions.empty()) text += ']';
+    if (item.initial.size() == 1 && item.dimensions.empty()) {
+      text += '=' + expressions_.assigned(item.initial[0], d.type);
+    } else if (!item.initial.empty()) {
+      text += "=SET(";
+      for (std::size_t k = 0; k < item.initial.size(); ++k) {
+        text += (k == 0 ? "" : ",") + expressions_.assigned(item.initial[k], d.type);
+      }
+      text += ')';
+    }
+  }
+  if (refused_problem()) return;
+  add(std::move(text), Rank::head);
+}
+
+}  // namespace cnctrans::backends::sinumerik

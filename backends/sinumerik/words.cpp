@@ -1,0 +1,378 @@
+// Word blocks: actions and motion (reference-language 14, 15).
+#include <cmath>
+
+#include "backends/sinumerik/cycles.h"
+#include "backends/sinumerik/tables.h"
+#include "backends/sinumerik/writer.h"
+
+namespace cnctrans::backends::sinumerik {
+namespace {
+
+template <class T>
+bool has(const ir::Block& b) {
+  for (const ir::Action& a : b.actions) {
+    if (std::holds_alternative<T>(a.data)) return true;
+  }
+  return false;
+}
+
+bool is_group(const ir::Action& a) {
+  const auto* m = std::get_if<ir::ModalSet>(&a.data);
+  return m != nullptr && (m->setting == Setting::feed_mode || m->setting == Setting::spindle_mode);
+}
+
+std::string numbered(std::string_view address, std::uint8_t number) {
+  return number == 1 ? std::string(address) : std::string(address) + std::to_string(number);
+}
+
+}  // namespace
+
+// ---- blocks --------------------------------------------------------------------------------------------------------
+
+void Writer::block(const ir::Block& b) {
+  block_has_offset_ = has<ir::ToolOffset>(b) || has<ir::ToolSelect>(b);
+  feed_and_spindle_mode(b);
+  offset_again(b);
+  ProgramWriter::block(b);
+}
+
+/// Feed mode and spindle mode are one group here: the code for both after this block.
+void Writer::feed_and_spindle_mode(const ir::Block& b) {
+  group_code_.clear();
+  group_written_ = false;
+  std::optional<std::uint8_t> feed, spindle;
+  bool named = false;
+  for (const ir::Action& a : b.actions) {
+    if (!is_group(a) || (same_dialect() && !a.text.empty())) continue;
+    named = true;
+    const auto& m = std::get<ir::ModalSet>(a.data);
+    (m.setting == Setting::feed_mode ? feed : spindle) = m.value;
+  }
+  if (!named || same_dialect()) return;
+  const bool sets_spindle = spindle.has_value();
+  const auto feed_before = setting(Setting::feed_mode);
+  const auto spindle_before = uses_css_ ? setting(Setting::spindle_mode) : code_value(ir::SpindleMode::rpm);
+  if (!feed) feed = feed_before;
+  if (!spindle) spindle = spindle_before;
+  if (!feed || !spindle) {
+    return refuse("TRN-215", {}, "feed mode and spindle mode are one group here, and the one in force is not known",
+                  "write feed mode and spindle mode in this block");
+  }
+  const auto feed_mode = static_cast<ir::FeedMode>(*feed);
+  const auto spindle_mode = static_cast<ir::SpindleMode>(*spindle);
+  group_code_ = feed_code(feed_mode, spindle_mode);
+  const bool leaves_css = sets_spindle && spindle_mode == ir::SpindleMode::rpm && uses_css_ &&
+                          spindle_before != code_value(ir::SpindleMode::rpm);
+  if (leaves_css && feed_mode == ir::FeedMode::per_rev) group_code_ = "G97";
+  if (leaves_css && feed_mode == ir::FeedMode::per_minute) group_code_ = "G971";
+  if (group_code_.empty())
+    refuse("TRN-202", {}, "inverse-time feed with constant cutting speed has no counterpart here");
+}
+
+/// After a move in machine coordinates without tool length (SUPA D0) the offset is selected again.
+void Writer::offset_again(const ir::Block& b) {
+  if (!offset_pending_) return;
+  if (b.has_motion && b.motion.frame == ir::FrameUse::machine) return;
+  if (b.empty()) return;
+  offset_pending_ = false;
+  if (block_has_offset_) return;
+  add(offset_word_.empty() ? "D1" : offset_word_, Rank::offset);
+}
+
+bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
+  const bool alone = std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||
+                     std::holds_alternative<ir::CycleDefine>(a.data) || std::holds_alternative<ir::CycleCancel>(a.data);
+  if (alone) return true;
+  const bool beside_motion = b.has_motion && b.motion.moves();
+  if (beside_motion &&
+      (std::holds_alternative<ir::Dwell>(a.data) || std::holds_alternative<ir::PreparationStop>(a.data))) {
+    return true;
+  }
+  return ProgramWriter::own_line(a, b);
+}
+
+bool Writer::spelling_is_whole_word(const ir::Action& a) const {
+  if (std::holds_alternative<ir::CycleDefine>(a.data)) return !a.text.empty() && a.text.back() == ')';
+  if (const auto* c = std::get_if<ir::Corner>(&a.data)) return c->feed == nullptr;
+  if (std::holds_alternative<ir::SpindleLimit>(a.data)) return a.text.front() == 'L' || a.text.front() == 'l';
+  return ProgramWriter::spelling_is_whole_word(a);
+}
+
+// ---- modal settings ------------------------------------------------------------------------------------------------
+
+void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  if (is_group(a)) {
+    if (same_dialect()) return;  // the second meaning of G96, G97
+    if (!group_written_) add(group_code_, Rank::setting, a.pos);
+    group_written_ = true;
+    return;
+  }
+  if (m.setting == Setting::units && !m.feed_too) {
+    return add(m.value == code_value(ir::Units::inch) ? "G70" : "G71", Rank::setting, a.pos);
+  }
+  ProgramWriter::modal_set(a, m);
+}
+
+void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
+  if (w.off) return add("G500", Rank::setting, a.pos);
+  const double row = w.index.number;
+  if (!w.index.literal() || row != std::floor(row) || row < 1 || row > 99) {
+    return refuse("TRN-202", a.pos, "the work offset must be a number from 1 to 99 here");
+  }
+  const int n = static_cast<int>(row);
+  add('G' + std::to_string(n <= 4 ? 53 + n : 500 + n), Rank::setting, a.pos);
+}
+
+void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
+  const ir::FrameChange& c = *f.change;
+  const bool composes = c.combine == ir::FrameCombine::compose;
+  if (c.slot != ir::FrameSlot::chain || c.by_distance_mode ||
+      (!composes && c.combine != ir::FrameCombine::replace && c.combine != ir::FrameCombine::clear)) {
+    return refuse("TRN-202", a.pos, "this shift, rotation, scale or mirror has no counterpart here");
+  }
+  std::string_view verb = "TRANS";
+  if (c.kind == ir::FrameKind::rotate) verb = "ROT";
+  if (c.kind == ir::FrameKind::scale) verb = "SCALE";
+  if (c.kind == ir::FrameKind::mirror) verb = "MIRROR";
+  if (c.combine == ir::FrameCombine::clear) {
+    return add(std::string(same_dialect() && !a.text.empty() ? a.text : std::string_view("TRANS")), Rank::head, a.pos);
+  }
+  std::string text = (composes ? "A" : "") + std::string(verb);
+  if (c.has_angle) {
+    if (!c.words.empty()) return refuse("TRN-202", a.pos, "a rotation about a given centre has no counterpart here");
+    const bool by_axis = c.rotation_axis != ir::axis::none;
+    text += ' ' + word(by_axis ? axis_name(c.rotation_axis) : std::string_view("RPL"), c.angle, a.pos);
+  }
+  const auto one = [&](std::string_view address, const ir::Value& v, WordPos pos) {
+    text += ' ' + word(address, v, pos);
+  };
+  for (const ir::FrameWord& w : c.words) {
+    const bool scaled =
+        w.scale == ir::WordScale::modal || c.kind == ir::FrameKind::scale || c.kind == ir::FrameKind::mirror;
+    if (!scaled && program().lathe && w.axis == ir::axis::x) {
+      return refuse("TRN-202", w.pos, "a shift of X that is not in the diameter mode in force has no counterpart here");
+    }
+    if (c.kind == ir::FrameKind::scale && c.uniform_scale) {
+      for (const std::string_view axis : {"X", "Y", "Z"}) one(axis, w.value, w.pos);
+      break;
+    }
+    if (c.kind == ir::FrameKind::mirror) {
+      if (!w.value.is(0)) one(axis_name(w.axis), ir::Value(0), w.pos);
+      continue;
+    }
+    one(axis_name(w.axis), w.value, w.pos);
+  }
+  add(std::move(text), Rank::head, a.pos);
+}
+
+void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
+  std::string text = "G110";
+  if (p.at) {
+    text = "G111";
+    for (const ir::FrameWord& w : p.at->words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+  } else {
+    text += " X0 Y0";
+    const auto plane = setting(Setting::plane);
+    if (!plane) return refuse("TRN-202", a.pos, "the plane in force is not known, and the polar origin needs it");
+    const ir::PlaneAxes axes = ir::plane_axes(static_cast<ir::Plane>(*plane));
+    text = "G110 " + std::string(axis_name(axes.u)) + "0 " + std::string(axis_name(axes.v)) + '0';
+  }
+  add(std::move(text), Rank::head, a.pos);
+}
+
+// ---- spindle, tool, M ----------------------------------------------------------------------------------------------
+
+void Writer::set_spindle(const ir::Action& a, const ir::SetSpindle& s) {
+  add(word(numbered("S", s.number), s.value, a.pos), Rank::spindle, a.pos);
+}
+
+void Writer::spindle_run(const ir::Action& a, const ir::SpindleRun& s) {
+  if (s.number == 1) return ProgramWriter::spindle_run(a, s);
+  const char* code = s.state == ir::SpindleState::cw ? "3" : s.state == ir::SpindleState::ccw ? "4" : "5";
+  add(numbered("M", s.number) + '=' + code, Rank::machine, a.pos);
+}
+
+void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
+  const std::string address = s.number == 1 ? "SPOS" : "SPOS[" + std::to_string(s.number) + ']';
+  add(word(address, s.angle, a.pos), Rank::spindle, a.pos);
+}
+
+void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
+  const bool by_g = same_dialect() && !a.text.empty();  // G25 S, G26 S
+  if (s.lower || by_g) {
+    next_line();
+    add((s.lower ? "G25 " : "G26 ") + word(numbered("S", s.number), s.value, a.pos), Rank::head, a.pos);
+    return next_line();
+  }
+  const std::string address = s.number == 1 ? "LIMS" : "LIMS[" + std::to_string(s.number) + ']';
+  add(word(address, s.value, a.pos), Rank::spindle, a.pos);
+}
+
+void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
+  if (!t.name.empty()) return add("T=\"" + std::string(t.name) + '"', Rank::tool, a.pos);
+  add(word("T", t.number, a.pos), Rank::tool, a.pos);
+}
+
+void Writer::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
+  std::string text = word("D", t.number, a.pos);
+  if (!t.number.is(0)) offset_word_ = text;
+  add(std::move(text), Rank::offset, a.pos);
+}
+
+void Writer::machine_function(const ir::Action& a, const ir::MachineFunction& m) {
+  if (m.auxiliary) {
+    std::string address = "H";
+    if (m.extension >= 0) address += std::to_string(m.extension);
+    return add(word(address, m.value, a.pos), Rank::machine, a.pos);
+  }
+  if (m.computed || m.extension >= 0) {
+    std::string address = "M";
+    if (m.extension >= 0) address += std::to_string(m.extension);
+    return add(word(address, m.computed ? m.value : ir::Value(m.code), a.pos), Rank::machine, a.pos);
+  }
+  ProgramWriter::machine_function(a, m);
+}
+
+void Writer::dwell(const ir::Action& a, const ir::Dwell& d) {
+  const ir::Value amount = d.scale == 1 ? d.value : ir::scale(d.value, d.scale);
+  add("G4 " + word(d.revolutions ? "S" : "F", amount, a.pos), Rank::setting, a.pos);
+}
+
+// ---- cycles, corners -----------------------------------------------------------------------------------------------
+
+std::string Writer::cycle_text(const ir::Cycle& cycle, WordPos pos) {
+  const bool own = same_dialect() && std::holds_alternative<ir::NamedCycle>(cycle.node);
+  if (!own && !native_cycle(cycle)) {
+    refuse("TRN-214", pos, "this cycle has no counterpart with the same moves here");
+    return {};
+  }
+  return cycle_call(cycle, [&](const ir::Value& v) { return value_text(v, pos); });
+}
+
+void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
+  if (c.modal && c.here)
+    return refuse("TRN-214", a.pos, "a modal cycle that also runs where it is defined has no counterpart here");
+  const std::string text = cycle_text(*c.cycle, a.pos);
+  add(c.modal ? "MCALL " + text : text, Rank::head, a.pos);
+}
+
+void Writer::cycle_cancel(const ir::Action& a) {
+  add("MCALL", Rank::head, a.pos);
+}
+
+void Writer::corner(const ir::Action& a, const ir::Corner& c) {
+  std::string_view address = "CHR";
+  if (c.kind == ir::CornerKind::chamfer_chord) address = "CHF";
+  if (c.kind == ir::CornerKind::round) address = c.modal ? "RNDM" : "RND";
+  if (c.modal && c.kind != ir::CornerKind::round)
+    return refuse("TRN-202", a.pos, "a modal chamfer has no counterpart here");
+  std::string text = word(address, c.value, a.pos);
+  if (c.feed) text += ' ' + word("FRC", *c.feed, a.pos);
+  add(std::move(text), Rank::motion_extra, a.pos);
+}
+
+// ---- motion --------------------------------------------------------------------------------------------------------
+
+void Writer::frame_use(const ir::Motion& m) {
+  if (m.frame == ir::FrameUse::normal) return;
+  const std::string own = source_word(m.frame_pos);
+  if (m.frame == ir::FrameUse::no_programmable) {
+    return refuse("TRN-202", m.frame_pos, "a block without the programmable frame only has no counterpart here");
+  }
+  add(own.empty() ? "SUPA" : own, Rank::frame, m.frame_pos);
+  if (m.frame != ir::FrameUse::machine || block_has_offset_) return;
+  add("D0", Rank::offset);
+  offset_pending_ = true;
+}
+
+/// "ACP", "ACN", "DC" for rotary moves with a direction; empty: a plain word.
+std::string Writer::rotary_attribute(const ir::CoordWord& w) {
+  switch (w.direction) {
+    case ir::RotaryDirection::as_value: return {};
+    case ir::RotaryDirection::positive: return "ACP";
+    case ir::RotaryDirection::negative: return "ACN";
+    case ir::RotaryDirection::shortest: return "DC";
+    case ir::RotaryDirection::by_sign: break;
+  }
+  const auto mode = w.mode == ir::WordMode::modal
+                        ? setting(Setting::distance)
+                        : std::optional<std::uint8_t>(code_value(
+                              w.mode == ir::WordMode::absolute ? ir::Distance::absolute : ir::Distance::incremental));
+  if (mode == code_value(ir::Distance::incremental)) return {};
+  if (!mode || !w.value.literal()) {
+    refuse("TRN-202", w.pos, "the direction of this rotary move depends on a sign that is not known here");
+    return {};
+  }
+  return std::signbit(w.value.number) ? "ACN" : "ACP";
+}
+
+void Writer::coordinate(const ir::Motion& /*m*/, const ir::CoordWord& w) {
+  const std::string_view name = axis_name(w.axis);
+  std::string attribute = rotary_attribute(w);
+  const bool by_sign = !attribute.empty() && w.direction == ir::RotaryDirection::by_sign;
+  const bool incremental = w.mode == ir::WordMode::incremental;
+  if (attribute.empty() && w.mode != ir::WordMode::modal) attribute = incremental ? "IC" : "AC";
+  if (w.scale != ir::WordScale::modal) {
+    if (w.mode == ir::WordMode::modal) {
+      return refuse("TRN-202", w.pos,
+                    "a word that is radius or diameter by itself must also say whether it is absolute here");
+    }
+    attribute = w.scale == ir::WordScale::diameter ? (incremental ? "DIC" : "DAC") : (incremental ? "RIC" : "RAC");
+  }
+  if (attribute.empty()) return add(word(name, w.value, w.pos), Rank::coordinate, w.pos);
+  ir::Value value = w.value;
+  if (by_sign) {  // the sign was the direction; the target lies in 0..360
+    if (std::signbit(value.number)) value = ir::negate(value);
+    if (value.number >= 360) value = ir::Value(std::fmod(value.number, 360.0));
+  }
+  add(attribute_word(name, attribute, value, w.pos), Rank::coordinate, w.pos);
+}
+
+void Writer::center(const ir::Motion& m, const ir::CenterWord& w) {
+  constexpr std::string_view letters = "IJK";
+  if (w.axis > ir::axis::z)
+    return refuse("TRN-202", w.pos, "the centre of an arc on this axis has no counterpart here");
+  const std::string_view address = letters.substr(w.axis, 1);
+  const bool absolute = w.mode == ir::CenterMode::absolute;
+  const bool lathe_x = program().lathe && w.axis == ir::axis::x;
+  const bool scale_fits = !lathe_x || w.scale == (absolute ? ir::WordScale::modal : ir::WordScale::radius);
+  if (w.mode == ir::CenterMode::follows_distance || !scale_fits) return ProgramWriter::center(m, w);
+  if (absolute) return add(attribute_word(address, "AC", w.value, w.pos), Rank::center, w.pos);
+  add(word(address, w.value, w.pos), Rank::center, w.pos);
+}
+
+void Writer::radius(const ir::Motion& m) {
+  add(word("CR", m.radius, m.radius_pos), Rank::radius, m.radius_pos);
+}
+
+void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
+  constexpr std::string_view letters = "IJK";
+  if (e.has_pitch) return refuse("TRN-202", m.code_pos, "a helix by its pitch has no counterpart here");
+  if (e.opening_signed) return refuse("TRN-202", m.code_pos, "an arc by a signed angle has no counterpart here");
+  const auto extra = [&](std::string_view address, const ir::Value& v) {
+    add(word(address, v, {}), Rank::motion_extra);
+  };
+  const auto polar = [&](std::string_view address, const ir::Value& v) {
+    if (e.polar_mode == ir::WordMode::modal || address == "RP") return extra(address, v);
+    add(attribute_word(address, e.polar_mode == ir::WordMode::incremental ? "IC" : "AC", v, {}), Rank::motion_extra);
+  };
+  for (const ir::CenterWord& w : e.through) {
+    if (w.axis > ir::axis::z) return refuse("TRN-202", w.pos, "this point of an arc has no counterpart here");
+    const std::string address = std::string(letters.substr(w.axis, 1)) + '1';
+    const bool absolute = w.mode == ir::CenterMode::absolute;
+    add(absolute ? attribute_word(address, "AC", w.value, w.pos) : word(address, w.value, w.pos), Rank::center, w.pos);
+  }
+  if (e.has_polar_radius) polar("RP", e.polar_radius);
+  if (e.has_polar_angle) polar("AP", e.polar_angle);
+  if (e.has_line_angle) extra("ANG", e.line_angle);
+  if (e.has_angle) extra("AR", e.opening_angle);
+  if (e.has_turns) extra("TURN", e.turns);
+  if (!e.has_lead) return;
+  if (e.lead_axis > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
+  extra(letters.substr(e.lead_axis, 1), e.lead);
+  if (!e.lead_change.is(0))
+    extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);
+  if (e.has_start_angle) extra("SF", e.start_angle);
+}
+
+}  // namespace cnctrans::backends::sinumerik

@@ -1,0 +1,31 @@
+#include "dialects/sinumerik/variables.h"
+
+#include <utility>
+
+#include "dialects/sinumerik/limits.h"
+
+namespace cnctrans::sinumerik {
+
+std::vector<ir::VariableSpace> variable_spaces() {
+  const auto named = [](ir::Scope scope, ir::Type type) {
+    ir::VariableSpace s;
+    s.scope = scope;
+    s.type = type;
+    s.starts_at_zero = scope == ir::Scope::routine;
+    return s;
+  };
+  ir::VariableSpace r;
+  r.prefix = "R";
+  ir::SpaceSegment segment;
+  segment.hi = r_parameter_max;
+  r.segments.push_back(segment);
+  return {std::move(r),
+          named(ir::Scope::routine, ir::Type::real),
+          named(ir::Scope::routine, ir::Type::integer),
+          named(ir::Scope::routine, ir::Type::boolean),
+          named(ir::Scope::routine, ir::Type::string),
+          named(ir::Scope::routine, ir::Type::axis),
+          named(ir::Scope::global, ir::Type::real)};
+}
+
+}  // namespace cnctrans::sinumerik
