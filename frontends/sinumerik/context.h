@@ -1,0 +1,70 @@
+// What the parts of the lowering share while one file is read: the machine, the program being built, names, diagnostics.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostics.h"
+#include "ir/program.h"
+#include "machine/profile.h"
+
+namespace cnctrans::sinumerik {
+
+/// The machine as the hot path wants it: one look-up a word.
+struct MachineFacts {
+  explicit MachineFacts(const machine::Profile& profile);
+
+  static constexpr std::int32_t m_limit = 1000;
+  const machine::Profile* profile;
+  std::array<ir::AxisId, 26> axis_of{};                 ///< letter -> axis; none: the machine has no such axis
+  std::array<const machine::MCode*, m_limit> m_codes{}; ///< null: no meaning known
+  bool tool_word_changes = false;                       ///< T carries out the change (MD22550 = 0)
+  bool undefined_names_are_global = false;              ///< undeclared names are global user variables
+
+  [[nodiscard]] ir::AxisId axis(char letter) const;     ///< any case; none when it is no letter or no axis
+  [[nodiscard]] ir::AxisId axis(std::string_view name) const;  ///< by name in capitals, also "X1" of the profile
+};
+
+/// Spaces every Sinumerik program has, in this order.
+namespace space {
+inline constexpr ir::SpaceId r = 0, real = 1, integer = 2, boolean = 3, string = 4, axis = 5;
+inline constexpr ir::SpaceId global_real = 6, global_integer = 7, global_boolean = 8, global_string = 9;
+}
+/// The space for variables of a type; types without a space give none.
+std::optional<ir::SpaceId> space_of(ir::Type type, bool global);
+std::vector<ir::VariableSpace> make_spaces();
+
+/// A declared variable or formal parameter.
+struct Symbol {
+  ir::Type type = ir::Type::real;
+  ir::SpaceId space = space::real;
+  std::uint8_t dimensions = 0;
+  bool frame = false;  ///< declared FRAME: not carried
+};
+
+struct FileContext {
+  const MachineFacts& machine;
+  FileId file;
+  ir::Program& program;
+  Diagnostics& diagnostics;
+  std::map<std::string, Symbol, std::less<>> symbols;  ///< names in capitals; of the routine being read
+  ir::MotionKind motion = ir::MotionKind::linear;      ///< G group 1 as the text has it so far
+  Span line;                                           ///< the line being lowered
+  std::string_view text;                               ///< its text
+  std::uint32_t errors = 0;                            ///< errors reported so far in this line
+
+  [[nodiscard]] const Symbol* symbol(std::string_view capitals) const {
+    const auto it = symbols.find(capitals);
+    return it == symbols.end() ? nullptr : &it->second;
+  }
+  void error(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  void warning(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  void note(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  /// The text of a place of the line.
+  [[nodiscard]] std::string_view slice(WordPos pos) const;
+};
+
+}  // namespace cnctrans::sinumerik

@@ -1,0 +1,304 @@
+#include "frontends/sinumerik/frontend.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "frontends/sinumerik/context.h"
+#include "frontends/sinumerik/line_reader.h"
+#include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/lower_words.h"
+
+namespace cnctrans::frontends::sinumerik {
+
+namespace {
+
+using namespace cnctrans::sinumerik;
+
+/// Marks of the end of a tape or a file: NUL, EOT, ^Z.
+bool is_trailer(std::string_view text) {
+  if (text.empty()) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) { return c == '\0' || c == '\x04' || c == '\x1A'; });
+}
+
+Span line_span(FileId file, const SourceLine& line) {
+  return Span{file, line.number, 1, line.number, static_cast<std::uint32_t>(line.text.size()) + 1};
+}
+
+void fill_frame(ir::Program& program, const machine::Profile& profile) {
+  program.dialect = "sinumerik";
+  program.spaces = make_spaces();
+  program.lathe = profile.kind == machine::Kind::lathe;
+  program.unit_hint = profile.power_on.units;
+  for (const auto& a : profile.axes) {
+    if (a.id < ir::axis::first_extra) continue;
+    const std::size_t at = a.id - ir::axis::first_extra;
+    if (program.axis_names.size() <= at) program.axis_names.resize(at + 1);
+    program.axis_names[at] = a.name;
+  }
+}
+
+/// Kind by the name's ending: `_SPF` and `.SPF` are subprograms.
+bool names_subprogram(std::string_view name) {
+  const std::string upper = to_upper_ascii(name);
+  return upper.size() > 4 && (upper.ends_with("_SPF") || upper.ends_with(".SPF"));
+}
+
+class FileReading {
+ public:
+  FileReading(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics, ReadStats& stats)
+      : source_(source),
+        machine_(*options.profile),
+        context_{machine_, file, program_, diagnostics, {}, ir::MotionKind::linear, {}, {}, 0},
+        words_(context_),
+        statements_(context_, words_),
+        reader_(options.reader),
+        stats_(stats) {}
+
+  ir::Program run() {
+    fill_frame(program_, *machine_.profile);
+    program_.texts->hold(source_);
+    look_.file = context_.file;
+    look_.name = source_->name();
+    look_.encoding = source_->encoding();
+    look_.eol = source_->main_eol();
+    look_.bom = source_->has_bom();
+    begin_routine(source_->stem(), source_->extension() == "spf");
+    for (const SourceLine& line : source_->lines()) take(line);
+    if (blank_ != 0) close_blank();
+    end_routine();
+    if (!source_->lines().empty()) look_.final_eol = source_->lines().back().has_eol;
+    program_.files.push_back(std::move(look_));
+    return std::move(program_);
+  }
+
+ private:
+  void begin_routine(std::string_view name, bool sub);
+  void end_routine();
+  void take(const SourceLine& line);
+  void take_header(const syntax::Block& block, const SourceLine& line);
+  void take_words(const syntax::Block& block, ir::LineInfo info);
+  void unread(const syntax::Block& block, ir::LineInfo info);
+  void close_blank();
+
+  SourcePtr source_;
+  MachineFacts machine_;
+  ir::Program program_;
+  FileContext context_;
+  WordLowering words_;
+  StatementLowering statements_;
+  LineReader reader_;
+  ReadStats& stats_;
+  ir::FileLook look_;
+  ir::Routine routine_;
+  bool open_ = false;
+  bool fresh_ = false;  ///< nothing but comments in the routine so far
+  std::uint16_t blank_ = 0;
+  syntax::Block block_;
+  ir::LineInfo info_;
+};
+
+void FileReading::begin_routine(std::string_view name, bool sub) {
+  routine_ = ir::Routine{};
+  routine_.kind = sub ? ir::RoutineKind::sub : ir::RoutineKind::main;
+  routine_.name = routine_name(name);
+  routine_.file = context_.file;
+  open_ = fresh_ = true;
+  statements_.begin_routine(routine_);
+}
+
+void FileReading::end_routine() {
+  if (!open_) return;
+  statements_.end_routine();
+  open_ = false;
+  program_.routines.push_back(std::move(routine_));
+}
+
+/// `%_N_NAME_MPF`, `%MPF100`, `%`: the transfer header of one of several programs.
+void FileReading::take_header(const syntax::Block& block, const SourceLine& line) {
+  std::string name(trim(block.statements.front().text));
+  if (name.empty()) {  // a lone mark of a tape
+    if (fresh_ && routine_.body.empty()) {
+      look_.leader.emplace_back(line.text);
+    } else {
+      look_.trailer += line.text;
+    }
+    return;
+  }
+  const std::string upper = to_upper_ascii(name);
+  const bool sub = names_subprogram(name) || upper.rfind("SPF", 0) == 0;
+  if (!fresh_ || routine_.header.span.known() || !routine_.body.empty()) {
+    end_routine();
+    begin_routine(name, sub);
+  }
+  routine_.kind = sub ? ir::RoutineKind::sub : ir::RoutineKind::main;
+  routine_.name = routine_name(name);
+  routine_.attributes = name;
+  fill_line_info(block, context_.line, routine_.header);
+  routine_.header.blank_lines_before = blank_;
+  blank_ = 0;
+  look_.archive = true;
+}
+
+void FileReading::close_blank() {
+  ir::Statement s;
+  s.line.span = context_.line;
+  s.line.blank_lines_before = static_cast<std::uint16_t>(blank_ - 1);
+  s.node = ir::Block{};
+  blank_ = 0;
+  statements_.add(std::move(s));
+}
+
+void FileReading::unread(const syntax::Block& block, ir::LineInfo info) {
+  const ParseError& e = reader_.error();
+  context_.error("SIN-001", WordPos{e.column, e.length}, "the block can't be read: " + e.message);
+  statements_.add_opaque(block, std::move(info), "text.unread", false);
+}
+
+void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
+  if (!WordLowering::is_motion_block(block)) {
+    if (statements_.lower(block, std::move(info))) ++stats_.blocks_read;
+    return;
+  }
+  ir::Statement s;
+  auto& node = s.node.emplace<ir::Block>();
+  if (!words_.lower(block, node)) {
+    statements_.add_opaque(block, std::move(info), words_.feature(), false);
+    return;
+  }
+  ++stats_.blocks_read;
+  const Tail tail = words_.tail();
+  ir::LineInfo rest;
+  rest.span = info.span;
+  rest.skip_mask = info.skip_mask;
+  rest.joined = true;
+  s.line = std::move(info);
+  const auto text = context_.slice(words_.tail_pos());
+  if (tail == Tail::none || !node.empty()) {
+    statements_.add(std::move(s));
+    if (tail == Tail::none) return;
+    s = ir::Statement{};
+    s.line = std::move(rest);
+  }
+  if (tail == Tail::program_end) s.node = ir::End{text, true};
+  if (tail == Tail::subprogram_end) s.node = ir::Return{{}, text};
+  statements_.add(std::move(s));
+}
+
+void FileReading::take(const SourceLine& line) {
+  ++stats_.lines;
+  if (is_trailer(line.text)) {
+    look_.trailer += line.text;
+    return;
+  }
+  context_.line = line_span(context_.file, line);
+  context_.text = line.text;
+  context_.errors = 0;
+  const LineReader::Result result = reader_.read(line.text, block_);
+  if (reader_.scanned()) ++stats_.scanner_blocks;
+  if (!reader_.difference().empty()) {
+    context_.diagnostics.error("CNC-READERS", context_.line, "the two readers differ:\n" + reader_.difference());
+  }
+  const bool empty = block_.words.empty() && block_.statements.empty() && block_.number.empty() && block_.labels.empty() &&
+                     block_.skip_mask == 0 && result != LineReader::Result::unread;
+  if (empty && block_.comments.empty()) {
+    ++blank_;
+    return;
+  }
+  if (!block_.statements.empty() && block_.statements.front().keyword == "%") return take_header(block_, line);
+  fill_line_info(block_, context_.line, info_);
+  info_.blank_lines_before = std::exchange(blank_, std::uint16_t{0});
+  if (empty) {
+    ir::Statement comment;
+    comment.line = info_;
+    comment.node = ir::Block{};
+    return statements_.add(std::move(comment));
+  }
+  fresh_ = false;
+  ++stats_.blocks;
+  if (result == LineReader::Result::unread) return unread(block_, info_);
+  if (result == LineReader::Result::plain) return take_words(block_, info_);
+  if (statements_.lower(block_, info_)) ++stats_.blocks_read;
+}
+
+// --- streams ----------------------------------------------------------------------------------------------------
+
+class LineStream final : public StreamReader {
+ public:
+  LineStream(FileId file, const ReadOptions& options, std::string_view name)
+      : machine_(*options.profile),
+        context_{machine_, file, program_, unused_, {}, options.profile->power_on.motion, {}, {}, 0},
+        words_(context_),
+        reader_(options.reader) {
+    fill_frame(program_, *options.profile);
+    ir::Routine routine;
+    const std::size_t slash = name.find_last_of('/');
+    std::string_view stem = slash == std::string_view::npos ? name : name.substr(slash + 1);
+    stem = stem.substr(0, stem.find_last_of('.'));
+    routine.name = routine_name(stem);
+    routine.file = file;
+    program_.routines.push_back(std::move(routine));
+  }
+
+  StreamLine read(const SourceLine& line, ir::Statement& out, Diagnostics& diagnostics) override {
+    if (is_trailer(line.text)) return StreamLine::needs_program;
+    context_.line = line_span(context_.file, line);
+    context_.text = line.text;
+    context_.errors = 0;
+    if (reader_.read(line.text, block_) == LineReader::Result::unread || !reader_.difference().empty()) {
+      return StreamLine::needs_program;
+    }
+    if (!block_.statements.empty() || !block_.labels.empty() || !WordLowering::is_motion_block(block_) || !only_addresses()) {
+      return StreamLine::needs_program;
+    }
+    auto* node = std::get_if<ir::Block>(&out.node);
+    if (node == nullptr) node = &out.node.emplace<ir::Block>();
+    fill_line_info(block_, context_.line, out.line);
+    unused_.clear();
+    const bool ok = words_.lower(block_, *node);
+    if (!unused_.empty()) diagnostics.append(unused_);
+    if (!ok || words_.tail() == Tail::subprogram_end) return StreamLine::needs_program;
+    return words_.tail() == Tail::program_end ? StreamLine::program_end : StreamLine::statement;
+  }
+  [[nodiscard]] const ir::Program& frame() const override { return program_; }
+
+ private:
+  /// No variables, no calls, no values that are expressions.
+  [[nodiscard]] bool only_addresses() const {
+    for (const auto& w : block_.words) {
+      if (w.is_expression) return false;
+      if (w.address.size() > 1 && (w.has_value ? named_word(w.address) == nullptr : g_function(w.address) == nullptr)) return false;
+    }
+    return true;
+  }
+
+  MachineFacts machine_;
+  ir::Program program_;
+  Diagnostics unused_;
+  FileContext context_;
+  WordLowering words_;
+  LineReader reader_;
+  syntax::Block block_;
+};
+
+class SinumerikFrontend final : public Frontend {
+ public:
+  [[nodiscard]] std::string_view dialect() const override { return "sinumerik"; }
+
+  ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                   ReadStats* stats) const override {
+    ReadStats unused;
+    return FileReading(source, file, options, diagnostics, stats != nullptr ? *stats : unused).run();
+  }
+  std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options, std::string_view file_name) const override {
+    return std::make_unique<LineStream>(file, options, file_name);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Frontend> make_frontend() {
+  return std::make_unique<SinumerikFrontend>();
+}
+
+}  // namespace cnctrans::frontends::sinumerik

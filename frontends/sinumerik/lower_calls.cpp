@@ -1,0 +1,250 @@
+// Definitions (DEF, PROC, EXTERN) and calls by statement (CALL, EXTCALL, PCALL, MCALL).
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/sinumerik/cycles.h"
+#include "frontends/sinumerik/lower_statements.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Block;
+using syntax::Expr;
+using syntax::ExprKind;
+using syntax::Statement;
+
+std::optional<ir::Type> StatementLowering::type_of(const Expr& type) {
+  if (type.text == "INT") return ir::Type::integer;
+  if (type.text == "REAL") return ir::Type::real;
+  if (type.text == "BOOL") return ir::Type::boolean;
+  if (type.text == "STRING" || type.text == "CHAR") return ir::Type::string;
+  if (type.text == "AXIS") return ir::Type::axis;
+  return std::nullopt;
+}
+
+namespace {
+
+constexpr std::size_t longest_initial_list = 100000;
+
+std::string type_text(const Expr& type, const FileContext& c) {
+  if (type.args.empty()) return type.text == "CHAR" ? "CHAR" : "";
+  return type.text + "[" + std::string(c.slice(type.args[0].pos)) + "]";
+}
+
+/// Elements of an array with literal dimensions; 0 when one is not literal.
+std::size_t element_count(const Expr& dimensions) {
+  std::size_t n = 1;
+  for (const Expr& d : dimensions.args) {
+    if (d.kind != ExprKind::number || d.number < 1 || d.number > 65535) return 0;
+    n *= static_cast<std::size_t>(d.number);
+    if (n > longest_initial_list) return 0;
+  }
+  return n;
+}
+
+}  // namespace
+
+bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t elements, std::vector<ir::ExprPtr>& out) {
+  const bool list = e.kind == ExprKind::call && (e.text.empty() || e.text == "SET");
+  const bool repeat = e.kind == ExprKind::call && e.text == "REP";
+  if (!list && !repeat) {
+    out.push_back(exprs_.lower_as(e, type));
+    return out.back() != nullptr;
+  }
+  if (list) {
+    for (const Expr& value : e.args) {  // a gap is 0
+      out.push_back(value.kind == ExprKind::missing ? ir::number(0) : exprs_.lower_as(value, type));
+      if (!out.back()) return false;
+    }
+    return true;
+  }
+  if (e.args.empty() || elements == 0) return refuse("language.statement", e.pos, "REP() needs a value and an array of known size");
+  const ir::ExprPtr value = exprs_.lower_as(e.args[0], type);
+  if (!value) return false;
+  std::size_t count = elements;
+  if (e.args.size() > 1) {
+    if (e.args[1].kind != ExprKind::number) return refuse("language.statement", e.pos, "REP() with a computed count is not carried yet");
+    count = std::min(elements, static_cast<std::size_t>(std::max(e.args[1].number, 0.0)));
+  }
+  out.assign(count, value);
+  return true;
+}
+
+bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
+  if (executable_seen_) {
+    c_.warning("SIN-018", s.pos, "DEF stands after the first executable block (alarm 14500): it is taken as if it stood before");
+  }
+  const auto type = type_of(s.args[0]);
+  const bool global = std::any_of(s.children.begin(), s.children.end(),
+                                  [](const Statement& x) { return x.keyword == "ATTR" && (x.text == "NCK" || x.text == "CHAN"); });
+  const auto place = type ? space_of(*type, global) : std::nullopt;
+  ir::Declare out;
+  bool ok = true;
+  for (const Statement& v : s.children) {
+    if (v.keyword != "VAR") continue;
+    const std::string name = to_upper_ascii(v.text);
+    Symbol symbol;
+    symbol.dimensions = static_cast<std::uint8_t>(v.args[0].args.size());
+    symbol.frame = !place.has_value();
+    if (place) {
+      symbol.type = *type;
+      symbol.space = *place;
+    }
+    if (!c_.symbols.emplace(name, symbol).second) {
+      c_.error("SIN-022", v.pos, name + " is defined twice (alarm 12170)");
+      ok = false;
+      continue;
+    }
+    if (!place) continue;
+    ir::Declare::Item item;
+    item.name = name;
+    for (const Expr& d : v.args[0].args) {
+      item.dimensions.push_back(exprs_.lower_as(d, ir::Type::integer));
+      ok = ok && item.dimensions.back() != nullptr;
+    }
+    if (v.args[1].kind != ExprKind::missing) {
+      ok = initial_values(v.args[1], *type, v.args[0].args.empty() ? 0 : element_count(v.args[0]), item.initial) && ok;
+    }
+    out.items.push_back(std::move(item));
+  }
+  if (!place) return refuse("language.statement", s.args[0].pos, "variables of type " + s.args[0].text + " are not carried yet");
+  if (!ok) return false;
+  out.type = *type;
+  out.space = *place;
+  out.type_text = type_text(s.args[0], c_);
+  emit(info, std::move(out));
+  return true;
+}
+
+bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
+  if (routine_->has_signature || executable_seen_) {
+    c_.error("SIN-018", s.pos, "PROC must be the first statement of its program (alarm 14500)");
+    return false;
+  }
+  bool ok = true;
+  routine_->kind = ir::RoutineKind::sub;
+  routine_->name = routine_name(s.text);
+  routine_->has_signature = true;
+  routine_->header = info;
+  for (const Expr& attribute : s.args) {
+    if (attribute.text == "SAVE") {
+      routine_->saves_modals = true;
+      continue;
+    }
+    if (!routine_->header_text.empty()) routine_->header_text += ' ';
+    routine_->header_text += attribute.text;
+  }
+  for (const Statement& p : s.children) {
+    const auto type = type_of(p.args[0]);
+    const auto place = type ? space_of(*type, false) : std::nullopt;
+    const std::string name = to_upper_ascii(p.text);
+    const std::size_t dimensions = p.args[2].args.size();
+    Symbol symbol;
+    symbol.dimensions = static_cast<std::uint8_t>(dimensions);
+    symbol.frame = !place.has_value();
+    ir::Parameter out;
+    out.name = name;
+    out.by_reference = p.args[1].kind != ExprKind::missing;
+    out.type_text = type_text(p.args[0], c_);
+    if (place) {
+      symbol.type = out.type = *type;
+      symbol.space = out.variable.space = *place;
+    } else {
+      ok = refuse("language.statement", p.pos, "parameters of type " + p.args[0].text + " are not carried yet");
+    }
+    if (dimensions != 0) ok = refuse("language.statement", p.pos, "arrays as parameters are not carried yet");
+    out.variable.name = name;
+    if (p.args[3].kind != ExprKind::missing && place) {
+      out.default_value = exprs_.lower_as(p.args[3], *type);
+      ok = ok && out.default_value != nullptr;
+    }
+    c_.symbols[name] = symbol;
+    routine_->parameters.push_back(std::move(out));
+  }
+  return ok;
+}
+
+bool StatementLowering::extern_declaration(const Statement& s, const Block& block, ir::LineInfo& info) {
+  std::vector<bool> by_reference;
+  for (const Statement& p : s.children) by_reference.push_back(p.args[1].kind != ExprKind::missing);
+  externs_[routine_name(s.text).text] = std::move(by_reference);
+  c_.note("SIN-009", s.pos, "EXTERN is kept as text: it only announces " + s.text);
+  add_opaque(block, info, "language.statement", true);
+  return true;
+}
+
+/// The program that a text names. Also `"L"<<R10`: the number is computed.
+bool StatementLowering::program_name(const Expr& e, ir::CallRoutine& call) {
+  if (e.kind == ExprKind::string) {
+    std::string_view path = e.text;
+    if (const std::size_t slash = path.find_last_of("/\\:"); slash != std::string_view::npos) {
+      c_.note("SIN-023", e.pos, "the folder of the called program is not looked at: it is searched by its name");
+      path = path.substr(slash + 1);
+    }
+    call.routine = routine_name(path);
+    if (!call.routine.empty()) return true;
+    c_.error("SIN-017", e.pos, "this is no name of a program");
+    return false;
+  }
+  const bool numbered = e.kind == ExprKind::binary && e.text == "<<" && e.args[0].kind == ExprKind::string && iequals_ascii(e.args[0].text, "L");
+  if (numbered) {
+    call.computed = exprs_.lower_as(e.args[1], ir::Type::integer);
+    return call.computed != nullptr;
+  }
+  return refuse("language.statement", e.pos, "calling a program by a computed name is not carried yet");
+}
+
+bool StatementLowering::text_call(const Statement& s, ir::LineInfo& info) {
+  ir::CallRoutine call;
+  if (s.keyword == "EXTCALL") {
+    if (!program_name(s.args[0], call)) return false;
+    emit(info, std::move(call));
+    return true;
+  }
+  const bool range = s.args[1].kind != ExprKind::missing;
+  if (s.args[0].kind == ExprKind::missing) {
+    call.routine = routine_->name;
+  } else if (!program_name(s.args[0], call)) {
+    return false;
+  }
+  if (range) {
+    call.has_range = true;
+    if (!label(s.args[1], call.first) || !label(s.args[2], call.last)) return false;
+  }
+  if (s.args[3].kind != ExprKind::missing) {
+    call.count = exprs_.lower_as(s.args[3], ir::Type::integer);
+    if (!call.count) return false;
+  }
+  emit(info, std::move(call));
+  return true;
+}
+
+bool StatementLowering::path_call(const Statement& s, ir::LineInfo& info) {
+  ir::CallRoutine call;
+  const std::size_t slash = s.text.find_last_of('/');
+  if (slash != std::string::npos) c_.note("SIN-023", s.pos, "the folder of the called program is not looked at: it is searched by its name");
+  call.routine = routine_name(trim(slash == std::string::npos ? s.text : std::string_view(s.text).substr(slash + 1)));
+  if (!call_arguments(call.routine.text, s.args, call)) return false;
+  emit(info, std::move(call));
+  return true;
+}
+
+bool StatementLowering::modal_call(const Statement& s, ir::LineInfo& info) {
+  ir::ModalCall out;
+  if (s.text.empty()) {
+    out.off = true;
+    emit(info, std::move(out));
+    return true;
+  }
+  if (sinumerik::cycle(s.text) != nullptr) {
+    out.cycle = cycle(s.text, s.args, s.pos);
+    if (!out.cycle) return false;
+  } else {
+    out.call.routine = routine_name(s.text);
+    if (!call_arguments(s.text, s.args, out.call)) return false;
+  }
+  emit(info, std::move(out));
+  return true;
+}
+
+}  // namespace cnctrans::sinumerik

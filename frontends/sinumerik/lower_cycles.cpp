@@ -1,0 +1,215 @@
+// Standard drilling cycles: CYCLE81, CYCLE82, CYCLE83 (reference-language 18.1).
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "dialects/sinumerik/cycles.h"
+#include "frontends/sinumerik/lower_statements.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Expr;
+using syntax::ExprKind;
+
+namespace {
+
+/// The arguments of a call by name. An omitted one is 0.
+class Arguments {
+ public:
+  Arguments(const CycleRow& row, std::vector<ir::Value> values, std::vector<bool> given)
+      : row_(row), values_(std::move(values)), given_(std::move(given)) {}
+
+  [[nodiscard]] bool given(std::string_view name) const {
+    const int i = parameter_index(row_, name);
+    return i >= 0 && static_cast<std::size_t>(i) < given_.size() && given_[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] ir::Value get(std::string_view name) const {
+    return given(name) ? values_[static_cast<std::size_t>(parameter_index(row_, name))] : ir::Value(0);
+  }
+  /// Given, and not the literal 0 (which says the same as nothing).
+  [[nodiscard]] bool says(std::string_view name) const { return given(name) && !get(name).is(0); }
+
+ private:
+  const CycleRow& row_;
+  std::vector<ir::Value> values_;
+  std::vector<bool> given_;
+};
+
+ir::Level level(ir::Value value, ir::LevelBase base) {
+  ir::Level l;
+  l.value = std::move(value);
+  l.base = base;
+  l.given = true;
+  return l;
+}
+
+ir::Value absolute_value(const ir::Value& v) {
+  if (!v.literal()) return v;
+  return v.number < 0 ? ir::negate(v) : v;
+}
+
+std::string_view feature_of(CycleFamily family) {
+  switch (family) {
+    case CycleFamily::drilling: return "cycle.hole";
+    case CycleFamily::pattern: return "cycle.pattern";
+    case CycleFamily::milling: return "cycle.milling";
+    case CycleFamily::turning: return "cycle.turning";
+    case CycleFamily::swivel: return "motion.transformation";
+    case CycleFamily::measuring: break;
+  }
+  return "motion.probe";
+}
+
+/// Safety plane and depth. `down` is -1 when the retract plane lies above the reference plane, as it should.
+void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  const ir::Value rtp = a.get("RTP");
+  const ir::Value rfp = a.get("RFP");
+  double down = -1;
+  if (rtp.literal() && rfp.literal()) {
+    if (rtp.number < rfp.number) down = 1;
+    if (rtp.number == rfp.number) c.warning("SIN-021", pos, "retract plane and reference plane are the same (alarm 61101 with a relative depth)");
+  } else {
+    c.note("SIN-021", pos, "the retract plane is taken to lie above the reference plane");
+  }
+  hole.retract = level(rtp, ir::LevelBase::absolute);
+  hole.surface = level(rfp, ir::LevelBase::absolute);
+  const ir::Value distance = absolute_value(a.get("SDIS"));
+  hole.reference = level(down < 0 ? distance : ir::negate(distance), ir::LevelBase::from_surface);
+  if (a.says("DPR")) {
+    if (a.says("DP")) c.warning("SIN-021", pos, "DP and DPR are both given: the depth is DPR below the reference plane, as on the control");
+    const ir::Value depth = absolute_value(a.get("DPR"));
+    hole.bottom = level(down < 0 ? ir::negate(depth) : depth, ir::LevelBase::from_surface);
+  } else {
+    hole.bottom = level(a.get("DP"), ir::LevelBase::absolute);
+  }
+  hole.approach_by_retract = false;
+}
+
+/// Seconds when positive, revolutions when negative.
+void dwell(const ir::Value& v, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  hole.dwell_bottom = v;
+  if (!v.literal()) {
+    c.note("SIN-021", pos, "the dwell is taken as seconds: its sign is known only when the program runs");
+    return;
+  }
+  if (v.number >= 0) return;
+  hole.dwell_bottom = ir::negate(v);
+  hole.dwell_in_revolutions = true;
+}
+
+bool axis_of_hole(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  const ir::Value axn = a.get("AXN");
+  if (axn.is(0)) return true;
+  if (!axn.literal() || axn.number < 1 || axn.number > 3) {
+    c.error("SIN-021", pos, "AXN must be 1, 2 or 3");
+    return false;
+  }
+  hole.axis = static_cast<ir::AxisId>(ir::axis::x + static_cast<int>(axn.number) - 1);
+  return true;
+}
+
+bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  const ir::Value vari = a.get("VARI");
+  if (!vari.literal() || (vari.number != 0 && vari.number != 1)) {
+    c.error("SIN-021", pos, "VARI must be 0 (chip breaking) or 1 (swarf removal)");
+    return false;
+  }
+  hole.kind = vari.number == 1 ? ir::HoleKind::peck_full : ir::HoleKind::peck_break;
+  ir::Pecks& p = hole.pecks;
+  p.first_from_surface = true;
+  if (a.says("FDPR")) {
+    p.first = absolute_value(a.get("FDPR"));
+  } else if (a.given("FDEP")) {
+    p.first_to = level(a.get("FDEP"), ir::LevelBase::absolute);
+  } else {
+    c.error("SIN-021", pos, "CYCLE83 needs its first depth: FDEP or FDPR");
+    return false;
+  }
+  const ir::Value dam = a.get("DAM");
+  p.law = dam.is(0) ? ir::PeckLaw::balanced : ir::PeckLaw::arithmetic;
+  p.degression = dam;
+  if (dam.literal() && dam.number < 0) {
+    p.law = ir::PeckLaw::geometric;
+    p.degression = ir::negate(dam);
+  }
+  if (!dam.literal()) c.note("SIN-021", pos, "DAM is taken as an amount, not as a factor: its sign is known only when the program runs");
+  p.minimum = a.get("MDEP");
+  p.dwell = a.get("DTB");
+  hole.dwell_top = a.get("DTS");
+  if (hole.kind == ir::HoleKind::peck_break) {
+    p.lift = a.says("VRT") ? a.get("VRT") : ir::Value(1);
+  } else {
+    p.reapproach_automatic = !a.says("DIS1");
+    p.reapproach = a.get("DIS1");
+  }
+  if (a.says("FRF")) {
+    p.has_first_feed_factor = true;
+    p.first_feed_factor = a.get("FRF");
+  }
+  if (a.says("DTD")) {
+    const ir::Value dtd = a.get("DTD");
+    if (dtd.literal() && dtd.number < 0) {
+      c.error("SIN-021", pos, "a final dwell in revolutions next to dwells in seconds is not carried yet");
+      return false;
+    }
+    hole.dwell_bottom = dtd;
+    hole.dwell_in_revolutions = false;
+  }
+  return axis_of_hole(a, hole, c, pos);
+}
+
+/// The modes behind the newer signatures: only those that mean the same as none.
+bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  if (!a.says("AMODE")) return true;
+  const ir::Value mode = a.get("AMODE");
+  const int number = mode.literal() ? static_cast<int>(mode.number) : -1;
+  const int depth = number % 10;
+  const int time = number / 10 % 10;
+  if (number < 0 || depth > 2 || time > 2) {
+    c.error("SIN-021", pos, "this AMODE is not carried yet");
+    return false;
+  }
+  if (depth == 1 && hole.bottom.base == ir::LevelBase::absolute) {
+    hole.bottom = level(ir::negate(absolute_value(a.get("DP"))), ir::LevelBase::from_surface);
+  }
+  if (time == 2) {
+    hole.dwell_bottom = absolute_value(a.get("DTB"));
+    hole.dwell_in_revolutions = true;
+  }
+  return true;
+}
+
+}  // namespace
+
+ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector<Expr>& args, WordPos pos) {
+  const CycleRow& row = *sinumerik::cycle(name);
+  if (!row.carried) {
+    refuse(feature_of(row.family), pos, name + " is not carried yet");
+    return nullptr;
+  }
+  std::vector<ir::Value> values;
+  std::vector<bool> given;
+  const std::uint32_t before = c_.errors;
+  for (const Expr& e : args) {
+    Attribute attribute = Attribute::none;
+    given.push_back(e.kind != ExprKind::missing);
+    values.push_back(given.back() ? exprs_.value_of(e, attribute) : ir::Value(0));
+    if (attribute != Attribute::none) c_.error("SIN-012", e.pos, "AC() and IC() have no meaning in the call of a cycle");
+  }
+  if (c_.errors != before) return nullptr;
+  const Arguments a(row, std::move(values), std::move(given));
+  if (!a.given("RTP")) {
+    c_.error("SIN-021", pos, name + " needs its planes: RTP, RFP, SDIS and a depth");
+    return nullptr;
+  }
+  ir::HoleCycle hole;
+  planes(a, hole, c_, pos);
+  dwell(a.get("DTB"), hole, c_, pos);
+  if (name == "CYCLE83" && !pecks(a, hole, c_, pos)) return nullptr;
+  if (!modes(a, hole, c_, pos)) return nullptr;
+  auto out = std::make_shared<ir::Cycle>();
+  out->node = std::move(hole);
+  return out;
+}
+
+}  // namespace cnctrans::sinumerik

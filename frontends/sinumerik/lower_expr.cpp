@@ -1,0 +1,436 @@
+#include "frontends/sinumerik/lower_expr.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/text.h"
+#include "dialects/sinumerik/limits.h"
+#include "dialects/sinumerik/operators.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Expr;
+using syntax::ExprKind;
+
+namespace {
+
+template <class Node>
+ir::ExprPtr make(Node node, ir::Type type, WordPos pos) {
+  ir::Expr e;
+  e.node = std::move(node);
+  e.type = type;
+  e.pos = pos;
+  return std::make_shared<const ir::Expr>(std::move(e));
+}
+
+bool is_logical(std::string_view op) {
+  return op == "AND" || op == "OR" || op == "XOR";
+}
+bool is_relation(std::string_view op) {
+  return op == "==" || op == "<>" || op == ">" || op == "<" || op == ">=" || op == "<=" || op == "=";
+}
+
+ir::Type arithmetic_type(ir::BinaryOp op, ir::Type left, ir::Type right) {
+  switch (op) {
+    case ir::BinaryOp::add:
+    case ir::BinaryOp::subtract:
+    case ir::BinaryOp::multiply:
+    case ir::BinaryOp::modulo:
+    case ir::BinaryOp::int_divide:
+      return left == ir::Type::integer && right == ir::Type::integer ? ir::Type::integer : ir::Type::real;
+    case ir::BinaryOp::bit_and:
+    case ir::BinaryOp::bit_or:
+    case ir::BinaryOp::bit_xor: return ir::Type::integer;
+    case ir::BinaryOp::divide:
+    case ir::BinaryOp::power: return ir::Type::real;
+    case ir::BinaryOp::concat: return ir::Type::string;
+    default: return ir::Type::boolean;
+  }
+}
+
+/// What `name` means without a symbol: TRUE, FALSE.
+std::optional<double> constant_name(std::string_view name) {
+  if (name == "TRUE") return 1;
+  if (name == "FALSE") return 0;
+  return std::nullopt;
+}
+
+}  // namespace
+
+ir::ExprPtr ExprLowering::lower(const Expr& e) {
+  switch (e.kind) {
+    case ExprKind::number: {
+      ir::Number n;
+      n.value = e.number;
+      n.text = e.text;
+      const bool based = !e.text.empty() && e.text.front() == '\'';
+      n.integer = based || e.text.find_first_of(".Xx") == std::string::npos;
+      if (based || e.text.find_first_of("Xx") != std::string::npos) n.text.clear();  // only plain decimals travel as text
+      const ir::Type type = n.integer ? ir::Type::integer : ir::Type::real;
+      return make(std::move(n), type, e.pos);
+    }
+    case ExprKind::string: return make(ir::String{e.text}, ir::Type::string, e.pos);
+    case ExprKind::variable:
+    case ExprKind::name: return named(e);
+    case ExprKind::unary: return unary(e);
+    case ExprKind::binary: return binary(e);
+    case ExprKind::call: return call(e);
+    case ExprKind::missing: break;
+  }
+  c_.error("SIN-012", e.pos, "a value is missing here");
+  return nullptr;
+}
+
+ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
+  if (!e || e->type == type) return e;
+  const bool from_string = e->type == ir::Type::string;
+  const bool to_string = type == ir::Type::string;
+  if (from_string != to_string || e->type == ir::Type::axis || type == ir::Type::axis) {
+    c_.error("SIN-012", pos,
+             "a value of type " + std::string(ir::name(e->type)) + " can't become " + std::string(ir::name(type)),
+             from_string ? "use NUMBER() to read a number from a text" : "use `<<` to make a text of a number");
+    return nullptr;
+  }
+  if (type == ir::Type::real) return e;
+  if (type == ir::Type::integer) {
+    if (e->type == ir::Type::boolean) return e;
+    if (const auto* n = std::get_if<ir::Number>(&e->node); n != nullptr && n->value == std::trunc(n->value)) return e;
+    return make(ir::Call{ir::Function::to_integer, {std::move(e)}, ir::RoundHalf::away}, ir::Type::integer, pos);
+  }
+  if (const auto* n = std::get_if<ir::Number>(&e->node); n != nullptr && (n->value == 0 || n->value == 1)) return e;
+  return make(ir::Call{ir::Function::to_boolean, {std::move(e)}, ir::RoundHalf::away}, ir::Type::boolean, pos);
+}
+
+ir::ExprPtr ExprLowering::lower_as(const Expr& e, ir::Type type) {
+  return convert(lower(e), type, e.pos);
+}
+
+// --- variables --------------------------------------------------------------------------------------------------
+
+ir::VarRef ExprLowering::r_parameter(const Expr& index, bool& ok) {
+  ir::VarRef ref;
+  ref.space = space::r;
+  ref.index = lower_as(index, ir::Type::integer);
+  ok = ref.index != nullptr;
+  if (const auto* n = ok ? std::get_if<ir::Number>(&ref.index->node) : nullptr; n != nullptr) {
+    if (n->value < 0 || n->value > r_parameter_max) {
+      c_.error("SIN-017", index.pos, "there is no R parameter with this number",
+               "R0 to R" + std::to_string(r_parameter_max));
+      ok = false;
+    }
+    ir::Number plain = *n;
+    plain.text.clear();  // R01 is R1
+    ref.index = make(std::move(plain), ir::Type::integer, index.pos);
+  }
+  return ref;
+}
+
+std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) {
+  type = ir::Type::real;
+  if (e.text == "R" && e.args.size() == 1) {
+    bool ok = false;
+    ir::VarRef ref = r_parameter(e.args[0], ok);
+    if (!ok) return std::nullopt;
+    return ref;
+  }
+  const Symbol* symbol = c_.symbol(e.text);
+  if (symbol == nullptr) {
+    if (!c_.machine.undefined_names_are_global) {
+      undefined(e);
+      return std::nullopt;
+    }
+    c_.warning("SIN-006", e.pos, e.text + " is not defined in this program: taken as a global user variable that starts at 0");
+  }
+  if (symbol != nullptr && symbol->frame) {
+    c_.error("SIN-008", e.pos, "frame variables are not carried yet");
+    return std::nullopt;
+  }
+  ir::VarRef ref;
+  ref.space = symbol != nullptr ? symbol->space : space::global_real;
+  ref.name = e.text;
+  if (symbol != nullptr) type = symbol->type;
+  const bool character = symbol != nullptr && symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U;
+  if (character) {
+    c_.error("SIN-007", e.pos, "access to one character of a text is not carried yet", "use SUBSTR()");
+    return std::nullopt;
+  }
+  if (symbol != nullptr && e.args.size() != symbol->dimensions) {
+    c_.error("SIN-017", e.pos,
+             e.text + " has " + std::to_string(symbol->dimensions) + " dimensions, but " + std::to_string(e.args.size()) +
+                 " indices are written");
+    return std::nullopt;
+  }
+  for (const Expr& index : e.args) {
+    ref.indices.push_back(lower_as(index, ir::Type::integer));
+    if (!ref.indices.back()) return std::nullopt;
+  }
+  return ref;
+}
+
+ir::ExprPtr ExprLowering::undefined(const Expr& e) {
+  c_.error("SIN-006", e.pos, e.text + " is not defined: no DEF, no parameter and no axis has this name",
+           "define it in this program, or set the profile option sinumerik.undefined_names to global");
+  return nullptr;
+}
+
+ir::ExprPtr ExprLowering::named(const Expr& e) {
+  if (!e.text.empty() && e.text[0] == '$') return system_operand(e);
+  if (e.kind == ExprKind::name && c_.symbol(e.text) == nullptr) {
+    if (const auto constant = constant_name(e.text); constant) {
+      return make(ir::Number{*constant, {}, true}, ir::Type::boolean, e.pos);
+    }
+    if (const ir::AxisId id = c_.machine.axis(e.text); id != ir::axis::none) {
+      return make(ir::AxisName{id}, ir::Type::axis, e.pos);
+    }
+  }
+  ir::Type type = ir::Type::real;
+  auto ref = variable(e, type);
+  if (!ref) return nullptr;
+  return make(std::move(*ref), type, e.pos);
+}
+
+namespace {
+
+struct DatumRow {
+  std::string_view name;
+  ir::Datum datum;
+  bool axis;  ///< the first index is an axis
+};
+// What has a neutral meaning (motion reference 24.1); everything else is known by its name only.
+constexpr DatumRow data[] = {
+    {"$P_EP", ir::Datum::programmed_position, true},   {"$AA_IW", ir::Datum::work_position, true},
+    {"$AA_IM", ir::Datum::machine_position, true},     {"$P_TOOLNO", ir::Datum::tool_number, false},
+    {"$P_TOOLP", ir::Datum::next_tool, false},         {"$P_TOOL", ir::Datum::offset_number, false},
+    {"$P_TOOLR", ir::Datum::tool_radius, false},       {"$AC_ACTUAL_PARTS", ir::Datum::part_count, false},
+    {"$AC_CYCLE_TIME", ir::Datum::cycle_time, false},  {"$P_SUBPAR", ir::Datum::call_has_argument, false},
+    {"$P_F", ir::Datum::feed, false},                  {"$P_S", ir::Datum::spindle_speed, false},
+};
+// FALSE in a plain run (reference-language 13).
+constexpr std::string_view false_in_a_run[] = {"$P_SEARCH", "$P_SIM", "$P_ISTEST", "$P_DRYRUN", "$P_SEARCHL"};
+
+}  // namespace
+
+ir::SystemRef ExprLowering::system(const Expr& e) {
+  ir::SystemRef ref;
+  ref.text = e.text;
+  std::size_t first = 0;
+  for (const auto& row : data) {
+    if (row.name != e.text) continue;
+    ref.datum = row.datum;
+    if (row.axis && !e.args.empty() && e.args[0].kind == ExprKind::name) {
+      ref.axis = c_.machine.axis(e.args[0].text);
+      first = 1;
+    }
+    if (row.axis && ref.axis == ir::axis::none) ref.datum = ir::Datum::other;
+  }
+  // $P_UIFR[row, axis, TR]: a value of the table of settable offsets
+  if (e.text == "$P_UIFR" && e.args.size() == 3 && e.args[1].kind == ExprKind::name && e.args[2].text == "TR") {
+    ref.axis = c_.machine.axis(e.args[1].text);
+    if (ref.axis != ir::axis::none) {
+      ref.datum = ir::Datum::work_offset;
+      if (auto row = lower_as(e.args[0], ir::Type::integer)) ref.args.push_back(std::move(row));
+      return ref;
+    }
+  }
+  for (std::size_t i = ref.datum == ir::Datum::other ? 0 : first; i < e.args.size(); ++i) {
+    const Expr& a = e.args[i];
+    // Components and axis names of data we don't know stay text.
+    if (a.kind == ExprKind::name && c_.symbol(a.text) == nullptr && c_.machine.axis(a.text) == ir::axis::none) {
+      ref.args.push_back(make(ir::String{a.text}, ir::Type::string, a.pos));
+    } else if (auto index = lower(a)) {
+      ref.args.push_back(std::move(index));
+    }
+  }
+  return ref;
+}
+
+ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
+  if (e.text == "$PI") {
+    return make(ir::Number{3.14159265358979323846, {}, false}, ir::Type::real, e.pos);
+  }
+  if (std::find(std::begin(false_in_a_run), std::end(false_in_a_run), e.text) != std::end(false_in_a_run)) {
+    c_.note("SIN-015", e.pos, e.text + " is read as FALSE: neither block search nor simulation is running");
+    return make(ir::Number{0, {}, true}, ir::Type::boolean, e.pos);
+  }
+  if (e.text.size() > 2 && e.text[1] == 'R' && e.args.empty() &&
+      std::all_of(e.text.begin() + 2, e.text.end(), [](char c) { return c >= '0' && c <= '9'; })) {
+    Expr r;  // $R10 is the cell R10
+    r.kind = ExprKind::variable;
+    r.text = "R";
+    r.pos = e.pos;
+    Expr index;
+    index.kind = ExprKind::number;
+    index.text = e.text.substr(2);
+    index.number = std::stod(index.text);
+    index.pos = e.pos;
+    r.args.push_back(std::move(index));
+    return named(r);
+  }
+  const std::uint32_t before = c_.errors;
+  ir::SystemRef ref = system(e);
+  if (c_.errors != before) return nullptr;
+  if (ref.datum == ir::Datum::other) {
+    c_.warning("SIN-015", e.pos, e.text + " is known only to the machine: a run stops where it is read");
+  }
+  const ir::Type type = ref.datum == ir::Datum::call_has_argument ? ir::Type::boolean : ir::Type::real;
+  return make(std::move(ref), type, e.pos);
+}
+
+// --- operators --------------------------------------------------------------------------------------------------
+
+ir::ExprPtr ExprLowering::unary(const Expr& e) {
+  if (e.text == "<<") return as_string(lower(e.args[0]));
+  ir::ExprPtr operand = lower(e.args[0]);
+  if (!operand) return nullptr;
+  if (operand->type == ir::Type::string || operand->type == ir::Type::axis) {
+    c_.error("SIN-012", e.pos, "`" + e.text + "` needs a number");
+    return nullptr;
+  }
+  if (e.text == "+") return operand;
+  if (e.text == "NOT") {
+    return make(ir::Unary{ir::UnaryOp::logical_not, std::move(operand)}, ir::Type::boolean, e.pos);
+  }
+  if (e.text == "B_NOT") {
+    return make(ir::Unary{ir::UnaryOp::bit_not, std::move(operand)}, ir::Type::integer, e.pos);
+  }
+  const ir::Type type = operand->type == ir::Type::boolean ? ir::Type::integer : operand->type;
+  return make(ir::Unary{ir::UnaryOp::negate, std::move(operand)}, type, e.pos);
+}
+
+/// `R1==1 AND R2==2` is `R1==(1 AND R2)==2` on this control: almost never what was meant.
+void ExprLowering::warn_priority(const Expr& e) {
+  if (!is_relation(e.text)) return;
+  for (const Expr& a : e.args) {
+    const bool loose = (a.kind == ExprKind::binary && is_logical(a.text)) || (a.kind == ExprKind::unary && a.text == "NOT");
+    if (!loose || a.pos.column == 0) continue;
+    std::size_t before = a.pos.column - 1;
+    while (before > 0 && (c_.text[before - 1] == ' ' || c_.text[before - 1] == '\t')) --before;
+    if (before > 0 && c_.text[before - 1] == '(' && &a != &e.args[0]) continue;
+    const std::size_t after = c_.text.find_first_not_of(" \t", a.pos.column - 1 + a.pos.length);
+    if (&a == &e.args[0] && after != std::string_view::npos && c_.text[after] == ')') continue;
+    c_.warning("SIN-014", e.pos,
+               "comparisons bind weaker than " + a.text + ": this compares the result of `" + std::string(c_.slice(a.pos)) + "`",
+               "put the comparisons in parentheses");
+    return;
+  }
+}
+
+ir::ExprPtr ExprLowering::as_string(ir::ExprPtr e) {
+  if (!e || e->type == ir::Type::string) return e;
+  const WordPos pos = e->pos;
+  if (e->type == ir::Type::axis || e->type == ir::Type::frame) {
+    c_.error("SIN-012", pos, "an axis can't be made a text by `<<`", "use AXSTRING()");
+    return nullptr;
+  }
+  return make(ir::Call{ir::Function::to_string, {std::move(e)}, ir::RoundHalf::away}, ir::Type::string, pos);
+}
+
+ir::ExprPtr ExprLowering::concat(const Expr& e) {
+  ir::ExprPtr left = as_string(lower(e.args[0]));
+  ir::ExprPtr right = as_string(lower(e.args[1]));
+  if (!left || !right) return nullptr;
+  return make(ir::Binary{ir::BinaryOp::concat, std::move(left), std::move(right), ir::Compare::exact}, ir::Type::string,
+              e.pos);
+}
+
+ir::ExprPtr ExprLowering::binary(const Expr& e) {
+  if (e.text == "<<") return concat(e);
+  if (e.text == ":") {
+    c_.error("SIN-008", e.pos, "chains of frames are not carried yet");
+    return nullptr;
+  }
+  warn_priority(e);
+  const bool single_equals = e.text == "=";
+  if (single_equals) c_.warning("SIN-013", e.pos, "a single `=` in a condition is read as the comparison `==`", "write `==`");
+  const OperatorRow* row = binary_operator(single_equals ? std::string_view("==") : std::string_view(e.text));
+  ir::ExprPtr left = lower(e.args[0]);
+  ir::ExprPtr right = lower(e.args[1]);
+  if (!left || !right || row == nullptr) return nullptr;
+  const bool relation = ir::is_comparison(row->op);
+  const bool texts = left->type == ir::Type::string || right->type == ir::Type::string;
+  const bool axes = left->type == ir::Type::axis || right->type == ir::Type::axis;
+  if ((texts || axes) && (left->type != right->type || (row->op != ir::BinaryOp::eq && row->op != ir::BinaryOp::ne))) {
+    c_.error("SIN-012", e.pos,
+             "`" + e.text + "` can't join " + std::string(ir::name(left->type)) + " and " + std::string(ir::name(right->type)));
+    return nullptr;
+  }
+  const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
+  const ir::Compare compare = relation && reals ? ir::Compare::relative_1e12 : ir::Compare::exact;
+  const ir::Type type = arithmetic_type(row->op, left->type, right->type);
+  return make(ir::Binary{row->op, std::move(left), std::move(right), compare}, type, e.pos);
+}
+
+ir::ExprPtr ExprLowering::call(const Expr& e) {
+  const FunctionRow* row = expression_function(e.text);
+  if (row == nullptr) {
+    const bool attribute_word = attribute(e.text) != Attribute::none;
+    c_.error("SIN-007", e.pos, attribute_word ? e.text + "() may stand only right of an address" : "the function " + e.text + "() is not carried yet");
+    return nullptr;
+  }
+  if (e.args.size() < row->arguments_min || e.args.size() > row->arguments_max) {
+    c_.error("SIN-012", e.pos, e.text + "() takes " + std::to_string(row->arguments_min) + " values, not " + std::to_string(e.args.size()));
+    return nullptr;
+  }
+  std::vector<ir::ExprPtr> args;
+  bool integers = true;
+  const bool wants_texts = row->result == ir::Type::string || row->function == ir::Function::string_length ||
+                           row->function == ir::Function::index_of || row->function == ir::Function::to_number ||
+                           row->function == ir::Function::is_number;
+  for (const Expr& a : e.args) {
+    ir::ExprPtr arg = lower(a);
+    if (!arg) return nullptr;
+    const bool text_expected = wants_texts && (args.empty() || row->function == ir::Function::index_of);
+    if ((arg->type == ir::Type::string) != text_expected || arg->type == ir::Type::axis) {
+      c_.error("SIN-012", a.pos, e.text + "() needs a " + (text_expected ? "text" : "number") + " here");
+      return nullptr;
+    }
+    integers = integers && arg->type == ir::Type::integer;
+    args.push_back(std::move(arg));
+  }
+  const bool keeps_integer = row->function == ir::Function::abs || row->function == ir::Function::min ||
+                             row->function == ir::Function::max || row->function == ir::Function::bound ||
+                             row->function == ir::Function::ceil;
+  const ir::Type type = keeps_integer && integers ? ir::Type::integer : row->result;
+  return make(ir::Call{row->function, std::move(args), ir::RoundHalf::away}, type, e.pos);
+}
+
+// --- values of words --------------------------------------------------------------------------------------------
+
+ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
+  out = Attribute::none;
+  const Expr* inner = &e;
+  if (e.kind == ExprKind::call) {
+    out = attribute(e.text);
+    if (out == Attribute::unsupported || e.text.empty()) {
+      c_.error("SIN-008", e.pos, "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
+      return ir::Value{};
+    }
+    if (out != Attribute::none) {
+      if (e.args.size() != 1) {
+        c_.error("SIN-012", e.pos, e.text + "() takes one value");
+        return ir::Value{};
+      }
+      inner = &e.args[0];
+    }
+  }
+  if (inner->kind == ExprKind::number) return ir::Value(inner->number, c_.slice(inner->pos));
+  if (inner->kind == ExprKind::unary && inner->text == "-" && inner->args[0].kind == ExprKind::number &&
+      inner->pos.length == inner->args[0].pos.length + 1 && inner->args[0].text.find_first_of("XxHB'") == std::string::npos) {
+    return ir::Value(-inner->args[0].number, c_.slice(inner->pos));
+  }
+  ir::ExprPtr expr = lower(*inner);
+  if (expr && (expr->type == ir::Type::string || expr->type == ir::Type::axis)) {
+    c_.error("SIN-012", inner->pos, "a number is needed here");
+    return ir::Value{};
+  }
+  return ir::Value(std::move(expr));
+}
+
+ir::Value ExprLowering::value(const syntax::Block& block, const syntax::Word& word, Attribute& out) {
+  out = Attribute::none;
+  if (!word.is_expression) return ir::Value(word.number, word.number_text);
+  return value_of(block.exprs[static_cast<std::size_t>(word.expr)], out);
+}
+
+}  // namespace cnctrans::sinumerik

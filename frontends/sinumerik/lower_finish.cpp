@@ -1,0 +1,247 @@
+// Word blocks: named addresses, and what closes a block once all its words are known.
+#include <memory>
+#include <utility>
+
+#include "base/text.h"
+#include "frontends/sinumerik/lower_words.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Word;
+
+void WordLowering::spindle_position(const Word& w, ir::Value value, Attribute attribute) {
+  if (attribute == Attribute::ic) return refuse("language.statement", w.pos, "turning the spindle by an increment is not carried yet");
+  push(ir::SpindleOrient{1, std::move(value)}, Rank::orient, ir::Order::before, w.pos);
+}
+
+void WordLowering::named(const syntax::Block& block, const Word& w) {
+  if (!w.has_value) {
+    if (sinumerik::g_function(w.address) != nullptr) return;
+    failed_ = true;
+    c_.error("SIN-004", w.pos, std::string(w.address) + " has no value");
+    return;
+  }
+  Attribute attribute = Attribute::none;
+  ir::Value value = exprs_.value(block, w, attribute);
+  const std::string name = to_upper_ascii(w.address);
+  const NamedWordRow* row = named_word(name);
+  if (row == nullptr) {
+    if (const ir::AxisId axis = c_.machine.axis(name); axis != ir::axis::none) {
+      return coordinate(axis, w, std::move(value), attribute);
+    }
+    failed_ = true;
+    c_.error("SIN-003", w.pos, "`" + name + "` is no address of this control and no axis of the machine " + c_.machine.profile->name,
+             "a variable must be set in a block of its own");
+    return;
+  }
+  const auto polar = [&] {
+    if (attribute == Attribute::ic) extra().polar_mode = ir::WordMode::incremental;
+    if (attribute == Attribute::ac) extra().polar_mode = ir::WordMode::absolute;
+  };
+  const auto corner = [&](ir::CornerKind kind, bool modal) {
+    corner_ = static_cast<std::int32_t>(out_->actions.size());
+    ir::Corner c;
+    c.kind = kind;
+    c.modal = modal;
+    c.value = std::move(value);
+    push(std::move(c), Rank::corner, ir::Order::before, w.pos);
+  };
+  switch (row->use) {
+    case NamedWord::arc_radius:
+      out_->motion.radius_given = true;
+      out_->motion.radius = std::move(value);
+      out_->motion.radius_pos = w.pos;
+      return;
+    case NamedWord::opening_angle: extra().has_angle = true; extra_.opening_angle = std::move(value); return;
+    case NamedWord::turns: extra().has_turns = true; extra_.turns = std::move(value); return;
+    case NamedWord::polar_radius: extra().has_polar_radius = true; extra_.polar_radius = std::move(value); return polar();
+    case NamedWord::polar_angle: extra().has_polar_angle = true; extra_.polar_angle = std::move(value); return polar();
+    case NamedWord::line_angle: extra().has_line_angle = true; extra_.line_angle = std::move(value); return;
+    case NamedWord::round: return corner(ir::CornerKind::round, false);
+    case NamedWord::round_modal: return corner(ir::CornerKind::round, true);
+    case NamedWord::chamfer_leg: return corner(ir::CornerKind::chamfer_leg, false);
+    case NamedWord::chamfer_chord: return corner(ir::CornerKind::chamfer_chord, false);
+    case NamedWord::corner_feed: has_corner_feed_ = true; corner_feed_ = std::move(value); return;
+    case NamedWord::thread_start: extra().has_start_angle = true; extra_.start_angle = std::move(value); return;
+    case NamedWord::spindle_limit:
+      return push(ir::SpindleLimit{1, std::move(value), false}, Rank::limit, ir::Order::before, w.pos);
+    case NamedWord::spindle_position: return spindle_position(w, std::move(value), attribute);
+    case NamedWord::rotation_in_plane: has_rpl_ = true; rpl_ = std::move(value); return;
+    case NamedWord::timing:
+    case NamedWord::compensation:
+      push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::before, w.pos);
+      c_.note("SIN-009", w.pos, name + " is kept as text: it does not change the programmed path");
+      return;
+    case NamedWord::unsupported: refuse("block.word", w.pos, name + "= is not carried yet"); return;
+  }
+}
+
+// --- what closes a block ----------------------------------------------------------------------------------------
+
+bool WordLowering::finish() {
+  if (corner_ >= 0 && has_corner_feed_) {
+    auto& c = std::get<ir::Corner>(out_->actions[static_cast<std::size_t>(corner_)].data);
+    c.feed = std::make_shared<const ir::Value>(std::move(corner_feed_));
+  }
+  switch (special_) {
+    case Special::none: break;
+    case Special::dwell: finish_dwell(); break;
+    case Special::frame: finish_frame(); break;
+    case Special::pole: finish_pole(); break;
+    case Special::limit:
+      if (!out_->motion.coords.empty()) refuse("work_zone", special_pos_, "limits of the working area are not carried yet");
+      break;
+    case Special::approach:
+      out_->motion.kind = static_cast<ir::MotionKind>(special_g_->a);
+      out_->motion.keeps_modal = false;
+      out_->motion.explicit_code = true;
+      out_->motion.code_pos = special_pos_;
+      out_->motion.code_text = c_.slice(special_pos_);
+      break;
+  }
+  if (has_rpl_ && special_ != Special::frame) {
+    failed_ = true;
+    c_.error("SIN-003", special_pos_, "RPL= belongs to ROT or AROT");
+  }
+  finish_motion();
+  sort_actions();
+  return true;
+}
+
+void WordLowering::reject_axis_words(std::string_view why) {
+  if (out_->motion.coords.empty() && out_->motion.centers.empty()) return;
+  failed_ = true;
+  const WordPos pos = out_->motion.coords.empty() ? out_->motion.centers.front().pos : out_->motion.coords.front().pos;
+  c_.error("SIN-005", pos, std::string(why));
+}
+
+void WordLowering::finish_dwell() {
+  reject_axis_words("G4 stands in a block without axis words");
+  if (!has_dwell_) {
+    failed_ = true;
+    c_.error("SIN-004", special_pos_, "G4 needs its time: F in seconds or S in revolutions");
+    return;
+  }
+  push(std::move(dwell_), Rank::dwell, ir::Order::before, special_pos_);
+  dwell_ = ir::Dwell{};
+}
+
+void WordLowering::finish_pole() {
+  auto& coords = out_->motion.coords;
+  ir::PoleSet pole;
+  const bool absolute = special_g_->a == 1;
+  const bool literal_zero = [&] {
+    for (const auto& c : coords) {
+      if (!c.value.is(0)) return false;
+    }
+    return true;
+  }();
+  if (has_extra_ || (!absolute && (special_g_->a == 2 || !literal_zero))) {
+    refuse("motion.geometry", special_pos_, "a pole given relative to another point or in polar words is not carried yet",
+           "give it with G111 and Cartesian words");
+    coords.clear();
+    return;
+  }
+  if (absolute) {
+    auto at = std::make_shared<ir::FrameChange>();
+    for (auto& c : coords) at->words.push_back(ir::FrameWord{c.axis, std::move(c.value), c.scale, c.pos});
+    pole.at = std::move(at);
+  }
+  coords.clear();
+  push(std::move(pole), Rank::setting, ir::Order::before, special_pos_);
+}
+
+namespace {
+
+/// Rotations given by angles about axes: X, Y, Z only.
+bool is_geometry_axis(ir::AxisId axis) {
+  return axis <= ir::axis::z;
+}
+
+}  // namespace
+
+void WordLowering::finish_rotation(ir::FrameChange& change) {
+  auto& coords = out_->motion.coords;
+  change.kind = ir::FrameKind::rotate;
+  change.has_angle = true;
+  if (has_rpl_) {
+    change.angle = std::move(rpl_);
+    if (!coords.empty()) refuse("motion.transformation", special_pos_, "RPL= together with axis angles is not carried yet");
+    return;
+  }
+  if (coords.size() != 1 || !is_geometry_axis(coords.front().axis)) {
+    refuse("motion.transformation", special_pos_, "a rotation about several axes in one block is not carried yet");
+    return;
+  }
+  change.angle = std::move(coords.front().value);
+  change.rotation_axis = coords.front().axis;
+}
+
+void WordLowering::finish_frame() {
+  const auto verb = static_cast<FrameVerb>(special_g_->a);
+  auto& coords = out_->motion.coords;
+  if (!out_->motion.centers.empty()) reject_axis_words("arc words can't stand with " + std::string(special_g_->name));
+  if (verb == FrameVerb::rots || verb == FrameVerb::arots || verb == FrameVerb::g58 || verb == FrameVerb::g59) {
+    refuse("motion.transformation", special_pos_, std::string(special_g_->name) + " is not carried yet");
+    coords.clear();
+    return;
+  }
+  auto change = std::make_shared<ir::FrameChange>();
+  change->slot = ir::FrameSlot::chain;
+  const bool additive = verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale || verb == FrameVerb::amirror;
+  const bool empty = coords.empty() && !has_rpl_;
+  change->combine = additive ? ir::FrameCombine::compose : empty ? ir::FrameCombine::clear : ir::FrameCombine::replace;
+  switch (verb) {
+    case FrameVerb::rot:
+    case FrameVerb::arot:
+      change->kind = ir::FrameKind::rotate;
+      if (!empty) finish_rotation(*change);
+      break;
+    case FrameVerb::scale:
+    case FrameVerb::ascale: change->kind = ir::FrameKind::scale; break;
+    case FrameVerb::mirror:
+    case FrameVerb::amirror: change->kind = ir::FrameKind::mirror; break;
+    default: change->kind = ir::FrameKind::translate; break;
+  }
+  if (change->kind != ir::FrameKind::rotate) {
+    for (auto& c : coords) {
+      ir::FrameWord word{c.axis, std::move(c.value), c.scale, c.pos};
+      if (change->kind == ir::FrameKind::mirror) word.value = ir::Value(1);  // the value of the word does not count
+      if (change->kind == ir::FrameKind::scale) word.scale = ir::WordScale::radius;
+      if (c.mode != ir::WordMode::modal) {
+        failed_ = true;
+        c_.error("SIN-012", c.pos, "AC() and IC() have no meaning here");
+      }
+      change->words.push_back(std::move(word));
+    }
+  }
+  coords.clear();
+  if (empty && additive) {
+    c_.note("SIN-009", special_pos_, std::string(special_g_->name) + " without axes changes nothing");
+    return push(ir::OpaqueWord{c_.slice(special_pos_)}, Rank::setting, ir::Order::before, special_pos_);
+  }
+  push(ir::FrameOp{std::move(change)}, Rank::setting, ir::Order::before, special_pos_);
+}
+
+void WordLowering::finish_motion() {
+  ir::Motion& m = out_->motion;
+  const ir::MotionKind kind = motion_kind();
+  const bool arc = kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw;
+  if (!m.centers.empty() && !arc) {
+    failed_ = true;
+    c_.error("SIN-003", m.centers.front().pos, "I, J and K belong to G2, G3 and threads; here neither is in force",
+             "write the G function in this block");
+  }
+  if (m.radius_given && !arc) {
+    failed_ = true;
+    c_.error("SIN-003", m.radius_pos, "CR= belongs to G2 and G3");
+  }
+  if (m.radius_given && !m.centers.empty()) {
+    failed_ = true;
+    c_.error("SIN-005", m.radius_pos, "an arc takes its radius or its centre, not both");
+  }
+  if (has_extra_) m.extra = std::make_shared<const ir::MotionExtra>(std::move(extra_));
+  out_->has_motion = m.explicit_code || m.moves() || m.radius_given || m.frame != ir::FrameUse::normal;
+}
+
+}  // namespace cnctrans::sinumerik

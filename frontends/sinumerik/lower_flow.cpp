@@ -1,0 +1,291 @@
+// Jumps, structured statements, repeated parts.
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "frontends/sinumerik/lower_statements.h"
+
+namespace cnctrans::sinumerik {
+
+using frontends::StructureBuilder;
+using syntax::Block;
+using syntax::Expr;
+using syntax::ExprKind;
+using syntax::Statement;
+
+void StatementLowering::begin_routine(ir::Routine& routine) {
+  routine_ = &routine;
+  structure_.emplace(routine.body);
+  labels_.clear();
+  externs_.clear();
+  executable_seen_ = false;
+  c_.symbols.clear();
+  c_.motion = c_.machine.profile->power_on.motion;
+}
+
+void StatementLowering::end_routine() {
+  if (!structure_) return;
+  for (const Span& place : structure_->finish()) {
+    c_.diagnostics.error("SIN-010", place, "this structure has no end in its program", "write its ENDIF, ENDWHILE, ENDFOR, ENDLOOP or UNTIL");
+  }
+  structure_.reset();
+  routine_ = nullptr;
+}
+
+void StatementLowering::add(ir::Statement statement) {
+  for (const auto& l : statement.line.labels) labels_.push_back(to_upper_ascii(l));
+  structure_->add(std::move(statement));
+}
+
+namespace {
+
+/// The code of a block: without skip mark, number, labels and comment.
+std::string_view code_text(std::string_view line, const Block& block) {
+  std::size_t from = 0;
+  const auto past = [&from](WordPos p) {
+    if (p.column != 0) from = std::max<std::size_t>(from, p.column - 1 + p.length);
+  };
+  past(block.skip_pos);
+  past(block.number_pos);
+  for (const auto& label : block.labels) {
+    const std::size_t end = static_cast<std::size_t>(label.data() - line.data()) + label.size();
+    const std::size_t colon = line.find(':', end);
+    if (colon != std::string_view::npos) from = std::max(from, colon + 1);
+  }
+  const std::size_t to = block.comments.empty() ? line.size() : block.comments.back().pos.column - 1;
+  return from < to ? trim(line.substr(from, to - from)) : std::string_view{};
+}
+
+}  // namespace
+
+void StatementLowering::add_opaque(const Block& block, ir::LineInfo info, std::string_view feature, bool harmless) {
+  ir::Opaque o;
+  o.text = code_text(c_.text, block);
+  o.feature = feature.empty() ? std::string_view("language.statement") : feature;
+  o.harmless = harmless;
+  emit(info, std::move(o));
+}
+
+bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
+  feature_ = {};
+  for (const auto& l : block.labels) labels_.push_back(to_upper_ascii(l));
+  const bool row = std::all_of(block.statements.begin(), block.statements.end(),
+                               [](const Statement& s) { return s.keyword == "=" || s.keyword == "()"; });
+  if (row) {
+    executable_seen_ = true;
+    return items(block, std::move(info));
+  }
+  return flow(block, std::move(info));
+}
+
+bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
+  bool ok = true;
+  for (const Statement& s : block.statements) {
+    const std::uint32_t before = c_.errors;
+    if (s.keyword != "DEF" && s.keyword != "PROC" && s.keyword != "EXTERN" && s.keyword != "DEFINE" && s.keyword != "REDEF") {
+      executable_seen_ = true;
+    }
+    if (statement(s, block, info) && c_.errors == before) continue;
+    ok = false;
+    if (c_.errors == before) c_.error("SIN-008", s.pos, s.keyword + " is not carried yet");
+    add_opaque(block, info, feature_, false);
+    break;
+  }
+  return ok;
+}
+
+bool StatementLowering::statement(const Statement& s, const Block& block, ir::LineInfo& info) {
+  const std::string& k = s.keyword;
+  if (k == "IF") return if_statement(s, info);
+  if (k == "FOR") return for_statement(s, info);
+  if (k == "ELSE" || k == "ENDIF" || k == "LOOP" || k == "ENDLOOP" || k == "ENDFOR" || k == "WHILE" || k == "ENDWHILE" || k == "UNTIL") {
+    return structure(s, info);
+  }
+  if (k == "REPEAT" || k == "REPEATB") return s.args.empty() ? structure(s, info) : repeat(s, info);
+  if (k.rfind("GOTO", 0) == 0) {
+    ir::Jump j;
+    if (!jump(s, j)) return false;
+    emit(info, std::move(j));
+    return true;
+  }
+  if (k == "CASE") return switch_statement(s, info);
+  if (k == "DEF") return definition(s, info);
+  if (k == "PROC") return proc(s, info);
+  if (k == "EXTERN") return extern_declaration(s, block, info);
+  if (k == "CALL" || k == "EXTCALL") return text_call(s, info);
+  if (k == "PCALL") return path_call(s, info);
+  if (k == "MCALL") return modal_call(s, info);
+  if (k == "REDEF") {
+    c_.note("SIN-009", s.pos, "REDEF is kept as text: it changes no value");
+    add_opaque(block, info, "language.statement", true);
+    return true;
+  }
+  if (k == "SYNC") return refuse("language.synchronised", s.pos, "synchronised actions are not carried yet: this one could move the machine or change its state");
+  if (k == "DEFINE") return refuse("language.macro", s.pos, "macros are not expanded yet");
+  if (k == "ISOCALL") return refuse("language.statement", s.pos, "calling a program in ISO mode is not carried yet");
+  return false;
+}
+
+// --- jumps ------------------------------------------------------------------------------------------------------
+
+bool StatementLowering::label(const Expr& e, ir::LabelRef& out) {
+  const auto number = [&out](std::string_view digits) {
+    const std::size_t first = digits.find_first_not_of('0');
+    out.text = first == std::string_view::npos ? "0" : digits.substr(first);
+    out.is_number = true;
+    return true;
+  };
+  const auto name = [&](const std::string& text) {
+    const bool numbered = text.size() > 1 && (text[0] == 'N' || text[0] == ':') &&
+                          text.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (numbered) return number(std::string_view(text).substr(1));
+    out.text = text;
+    return true;
+  };
+  if (e.kind == ExprKind::number) {
+    if (e.text.find_first_not_of("0123456789") != std::string::npos) {
+      c_.error("SIN-017", e.pos, "a block number has digits only");
+      return false;
+    }
+    return number(e.text);
+  }
+  if (e.kind == ExprKind::string) return name(to_upper_ascii(e.text));
+  const Symbol* symbol = e.kind == ExprKind::name ? c_.symbol(e.text) : nullptr;
+  if (e.kind == ExprKind::name && symbol == nullptr) return name(e.text);
+  out.computed = exprs_.lower(e);
+  if (out.computed && out.computed->type != ir::Type::string) {
+    c_.error("SIN-012", e.pos, "a jump target is a label, a block number or a text");
+    return false;
+  }
+  return out.computed != nullptr;
+}
+
+bool StatementLowering::jump(const Statement& s, ir::Jump& out) {
+  if (s.keyword == "GOTOF") out.search = ir::Search::forward;
+  if (s.keyword == "GOTOB") out.search = ir::Search::backward;
+  if (s.keyword == "GOTO" || s.keyword == "GOTOC") out.search = ir::Search::forward_then_backward;
+  out.quiet = s.keyword == "GOTOC";
+  return label(s.args[0], out.target);
+}
+
+bool StatementLowering::switch_statement(const Statement& s, ir::LineInfo& info) {
+  ir::Switch out;
+  out.value = exprs_.lower_as(s.args[0], ir::Type::integer);
+  if (!out.value) return false;
+  for (const Statement& arm : s.children) {
+    ir::Jump j;
+    if (!jump(arm.children[0], j)) return false;
+    if (arm.keyword == "DEFAULT") {
+      out.fallback.push_back(std::move(j));
+      continue;
+    }
+    ir::ExprPtr constant = exprs_.lower_as(arm.args[0], ir::Type::integer);
+    if (!constant) return false;
+    out.cases.emplace_back(std::move(constant), std::move(j));
+  }
+  emit(info, std::move(out));
+  return true;
+}
+
+// --- structures -------------------------------------------------------------------------------------------------
+
+bool StatementLowering::unmatched(const Statement& s, std::string_view opener) {
+  c_.error("SIN-010", s.pos, s.keyword + " does not close the " + std::string(opener) + " that stands open here");
+  return false;
+}
+
+bool StatementLowering::if_statement(const Statement& s, ir::LineInfo& info) {
+  ir::ExprPtr condition = exprs_.condition(s.args[0]);
+  if (!s.children.empty()) {
+    ir::Jump j;
+    j.condition = std::move(condition);
+    if (!j.condition || !jump(s.children[0], j)) return false;
+    emit(info, std::move(j));
+    return true;
+  }
+  ir::Statement out;
+  out.line = info;
+  ir::If node;
+  node.condition = condition ? condition : ir::number(0);  // opened all the same, so that its ENDIF is not lost
+  out.node = std::move(node);
+  structure_->open(std::move(out));
+  if (info.skip_mask != 0) c_.error("SIN-011", s.pos, "a structured statement can't be skipped with `/`");
+  return true;
+}
+
+bool StatementLowering::for_statement(const Statement& s, ir::LineInfo& info) {
+  ir::For node;
+  ir::Type type = ir::Type::real;
+  auto counter = exprs_.variable(s.args[0], type);
+  node.from = exprs_.lower_as(s.args[1], ir::Type::integer);
+  node.to = exprs_.lower_as(s.args[2], type == ir::Type::real ? ir::Type::real : ir::Type::integer);
+  if (counter) node.counter = std::move(*counter);
+  ir::Statement out;
+  out.line = info;
+  if (!node.from) node.from = ir::number(0);
+  if (!node.to) node.to = ir::number(0);
+  out.node = std::move(node);
+  structure_->open(std::move(out));
+  if (info.skip_mask != 0) c_.error("SIN-011", s.pos, "a structured statement can't be skipped with `/`");
+  return true;
+}
+
+bool StatementLowering::structure(const Statement& s, ir::LineInfo& info) {
+  using Kind = StructureBuilder::Kind;
+  const std::string& k = s.keyword;
+  const auto open = [&](auto node) {
+    ir::Statement out;
+    out.line = info;
+    out.node = std::move(node);
+    structure_->open(std::move(out));
+    return true;
+  };
+  if (info.skip_mask != 0) c_.error("SIN-011", s.pos, "a structured statement can't be skipped with `/`");
+  if (k == "ELSE") return structure_->else_branch(info) || unmatched(s, "structure");
+  if (k == "ENDIF") return structure_->close(Kind::if_, info) || unmatched(s, "structure");
+  if (k == "ENDLOOP") return structure_->close(Kind::loop, info) || unmatched(s, "structure");
+  if (k == "ENDFOR") return structure_->close(Kind::for_, info) || unmatched(s, "structure");
+  if (k == "ENDWHILE") return structure_->close(Kind::while_, info) || unmatched(s, "structure");
+  if (k == "LOOP") return open(ir::Loop{});
+  if (k == "REPEAT") return open(ir::Until{});
+  ir::ExprPtr condition = exprs_.condition(s.args[0]);
+  if (!condition) condition = ir::number(0);
+  if (k == "UNTIL") return structure_->close_until(std::move(condition), info) || unmatched(s, "structure");
+  ir::While node;
+  node.condition = std::move(condition);
+  return open(std::move(node));
+}
+
+// --- repeated parts ---------------------------------------------------------------------------------------------
+
+bool StatementLowering::repeat(const Statement& s, ir::LineInfo& info) {
+  ir::Repeat out;
+  const bool has_count = s.args.size() > 2 && s.args[2].kind != ExprKind::missing;
+  if (has_count) {
+    out.count = exprs_.lower_as(s.args[2], ir::Type::integer);
+    if (!out.count) return false;
+  }
+  if (s.args[0].kind == ExprKind::missing) {
+    c_.error("SIN-004", s.pos, "REPEAT with a count needs the label of the part to repeat");
+    return false;
+  }
+  if (!label(s.args[0], out.first)) return false;
+  const std::string first = s.args[0].text;
+  const auto seen = std::find(labels_.rbegin(), labels_.rend(), first);
+  const bool numbered = out.first.is_number;
+  const bool before = numbered || seen != labels_.rend();  // a number may be the first or a later one: taken as before
+  out.search = before ? ir::Search::backward : ir::Search::forward;
+  if (s.keyword == "REPEATB") {
+    out.last = out.first;
+  } else if (s.args[1].kind != ExprKind::missing) {
+    if (!label(s.args[1], out.last)) return false;
+  } else {
+    // To the first ENDLABEL after the label; without one before the REPEAT, up to the REPEAT itself.
+    const bool end_mark = !before || std::find(labels_.rbegin(), seen, "ENDLABEL") != seen;
+    if (end_mark) out.last.text = "ENDLABEL";
+  }
+  emit(info, std::move(out));
+  return true;
+}
+
+}  // namespace cnctrans::sinumerik

@@ -1,0 +1,413 @@
+// Rows of items: assignments, words, calls and ends that share a block.
+#include <memory>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/limits.h"
+#include "frontends/sinumerik/lower_statements.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Block;
+using syntax::Expr;
+using syntax::ExprKind;
+using syntax::Word;
+
+struct StatementLowering::Parts {
+  ir::Assign assign;
+  Block words;  ///< the address words; `exprs` is the source block's
+  std::vector<std::pair<const GFunction*, WordPos>> indirect;
+  std::vector<ir::Action> actions;  ///< further actions (spindle positions, preparation stop)
+  std::vector<decltype(ir::Statement::node)> calls;
+  bool has_count = false;
+  ir::ExprPtr count;
+  WordPos count_pos;
+};
+
+ir::RoutineName routine_name(std::string_view text) {
+  ir::RoutineName out;
+  out.text = to_upper_ascii(text);
+  if (out.text.rfind("_N_", 0) == 0) out.text.erase(0, 3);
+  constexpr std::size_t suffix = 4;
+  if (out.text.size() > suffix) {
+    const std::string_view end = std::string_view(out.text).substr(out.text.size() - suffix);
+    if (end == "_SPF" || end == "_MPF" || end == ".SPF" || end == ".MPF") out.text.resize(out.text.size() - suffix);
+  }
+  const bool numbered = out.text.size() > 1 && out.text.size() <= 8 && out.text[0] == 'L' &&
+                        out.text.find_first_not_of("0123456789", 1) == std::string::npos;
+  if (numbered) out.number = std::stoll(out.text.substr(1));
+  return out;
+}
+
+bool StatementLowering::refuse(std::string_view feature, WordPos pos, std::string message, std::string hint) {
+  feature_ = feature;
+  c_.error("SIN-008", pos, std::move(message), std::move(hint));
+  return false;
+}
+
+void StatementLowering::emit(ir::LineInfo& info, decltype(ir::Statement::node) node) {
+  ir::Statement s;
+  s.line = info;
+  s.node = std::move(node);
+  structure_->add(std::move(s));
+  // What follows in the same source line has no number, label or comment of its own.
+  info.number = {};
+  info.labels.clear();
+  info.comments.clear();
+  info.joined = true;
+  info.blank_lines_before = 0;
+}
+
+// --- assignments ------------------------------------------------------------------------------------------------
+
+bool StatementLowering::assign_set(const ir::VarRef& target, ir::Type type, const Expr& value, WordPos pos, Parts& parts) {
+  const bool numbered = target.space == space::r;
+  if (!numbered && target.indices.size() != 1) {
+    return refuse("language.statement", pos, "SET() over an array of several dimensions is not carried yet");
+  }
+  const ir::ExprPtr first = numbered ? target.index : target.indices[0];
+  for (std::size_t i = 0; i < value.args.size(); ++i) {
+    ir::Assign::Item item;
+    item.target = target;
+    ir::ExprPtr& index = numbered ? item.target.index : item.target.indices[0];
+    if (const auto* n = std::get_if<ir::Number>(&first->node); n != nullptr) {
+      index = ir::number(n->value + static_cast<double>(i));
+    } else if (i != 0) {
+      index = ir::binary(ir::BinaryOp::add, first, ir::number(static_cast<double>(i)));
+    }
+    const Expr& e = value.args[i];  // a gap writes 0
+    item.value = e.kind == ExprKind::missing ? ir::number(0) : exprs_.lower_as(e, type);
+    if (!item.value) return false;
+    item.pos = pos;
+    parts.assign.items.push_back(std::move(item));
+  }
+  return true;
+}
+
+bool StatementLowering::assign_system(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
+  const std::uint32_t before = c_.errors;
+  ir::Assign::Item item;
+  item.system = exprs_.system(target);
+  item.to_system = true;
+  item.pos = pos;
+  if (c_.errors != before) return false;
+  if (item.system.datum != ir::Datum::work_offset) {
+    return refuse("language.system_variable", pos, "writing " + target.text + " is not carried yet: it could change what the machine does");
+  }
+  item.value = exprs_.lower_as(value, ir::Type::real);
+  if (!item.value) return false;
+  parts.assign.items.push_back(std::move(item));
+  return true;
+}
+
+bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
+  if (target.text.size() > 1 && target.text[0] == '$') {
+    const bool r_cell = target.text[1] == 'R' && target.text.find_first_not_of("0123456789", 2) == std::string::npos;
+    if (!r_cell) return assign_system(target, value, pos, parts);
+    Expr cell = target;  // $R10, $R[10]
+    cell.text = "R";
+    if (target.text.size() > 2) {
+      Expr index;
+      index.kind = ExprKind::number;
+      index.text = target.text.substr(2);
+      index.number = std::stod(index.text);
+      index.pos = target.pos;
+      cell.args.assign(1, std::move(index));
+    }
+    return assign(cell, value, pos, parts);
+  }
+  ir::Type type = ir::Type::real;
+  auto ref = exprs_.variable(target, type);
+  if (!ref) return false;
+  if (value.kind == ExprKind::call && value.text == "SET") return assign_set(*ref, type, value, pos, parts);
+  if (value.kind == ExprKind::call && (value.text == "REP" || value.text.empty())) {
+    return refuse("language.statement", pos, "filling an array in one statement is not carried yet", "use SET() or a loop");
+  }
+  ir::Assign::Item item;
+  item.target = std::move(*ref);
+  item.value = exprs_.lower_as(value, type);
+  item.pos = pos;
+  if (!item.value) return false;
+  parts.assign.items.push_back(std::move(item));
+  return true;
+}
+
+bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts) {
+  const Expr& target = s.args[0];
+  const Expr& value = s.args[1];
+  const bool one_index = target.args.size() == 1;
+  if (target.text == "R" || target.text[0] == '$' || c_.symbol(target.text) != nullptr) return assign(target, value, s.pos, parts);
+  if (target.text == "G" && one_index) {
+    const auto* group = &target.args[0];
+    const GFunction* g = group->kind == ExprKind::number && value.kind == ExprKind::number
+                             ? g_function(static_cast<std::int32_t>(group->number), static_cast<std::int32_t>(value.number))
+                             : nullptr;
+    if (g == nullptr) return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
+    parts.indirect.emplace_back(g, s.pos);
+    return true;
+  }
+  const bool position = target.text == "SPOS" || target.text == "SPOSA" || target.text == "LIMS" || target.text == "S";
+  if (position && one_index && target.args[0].kind == ExprKind::number) {
+    Attribute attribute = Attribute::none;
+    const std::uint32_t before = c_.errors;
+    ir::Value v = exprs_.value_of(value, attribute);
+    if (c_.errors != before) return false;
+    const auto number = static_cast<std::uint8_t>(target.args[0].number);
+    ir::Action a;
+    a.pos = s.pos;
+    a.text = c_.slice(s.pos);
+    if (target.text == "LIMS") {
+      a.data = ir::SpindleLimit{number, std::move(v), false};
+    } else if (target.text == "S") {
+      a.data = ir::SetSpindle{number, std::move(v)};
+    } else if (attribute == Attribute::ic) {
+      return refuse("language.statement", s.pos, "turning the spindle by an increment is not carried yet");
+    } else {
+      a.data = ir::SpindleOrient{number, std::move(v)};
+    }
+    parts.actions.push_back(std::move(a));
+    return true;
+  }
+  if (is_reserved(target.text)) return refuse("block.word", s.pos, target.text + "[...]= is not carried yet");
+  return assign(target, value, s.pos, parts);
+}
+
+// --- words that are no addresses --------------------------------------------------------------------------------
+
+bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& parts) {
+  std::string name = to_upper_ascii(w.address);
+  const auto expression = [&]() -> Expr {
+    if (w.is_expression) return block.exprs[static_cast<std::size_t>(w.expr)];
+    Expr e;  // a plain number, perhaps with a sign
+    e.kind = ExprKind::number;
+    e.text = w.number_text;
+    e.number = w.number;
+    e.pos = WordPos{w.pos.column + w.pos.length - static_cast<std::uint32_t>(w.number_text.size()),
+                    static_cast<std::uint32_t>(w.number_text.size())};
+    return e;
+  };
+  Expr target;
+  target.text = name;
+  target.pos = w.pos;
+  if (w.equals && name == "R" && w.extension >= 0) {
+    target.kind = ExprKind::variable;
+    Expr index;
+    index.kind = ExprKind::number;
+    index.number = w.extension;
+    index.text = std::to_string(w.extension);
+    index.pos = w.pos;
+    target.args.push_back(std::move(index));
+    return assign(target, expression(), w.pos, parts);
+  }
+  if (w.equals && w.extension < 0 && (c_.symbol(name) != nullptr || (name.size() > 1 && !is_reserved(name) && c_.machine.axis(name) == ir::axis::none))) {
+    target.kind = ExprKind::name;
+    return assign(target, expression(), w.pos, parts);
+  }
+  if (name == "P" && w.has_value && w.extension < 0) {
+    parts.has_count = true;
+    parts.count = exprs_.lower_as(expression(), ir::Type::integer);
+    parts.count_pos = w.pos;
+    return parts.count != nullptr;
+  }
+  if (name == "L" && w.has_value && !w.equals && w.number_text.find_first_not_of("0123456789") == std::string_view::npos) {
+    name += w.number_text;
+    return sort_call(std::move(name), {}, w.pos, parts);
+  }
+  if (!w.has_value && name.size() > 1 && g_function(name) == nullptr) {
+    if (c_.symbol(name) != nullptr || named_word(name) != nullptr) {
+      c_.error("SIN-004", w.pos, name + " has no value");
+      return false;
+    }
+    return sort_call(std::move(name), {}, w.pos, parts);
+  }
+  parts.words.words.push_back(w);
+  return true;
+}
+
+// --- calls ------------------------------------------------------------------------------------------------------
+
+void StatementLowering::message_parts(const Expr& e, std::vector<ir::ExprPtr>& out) {
+  if (e.kind == ExprKind::binary && e.text == "<<") {
+    message_parts(e.args[0], out);
+    message_parts(e.args[1], out);
+    return;
+  }
+  if (e.kind == ExprKind::unary && e.text == "<<") return message_parts(e.args[0], out);
+  if (auto part = exprs_.lower(e)) out.push_back(std::move(part));
+}
+
+bool StatementLowering::message(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  ir::Message m;
+  const std::uint32_t before = c_.errors;
+  if (args.empty() || args[0].kind == ExprKind::missing) {
+    m.kind = ir::MessageKind::clear;
+  } else {
+    message_parts(args[0], m.parts);
+  }
+  if (args.size() > 1) c_.note("SIN-009", pos, "MSG shows its text; the second argument only says when");
+  parts.calls.emplace_back(std::move(m));
+  return c_.errors == before;
+}
+
+bool StatementLowering::alarm(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  ir::Message m;
+  m.kind = ir::MessageKind::error;
+  const std::uint32_t before = c_.errors;
+  if (args.empty()) {
+    c_.error("SIN-012", pos, "SETAL() needs the number of the alarm");
+    return false;
+  }
+  m.number = exprs_.lower_as(args[0], ir::Type::integer);
+  if (args.size() > 1) message_parts(args[1], m.parts);
+  parts.calls.emplace_back(std::move(m));
+  return c_.errors == before;
+}
+
+bool StatementLowering::predefined(Procedure use, const std::string& name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  switch (use) {
+    case Procedure::message: return message(args, pos, parts);
+    case Procedure::set_alarm: return alarm(args, pos, parts);
+    case Procedure::stop_preparation: {
+      ir::Action a;
+      a.data = ir::PreparationStop{};
+      a.pos = pos;
+      a.text = c_.slice(pos);
+      parts.actions.push_back(std::move(a));
+      return true;
+    }
+    case Procedure::repeat_return: {
+      if (!args.empty()) return refuse("language.statement", pos, "RET with a target or levels is not carried yet");
+      parts.calls.emplace_back(ir::Return{{}, c_.slice(pos)});
+      return true;
+    }
+    case Procedure::program_start: {
+      ir::Jump j;
+      j.search = ir::Search::to_start;
+      c_.warning("SIN-020", pos, "GOTOS jumps to the program start only when the PLC asks for it; here it always jumps");
+      parts.calls.emplace_back(std::move(j));
+      return true;
+    }
+    case Procedure::screen:
+    case Procedure::timing: {
+      ir::Opaque o;
+      o.text = c_.slice(pos);
+      o.feature = "language.statement";
+      o.harmless = true;
+      c_.note("SIN-009", pos, name + " is kept as text: it does not change the programmed path");
+      parts.calls.emplace_back(std::move(o));
+      return true;
+    }
+    case Procedure::none:
+    case Procedure::unsupported: break;
+  }
+  const bool file = name == "WRITE" || name == "READ" || name == "DELETE" || name == "ISFILE";
+  const bool transformation = name.rfind("TRA", 0) == 0 && name.rfind("TRAIL", 0) != 0;
+  return refuse(file ? "language.files" : transformation ? "motion.transformation" : "language.statement", pos, name + " is not carried yet");
+}
+
+bool StatementLowering::call_arguments(const std::string& name, const std::vector<Expr>& args, ir::CallRoutine& call) {
+  const auto external = externs_.find(name);
+  for (std::size_t i = 0; i < args.size(); ++i) {
+    ir::Argument a;
+    if (args[i].kind != ExprKind::missing) {
+      a.value = exprs_.lower(args[i]);
+      if (!a.value) return false;
+      a.by_reference = external != externs_.end() && i < external->second.size() && external->second[i];
+      if (const auto* v = std::get_if<ir::VarRef>(&a.value->node)) a.reference = *v;
+      if (a.by_reference && !std::holds_alternative<ir::VarRef>(a.value->node)) {
+        c_.error("SIN-012", args[i].pos, name + " wants a variable here (VAR parameter)");
+        return false;
+      }
+    }
+    call.arguments.push_back(std::move(a));
+  }
+  return true;
+}
+
+bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  if (const Procedure use = procedure(name); use != Procedure::none) return predefined(use, name, args, pos, parts);
+  if (sinumerik::cycle(name) != nullptr) {
+    ir::CyclePtr made = cycle(name, args, pos);
+    if (!made) return false;
+    ir::Action a;
+    a.data = ir::CycleDefine{std::move(made), false, true, ir::CycleTrigger::path_motion};
+    a.pos = pos;
+    a.text = c_.slice(pos);
+    parts.actions.push_back(std::move(a));
+    return true;
+  }
+  if (c_.symbol(name) != nullptr || is_reserved(name)) {
+    return refuse("language.statement", pos, name + " can't be called, or is not carried yet");
+  }
+  ir::CallRoutine call;
+  call.routine = routine_name(name);
+  if (!call_arguments(name, args, call)) return false;
+  parts.calls.emplace_back(std::move(call));
+  return true;
+}
+
+// --- the row ----------------------------------------------------------------------------------------------------
+
+bool StatementLowering::sort_items(const Block& block, Parts& parts) {
+  parts.words.exprs = block.exprs;
+  bool ok = true;
+  std::size_t w = 0;
+  std::size_t s = 0;
+  while (w < block.words.size() || s < block.statements.size()) {
+    const bool word_next = s == block.statements.size() ||
+                           (w < block.words.size() && block.words[w].pos.column < block.statements[s].pos.column);
+    if (word_next) {
+      ok = sort_word(block, block.words[w++], parts) && ok;
+      continue;
+    }
+    const syntax::Statement& next = block.statements[s++];
+    ok = (next.keyword == "=" ? sort_assignment(next, parts) : sort_call(next.text, next.args, next.pos, parts)) && ok;
+  }
+  return ok;
+}
+
+bool StatementLowering::items(const Block& block, ir::LineInfo info) {
+  Parts parts;
+  bool ok = sort_items(block, parts);
+  ir::Block words;
+  const bool has_words = !parts.words.words.empty() || !parts.indirect.empty();
+  if (ok && has_words) {
+    ok = words_.lower(parts.words, parts.indirect, words);
+    if (!ok && !words_.feature().empty()) feature_ = words_.feature();
+  }
+  const Tail tail = has_words ? words_.tail() : Tail::none;
+  if (ok && !parts.assign.items.empty() && !words.motion.coords.empty()) {
+    c_.error("SIN-011", words.motion.coords.front().pos, "an assignment can't share a block with axis words (alarm 12080)",
+             "write the assignment in the block before");
+    ok = false;
+  }
+  if (ok && parts.has_count) {
+    auto* call = parts.calls.size() == 1 ? std::get_if<ir::CallRoutine>(&parts.calls[0]) : nullptr;
+    if (call == nullptr) {
+      c_.error("SIN-003", parts.count_pos, "P says how often a subprogram runs; here none is called");
+      ok = false;
+    } else {
+      call->count = std::move(parts.count);
+    }
+  }
+  if (ok && parts.calls.size() > 1) {
+    c_.error("SIN-005", WordPos{}, "only one call may stand in a block");
+    ok = false;
+  }
+  if (!ok) {
+    add_opaque(block, std::move(info), feature_, false);
+    return false;
+  }
+  for (auto& a : parts.actions) words.actions.push_back(std::move(a));
+  if (!parts.assign.items.empty()) emit(info, std::move(parts.assign));
+  const bool nothing_else = parts.calls.empty() && tail == Tail::none;
+  if (!words.empty() || (nothing_else && !info.joined)) emit(info, std::move(words));
+  for (auto& call : parts.calls) emit(info, std::move(call));
+  if (tail == Tail::program_end) emit(info, ir::End{c_.slice(words_.tail_pos()), true});
+  if (tail == Tail::subprogram_end) emit(info, ir::Return{{}, c_.slice(words_.tail_pos())});
+  return true;
+}
+
+}  // namespace cnctrans::sinumerik

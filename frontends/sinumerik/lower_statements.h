@@ -1,0 +1,93 @@
+// Everything but the plain word block: assignments, jumps, structures, definitions, calls, cycles -> IR statements.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontends/common/structure_builder.h"
+#include "frontends/common/syntax.h"
+#include "frontends/sinumerik/context.h"
+#include "frontends/sinumerik/lower_expr.h"
+#include "frontends/sinumerik/lower_words.h"
+
+namespace cnctrans::sinumerik {
+
+/// Canonical name of a program: capitals, without `_N_` and `_SPF`/`_MPF`; `L0123` has the number 123 too.
+ir::RoutineName routine_name(std::string_view text);
+
+class StatementLowering {
+ public:
+  StatementLowering(FileContext& context, WordLowering& words) : c_(context), words_(words), exprs_(context) {}
+
+  /// A routine begins: its statements go to `body`. Names, labels and structure start afresh.
+  void begin_routine(ir::Routine& routine);
+  /// The routine ends: structures that are still open are reported and closed.
+  void end_routine();
+
+  /// Lowers one block and adds its statements. True when all of it was understood.
+  bool lower(const syntax::Block& block, ir::LineInfo info);
+  /// Adds a statement (comment lines, blocks of the hot path).
+  void add(ir::Statement statement);
+  /// Adds the block as Opaque text.
+  void add_opaque(const syntax::Block& block, ir::LineInfo info, std::string_view feature, bool harmless);
+
+ private:
+  struct Parts;  ///< what a row of items holds: assignments, words, calls, a count
+
+  // rows of items
+  bool items(const syntax::Block& block, ir::LineInfo info);
+  bool sort_items(const syntax::Block& block, Parts& parts);
+  bool sort_word(const syntax::Block& block, const syntax::Word& word, Parts& parts);
+  bool sort_assignment(const syntax::Statement& s, Parts& parts);
+  bool assign(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
+  bool assign_set(const ir::VarRef& target, ir::Type type, const syntax::Expr& value, WordPos pos, Parts& parts);
+  bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
+  bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool message(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool alarm(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  void message_parts(const syntax::Expr& e, std::vector<ir::ExprPtr>& out);
+  bool call_arguments(const std::string& name, const std::vector<syntax::Expr>& args, ir::CallRoutine& call);
+  bool refuse(std::string_view feature, WordPos pos, std::string message, std::string hint = {});
+
+  // cycles (lower_cycles.cpp)
+  ir::CyclePtr cycle(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
+
+  // flow (lower_flow.cpp)
+  bool flow(const syntax::Block& block, ir::LineInfo info);
+  bool statement(const syntax::Statement& s, const syntax::Block& block, ir::LineInfo& info);
+  bool if_statement(const syntax::Statement& s, ir::LineInfo& info);
+  bool structure(const syntax::Statement& s, ir::LineInfo& info);
+  bool for_statement(const syntax::Statement& s, ir::LineInfo& info);
+  bool repeat(const syntax::Statement& s, ir::LineInfo& info);
+  bool switch_statement(const syntax::Statement& s, ir::LineInfo& info);
+  bool jump(const syntax::Statement& s, ir::Jump& out);
+  bool label(const syntax::Expr& e, ir::LabelRef& out);
+  bool unmatched(const syntax::Statement& s, std::string_view opener);
+
+  // definitions and calls (lower_calls.cpp)
+  bool definition(const syntax::Statement& s, ir::LineInfo& info);
+  bool initial_values(const syntax::Expr& e, ir::Type type, std::size_t elements, std::vector<ir::ExprPtr>& out);
+  bool proc(const syntax::Statement& s, ir::LineInfo& info);
+  bool extern_declaration(const syntax::Statement& s, const syntax::Block& block, ir::LineInfo& info);
+  bool text_call(const syntax::Statement& s, ir::LineInfo& info);
+  bool path_call(const syntax::Statement& s, ir::LineInfo& info);
+  bool modal_call(const syntax::Statement& s, ir::LineInfo& info);
+  bool program_name(const syntax::Expr& e, ir::CallRoutine& call);
+  std::optional<ir::Type> type_of(const syntax::Expr& type);
+
+  void emit(ir::LineInfo& info, decltype(ir::Statement::node) node);
+
+  FileContext& c_;
+  WordLowering& words_;
+  ExprLowering exprs_;
+  ir::Routine* routine_ = nullptr;
+  std::optional<frontends::StructureBuilder> structure_;
+  std::vector<std::string> labels_;  ///< of the routine so far, in text order, capitals
+  std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
+  bool executable_seen_ = false;
+  std::string_view feature_;         ///< why the block in work could not be carried
+};
+
+}  // namespace cnctrans::sinumerik

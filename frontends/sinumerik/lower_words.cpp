@@ -1,0 +1,451 @@
+// Word blocks: the dispatch by word. What closes a block (frames, poles, dwells, the motion) is in lower_finish.cpp.
+#include "frontends/sinumerik/lower_words.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/text.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Word;
+
+namespace {
+
+char capital(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+template <class Enum>
+std::uint8_t u(Enum e) {
+  return static_cast<std::uint8_t>(e);
+}
+
+/// Entry of the missing-features registry that a G function without a node stands under.
+std::string_view missing_key(const GFunction& g) {
+  constexpr std::uint8_t motion_group = 1;
+  constexpr std::uint8_t splines_from = 6, splines_to = 8, polynomial = 9;
+  if (g.group != motion_group) return g.group >= 49 && g.group <= 53 ? "motion.transformation" : "language.statement";
+  if (g.index >= splines_from && g.index <= splines_to) return "motion.spline";
+  if (g.index == polynomial) return "motion.polynomial";
+  return g.name == "G331" || g.name == "G332" ? "cycle.hole" : "motion.geometry";
+}
+
+}  // namespace
+
+bool WordLowering::is_motion_block(const syntax::Block& block) {
+  for (const Word& w : block.words) {
+    switch (w.address[0]) {
+      case 'L': case 'l': case 'P': case 'p': case 'R': case 'r': case 'N': case 'n': case 'O': case 'o': return false;
+      default: break;
+    }
+  }
+  return true;
+}
+
+void WordLowering::begin(ir::Block& out) {
+  out.clear();
+  out_ = &out;
+  ranks_.clear();
+  groups_ = 0;
+  special_ = Special::none;
+  special_g_ = nullptr;
+  failed_ = false;
+  sorted_ = true;
+  decreasing_lead_ = false;
+  tail_ = Tail::none;
+  feature_ = {};
+  if (has_extra_) extra_ = ir::MotionExtra{};
+  has_extra_ = has_dwell_ = has_rpl_ = has_corner_feed_ = false;
+  corner_ = -1;
+}
+
+template <class Data>
+void WordLowering::push(Data data, Rank rank, ir::Order order, WordPos pos, bool with_text) {
+  auto& a = out_->actions.emplace_back();
+  a.data = std::move(data);
+  a.order = order;
+  a.pos = pos;
+  if (with_text) a.text = c_.slice(pos);
+  sorted_ = sorted_ && (ranks_.empty() || ranks_.back() <= u(rank));
+  ranks_.push_back(u(rank));
+}
+
+void WordLowering::sort_actions() {
+  if (sorted_) return;
+  auto& actions = out_->actions;
+  for (std::size_t i = 1; i < actions.size(); ++i) {
+    for (std::size_t k = i; k > 0 && ranks_[k] < ranks_[k - 1]; --k) {
+      std::swap(ranks_[k], ranks_[k - 1]);
+      std::swap(actions[k], actions[k - 1]);
+    }
+  }
+}
+
+void WordLowering::refuse(std::string_view feature, WordPos pos, std::string message, std::string hint) {
+  failed_ = true;
+  feature_ = feature;
+  c_.error("SIN-008", pos, std::move(message), std::move(hint));
+}
+
+bool WordLowering::lower(const syntax::Block& block, ir::Block& out) {
+  static const std::vector<std::pair<const GFunction*, WordPos>> none;
+  return lower(block, none, out);
+}
+
+bool WordLowering::lower(const syntax::Block& block, const std::vector<std::pair<const GFunction*, WordPos>>& indirect,
+                         ir::Block& out) {
+  begin(out);
+  const std::uint32_t before = c_.errors;
+  g_words(block);
+  for (const auto& [g, pos] : indirect) g_function(*g, pos);
+  words(block);
+  return finish() && !failed_ && c_.errors == before;
+}
+
+// --- G functions ------------------------------------------------------------------------------------------------
+
+void WordLowering::g_words(const syntax::Block& block) {
+  for (const Word& w : block.words) {
+    if (w.address.size() != 1) {
+      if (w.has_value) continue;
+      if (const GFunction* g = sinumerik::g_function(w.address); g != nullptr) g_function(*g, w.pos);
+      continue;
+    }
+    if (w.address[0] != 'G' && w.address[0] != 'g') continue;
+    const GFunction* g = nullptr;
+    const bool whole = w.has_value && !w.is_expression && !w.equals && w.extension < 0 && w.number == std::floor(w.number);
+    if (whole && w.number >= 0 && w.number < 1000) g = sinumerik::g_function(static_cast<std::int32_t>(w.number));
+    if (g == nullptr) {
+      failed_ = true;
+      c_.error("SIN-002", w.pos, std::string(c_.slice(w.pos)) + " is no G function of this control");
+      continue;
+    }
+    g_function(*g, w.pos);
+  }
+}
+
+void WordLowering::g_function(const GFunction& g, WordPos pos) {
+  const std::uint64_t bit = std::uint64_t{1} << g.group;
+  if ((groups_ & bit) != 0) {
+    failed_ = true;
+    c_.error("SIN-005", pos, "two G functions of group " + std::to_string(g.group) + " stand in one block (alarm 12070)",
+             "write them in two blocks");
+  }
+  groups_ |= bit;
+  const auto special = [&](Special s) {
+    if (special_ != Special::none) {
+      failed_ = true;
+      c_.error("SIN-005", pos, std::string(g.name) + " and " + std::string(special_g_->name) + " can't share a block");
+    }
+    special_ = s;
+    special_g_ = &g;
+    special_pos_ = pos;
+  };
+  ir::Motion& m = out_->motion;
+  switch (g.use) {
+    case GUse::motion:
+      m.kind = static_cast<ir::MotionKind>(g.a);
+      m.explicit_code = true;
+      m.code_pos = pos;
+      m.code_text = c_.slice(pos);
+      decreasing_lead_ = g.b != 0;
+      c_.motion = m.kind;
+      break;
+    case GUse::setting:
+      push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+      break;
+    case GUse::units:
+      push(ir::ModalSet{ir::Setting::units, g.a, g.b != 0, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+      break;
+    case GUse::feed: feed_mode(g, pos); break;
+    case GUse::path:
+      push(ir::ModalSet{ir::Setting::path_mode, g.a, true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+      if (g.b != 0) c_.note("SIN-019", pos, std::string(g.name) + " is carried as continuous path: how much it rounds the corners is not");
+      break;
+    case GUse::dwell: special(Special::dwell); break;
+    case GUse::exact_stop_block: push(ir::ExactStopBlock{}, Rank::setting, ir::Order::before, pos); break;
+    case GUse::frame: special(Special::frame); break;
+    case GUse::work_offset:
+      push(ir::WorkOffset{ir::Value(static_cast<double>(g.a)), g.a == 0}, Rank::setting, ir::Order::before, pos);
+      break;
+    case GUse::suppress:
+      m.frame = ir::FrameUse::machine_with_length;
+      m.frame_pos = pos;
+      break;
+    case GUse::pole: special(Special::pole); break;
+    case GUse::limit: special(Special::limit); break;
+    case GUse::approach: special(Special::approach); break;
+    case GUse::timing:
+    case GUse::compensation:
+      push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::before, pos);
+      c_.note("SIN-009", pos, std::string(g.name) + " is kept as text: it does not change the programmed path");
+      break;
+    case GUse::unsupported: refuse(missing_key(g), pos, std::string(g.name) + " is not carried yet"); break;
+  }
+}
+
+void WordLowering::feed_mode(const GFunction& g, WordPos pos) {
+  if (g.b != 0) {
+    const auto mode = g.b == 2 ? ir::SpindleMode::css : ir::SpindleMode::rpm;
+    push(ir::ModalSet{ir::Setting::spindle_mode, u(mode), true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+  }
+  // A change of the feed mode clears F; with G96 and G97 the mode is the word's second meaning and has no text of its own.
+  push(ir::ModalSet{ir::Setting::feed_mode, g.a, true, ir::FeedMemory::cleared}, Rank::setting, ir::Order::before, pos, g.b == 0);
+}
+
+// --- words ------------------------------------------------------------------------------------------------------
+
+void WordLowering::words(const syntax::Block& block) {
+  for (const Word& w : block.words) {
+    if (w.address.size() != 1) {
+      named(block, w);
+      continue;
+    }
+    const char address = capital(w.address[0]);
+    if (address == 'G') continue;
+    if (!w.has_value) {
+      failed_ = true;
+      c_.error("SIN-004", w.pos, std::string(w.address) + " has no value");
+      continue;
+    }
+    letter(block, w, address);
+  }
+}
+
+void WordLowering::letter(const syntax::Block& block, const Word& w, char address) {
+  if (address == 'M') return m_word(block, w);
+  if (address == 'T') return t_word(block, w);
+  Attribute attribute = Attribute::none;
+  ir::Value value = exprs_.value(block, w, attribute);
+  const bool centre_letter = address == 'I' || address == 'J' || address == 'K';
+  const ir::AxisId axis = centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
+  if (centre_letter) return center(axis, w, std::move(value), attribute);
+  if (axis != ir::axis::none && w.extension < 0) return coordinate(axis, w, std::move(value), attribute);
+  if (attribute != Attribute::none) {
+    failed_ = true;
+    c_.error("SIN-012", w.pos, "AC(), IC() and their like belong to axes and arc centres");
+    return;
+  }
+  switch (address) {
+    case 'F': return f_word(w, std::move(value));
+    case 'S': return s_word(w, std::move(value));
+    case 'D': return push(ir::ToolOffset{std::move(value)}, Rank::offset, ir::Order::before, w.pos);
+    case 'H': {
+      ir::MachineFunction h;
+      h.auxiliary = true;
+      h.extension = w.extension;
+      h.value = std::move(value);
+      return push(std::move(h), Rank::before, ir::Order::before, w.pos);
+    }
+    default: break;
+  }
+  failed_ = true;
+  if (address == 'R' || address == 'N' || address == 'L' || address == 'P') {
+    c_.error("SIN-003", w.pos, std::string(c_.slice(w.pos)) + " can't stand here",
+             address == 'R' ? "an R parameter is set with `=`: R1=5" : "");
+    return;
+  }
+  std::string name(1, address);
+  if (w.extension >= 0) name += std::to_string(w.extension);
+  c_.error("SIN-003", w.pos, "the machine " + c_.machine.profile->name + " has no axis or function " + name,
+           "choose the machine with --machine, or add the axis to its profile");
+}
+
+void WordLowering::coordinate(ir::AxisId axis, const Word& w, ir::Value value, Attribute attribute) {
+  for (const auto& other : out_->motion.coords) {
+    if (other.axis != axis) continue;
+    failed_ = true;
+    c_.error("SIN-005", w.pos, std::string(w.address) + " is written twice in this block");
+  }
+  auto& coord = out_->motion.coords.emplace_back();
+  coord.axis = axis;
+  coord.value = std::move(value);
+  coord.pos = w.pos;
+  switch (attribute) {
+    case Attribute::none:
+    case Attribute::unsupported: break;
+    case Attribute::dac: coord.scale = ir::WordScale::diameter; coord.mode = ir::WordMode::absolute; break;
+    case Attribute::rac: coord.scale = ir::WordScale::radius; coord.mode = ir::WordMode::absolute; break;
+    case Attribute::dic: coord.scale = ir::WordScale::diameter; coord.mode = ir::WordMode::incremental; break;
+    case Attribute::ric: coord.scale = ir::WordScale::radius; coord.mode = ir::WordMode::incremental; break;
+    case Attribute::ic: coord.mode = ir::WordMode::incremental; break;
+    case Attribute::ac: coord.mode = ir::WordMode::absolute; break;
+    case Attribute::dc: coord.mode = ir::WordMode::absolute; coord.direction = ir::RotaryDirection::shortest; break;
+    case Attribute::acp: coord.mode = ir::WordMode::absolute; coord.direction = ir::RotaryDirection::positive; break;
+    case Attribute::acn: coord.mode = ir::WordMode::absolute; coord.direction = ir::RotaryDirection::negative; break;
+  }
+}
+
+void WordLowering::center(ir::AxisId axis, const Word& w, ir::Value value, Attribute attribute) {
+  if (is_thread() && w.extension < 0) {
+    auto& e = extra();
+    e.has_lead = true;
+    e.lead = std::move(value);
+    e.lead_axis = axis;
+    return;
+  }
+  if (w.extension > 1 || w.extension == 0) {
+    failed_ = true;
+    c_.error("SIN-003", w.pos, std::string(c_.slice(w.pos)) + " is no word of this control");
+    return;
+  }
+  ir::CenterWord word;
+  word.axis = axis;
+  word.value = std::move(value);
+  word.pos = w.pos;
+  const bool through = w.extension == 1;
+  if (through) {
+    word.mode = ir::CenterMode::follows_distance;
+    word.scale = ir::WordScale::modal;
+  }
+  if (attribute == Attribute::ac) {
+    word.mode = ir::CenterMode::absolute;
+    word.scale = ir::WordScale::modal;
+  } else if (attribute == Attribute::ic) {
+    word.mode = ir::CenterMode::from_start;
+  } else if (attribute != Attribute::none) {
+    failed_ = true;
+    c_.error("SIN-012", w.pos, "an arc centre takes AC() or IC() only");
+  }
+  if (through) {
+    extra().through.push_back(std::move(word));
+  } else {
+    out_->motion.centers.push_back(std::move(word));
+  }
+}
+
+void WordLowering::f_word(const Word& w, ir::Value value) {
+  if (special_ == Special::dwell) {
+    has_dwell_ = true;
+    dwell_.value = std::move(value);
+    dwell_.revolutions = false;
+    return;
+  }
+  if (motion_kind() == ir::MotionKind::thread_variable) {  // change of the lead per revolution; unsigned, G35 decreases
+    extra().lead_change = decreasing_lead_ ? ir::negate(value) : std::move(value);
+    return;
+  }
+  push(ir::SetFeed{std::move(value), false}, Rank::feed, ir::Order::before, w.pos);
+}
+
+void WordLowering::s_word(const Word& w, ir::Value value) {
+  const auto number = static_cast<std::uint8_t>(w.extension < 0 ? 1 : w.extension);
+  if (w.extension == 0 || w.extension > 31) {
+    failed_ = true;
+    c_.error("SIN-017", w.pos, "there is no spindle with this number");
+    return;
+  }
+  if (special_ == Special::dwell) {
+    has_dwell_ = true;
+    dwell_.value = std::move(value);
+    dwell_.revolutions = true;
+    return;
+  }
+  if (special_ == Special::limit) {
+    return push(ir::SpindleLimit{number, std::move(value), special_g_->a == 0}, Rank::limit, ir::Order::before, w.pos);
+  }
+  push(ir::SetSpindle{number, std::move(value)}, Rank::speed, ir::Order::before, w.pos);
+}
+
+void WordLowering::t_word(const syntax::Block& block, const Word& w) {
+  ir::ToolSelect tool;
+  tool.changes = c_.machine.tool_word_changes;
+  if (w.is_expression && block.exprs[static_cast<std::size_t>(w.expr)].kind == syntax::ExprKind::string) {
+    const WordPos place = block.exprs[static_cast<std::size_t>(w.expr)].pos;
+    tool.name = c_.slice(WordPos{place.column + 1, place.length - 2});
+  } else {
+    Attribute attribute = Attribute::none;
+    tool.number = exprs_.value(block, w, attribute);
+  }
+  if (w.extension > 1) {
+    refuse("language.statement", w.pos, "a tool for spindle " + std::to_string(w.extension) + " is not carried yet");
+    return;
+  }
+  push(std::move(tool), Rank::tool, ir::Order::before, w.pos);
+}
+
+// --- M functions ------------------------------------------------------------------------------------------------
+
+void WordLowering::m_word(const syntax::Block& block, const Word& w) {
+  Attribute attribute = Attribute::none;
+  ir::Value value = exprs_.value(block, w, attribute);
+  if (!value.literal()) {
+    ir::MachineFunction m;
+    m.computed = true;
+    m.extension = w.extension;
+    m.value = std::move(value);
+    return push(std::move(m), Rank::before, ir::Order::before, w.pos);
+  }
+  if (value.number != std::floor(value.number) || value.number < 0 || value.number > 99999999) {
+    failed_ = true;
+    c_.error("SIN-017", w.pos, std::string(c_.slice(w.pos)) + " is no M function");
+    return;
+  }
+  m_code(static_cast<std::int32_t>(value.number), w);
+}
+
+void WordLowering::m_code(std::int32_t code, const Word& w) {
+  if (w.extension < 0 && (code == 2 || code == 30 || code == 17)) {
+    if (tail_ != Tail::none) {
+      failed_ = true;
+      c_.error("SIN-005", w.pos, "two M functions end the program in one block");
+    }
+    tail_ = code == 17 ? Tail::subprogram_end : Tail::program_end;
+    tail_pos_ = w.pos;
+    return;
+  }
+  const machine::MCode* m = code < MachineFacts::m_limit ? c_.machine.m_codes[static_cast<std::size_t>(code)] : nullptr;
+  const std::int32_t spindle = w.extension < 0 ? 1 : w.extension;
+  const bool spindle_code = m != nullptr && (m->meaning == machine::MMeaning::spindle_cw || m->meaning == machine::MMeaning::spindle_ccw ||
+                                             m->meaning == machine::MMeaning::spindle_stop ||
+                                             m->meaning == machine::MMeaning::spindle_orient || m->meaning == machine::MMeaning::gear);
+  if (m != nullptr && spindle >= 1 && spindle <= 31 && (w.extension < 0 || spindle_code)) {
+    return machine_meaning(*m, static_cast<std::uint8_t>(spindle), w);
+  }
+  ir::MachineFunction f;
+  f.code = code;
+  f.extension = w.extension;
+  push(std::move(f), Rank::before, m != nullptr ? m->order : ir::Order::before, w.pos);
+}
+
+void WordLowering::machine_meaning(const machine::MCode& m, std::uint8_t spindle, const Word& w) {
+  using machine::MMeaning;
+  const Rank rank = m.order == ir::Order::after ? Rank::after : m.order == ir::Order::with ? Rank::with : Rank::before;
+  const auto coolant = [&](ir::CoolantState s) { push(ir::Coolant{s}, rank, m.order, w.pos); };
+  switch (m.meaning) {
+    case MMeaning::stop: return push(ir::Stop{false}, Rank::stop, ir::Order::after, w.pos);
+    case MMeaning::optional_stop: return push(ir::Stop{true}, Rank::stop, ir::Order::after, w.pos);
+    case MMeaning::spindle_cw: return push(ir::SpindleRun{spindle, ir::SpindleState::cw}, rank, m.order, w.pos);
+    case MMeaning::spindle_ccw: return push(ir::SpindleRun{spindle, ir::SpindleState::ccw}, rank, m.order, w.pos);
+    case MMeaning::spindle_stop: return push(ir::SpindleRun{spindle, ir::SpindleState::off}, rank, m.order, w.pos);
+    case MMeaning::spindle_orient:
+      return push(ir::SpindleOrient{spindle, ir::Value(static_cast<double>(m.argument))}, Rank::orient, m.order, w.pos);
+    case MMeaning::tool_change: return push(ir::ToolChange{}, Rank::change, ir::Order::before, w.pos);
+    case MMeaning::coolant_off: return coolant(ir::CoolantState::off);
+    case MMeaning::coolant_flood: return coolant(ir::CoolantState::flood);
+    case MMeaning::coolant_mist: return coolant(ir::CoolantState::mist);
+    case MMeaning::coolant_second: return coolant(ir::CoolantState::second);
+    case MMeaning::gear: return push(ir::SpindleGear{spindle, m.argument, m.argument == 0}, rank, m.order, w.pos);
+    case MMeaning::program_end:
+    case MMeaning::subprogram_end:
+      tail_ = m.meaning == MMeaning::program_end ? Tail::program_end : Tail::subprogram_end;
+      tail_pos_ = w.pos;
+      return;
+    case MMeaning::machine_function:
+    case MMeaning::none: break;
+  }
+  ir::MachineFunction f;
+  f.code = m.code;
+  push(std::move(f), rank, m.order, w.pos);
+}
+
+// Instances for lower_finish.cpp.
+template void WordLowering::push(ir::FrameOp, Rank, ir::Order, WordPos, bool);
+template void WordLowering::push(ir::PoleSet, Rank, ir::Order, WordPos, bool);
+template void WordLowering::push(ir::Dwell, Rank, ir::Order, WordPos, bool);
+template void WordLowering::push(ir::Corner, Rank, ir::Order, WordPos, bool);
+template void WordLowering::push(ir::SpindleLimit, Rank, ir::Order, WordPos, bool);
+template void WordLowering::push(ir::SpindleOrient, Rank, ir::Order, WordPos, bool);
+template void WordLowering::push(ir::OpaqueWord, Rank, ir::Order, WordPos, bool);
+
+}  // namespace cnctrans::sinumerik
