@@ -48,7 +48,7 @@ std::string word_name(const syntax::Word& w) { return std::string(word_text(w));
 // --- collecting -----------------------------------------------------------------------------------------------------
 
 const syntax::Word* BlockLowerer::take(char c) {
-  if ((seen_ & bit(c)) == 0) return nullptr;
+  if ((unused_ & bit(c)) == 0) return nullptr;
   unused_ &= ~bit(c);
   return letters_[index(c)];
 }
@@ -57,18 +57,6 @@ ir::Value BlockLowerer::value(const Word& w) { return lower_value(w, *in_, state
 ir::Value BlockLowerer::value_of(char c) {
   const Word* w = take(c);
   return w ? value(*w) : ir::Value{};
-}
-
-template <class Data>
-ir::Action& BlockLowerer::act(Data data, const Word* word, Order order) {
-  ir::Action& a = out_->actions.emplace_back();
-  a.data = std::move(data);
-  a.order = order;
-  if (word) {
-    a.pos = word->pos;
-    a.text = word_text(*word);
-  }
-  return a;
 }
 
 void BlockLowerer::gather_g(const Word& w) {

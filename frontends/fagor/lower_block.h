@@ -113,4 +113,16 @@ class BlockLowerer {
   ir::MotionExtra extra_;
 };
 
+template <class Data>
+ir::Action& BlockLowerer::act(Data data, const syntax::Word* word, ir::Order order) {
+  ir::Action& a = out_->actions.emplace_back();
+  a.data = std::move(data);
+  a.order = order;
+  if (word) {
+    a.pos = word->pos;
+    a.text = word_text(*word);
+  }
+  return a;
+}
+
 }  // namespace cnctrans::fagor
