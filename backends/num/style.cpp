@@ -1,0 +1,210 @@
+#include "backends/num/style.h"
+
+#include <array>
+
+#include "dialects/num/functions.h"
+#include "dialects/num/limits.h"
+#include "dialects/num/options.h"
+#include "dialects/num/variables.h"
+
+namespace cnctrans::backends::num {
+
+namespace facts = dialects::num;
+using ir::BinaryOp;
+using ir::Setting;
+
+namespace {
+
+// Reference 5.1, 16: one code a setting.
+constexpr std::array modal_codes{
+    ModalCode{Setting::plane, code_value(ir::Plane::xy), "G17"},
+    ModalCode{Setting::plane, code_value(ir::Plane::zx), "G18"},
+    ModalCode{Setting::plane, code_value(ir::Plane::yz), "G19"},
+    ModalCode{Setting::distance, code_value(ir::Distance::absolute), "G90"},
+    ModalCode{Setting::distance, code_value(ir::Distance::incremental), "G91"},
+    ModalCode{Setting::units, code_value(ir::Units::inch), "G70"},
+    ModalCode{Setting::units, code_value(ir::Units::metric), "G71"},
+    ModalCode{Setting::feed_mode, code_value(ir::FeedMode::inverse_time), "G93"},
+    ModalCode{Setting::feed_mode, code_value(ir::FeedMode::per_minute), "G94"},
+    ModalCode{Setting::feed_mode, code_value(ir::FeedMode::per_rev), "G95"},
+    ModalCode{Setting::spindle_mode, code_value(ir::SpindleMode::css), "G96"},
+    ModalCode{Setting::spindle_mode, code_value(ir::SpindleMode::rpm), "G97"},
+    ModalCode{Setting::comp, code_value(ir::CompSide::off), "G40"},
+    ModalCode{Setting::comp, code_value(ir::CompSide::left), "G41"},
+    ModalCode{Setting::comp, code_value(ir::CompSide::right), "G42"},
+    ModalCode{Setting::feed_override, code_value(ir::OnOff::on), "M48"},
+    ModalCode{Setting::feed_override, code_value(ir::OnOff::off), "M49"},
+};
+constexpr std::array motion_codes{
+    MotionCode{ir::MotionKind::rapid, "G0"},
+    MotionCode{ir::MotionKind::linear, "G1"},
+    MotionCode{ir::MotionKind::arc_cw, "G2"},
+    MotionCode{ir::MotionKind::arc_ccw, "G3"},
+};
+constexpr std::array<std::string_view, 1> skip_marks{"/"};
+
+// All operators have one level: the printer of this language writes chains (see writer.cpp). Conditions stand in G79.
+constexpr std::array binary_texts{
+    BinaryText{BinaryOp::eq, "=", 1, false},       BinaryText{BinaryOp::ne, "<>", 1, false},
+    BinaryText{BinaryOp::lt, "<", 1, false},       BinaryText{BinaryOp::le, "<=", 1, false},
+    BinaryText{BinaryOp::gt, ">", 1, false},       BinaryText{BinaryOp::ge, ">=", 1, false},
+    BinaryText{BinaryOp::add, "+", 2, false},      BinaryText{BinaryOp::subtract, "-", 2, false},
+    BinaryText{BinaryOp::multiply, "*", 2, false}, BinaryText{BinaryOp::divide, "/", 2, false},
+    BinaryText{BinaryOp::bit_and, "&", 2, false},  BinaryText{BinaryOp::bit_or, "!", 2, false},
+};
+constexpr std::array unary_texts{UnaryText{ir::UnaryOp::negate, "-", 3}};
+
+std::vector<ir::VariablePool> pools() {
+  std::vector<ir::VariablePool> list;
+  // L0-L19 first: they cost no stop of the preparation. L900-L959 next; L100-L199 wait for the block before.
+  list.push_back({"L", 0, 19, ir::Scope::global, true});
+  list.push_back({"L", 900, 959, ir::Scope::global, false});
+  list.push_back({"L", 100, 199, ir::Scope::global, false});
+  return list;
+}
+
+ir::Capabilities make_capabilities(bool lathe) {
+  ir::Capabilities c;
+  c.dialect = "num";
+  // Structured words are not in the course book: loops and branches are written with G79.
+  c.repeat_range = true;
+  c.repeat_max = facts::call_repeat_max;
+  c.conditions = ir::ConditionForm::single_relation;
+  c.searches = {ir::Search::whole_first};
+  c.label_max = facts::label_max;
+  c.expressions = ir::ExpressionForm::left_to_right;
+  c.unary = {ir::UnaryOp::negate};
+  c.binary = {BinaryOp::add,     BinaryOp::subtract, BinaryOp::multiply, BinaryOp::divide,
+              BinaryOp::bit_and, BinaryOp::bit_or,   BinaryOp::eq,       BinaryOp::ne,
+              BinaryOp::lt,      BinaryOp::le,       BinaryOp::gt,       BinaryOp::ge};
+  for (const auto& f : facts::functions) c.functions.insert(f.function);
+  c.constant_decimals = 8;
+  c.constant_max = 99999999;
+  c.word_decimals = facts::linear_decimals;
+  c.word_decimals_inch = 4;
+  c.call_range = true;
+  c.output = ir::OutputForm::programs_in_one_file;
+  c.routine_number_min = facts::program_min;
+  c.routine_number_max = facts::program_max;
+  c.spaces = facts::spaces();
+  c.pools = pools();
+  c.distance_inside_block = true;
+  c.centers = {ir::CenterMode::follows_distance};
+  c.radius_major = false;
+  c.helix_pitch = true;
+  c.full_circle_needs_end = true;
+  c.center_scales[ir::CenterMode::follows_distance] = ir::WordScale::modal;
+  c.diameter_switch = false;
+  c.fixed_diameter = lathe ? ir::DiameterMode::diameter : ir::DiameterMode::radius;
+  c.exact_stop_modal = false;
+  c.exact_stop_block = true;
+  c.dwell_min = facts::dwell_min;
+  c.dwell_max = facts::dwell_max;
+  c.frame_uses = {ir::FrameUse::normal, ir::FrameUse::machine};
+  c.frames[ir::FrameSlot::shift] = {ir::FrameCombine::replace, ir::FrameCombine::replace_named, ir::FrameCombine::add,
+                                    ir::FrameCombine::clear};
+  c.frames[ir::FrameSlot::rotation] = {ir::FrameCombine::replace, ir::FrameCombine::clear};
+  c.frames[ir::FrameSlot::mirror] = {ir::FrameCombine::replace_named, ir::FrameCombine::clear};
+  c.frames[ir::FrameSlot::preset] = {ir::FrameCombine::preset};
+  c.work_offset_rows = 1;
+  c.feed_override_switch = true;
+  c.skip_levels = 1;
+  c.message_length = facts::message_length;
+  c.block_length = facts::block_length;
+  c.own_block = [](const ir::Action& a) {
+    return std::holds_alternative<ir::Dwell>(a.data) || std::holds_alternative<ir::FrameOp>(a.data);
+  };
+  c.native_cycle = [](const ir::Cycle& cycle) {
+    const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);
+    return hole != nullptr && native_hole(*hole);
+  };
+  return c;
+}
+
+bool zero(const ir::Value& v) {
+  return v.is(0);
+}
+
+/// A level that a word of the cycle can name: an absolute coordinate.
+bool nameable(const ir::Level& l) {
+  return l.given && l.base == ir::LevelBase::absolute;
+}
+/// The height of the call: said by leaving the word out.
+bool at_call(const ir::Level& l) {
+  return l.given && l.base == ir::LevelBase::from_initial && zero(l.value);
+}
+
+}  // namespace
+
+const Style& style() {
+  static const Style s = [] {
+    Style made;
+    made.dialect = "num";
+    made.comment = {"(", ")", false, true, true, true, "()", "[]", 1, true};
+    made.modal_codes = modal_codes;
+    made.motion_codes = motion_codes;
+    made.kept_decimals = facts::linear_decimals;
+    made.made_decimals = facts::linear_decimals;
+    made.two_digit_m = true;
+    made.exact_stop_block = "G9";
+    made.skip_marks = skip_marks;
+    return made;
+  }();
+  return s;
+}
+
+const ExpressionStyle& expression_style() {
+  static const ExpressionStyle s = [] {
+    ExpressionStyle made;
+    made.binary = binary_texts;
+    made.unary = unary_texts;
+    return made;
+  }();
+  return s;
+}
+
+const ir::Capabilities& capabilities(bool lathe) {
+  static const ir::Capabilities mill = make_capabilities(false);
+  static const ir::Capabilities turn = make_capabilities(true);
+  return lathe ? turn : mill;
+}
+
+bool centre_from_start(const machine::Profile& profile) {
+  return profile.option(facts::option::centre, facts::option_default(facts::option::centre)) == "incremental";
+}
+
+bool later_family(const machine::Profile& profile) {
+  return profile.option(facts::option::family, facts::option_default(facts::option::family)) != "7xx";
+}
+
+bool native_hole(const ir::HoleCycle& c) {
+  const bool drill = c.kind == ir::HoleKind::drill;
+  const bool peck = c.kind == ir::HoleKind::peck_full;
+  if (!drill && !peck) return false;
+  if (c.has_feed || c.has_feed_out || !zero(c.dwell_top) || c.dwell_in_revolutions || c.reference_may_be_below)
+    return false;
+  if (!nameable(c.bottom) || !(nameable(c.reference) || at_call(c.reference))) return false;
+  if (c.retract.given && !nameable(c.retract) && !at_call(c.retract)) return false;
+  if (!c.dwell_bottom.literal() && c.dwell_scale != 1) return false;
+  if (c.dwell_bottom.literal() &&
+      (c.dwell_bottom.number * c.dwell_scale > facts::dwell_max || c.dwell_bottom.number < 0))
+    return false;
+  if (drill) return true;
+  const ir::Pecks& p = c.pecks;
+  const bool law = p.law == ir::PeckLaw::constant || p.law == ir::PeckLaw::linear;
+  return law && !p.first_to.given && !p.first_from_surface && !p.reapproach_automatic && !p.has_first_feed_factor &&
+         zero(p.dwell) && zero(p.lift);
+}
+
+PlainTable plain_words(const machine::Profile& profile) {
+  PlainTable t = plain_table(style(), profile);
+  t.center_mode = centre_from_start(profile) ? ir::CenterMode::from_start : ir::CenterMode::follows_distance;
+  t.radius_major = false;
+  t.end_program = "M02";
+  t.work_offset_off = "G53";
+  t.work_offsets[1] = "G54";
+  t.dwell = "G4 F";
+  return t;
+}
+
+}  // namespace cnctrans::backends::num

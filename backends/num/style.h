@@ -1,0 +1,24 @@
+// How NUM programs look: code tables of the writer, and what the language can say.
+#pragma once
+
+#include "backends/common/expression_printer.h"
+#include "backends/common/stream_writer.h"
+#include "backends/common/style.h"
+#include "ir/passes/capabilities.h"
+#include "machine/profile.h"
+
+namespace cnctrans::backends::num {
+
+const Style& style();
+const ExpressionStyle& expression_style();
+const ir::Capabilities& capabilities(bool lathe);
+
+/// Centre words are absolute in G90 (the course's rule); `incremental` by profile option.
+bool centre_from_start(const machine::Profile& profile);
+/// A control with structured words and impact planes (EH): the families 10xx and flx.
+bool later_family(const machine::Profile& profile);
+/// A hole cycle that a NUM cycle carries out with the same moves.
+bool native_hole(const ir::HoleCycle& cycle);
+PlainTable plain_words(const machine::Profile& profile);
+
+}  // namespace cnctrans::backends::num

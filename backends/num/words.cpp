@@ -1,0 +1,304 @@
+// Words of NUM blocks: motion, frames, cycles.
+#include "backends/num/style.h"
+#include "backends/num/writer.h"
+#include "base/text.h"
+#include "dialects/num/limits.h"
+#include "dialects/num/options.h"
+
+namespace cnctrans::backends::num {
+
+namespace facts = dialects::num;
+
+namespace {
+
+constexpr std::string_view no_word = "TRN-202";
+constexpr std::string_view no_cycle = "TRN-214";
+
+bool zero(const ir::Value& v) {
+  return v.is(0);
+}
+
+}  // namespace
+
+void Writer::block(const ir::Block& b) {
+  cycle_here_ = false;
+  for (const auto& a : b.actions) cycle_here_ = cycle_here_ || std::holds_alternative<ir::CycleDefine>(a.data);
+  ProgramWriter::block(b);
+}
+
+// ---- settings and machine functions
+// ------------------------------------------------------------------------------------
+
+void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  if (same_dialect() && !a.text.empty()) return add(std::string(a.text), Rank::setting, a.pos);
+  switch (m.setting) {
+    case ir::Setting::path_mode:
+      if (m.value == code_value(ir::PathMode::continuous)) return;  // what the control does without being told
+      break;
+    case ir::Setting::diameter: {
+      const auto fixed = profile().kind == machine::Kind::lathe ? ir::DiameterMode::diameter : ir::DiameterMode::radius;
+      if (m.value == code_value(fixed)) return;  // the machine's fixed mode
+      break;
+    }
+    case ir::Setting::length_comp:
+    case ir::Setting::feed_point:
+      if (m.value == code_value(ir::OnOff::on) || m.setting == ir::Setting::feed_point) return;
+      break;
+    default: break;
+  }
+  ProgramWriter::modal_set(a, m);
+}
+
+void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
+  if (s.number != 1) return refuse(no_word, a.pos, "orienting a second spindle has no counterpart here");
+  add(word("EC", s.angle, a.pos) + ' ' + m_word(19), Rank::machine, a.pos);
+}
+
+void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
+  if (s.number != 1 || s.lower) return refuse(no_word, a.pos, "this spindle limit has no counterpart here");
+  if (!line().empty() && !same_dialect()) next_line();
+  add("G92", Rank::setting, same_dialect() ? a.pos : WordPos{});
+  add(word("S", s.value, a.pos), Rank::spindle, a.pos);
+  if (!same_dialect()) next_line();
+}
+
+void Writer::dwell(const ir::Action& a, const ir::Dwell& d) {
+  if (d.revolutions) return refuse(no_word, a.pos, "a dwell in revolutions has no counterpart here");
+  ir::Value seconds = ir::scale(d.value, d.scale);
+  if (seconds.literal() && !seconds.is(0) && (seconds.number < facts::dwell_min || seconds.number > facts::dwell_max) &&
+      !same_dialect()) {
+    return refuse(no_word, a.pos,
+                  "a dwell of " + shortest(seconds.number) + " s is outside the control's 0.01 to 99.99 s");
+  }
+  if (d.scale == 1) seconds = d.value;
+  const std::string code = same_dialect() && !a.text.empty() ? std::string(a.text) : "G4";
+  add(code, Rank::setting, a.pos);
+  add(word("F", seconds, a.pos), Rank::feed);
+}
+
+// ---- frames
+// --------------------------------------------------------------------------------------------------------------
+
+void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
+  if (w.off) return add("G53", Rank::setting, a.pos);
+  if (!w.index.is(1))
+    return refuse(no_word, a.pos, "this control has one settable offset (G54): another row has no counterpart");
+  add("G54", Rank::setting, a.pos);
+}
+
+void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
+  const auto mode = setting(ir::Setting::distance);
+  const bool add_up = c.combine == ir::FrameCombine::add;
+  std::string text = "G59";
+  if (c.combine == ir::FrameCombine::clear || c.combine == ir::FrameCombine::replace) {
+    // G59 keeps the axes it does not name: all of them are named.
+    if (mode != code_value(ir::Distance::absolute))
+      return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
+    for (const auto& axis : profile().axes) {
+      if (axis.rotary) continue;
+      ir::Value v(0);
+      for (const auto& w : c.words) {
+        if (w.axis == axis.id) v = w.value;
+      }
+      text += ' ' + word(axis_name(axis.id), v, a.pos);
+    }
+    return add(text, Rank::setting, a.pos);
+  }
+  const auto wanted = add_up ? ir::Distance::incremental : ir::Distance::absolute;
+  const bool as_is = c.by_distance_mode || mode == code_value(wanted);
+  if (!as_is && !mode) return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
+  for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+  if (!as_is) text = (add_up ? "G91 " : "G90 ") + text + (add_up ? " G90" : " G91");
+  add(text, Rank::setting, a.pos);
+}
+
+void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
+  const ir::FrameChange& c = *f.change;
+  const bool clear = c.combine == ir::FrameCombine::clear;
+  if (c.slot == ir::FrameSlot::shift && c.kind == ir::FrameKind::translate) return shift(a, c);
+  if (c.slot == ir::FrameSlot::rotation && (clear || c.combine == ir::FrameCombine::replace)) {
+    if (!c.words.empty() && !same_dialect())
+      return refuse(no_word, a.pos, "a rotation about a centre has no counterpart here");
+    std::string text = word("ED", clear ? ir::Value(0) : c.angle, a.pos);
+    for (const auto& w : c.words) text += ' ' + word(std::string(1, "IJK"[w.axis % 3]), w.value, w.pos);
+    return add(text, Rank::setting, a.pos);
+  }
+  if (c.slot == ir::FrameSlot::mirror && (clear || c.combine == ir::FrameCombine::replace_named)) {
+    std::string text = "G51";
+    if (clear) text += profile().kind == machine::Kind::lathe ? " X+ Z+" : " X+ Y+ Z+";
+    for (const auto& w : c.words) {
+      if (!w.value.literal()) return refuse(no_word, a.pos, "a computed mirror has no counterpart here");
+      text += ' ' + std::string(axis_name(w.axis)) + (zero(w.value) ? '+' : '-');
+    }
+    return add(text, Rank::setting, a.pos);
+  }
+  if (c.slot == ir::FrameSlot::scale && clear) return add("G73", Rank::setting, a.pos);
+  if (c.slot == ir::FrameSlot::scale && same_dialect()) return add("G74", Rank::setting, a.pos);
+  if (c.slot == ir::FrameSlot::preset && c.combine == ir::FrameCombine::preset) {
+    std::string text = "G92";
+    for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+    return add(text, Rank::setting, a.pos);
+  }
+  ProgramWriter::frame_op(a, f);
+}
+
+// ---- motion
+// --------------------------------------------------------------------------------------------------------------
+
+void Writer::motion(const ir::Motion& m) {
+  const bool silent = cycle_here_ && m.kind == ir::MotionKind::rapid && (!m.explicit_code || !same_dialect()) &&
+                      (motion_tracker().text() == ir::MotionKind::rapid || same_dialect());
+  if (!silent) return ProgramWriter::motion(m);
+  frame_use(m);
+  for (const auto& w : m.coords) coordinate(m, w);
+  if (m.extra) motion_extra(m, *m.extra);
+}
+
+void Writer::frame_use(const ir::Motion& m) {
+  if (m.frame == ir::FrameUse::normal) return;
+  if (m.frame != ir::FrameUse::machine)
+    return refuse(no_word, m.frame_pos,
+                  "a move in machine coordinates that keeps the tool length has no counterpart here");
+  add("G52", Rank::frame, m.frame_pos);
+}
+
+void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
+  if (same_dialect() && w.pos.column != 0) return add(word(axis_name(w.axis), w.value, w.pos), Rank::coordinate, w.pos);
+  if (w.scale != ir::WordScale::modal) {
+    const bool diameter_machine = profile().kind == machine::Kind::lathe && w.axis == ir::axis::x;
+    const bool fits = (w.scale == ir::WordScale::diameter) == diameter_machine;
+    if (!fits) return refuse(no_word, w.pos, "a word in radius or diameter by itself has no counterpart here");
+  }
+  const bool turning_by_sign = w.direction == ir::RotaryDirection::by_sign;
+  if (w.direction != ir::RotaryDirection::as_value && !turning_by_sign)
+    return refuse(no_word, w.pos, "the direction of this rotary move has no counterpart here");
+  if (ir::is_rotary_letter(w.axis) && !turning_by_sign && w.mode != ir::WordMode::incremental) {
+    const std::string modulo =
+        profile().option(facts::option::rotary_modulo, facts::option_default(facts::option::rotary_modulo));
+    const bool safe = w.value.literal() && w.value.number >= 0 && w.value.number < 360;
+    if (modulo.find(axis_name(w.axis)) != std::string::npos && !safe) {
+      return refuse(no_word, w.pos,
+                    "on this machine the sign of a rotary position is the direction of travel: the position cannot be "
+                    "written as it is",
+                    "say in the target profile that the axis does not roll over (num.rotary_modulo)");
+    }
+  }
+  std::string text = word(axis_name(w.axis), w.value, w.pos);
+  if (w.mode != ir::WordMode::modal) {
+    const auto wanted = w.mode == ir::WordMode::absolute ? ir::Distance::absolute : ir::Distance::incremental;
+    const auto mode = setting(ir::Setting::distance);
+    if (!mode)
+      return refuse(no_word, w.pos,
+                    "a word that is absolute or incremental by itself stands where G90 or G91 is not known");
+    if (*mode != code_value(wanted))
+      text = (wanted == ir::Distance::absolute ? "G90 " + text + " G91" : "G91 " + text + " G90");
+  }
+  add(text, Rank::coordinate, w.pos);
+  (void)m;
+}
+
+void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
+  if (w.axis > ir::axis::z) return refuse(no_word, w.pos, "the centre of an arc on this axis has no counterpart here");
+  const bool from_start = centre_from_start(profile());
+  const auto mode = setting(ir::Setting::distance);
+  bool fits = same_dialect() && w.pos.column != 0;
+  switch (w.mode) {
+    case ir::CenterMode::follows_distance: fits = fits || !from_start; break;
+    case ir::CenterMode::absolute: fits = fits || (!from_start && mode == code_value(ir::Distance::absolute)); break;
+    case ir::CenterMode::from_start: fits = fits || from_start || mode == code_value(ir::Distance::incremental); break;
+  }
+  if (!fits) return refuse(no_word, w.pos, "this form of an arc's centre has no counterpart here");
+  constexpr std::string_view letters = "IJK";
+  add(word(letters.substr(w.axis, 1), w.value, w.pos), Rank::center, w.pos);
+}
+
+void Writer::radius(const ir::Motion& m) {
+  if (m.radius.literal() && m.radius.number < 0)
+    return refuse(no_word, m.radius_pos, "an arc over 180 degrees by its radius has no counterpart here");
+  ProgramWriter::radius(m);
+}
+
+void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
+  const bool only_pitch = e.has_pitch && !e.has_turns && !e.has_angle && e.through.empty() && !e.has_polar_radius &&
+                          !e.has_polar_angle && !e.has_line_angle && !e.has_lead && !e.has_start_angle;
+  if (!only_pitch) {
+    if (same_dialect() && !e.through.empty())
+      return refuse(no_word, m.code_pos, "the circle through three points is not written yet");
+    return ProgramWriter::motion_extra(m, e);
+  }
+  const auto plane = setting(ir::Setting::plane);
+  if (!plane) return refuse(no_word, m.code_pos, "a helix stands where the plane is not known");
+  constexpr std::string_view letters = "IJK";
+  const ir::AxisId normal = ir::plane_axes(static_cast<ir::Plane>(*plane)).w;
+  add(word(letters.substr(normal, 1), e.pitch, m.code_pos), Rank::motion_extra);
+}
+
+void Writer::corner(const ir::Action& a, const ir::Corner& c) {
+  if (c.modal || c.feed || c.kind == ir::CornerKind::chamfer_chord)
+    return refuse(no_word, a.pos, "this corner has no counterpart here");
+  add(word(c.kind == ir::CornerKind::round ? "EB" : "EB-", c.value, a.pos), Rank::motion_extra, a.pos);
+}
+
+// ---- cycles
+// --------------------------------------------------------------------------------------------------------------
+
+std::string Writer::level_word(std::string_view address, const ir::Level& level, WordPos pos) {
+  return word(address, level.value, pos);
+}
+
+void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
+  const auto at_call = [](const ir::Level& l) {
+    return l.given && l.base == ir::LevelBase::from_initial && zero(l.value);
+  };
+  bool retract_at_call = c.retract.given && at_call(c.retract);
+  ir::Level retract = c.retract;
+  if (!c.retract.given) {
+    const auto plane = setting(ir::Setting::retract_plane);
+    if (!plane) return refuse(no_cycle, a.pos, "where the cycle goes back to is not known here");
+    retract_at_call = *plane == code_value(ir::RetractPlane::initial);
+    if (!retract_at_call) retract = c.reference;
+  }
+  const bool reference_at_call = at_call(c.reference);
+  if (!retract_at_call) add(level_word("ER", retract, a.pos), Rank::motion_extra);
+  const bool same = !retract_at_call && ir::equal(retract.value, c.reference.value);
+  if (reference_at_call || same) return;
+  if (!later_family(profile()))
+    return refuse(no_cycle, a.pos, "this control has no separate plane where the feed starts (EH)",
+                  "use --cycles=explode");
+  add(level_word("EH", c.reference, a.pos), Rank::motion_extra);
+}
+
+void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
+  if (!native_hole(c))
+    return refuse(no_cycle, a.pos, "this cycle is not one of this control's", "use --cycles=explode");
+  const bool dwells = !zero(c.dwell_bottom);
+  const bool peck = c.kind == ir::HoleKind::peck_full;
+  const std::string_view code = peck ? "G83" : dwells ? "G82" : "G81";
+  add(same_dialect() && !a.text.empty() ? std::string(a.text) : std::string(code), Rank::setting, a.pos);
+  const ir::AxisId axis = [&] {
+    if (c.axis != ir::axis::none) return c.axis;
+    const auto plane = setting(ir::Setting::plane);
+    return plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::z;
+  }();
+  add(level_word(axis_name(axis), c.bottom, a.pos), Rank::center);
+  hole_levels(a, c);
+  if (dwells)
+    add(word("EF", c.dwell_scale == 1 ? c.dwell_bottom : ir::scale(c.dwell_bottom, c.dwell_scale), a.pos),
+        Rank::motion_extra);
+  if (!peck) return;
+  add(word("P", c.pecks.first, a.pos), Rank::motion_extra);
+  if (c.pecks.law == ir::PeckLaw::linear) add(word("Q", c.pecks.minimum, a.pos), Rank::motion_extra);
+  if (!c.pecks.reapproach.is(1)) add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
+}
+
+void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
+  const auto* hole = c.cycle ? std::get_if<ir::HoleCycle>(&c.cycle->node) : nullptr;
+  if (hole == nullptr) return ProgramWriter::cycle_define(a, c);
+  hole_cycle(a, *hole);
+}
+
+void Writer::cycle_cancel(const ir::Action& a) {
+  add("G80", Rank::setting, a.pos);
+}
+
+}  // namespace cnctrans::backends::num

@@ -1,0 +1,263 @@
+// Statements of NUM programs: headers, assignments, G79, G77, messages.
+#include "backends/num/writer.h"
+
+#include <charconv>
+
+#include "backends/common/comments.h"
+#include "backends/num/style.h"
+#include "base/text.h"
+#include "dialects/num/limits.h"
+
+namespace cnctrans::backends::num {
+
+namespace facts = dialects::num;
+constexpr std::string_view no_statement = "TRN-201";
+
+Writer::Writer(const ir::Program& program, const WriteOptions& options, Diagnostics& diagnostics)
+    : ProgramWriter(program, options, num::style(), diagnostics),
+      printer_(program, expression_style(), NumberFormat{8, 8, program.dialect == "num"}) {}
+
+std::int64_t Writer::main_number() const {
+  const ir::Routine* main = program().main();
+  if (main != nullptr && main->name.number >= facts::program_min && main->name.number <= facts::program_max)
+    return main->name.number;
+  std::int64_t n = 0;
+  const std::string& stem = options().main_stem;
+  std::from_chars(stem.data(), stem.data() + stem.size(), n);
+  const auto taken = [this](std::int64_t number) {
+    for (const auto& r : program().routines) {
+      if (r.name.number == number) return true;
+    }
+    return false;
+  };
+  if (n < facts::program_min || n > facts::program_max || taken(n)) {
+    n = 1;
+    while (taken(n)) ++n;
+  }
+  return n;
+}
+
+void Writer::write_program() {
+  open_file((options().main_stem.empty() ? std::to_string(main_number()) : options().main_stem) + ".xpi", true);
+  const ir::Routine* main = program().main();
+  for (std::size_t i = 0; i < program().routines.size(); ++i) {
+    const ir::Routine& r = program().routines[i];
+    write_routine(i, &r == main ? main_number() : r.name.number);
+  }
+}
+
+void Writer::write_routine(std::size_t index, std::int64_t number) {
+  start_routine(index);
+  const ir::Routine& r = routine();
+  const bool headless = same_dialect() && !r.header.span.known();
+  if (!headless) {
+    std::string head = same_dialect() && !r.name.text.empty() ? "%" + r.name.text : "%" + std::to_string(number);
+    if (!r.title.empty()) head += ' ' + comment(r.title, style().comment, same_dialect(), nullptr);
+    for (const auto& c : r.header.comments) {
+      const std::string text = comment(c.text, style().comment, same_dialect(), nullptr);
+      if (c.text != r.title) head += ' ' + text;
+    }
+    raw_line(head, r.header.span);
+  }
+  body(r.body);
+}
+
+std::string Writer::word(std::string_view address, const ir::Value& value, WordPos pos) {
+  std::string text(address);
+  if (value.literal()) return text + number_text(value);
+  const std::string expression = expression_text(value.expr, pos);
+  // A word takes a number or one variable with a sign; X L6, X-L6.
+  if (expression.empty() || expression.front() == '-') return text + expression;
+  return text + ' ' + expression;
+}
+
+// ---- assignments and declarations
+// ------------------------------------------------------------------------------------
+
+std::string Writer::target_variable(const ir::VarRef& v) {
+  return expression_text(ir::variable(v));
+}
+
+void Writer::assign(const ir::Assign& a) {
+  for (const auto& item : a.items) {
+    std::string target;
+    if (item.to_system) {
+      if (!same_dialect() || item.system.text.empty()) {
+        return refuse(no_statement, item.pos,
+                      "'" + item.system.text + "' is data of the source machine and is not written here");
+      }
+      target = item.system.text;
+    } else {
+      target = target_variable(item.target);
+    }
+    add(target + '=' + expression_text(item.value, item.pos), Rank::head, item.pos);
+  }
+}
+
+void Writer::declare(const ir::Declare& d) {
+  if (!same_dialect()) return refuse(no_statement, {}, "named variables are not declared here");
+  for (const auto& item : d.items) {
+    std::string text = item.name.empty() || item.name.front() == '[' ? item.name : '[' + item.name + ']';
+    if (!item.initial.empty()) text += '=' + expression_text(item.initial.front());
+    add(text, Rank::head);
+  }
+}
+
+// ---- control flow
+// ------------------------------------------------------------------------------------------------------
+
+std::string Writer::condition(const ir::ExprPtr& e) {
+  const auto* b = std::get_if<ir::Binary>(&e->node);
+  if (b == nullptr || !ir::is_comparison(b->op)) {
+    refuse(no_statement, e->pos, "a condition of G79 is one comparison of a variable with a number or variable");
+    return {};
+  }
+  return expression_text(e, e->pos);
+}
+
+void Writer::jump(const ir::Jump& j) {
+  if (j.target.computed) return refuse(no_statement, {}, "a jump to a computed block number has no counterpart here");
+  if (!j.target.is_number)
+    return refuse(no_statement, {}, "a jump to a label that is no block number has no counterpart here");
+  std::string text = "G79 ";
+  if (j.condition) text += condition(j.condition) + ' ';
+  add(text + number_target(j.target), Rank::tail);
+}
+
+void Writer::repeat(const ir::Repeat& r) {
+  if (r.first.computed || r.last.computed)
+    return refuse(no_statement, {}, "a range of computed block numbers has no counterpart here");
+  std::string text = "G77 ";
+  if (r.has_program) text += "H" + std::to_string(r.program.number) + ' ';
+  text += number_target(r.first) + ' ' + number_target(r.last);
+  if (r.count) {
+    const auto n = ir::constant_value(r.count);
+    if (!n || *n != 1) text += ' ' + word("S", n ? ir::Value(*n) : ir::Value(r.count), {});
+  }
+  add(text, Rank::tail);
+}
+
+void Writer::call(const ir::CallRoutine& c) {
+  if (c.computed) return refuse(no_statement, {}, "a call of a computed program has no counterpart here");
+  if (!c.arguments.empty()) return refuse(no_statement, {}, "a call with arguments has no counterpart here");
+  if (c.routine.number < facts::program_min || c.tail)
+    return refuse(no_statement, {}, "this call has no counterpart here");
+  std::string text = "G77 H" + std::to_string(c.routine.number);
+  if (c.has_range) {
+    std::size_t routine = routine_index();
+    for (std::size_t i = 0; i < program().routines.size(); ++i) {
+      if (program().routines[i].name == c.routine) routine = i;
+    }
+    text += ' ' + number_target(routine, c.first);
+    if (c.last.text != c.first.text) text += ' ' + number_target(routine, c.last);
+  }
+  if (c.count) {
+    const auto n = ir::constant_value(c.count);
+    if (!n || *n != 1) text += ' ' + word("S", n ? ir::Value(*n) : ir::Value(c.count), {});
+  }
+  add(text, Rank::tail);
+}
+
+void Writer::return_from(const ir::Return& r) {
+  // A subprogram ends with its text: the word of other controls is not written. In mid-text it could not be said.
+  if (!r.values.empty()) return refuse(no_statement, {}, "a return with values has no counterpart here");
+  const ir::Body& text = routine().body;
+  if (text.empty() || text.back().id != current().id) {
+    refuse(no_statement, {}, "a subprogram returns at its last block only");
+  }
+}
+
+void Writer::end_program(const ir::End& e) {
+  add(same_dialect() && !e.text.empty() ? std::string(e.text) : "M02", Rank::tail);
+}
+
+bool Writer::structured_allowed() {
+  if (same_dialect() && later_family(profile())) return true;
+  refuse(no_statement, {}, "structured statements are not written here");
+  return false;
+}
+
+void Writer::if_else(const ir::If& i) {
+  if (!structured_allowed()) return;
+  add("IF " + expression_text(i.condition) + " THEN", Rank::head);
+  finish_line();
+  nested_body(i.then_body);
+  if (i.has_else) {
+    keyword_line(i.else_line, "ELSE");
+    nested_body(i.else_body);
+  }
+  keyword_line(i.end_line, "ENDI");
+}
+
+void Writer::while_loop(const ir::While& w) {
+  if (!structured_allowed()) return;
+  add("WHILE " + expression_text(w.condition) + " DO", Rank::head);
+  finish_line();
+  nested_body(w.body);
+  keyword_line(w.end_line, "ENDW");
+}
+
+void Writer::until_loop(const ir::Until& u) {
+  if (!structured_allowed()) return;
+  add("REPEAT", Rank::head);
+  finish_line();
+  nested_body(u.body);
+  keyword_line(u.end_line, "UNTIL " + expression_text(u.condition));
+}
+
+void Writer::for_loop(const ir::For& f) {
+  if (!structured_allowed()) return;
+  std::string text = "FOR " + target_variable(f.counter) + '=' + expression_text(f.from);
+  const auto step = f.step ? ir::constant_value(f.step) : 1.0;
+  text += (step && *step < 0 ? " DOWNTO " : " TO ") + expression_text(f.to);
+  if (!step) {
+    text += " BY " + expression_text(f.step);
+  } else if (*step != 1 && *step != -1) {
+    text += " BY " + shortest(*step < 0 ? -*step : *step);
+  }
+  add(text + " DO", Rank::head);
+  finish_line();
+  nested_body(f.body);
+  keyword_line(f.end_line, "ENDF");
+}
+
+void Writer::exit_loop() {
+  if (structured_allowed()) add("EXIT", Rank::head);
+}
+
+// ---- messages
+// ------------------------------------------------------------------------------------------------------------
+
+void Writer::message(const ir::Message& m) {
+  if (m.kind == ir::MessageKind::clear) return add("$", Rank::head);
+  std::string text;
+  for (const auto& p : m.parts) {
+    const auto* s = std::get_if<ir::String>(&p->node);
+    if (s == nullptr) return refuse(no_statement, p->pos, "a value inside a message has no counterpart here");
+    text += s->text;
+  }
+  bool lossy = false;
+  std::string shown = same_dialect() ? text : to_upper_ascii(to_ascii(text, &lossy));
+  if (shown.size() > facts::message_length && !same_dialect()) {
+    diagnostics().warning(
+        "TRN-213", current().line.span,
+        "the message is cut at " + std::to_string(facts::message_length) + " characters, the most this control shows");
+    shown.resize(facts::message_length);
+  }
+  add("$ " + shown, Rank::head);
+  if (m.kind == ir::MessageKind::error) {
+    diagnostics().warning(
+        "TRN-215", current().line.span,
+        "the error stops the source's run; here the message is shown and M00 follows, and START goes on");
+    next_line();
+    add(m_word(0), Rank::machine);
+  }
+}
+
+bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
+  // Text after $ runs to the end of the line.
+  if (std::holds_alternative<ir::Message>(before.node) || std::holds_alternative<ir::Message>(next.node)) return false;
+  return ProgramWriter::joins(before, next);
+}
+
+}  // namespace cnctrans::backends::num

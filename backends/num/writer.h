@@ -1,0 +1,67 @@
+// The writer of NUM programs: statements and words over the shared ProgramWriter.
+#pragma once
+
+#include "backends/common/program_writer.h"
+#include "backends/num/chain_printer.h"
+
+namespace cnctrans::backends::num {
+
+class Writer final : public ProgramWriter {
+ public:
+  Writer(const ir::Program& program, const WriteOptions& options, Diagnostics& diagnostics);
+
+ protected:
+  void write_program() override;
+  ExpressionPrinter& expressions() override { return printer_; }
+  std::string word(std::string_view address, const ir::Value& value, WordPos pos) override;
+
+  void block(const ir::Block& b) override;
+  void assign(const ir::Assign& a) override;
+  void if_else(const ir::If& i) override;
+  void while_loop(const ir::While& w) override;
+  void until_loop(const ir::Until& u) override;
+  void for_loop(const ir::For& f) override;
+  void exit_loop() override;
+  void jump(const ir::Jump& j) override;
+  void repeat(const ir::Repeat& r) override;
+  void call(const ir::CallRoutine& c) override;
+  void return_from(const ir::Return& r) override;
+  void end_program(const ir::End& e) override;
+  void message(const ir::Message& m) override;
+  void declare(const ir::Declare& d) override;
+
+  void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
+  void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
+  void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
+  void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;
+  void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
+  void dwell(const ir::Action& a, const ir::Dwell& d) override;
+  void cycle_define(const ir::Action& a, const ir::CycleDefine& c) override;
+  void cycle_cancel(const ir::Action& a) override;
+  void corner(const ir::Action& a, const ir::Corner& c) override;
+
+  void motion(const ir::Motion& m) override;
+  void frame_use(const ir::Motion& m) override;
+  void coordinate(const ir::Motion& m, const ir::CoordWord& w) override;
+  void center(const ir::Motion& m, const ir::CenterWord& w) override;
+  void radius(const ir::Motion& m) override;
+  void motion_extra(const ir::Motion& m, const ir::MotionExtra& e) override;
+
+  bool joins(const ir::Statement& before, const ir::Statement& next) override;
+
+ private:
+  void write_routine(std::size_t index, std::int64_t number);
+  [[nodiscard]] std::int64_t main_number() const;
+  [[nodiscard]] std::string condition(const ir::ExprPtr& e);
+  [[nodiscard]] bool structured_allowed();
+  std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);
+  void shift(const ir::Action& a, const ir::FrameChange& c);
+  void hole_cycle(const ir::Action& a, const ir::HoleCycle& c);
+  void hole_levels(const ir::Action& a, const ir::HoleCycle& c);
+  [[nodiscard]] std::string target_variable(const ir::VarRef& v);
+
+  ChainPrinter printer_;
+  bool cycle_here_ = false;  ///< the block being written defines a cycle
+};
+
+}  // namespace cnctrans::backends::num
