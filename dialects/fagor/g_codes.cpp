@@ -16,20 +16,32 @@ template <class Value>
 constexpr GCode setting(std::int16_t code, Model model, Group group, Setting s, Value value, std::string_view section) {
   return {code, model, group, Use::setting, s, static_cast<std::uint8_t>(value), MotionKind::modal, false, section};
 }
-constexpr GCode own(std::int16_t code, Model model, Group group, Use use, std::uint8_t value, bool alone, std::string_view section,
-                    std::string_view title = {}) {
+constexpr GCode own(std::int16_t code, Model model, Group group, Use use, std::uint8_t value, bool alone,
+                    std::string_view section, std::string_view title = {}) {
   return {code, model, group, use, Setting::plane, value, MotionKind::modal, alone, section, title};
 }
 constexpr GCode comp(std::int16_t code, ir::CompSide side) {
-  return {code, Model::both, Group::compensation, Use::compensation, Setting::comp, static_cast<std::uint8_t>(side), MotionKind::modal, false, "8.2"};
+  return {code,
+          Model::both,
+          Group::compensation,
+          Use::compensation,
+          Setting::comp,
+          static_cast<std::uint8_t>(side),
+          MotionKind::modal,
+          false,
+          "8.2"};
 }
-constexpr GCode carried(std::int16_t code, Model model, std::string_view section, std::string_view title, std::string_view feature) {
+constexpr GCode carried(std::int16_t code, Model model, std::string_view section, std::string_view title,
+                        std::string_view feature) {
   return {code, model, Group::none, Use::no_path, Setting::plane, 0, MotionKind::modal, true, section, title, feature};
 }
-constexpr GCode refused(std::int16_t code, Model model, std::string_view section, std::string_view title, std::string_view feature) {
+constexpr GCode refused(std::int16_t code, Model model, std::string_view section, std::string_view title,
+                        std::string_view feature) {
   return {code, model, Group::none, Use::refused, Setting::plane, 0, MotionKind::modal, true, section, title, feature};
 }
-constexpr GCode call(std::int16_t code) { return own(code, Model::both, Group::none, Use::call, 0, true, "12.5.1"); }
+constexpr GCode call(std::int16_t code) {
+  return own(code, Model::both, Group::none, Use::call, 0, true, "12.5.1");
+}
 
 constexpr auto T = Model::lathe;
 constexpr auto M = Model::mill;
@@ -153,17 +165,46 @@ constexpr std::array table = {
     setting(98, M, Group::retract, Setting::retract_plane, ir::RetractPlane::initial, "25.2"),
     setting(99, M, Group::retract, Setting::retract_plane, ir::RetractPlane::reference, "25.2"),
     refused(145, B, "6.19", "tangential control", "motion.transformation"),
-    GCode{151, T, Group::diameter, Use::setting_after, Setting::diameter, static_cast<std::uint8_t>(ir::DiameterMode::diameter), MotionKind::modal, false, "3.5"},
-    GCode{152, T, Group::diameter, Use::setting_after, Setting::diameter, static_cast<std::uint8_t>(ir::DiameterMode::radius), MotionKind::modal, false, "3.5"},
+    GCode{151, T, Group::diameter, Use::setting_after, Setting::diameter,
+          static_cast<std::uint8_t>(ir::DiameterMode::diameter), MotionKind::modal, false, "3.5"},
+    GCode{152, T, Group::diameter, Use::setting_after, Setting::diameter,
+          static_cast<std::uint8_t>(ir::DiameterMode::radius), MotionKind::modal, false, "3.5"},
     own(158, B, Group::offset, Use::shift, 0, true, "4.4.2"),
     own(159, B, Group::offset, Use::numbered_offset, 0, true, "4.4.2"),
-    call(180), call(181), call(182), call(183), call(184), call(185), call(186), call(187), call(188), call(189),
+    call(180),
+    call(181),
+    call(182),
+    call(183),
+    call(184),
+    call(185),
+    call(186),
+    call(187),
+    call(188),
+    call(189),
     refused(210, M, "25.3", "bore milling", "cycle.milling"),
     refused(211, M, "25.3", "thread milling", "cycle.milling"),
     refused(212, M, "25.3", "thread milling", "cycle.milling"),
     carried(233, B, "6.13", "the withdrawal after a stop in a thread", "block.word"),
-    call(380), call(381), call(382), call(383), call(384), call(385), call(386), call(387), call(388), call(389),
-    call(390), call(391), call(392), call(393), call(394), call(395), call(396), call(397), call(398), call(399),
+    call(380),
+    call(381),
+    call(382),
+    call(383),
+    call(384),
+    call(385),
+    call(386),
+    call(387),
+    call(388),
+    call(389),
+    call(390),
+    call(391),
+    call(392),
+    call(393),
+    call(394),
+    call(395),
+    call(396),
+    call(397),
+    call(398),
+    call(399),
 };
 
 /// Row number + 1 of every code; 0: none. One table a model.
@@ -182,7 +223,9 @@ constexpr auto mill_rows = rows_of(Model::mill);
 
 }  // namespace
 
-std::span<const GCode> g_codes() { return table; }
+std::span<const GCode> g_codes() {
+  return table;
+}
 
 const GCode* find_g(int code, bool lathe) {
   if (code < 0 || code > max_g_code) return nullptr;

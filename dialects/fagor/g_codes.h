@@ -15,41 +15,59 @@ enum class Model : std::uint8_t { lathe = 1, mill = 2, both = 3 };
 
 /// Two functions of one group don't share a block (error 7); `none` is not modal.
 enum class Group : std::uint8_t {
-  none, motion, corner, mirror, plane, feed, speed_mode, compensation, units, distance, diameter, offset, retract, length,
+  none,
+  motion,
+  corner,
+  mirror,
+  plane,
+  feed,
+  speed_mode,
+  compensation,
+  units,
+  distance,
+  diameter,
+  offset,
+  retract,
+  length,
   other_modal
 };
 
 /// What a frontend does with it. `value` and `motion` of the row say which.
 enum class Use : std::uint8_t {
-  motion,             ///< G0 G1 G2 G3 G33 G34
-  setting,            ///< `setting` becomes `value`
-  setting_after,      ///< the same, for the blocks that follow
-  compensation,       ///< G40 G41 G42; N is collision detection
-  plane,              ///< G17 G18 G19
-  plane_axes,         ///< G16 with two axes
-  dwell,              ///< G4
-  absolute_centre,    ///< G6
-  tangent_arc,        ///< G8
-  three_point_arc,    ///< G9
-  mirror_off, mirror_axis, mirror_axes,
-  round, chamfer, tangent_entry, tangent_exit,
-  look_ahead,         ///< G51
-  soft_corner,        ///< G50
-  machine_coordinates,///< G53
-  work_offset,        ///< row `value`
-  table_shift,        ///< G58 G59: row `value`, added to the offset in force
-  numbered_offset,    ///< G159 N
-  shift,              ///< G158
-  preset,             ///< G92
-  pole,               ///< G93
-  scale,              ///< G72
-  rotation,           ///< G73
-  home,               ///< G74
-  hole_cycle,         ///< `value`: 81, 82, 83
+  motion,           ///< G0 G1 G2 G3 G33 G34
+  setting,          ///< `setting` becomes `value`
+  setting_after,    ///< the same, for the blocks that follow
+  compensation,     ///< G40 G41 G42; N is collision detection
+  plane,            ///< G17 G18 G19
+  plane_axes,       ///< G16 with two axes
+  dwell,            ///< G4
+  absolute_centre,  ///< G6
+  tangent_arc,      ///< G8
+  three_point_arc,  ///< G9
+  mirror_off,
+  mirror_axis,
+  mirror_axes,
+  round,
+  chamfer,
+  tangent_entry,
+  tangent_exit,
+  look_ahead,           ///< G51
+  soft_corner,          ///< G50
+  machine_coordinates,  ///< G53
+  work_offset,          ///< row `value`
+  table_shift,          ///< G58 G59: row `value`, added to the offset in force
+  numbered_offset,      ///< G159 N
+  shift,                ///< G158
+  preset,               ///< G92
+  pole,                 ///< G93
+  scale,                ///< G72
+  rotation,             ///< G73
+  home,                 ///< G74
+  hole_cycle,           ///< `value`: 81, 82, 83
   cycle_cancel,
-  call,               ///< G180..G189, G380..G399: subroutine of the same number
-  no_path,            ///< no effect on the path: carried with a note; `feature`
-  refused             ///< not translated yet; `feature` is the key in the missing-features registry
+  call,     ///< G180..G189, G380..G399: subroutine of the same number
+  no_path,  ///< no effect on the path: carried with a note; `feature`
+  refused   ///< not translated yet; `feature` is the key in the missing-features registry
 };
 
 struct GCode {
@@ -60,9 +78,9 @@ struct GCode {
   ir::Setting setting = ir::Setting::plane;
   std::uint8_t value = 0;
   ir::MotionKind motion = ir::MotionKind::modal;
-  bool alone = false;              ///< no other G function, and no words but its own
-  std::string_view section = {};   ///< of the manual; "25.n": mill model
-  std::string_view title = {};     ///< what it is, for messages; empty where the program says it all
+  bool alone = false;             ///< no other G function, and no words but its own
+  std::string_view section = {};  ///< of the manual; "25.n": mill model
+  std::string_view title = {};    ///< what it is, for messages; empty where the program says it all
   std::string_view feature = {};
 };
 

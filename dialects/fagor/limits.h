@@ -5,29 +5,29 @@
 
 namespace cnctrans::dialects::fagor {
 
-inline constexpr std::int64_t max_label = 99'999'999;      ///< N0..N99999999 (error 2)
-inline constexpr std::int64_t max_profile_label = 9'999;   ///< labels named by the profile cycles
-inline constexpr std::int64_t max_repeat = 9'999;          ///< N at the block's end, RPT (error 2)
-inline constexpr std::int64_t max_subroutine = 9'999;      ///< SUB, LSUB (error 63)
-inline constexpr std::int64_t max_oem_subroutine = 20'000; ///< 10000..20000 only in OEM programs
-inline constexpr int max_m_functions = 7;                  ///< in one block (error 10)
-inline constexpr int max_assignments = 26;                 ///< in one ( ) block, also arguments of PCALL
-inline constexpr int max_call_levels = 15;                 ///< nested subroutines (error 1055)
-inline constexpr int max_parameter_levels = 6;             ///< levels of local parameters (error 1054)
+inline constexpr std::int64_t max_label = 99'999'999;       ///< N0..N99999999 (error 2)
+inline constexpr std::int64_t max_profile_label = 9'999;    ///< labels named by the profile cycles
+inline constexpr std::int64_t max_repeat = 9'999;           ///< N at the block's end, RPT (error 2)
+inline constexpr std::int64_t max_subroutine = 9'999;       ///< SUB, LSUB (error 63)
+inline constexpr std::int64_t max_oem_subroutine = 20'000;  ///< 10000..20000 only in OEM programs
+inline constexpr int max_m_functions = 7;                   ///< in one block (error 10)
+inline constexpr int max_assignments = 26;                  ///< in one ( ) block, also arguments of PCALL
+inline constexpr int max_call_levels = 15;                  ///< nested subroutines (error 1055)
+inline constexpr int max_parameter_levels = 6;              ///< levels of local parameters (error 1054)
 inline constexpr int max_local_subroutines = 100;
-inline constexpr int max_message = 59;                     ///< characters of MSG and ERROR texts (error 148)
-inline constexpr int max_header_comment = 20;              ///< characters between % and the first comma
-inline constexpr int max_error_number = 9'999;             ///< (error 79)
-inline constexpr int program_digits = 6;                   ///< a program's file is named by six digits
+inline constexpr int max_message = 59;          ///< characters of MSG and ERROR texts (error 148)
+inline constexpr int max_header_comment = 20;   ///< characters between % and the first comma
+inline constexpr int max_error_number = 9'999;  ///< (error 79)
+inline constexpr int program_digits = 6;        ///< a program's file is named by six digits
 inline constexpr double max_coordinate_mm = 99'999.9999;
 inline constexpr int decimals_mm = 4;
 inline constexpr double max_coordinate_inch = 3'937.00787;
 inline constexpr int decimals_inch = 5;
-inline constexpr double max_constant = 999'999.99999;      ///< decimal constants of expressions: 6.5
+inline constexpr double max_constant = 999'999.99999;  ///< decimal constants of expressions: 6.5
 inline constexpr int constant_decimals = 5;
-inline constexpr double max_dwell = 99'999;                ///< hundredths of a second (G04 K)
-inline constexpr int max_skip_levels = 3;                  ///< /, /1, /2, /3 and / are the same first level
-inline constexpr int uncompensated_blocks = 48;            ///< without path information under G41/G42 (error 1000)
+inline constexpr double max_dwell = 99'999;      ///< hundredths of a second (G04 K)
+inline constexpr int max_skip_levels = 3;        ///< /, /1, /2, /3 and / are the same first level
+inline constexpr int uncompensated_blocks = 48;  ///< without path information under G41/G42 (error 1000)
 
 /// Ranges of the arithmetic parameters.
 struct ParameterRange {
@@ -47,7 +47,11 @@ inline constexpr bool valid_parameter(std::int64_t n) {
 inline constexpr std::int32_t first_cycle_parameter = 294, last_cycle_parameter = 299;
 
 /// Local parameter of a letter: A = P0 ... Z = P25.
-inline constexpr int letter_parameter(char letter) { return letter - 'A'; }
-inline constexpr char parameter_letter(int n) { return static_cast<char>('A' + n); }
+inline constexpr int letter_parameter(char letter) {
+  return letter - 'A';
+}
+inline constexpr char parameter_letter(int n) {
+  return static_cast<char>('A' + n);
+}
 
 }  // namespace cnctrans::dialects::fagor

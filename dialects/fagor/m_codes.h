@@ -10,7 +10,18 @@
 namespace cnctrans::dialects::fagor {
 
 enum class MKind : std::uint8_t {
-  stop, optional_stop, program_end, spindle_cw, spindle_ccw, spindle_stop, tool_change, coolant_mist, coolant_flood, coolant_off, orient, gear,
+  stop,
+  optional_stop,
+  program_end,
+  spindle_cw,
+  spindle_ccw,
+  spindle_stop,
+  tool_change,
+  coolant_mist,
+  coolant_flood,
+  coolant_off,
+  orient,
+  gear,
   live_tool
 };
 struct MCode {
@@ -26,7 +37,7 @@ inline constexpr std::array<MCode, 17> m_codes = {{
     {4, MKind::spindle_ccw, ir::Order::before},
     {5, MKind::spindle_stop, ir::Order::after},
     {6, MKind::tool_change, ir::Order::before},
-    {7, MKind::coolant_mist, ir::Order::before},   // 7, 8, 9: usual meaning, not in the manual
+    {7, MKind::coolant_mist, ir::Order::before},  // 7, 8, 9: usual meaning, not in the manual
     {8, MKind::coolant_flood, ir::Order::before},
     {9, MKind::coolant_off, ir::Order::before},
     {19, MKind::orient, ir::Order::before},

@@ -40,11 +40,21 @@ struct FunctionInfo {
 };
 /// ROUND takes halves away from zero, FIX cuts toward zero (both assumed: the manual shows positive numbers only).
 inline constexpr std::array<FunctionInfo, 15> functions = {{
-    {"SIN", ir::Function::sin},       {"COS", ir::Function::cos},     {"TAN", ir::Function::tan},
-    {"ASIN", ir::Function::asin},     {"ACOS", ir::Function::acos},   {"ATAN", ir::Function::atan},
-    {"ARG", ir::Function::arg},       {"ABS", ir::Function::abs},     {"LOG", ir::Function::log10},
-    {"SQRT", ir::Function::sqrt},     {"ROUND", ir::Function::round}, {"FIX", ir::Function::trunc},
-    {"FUP", ir::Function::ceil},      {"BCD", ir::Function::to_bcd},  {"BIN", ir::Function::from_bcd},
+    {"SIN", ir::Function::sin},
+    {"COS", ir::Function::cos},
+    {"TAN", ir::Function::tan},
+    {"ASIN", ir::Function::asin},
+    {"ACOS", ir::Function::acos},
+    {"ATAN", ir::Function::atan},
+    {"ARG", ir::Function::arg},
+    {"ABS", ir::Function::abs},
+    {"LOG", ir::Function::log10},
+    {"SQRT", ir::Function::sqrt},
+    {"ROUND", ir::Function::round},
+    {"FIX", ir::Function::trunc},
+    {"FUP", ir::Function::ceil},
+    {"BCD", ir::Function::to_bcd},
+    {"BIN", ir::Function::from_bcd},
 }};
 inline constexpr double pi = 3.14159265358979323846;  ///< the constant PI
 

@@ -315,7 +315,9 @@ constexpr std::array<VariableInfo, 280> table = {{
 
 }  // namespace
 
-std::span<const VariableInfo> variables() { return table; }
+std::span<const VariableInfo> variables() {
+  return table;
+}
 
 VariableName find_variable(std::string_view name) {
   for (const auto& v : table) {

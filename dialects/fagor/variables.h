@@ -14,8 +14,8 @@ enum class Index : std::uint8_t { none, maybe, always };
 enum class Access : std::uint8_t { none, read, write, read_write };  ///< from the part program
 
 struct VariableInfo {
-  std::string_view name;        ///< without axis letter and index
-  bool axis = false;            ///< one of X Y Z U V W A B C follows
+  std::string_view name;  ///< without axis letter and index
+  bool axis = false;      ///< one of X Y Z U V W A B C follows
   Index index = Index::none;
   Access access = Access::read;
   bool stops_preparation = false;

@@ -31,7 +31,8 @@ ir::Action pole_at_origin(ir::Plane plane) {
 void complete_block(ir::Block& b, const FileFacts& facts, bool clear_preset) {
   for (std::size_t i = 0; i < b.actions.size(); ++i) {
     std::vector<ir::Action> more;
-    if (const auto* set = std::get_if<ir::ModalSet>(&b.actions[i].data); set && set->setting == ir::Setting::plane && facts.polar) {
+    if (const auto* set = std::get_if<ir::ModalSet>(&b.actions[i].data);
+        set && set->setting == ir::Setting::plane && facts.polar) {
       more.push_back(pole_at_origin(static_cast<ir::Plane>(set->value)));
     } else if (std::holds_alternative<ir::WorkOffset>(b.actions[i].data)) {
       ir::Action a;
@@ -54,7 +55,8 @@ bool sure(const PlaneUse& use, const FileFacts& facts) {
   if (use.from_caller) return false;
   for (std::size_t i = use.first_label; i < use.last_label; ++i) {
     if (facts.computed_jumps) return false;
-    if (std::find(facts.jump_targets.begin(), facts.jump_targets.end(), facts.labels[i]) != facts.jump_targets.end()) return false;
+    if (std::find(facts.jump_targets.begin(), facts.jump_targets.end(), facts.labels[i]) != facts.jump_targets.end())
+      return false;
   }
   return true;
 }
@@ -68,16 +70,22 @@ void judge_planes(LowerState& state) {
     if (sure(use, facts)) continue;
     state.set_line(use.span);
     if (others) {
-      state.error("FAG-026", {}, "this block depends on the plane, and the program reaches it with more than one plane in its text", "write the plane function (G17, G18, G19) before the block");
+      state.error("FAG-026", {},
+                  "this block depends on the plane, and the program reaches it with more than one plane in its text",
+                  "write the plane function (G17, G18, G19) before the block");
     } else if (use.from_caller) {
-      state.warning("FAG-026", {}, "this block depends on the plane that the calling program has set; the usual plane is assumed", "write the plane function (G17, G18, G19) in the subroutine");
+      state.warning("FAG-026", {},
+                    "this block depends on the plane that the calling program has set; the usual plane is assumed",
+                    "write the plane function (G17, G18, G19) in the subroutine");
     }
   }
 }
 
 bool calls_outside(const ir::Program& program) {
   bool outside = false;
-  const auto look = [&](const ir::CallRoutine& call) { outside = outside || call.computed || !program.find(call.routine); };
+  const auto look = [&](const ir::CallRoutine& call) {
+    outside = outside || call.computed || !program.find(call.routine);
+  };
   for (const auto& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) look(*c);
@@ -103,7 +111,9 @@ void finish_program(ir::Program& program, LowerState& state) {
   }
   if (facts.table_shift && facts.shift) {
     state.set_line(facts.first_table_shift);
-    state.error("FAG-027", {}, "G58 or G59 and G158 in one program: what the next G54 cancels depends on which came last", "use only one of the two");
+    state.error("FAG-027", {},
+                "G58 or G59 and G158 in one program: what the next G54 cancels depends on which came last",
+                "use only one of the two");
   }
   const bool inch_machine = state.profile().power_on.units == ir::Units::inch;
   if (facts.first_machine_move.known() && facts.units[inch_machine ? 0 : 1]) {

@@ -71,16 +71,20 @@ class FagorStream : public StreamReader {
 class FagorFrontend : public Frontend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return "fagor"; }
-  ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics, ReadStats* stats) const override {
+  ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                   ReadStats* stats) const override {
     return cnctrans::fagor::ProgramReader(options, file, diagnostics).read(source, stats);
   }
-  std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options, std::string_view file_name) const override {
+  std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
+                                       std::string_view file_name) const override {
     return std::make_unique<FagorStream>(file, options, file_name);
   }
 };
 
 }  // namespace
 
-std::unique_ptr<Frontend> make_frontend() { return std::make_unique<FagorFrontend>(); }
+std::unique_ptr<Frontend> make_frontend() {
+  return std::make_unique<FagorFrontend>();
+}
 
 }  // namespace cnctrans::frontends::fagor

@@ -8,14 +8,19 @@ namespace cnctrans::fagor {
 
 namespace {
 
-constexpr bool is_control(char c) { return c == '\0' || c == '\x03' || c == '\x04' || c == '\x1a' || c == '\x1b'; }
+constexpr bool is_control(char c) {
+  return c == '\0' || c == '\x03' || c == '\x04' || c == '\x1a' || c == '\x1b';
+}
 /// The scanner takes any digit as a skip level; the control has three.
-bool known_skip_levels(const syntax::Block& b) { return b.skip_mask < (1U << dialects::fagor::max_skip_levels); }
+bool known_skip_levels(const syntax::Block& b) {
+  return b.skip_mask < (1U << dialects::fagor::max_skip_levels);
+}
 
 }  // namespace
 
 bool LineReader::read(std::string_view line, syntax::Block& block, ParseError& error, LowerState& state) {
-  scanned_ = mode_ != frontends::Reader::antlr && frontends::scan_plain(line, scan_table, block) && known_skip_levels(block);
+  scanned_ =
+      mode_ != frontends::Reader::antlr && frontends::scan_plain(line, scan_table, block) && known_skip_levels(block);
   if (scanned_ && mode_ == frontends::Reader::scanner) return true;
   if (!parser_) parser_ = std::make_unique<BlockParser>();
   if (!scanned_) return parser_->parse_block(line, block, error);

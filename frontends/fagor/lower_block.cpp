@@ -41,7 +41,9 @@ constexpr std::array<LetterInfo, 26> make_letters() {
 }
 constexpr std::array<LetterInfo, 26> letter_info = make_letters();
 
-std::string word_name(const syntax::Word& w) { return std::string(word_text(w)); }
+std::string word_name(const syntax::Word& w) {
+  return std::string(word_text(w));
+}
 
 }  // namespace
 
@@ -53,7 +55,9 @@ const syntax::Word* BlockLowerer::take(char c) {
   return letters_[index(c)];
 }
 
-ir::Value BlockLowerer::value(const Word& w) { return lower_value(w, *in_, state_); }
+ir::Value BlockLowerer::value(const Word& w) {
+  return lower_value(w, *in_, state_);
+}
 ir::Value BlockLowerer::value_of(char c) {
   const Word* w = take(c);
   return w ? value(*w) : ir::Value{};
@@ -61,12 +65,17 @@ ir::Value BlockLowerer::value_of(char c) {
 
 void BlockLowerer::gather_g(const Word& w) {
   if (w.expr >= 0) {
-    state_.error("FAG-012", w.pos, "a G function computed by a parameter can't be translated", "write the function's number");
+    state_.error("FAG-012", w.pos, "a G function computed by a parameter can't be translated",
+                 "write the function's number");
     return;
   }
-  const GCode* row = w.number >= 0 && w.number == std::floor(w.number) && w.number <= facts::max_g_code ? state_.g(static_cast<int>(w.number)) : nullptr;
+  const GCode* row = w.number >= 0 && w.number == std::floor(w.number) && w.number <= facts::max_g_code
+                         ? state_.g(static_cast<int>(w.number))
+                         : nullptr;
   if (!row) {
-    state_.error("FAG-003", w.pos, "there is no function " + word_name(w) + (state_.lathe() ? " on the lathe model" : " on the mill model"));
+    state_.error(
+        "FAG-003", w.pos,
+        "there is no function " + word_name(w) + (state_.lathe() ? " on the lathe model" : " on the mill model"));
     return;
   }
   if (g_count_ == max_g) {
@@ -102,7 +111,8 @@ void BlockLowerer::gather(const syntax::Block& in) {
     const std::uint32_t mask = bit(c);
     const LetterInfo& info = letter_info[index(c)];
     lower_case = lower_case || w.address[0] != c;
-    if (info.rank != 0) {
+    const bool angle = c == 'S' && m_count_ != 0 && m_[m_count_ - 1]->number == 19;  // M19 S30
+    if (info.rank != 0 && !angle) {
       if (info.rank < rank) unordered = &w;
       rank = info.rank;
     }
@@ -125,15 +135,19 @@ void BlockLowerer::gather(const syntax::Block& in) {
     }
     seen_ |= mask;
     letters_[index(c)] = &w;
-    if (info.kind == Letter::axis) coords_[coord_count_++] = &w;
-    else unused_ |= mask;
+    if (info.kind == Letter::axis)
+      coords_[coord_count_++] = &w;
+    else
+      unused_ |= mask;
   }
   if (unordered) {
-    state_.warning("FAG-010", unordered->pos, "the control wants G functions, axes, F, S, T, D and M functions in this order",
+    state_.warning("FAG-010", unordered->pos,
+                   "the control wants G functions, axes, F, S, T, D and M functions in this order",
                    "it reports an error for the block; the translation reads it as written");
   }
   if (lower_case) state_.note("FAG-011", {}, "small letters are read as capitals");
-  if (m_count_ > static_cast<std::size_t>(facts::max_m_functions)) state_.warning("FAG-017", m_[7]->pos, "the control takes seven M functions in a block");
+  if (m_count_ > static_cast<std::size_t>(facts::max_m_functions))
+    state_.warning("FAG-017", m_[7]->pos, "the control takes seven M functions in a block");
 }
 
 /// Functions of one group exclude each other; some want a block of their own.
@@ -144,7 +158,9 @@ void BlockLowerer::check_groups() {
     const std::uint32_t mask = 1U << static_cast<unsigned>(row.group);
     bool twice = row.group != facts::Group::none && (groups & mask) != 0;
     for (std::size_t k = 0; k < i; ++k) twice = twice || g_[k].row == g_[i].row;
-    if (twice) state_.error("FAG-006", g_[i].word->pos, word_name(*g_[i].word) + " does not go with another function of this block", "split the block");
+    if (twice)
+      state_.error("FAG-006", g_[i].word->pos,
+                   word_name(*g_[i].word) + " does not go with another function of this block", "split the block");
     groups |= mask;
   }
   for (std::size_t i = 0; i < g_count_; ++i) {
@@ -214,7 +230,8 @@ void BlockLowerer::technology() {
 
 void BlockLowerer::machine_function(const Word& w) {
   if (w.expr >= 0 || w.number < 0 || w.number != std::floor(w.number) || w.number > 9999) {
-    state_.error("FAG-012", w.pos, "an M function computed by a parameter, or with decimals, can't be translated", "write the function's number");
+    state_.error("FAG-012", w.pos, "an M function computed by a parameter, or with decimals, can't be translated",
+                 "write the function's number");
     return;
   }
   const auto code = static_cast<std::int32_t>(w.number);
@@ -253,7 +270,8 @@ void BlockLowerer::machine_functions() {
     after = after || a.order == Order::after;
   }
   if (sorted) return;
-  std::stable_partition(out_->actions.begin(), out_->actions.end(), [](const ir::Action& a) { return a.order != Order::after; });
+  std::stable_partition(out_->actions.begin(), out_->actions.end(),
+                        [](const ir::Action& a) { return a.order != Order::after; });
 }
 
 // --- motion ---------------------------------------------------------------------------------------------------------
@@ -268,7 +286,8 @@ void BlockLowerer::coordinates(ir::Motion& m) {
     const Word& w = *coords_[i];
     const ir::AxisId axis = letter_info[index(word_letter(w))].axis;
     if (!state_.has_axis(axis)) {
-      state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w), "choose a machine profile that has it");
+      state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w),
+                   "choose a machine profile that has it");
       continue;
     }
     if (!(std::fabs(w.number) <= facts::max_coordinate_mm)) {
@@ -283,8 +302,8 @@ void BlockLowerer::coordinates(ir::Motion& m) {
   }
 }
 
-/// I J K: the centre from the start of the arc, absolute with G6, the point on the way with G9. The letter of an axis outside
-/// the plane is the pitch of a helix.
+/// I J K: the centre from the start of the arc, absolute with G6, the point on the way with G9. The letter of an axis
+/// outside the plane is the pitch of a helix.
 void BlockLowerer::centers(ir::Motion& m) {
   for (const char c : {'I', 'J', 'K'}) {
     const Word* w = take(c);
@@ -315,8 +334,8 @@ void BlockLowerer::centers(ir::Motion& m) {
   }
 }
 
-/// R: radius of an arc when the block has coordinates, else polar radius. Q: polar angle; with a coordinate of a straight
-/// line the angle of the line; of a thread the start angle.
+/// R: radius of an arc when the block has coordinates, else polar radius. Q: polar angle; with a coordinate of a
+/// straight line the angle of the line; of a thread the start angle.
 void BlockLowerer::radius_and_polar(ir::Motion& m) {
   const bool straight = m.kind == ir::MotionKind::rapid || m.kind == ir::MotionKind::linear;
   const bool arc = m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw;
@@ -356,7 +375,8 @@ void BlockLowerer::thread(ir::Motion& m) {
     return;
   }
   if (!lead) return;
-  if (!thread && state_.motion_by_text != ir::MotionKind::thread && state_.motion_by_text != ir::MotionKind::thread_variable) {
+  if (!thread && state_.motion_by_text != ir::MotionKind::thread &&
+      state_.motion_by_text != ir::MotionKind::thread_variable) {
     state_.error("FAG-004", lead->pos, "a pitch L has no meaning without G33 or G34");
     return;
   }
@@ -368,18 +388,23 @@ void BlockLowerer::thread(ir::Motion& m) {
     extra().start_angle = value(*q);
   }
   if (m.coords.size() > 1) {
-    state_.warning("FAG-029", lead->pos, "the manual does not say along which axis the pitch of a taper thread is measured",
+    state_.warning("FAG-029", lead->pos,
+                   "the manual does not say along which axis the pitch of a taper thread is measured",
                    "it is taken along the longer axis; check the first part");
   }
 }
 
 void BlockLowerer::motion() {
   const bool coords = coord_count_ != 0 && !coords_taken_;
-  const bool words = coords || radii_taken_ < radius_count_ || (unused_ & (bit('I') | bit('J') | bit('K') | bit('Q'))) != 0;
+  const bool words =
+      coords || radii_taken_ < radius_count_ || (unused_ & (bit('I') | bit('J') | bit('K') | bit('Q'))) != 0;
   if (!words && !motion_code_ && !tangent_arc_ && !three_points_ && !home_) return;
   ir::Motion& m = out_->motion;
   out_->has_motion = true;
-  const Word* code = motion_code_ ? motion_code_->word : tangent_arc_ ? tangent_arc_ : three_points_ ? three_points_ : home_;
+  const Word* code = motion_code_    ? motion_code_->word
+                     : tangent_arc_  ? tangent_arc_
+                     : three_points_ ? three_points_
+                                     : home_;
   if (code) {
     m.explicit_code = true;
     m.code_pos = code->pos;
@@ -388,7 +413,9 @@ void BlockLowerer::motion() {
   if (motion_code_) m.kind = state_.motion_by_text = motion_code_->row->motion;
   if (tangent_arc_ || three_points_ || home_) {
     if (motion_code_) state_.error("FAG-006", code->pos, "two kinds of motion in one block");
-    m.kind = home_ ? ir::MotionKind::reference_point : tangent_arc_ ? ir::MotionKind::arc_tangent : ir::MotionKind::arc_through_point;
+    m.kind = home_          ? ir::MotionKind::reference_point
+             : tangent_arc_ ? ir::MotionKind::arc_tangent
+                            : ir::MotionKind::arc_through_point;
     m.keeps_modal = false;
   }
   if (cycle_ && !motion_code_) {
@@ -409,15 +436,18 @@ void BlockLowerer::motion() {
     centers(m);
   }
   radius_and_polar(m);
-  if (absolute_centre_ && m.centers.empty()) state_.error("FAG-014", absolute_centre_->pos, "G6 needs the centre I, J or K");
-  if (three_points_ && extra_.through.empty()) state_.error("FAG-014", three_points_->pos, "G9 needs the point on the way I, J or K");
+  if (absolute_centre_ && m.centers.empty())
+    state_.error("FAG-014", absolute_centre_->pos, "G6 needs the centre I, J or K");
+  if (three_points_ && extra_.through.empty())
+    state_.error("FAG-014", three_points_->pos, "G9 needs the point on the way I, J or K");
   if (has_extra_) m.extra = std::make_shared<const ir::MotionExtra>(extra_);
 }
 
 void BlockLowerer::repeat() {
   const Word* n = take('N');
   if (!n) return;
-  const bool whole = n->expr >= 0 || (n->number >= 0 && n->number == std::floor(n->number) && n->number <= facts::max_repeat);
+  const bool whole =
+      n->expr >= 0 || (n->number >= 0 && n->number == std::floor(n->number) && n->number <= facts::max_repeat);
   if (!whole || !n->has_value) {
     state_.error("FAG-016", n->pos, "a repeat count is a whole number from 0 to 9999, or a parameter");
   } else if (!out_->has_motion) {
@@ -433,7 +463,8 @@ void BlockLowerer::leftovers() {
   if (unused_ == 0) return;
   for (const Word& w : in_->words) {
     const char c = word_letter(w);
-    if ((unused_ & bit(c)) != 0) state_.error("FAG-004", w.pos, "the word " + word_name(w) + " has no meaning in this block");
+    if ((unused_ & bit(c)) != 0)
+      state_.error("FAG-004", w.pos, "the word " + word_name(w) + " has no meaning in this block");
   }
 }
 

@@ -13,11 +13,11 @@ namespace cnctrans::fagor {
 
 /// What a block is besides its ir::Block.
 struct BlockResult {
-  const syntax::Word* end = nullptr;      ///< M30 or M02: the program ends after the block
-  const syntax::Word* call = nullptr;     ///< G180...: the block is a call of the subroutine of that number
-  std::string_view opaque;                ///< not empty: the block is kept as text; key of the missing feature
-  bool harmless = false;                  ///< with `opaque`: no effect on the path
-  bool needs_program = false;             ///< depends on the rest of the file: no streaming
+  const syntax::Word* end = nullptr;   ///< M30 or M02: the program ends after the block
+  const syntax::Word* call = nullptr;  ///< G180...: the block is a call of the subroutine of that number
+  std::string_view opaque;             ///< not empty: the block is kept as text; key of the missing feature
+  bool harmless = false;               ///< with `opaque`: no effect on the path
+  bool needs_program = false;          ///< depends on the rest of the file: no streaming
 };
 
 class BlockLowerer {

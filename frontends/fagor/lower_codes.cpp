@@ -19,9 +19,13 @@ template <class Value>
 bool positive(const Value& v) {
   return !v.literal() || v.number > 0;
 }
-ir::AxisId axis_of(const syntax::Word& w) { return ir::fixed_axis(word_letter(w)); }
+ir::AxisId axis_of(const syntax::Word& w) {
+  return ir::fixed_axis(word_letter(w));
+}
 
-std::string the_function(const syntax::Word& w) { return "the function " + std::string(word_text(w)); }
+std::string the_function(const syntax::Word& w) {
+  return "the function " + std::string(word_text(w));
+}
 
 }  // namespace
 
@@ -61,12 +65,16 @@ void BlockLowerer::apply_special(const GWord& g) {
   switch (g.row->use) {
     case Use::soft_corner:
       setting(g, Order::before);
-      state_.note("FAG-008", g.word->pos, "G50 (controlled corner rounding) is read as G05: the programmed path is the same");
+      state_.note("FAG-008", g.word->pos,
+                  "G50 (controlled corner rounding) is read as G05: the programmed path is the same");
       return;
     case Use::look_ahead: look_ahead(g); return;
     case Use::home: home(g); return;
     case Use::hole_cycle: hole_cycle(g); return;
-    case Use::cycle_cancel: act(ir::CycleCancel{}, g.word); result_->needs_program = true; return;
+    case Use::cycle_cancel:
+      act(ir::CycleCancel{}, g.word);
+      result_->needs_program = true;
+      return;
     case Use::call: result_->call = g.word; return;
     default: give_up(g); return;
   }
@@ -77,10 +85,13 @@ void BlockLowerer::give_up(const GWord& g) {
   result_->opaque = g.row->feature;
   if (g.row->use == Use::no_path) {
     result_->harmless = true;
-    state_.note("FAG-008", g.word->pos, the_function(*g.word) + " (" + std::string(g.row->title) + ") has no effect on the path; the block is kept as text");
+    state_.note("FAG-008", g.word->pos,
+                the_function(*g.word) + " (" + std::string(g.row->title) +
+                    ") has no effect on the path; the block is kept as text");
     return;
   }
-  state_.error("FAG-007", g.word->pos, the_function(*g.word) + " (" + std::string(g.row->title) + ") is not translated yet");
+  state_.error("FAG-007", g.word->pos,
+               the_function(*g.word) + " (" + std::string(g.row->title) + ") is not translated yet");
 }
 
 void BlockLowerer::setting(const GWord& g, Order order) {
@@ -107,7 +118,9 @@ void BlockLowerer::compensation(const GWord& g) {
   act(set, g.word);
   if (const Word* n = take('N')) {
     act(ir::OpaqueWord{word_text(*n)}, n);
-    state_.note("FAG-008", n->pos, "the collision detection " + std::string(word_text(*n)) + " is kept as text: it does not change the programmed path");
+    state_.note("FAG-008", n->pos,
+                "the collision detection " + std::string(word_text(*n)) +
+                    " is kept as text: it does not change the programmed path");
   }
 }
 
@@ -122,7 +135,9 @@ void BlockLowerer::plane(const GWord& g, ir::Plane p) {
 /// G16 with two axes: the three main planes only; a third letter names the longitudinal axis.
 void BlockLowerer::plane_axes(const GWord& g) {
   coords_taken_ = true;
-  const auto pair = [this](ir::AxisId a, ir::AxisId b) { return axis_of(*coords_[0]) == a && axis_of(*coords_[1]) == b; };
+  const auto pair = [this](ir::AxisId a, ir::AxisId b) {
+    return axis_of(*coords_[0]) == a && axis_of(*coords_[1]) == b;
+  };
   if (coord_count_ < 2) {
     state_.error("FAG-014", g.word->pos, "G16 needs the two axes of the plane");
   } else if (pair(ir::axis::x, ir::axis::y)) {
@@ -135,13 +150,15 @@ void BlockLowerer::plane_axes(const GWord& g) {
     state_.error("FAG-007", g.word->pos, "a plane of other axes than XY, ZX or YZ is not translated yet");
     result_->opaque = "motion.transformation";
   }
-  out_->actions.empty() ? void() : void(out_->actions.back().text = {});  // the axes belong to the code: not written as one word
+  out_->actions.empty() ? void()
+                        : void(out_->actions.back().text = {});  // the axes belong to the code: not written as one word
 }
 
 void BlockLowerer::dwell(const GWord& g) {
   const Word* k = take('K');
   if (k && (k->expr >= 0 || k->number != 0)) {
-    if (k->expr < 0 && (k->number < 0 || k->number > 99999)) state_.error("FAG-013", k->pos, "a dwell is 1 to 99999 hundredths of a second");
+    if (k->expr < 0 && (k->number < 0 || k->number > 99999))
+      state_.error("FAG-013", k->pos, "a dwell is 1 to 99999 hundredths of a second");
     ir::Dwell d;
     d.value = value(*k);
     d.scale = 0.01;
@@ -149,7 +166,9 @@ void BlockLowerer::dwell(const GWord& g) {
     return;
   }
   if (state_.comp_by_text != ir::CompSide::off) {
-    state_.warning("FAG-028", g.word->pos, "G04 without a time under radius compensation: the control drops the compensation at this point and takes it up again",
+    state_.warning("FAG-028", g.word->pos,
+                   "G04 without a time under radius compensation: the control drops the compensation at this point and "
+                   "takes it up again",
                    "the translation keeps the stop; check the contour around it");
   }
   act(ir::PreparationStop{}, g.word);
@@ -175,7 +194,8 @@ void BlockLowerer::corner(const GWord& g) {
     return;
   }
   ir::Value v = value(*r);
-  if (!positive(v)) state_.error("FAG-013", r->pos, "the R of " + std::string(word_text(*g.word)) + " must be greater than zero");
+  if (!positive(v))
+    state_.error("FAG-013", r->pos, "the R of " + std::string(word_text(*g.word)) + " must be greater than zero");
   result_->needs_program = true;
   if (g.row->use == Use::tangent_entry || g.row->use == Use::tangent_exit) {
     const auto end = g.row->use == Use::tangent_entry ? ir::TangentEnd::entry : ir::TangentEnd::exit;
@@ -190,7 +210,8 @@ void BlockLowerer::corner(const GWord& g) {
 
 // --- offsets --------------------------------------------------------------------------------------------------------
 
-std::shared_ptr<const ir::FrameChange> BlockLowerer::frame_of(ir::FrameSlot slot, ir::FrameKind kind, ir::FrameCombine combine) {
+std::shared_ptr<const ir::FrameChange> BlockLowerer::frame_of(ir::FrameSlot slot, ir::FrameKind kind,
+                                                              ir::FrameCombine combine) {
   ir::FrameChange f;
   f.slot = slot;
   f.kind = kind;
@@ -202,7 +223,8 @@ void BlockLowerer::take_coordinates_into(ir::FrameChange& change) {
   coords_taken_ = true;
   for (std::size_t i = 0; i < coord_count_; ++i) {
     const Word& w = *coords_[i];
-    if (!state_.has_axis(axis_of(w))) state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w));
+    if (!state_.has_axis(axis_of(w)))
+      state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w));
     ir::FrameWord f;
     f.axis = axis_of(w);
     f.value = value(w);
@@ -223,7 +245,8 @@ void BlockLowerer::apply_offset(const GWord& g) {
         return;
       }
       machine_coords_ = g.word;
-      if (!state_.facts.first_machine_move.known()) state_.facts.first_machine_move = word_span(state_.line(), g.word->pos);
+      if (!state_.facts.first_machine_move.known())
+        state_.facts.first_machine_move = word_span(state_.line(), g.word->pos);
       return;
     case Use::work_offset: act(ir::WorkOffset{ir::Value(g.row->value), false}, g.word); return;
     case Use::numbered_offset: {
@@ -232,14 +255,16 @@ void BlockLowerer::apply_offset(const GWord& g) {
         state_.error("FAG-014", g.word->pos, "G159 needs the number of the offset N");
         return;
       }
-      if (n->expr < 0 && (n->number < 1 || n->number > 20 || n->number != std::floor(n->number))) state_.error("FAG-013", n->pos, "zero offsets are N1 to N20");
+      if (n->expr < 0 && (n->number < 1 || n->number > 20 || n->number != std::floor(n->number)))
+        state_.error("FAG-013", n->pos, "zero offsets are N1 to N20");
       act(ir::WorkOffset{value(*n), false}, g.word);
       out_->actions.back().text = {};
       return;
     }
     case Use::table_shift: {  // the table's row, axis by axis, on top of the offset in force
       state_.facts.table_shift = true;
-      if (!state_.facts.first_table_shift.known()) state_.facts.first_table_shift = word_span(state_.line(), g.word->pos);
+      if (!state_.facts.first_table_shift.known())
+        state_.facts.first_table_shift = word_span(state_.line(), g.word->pos);
       result_->needs_program = true;
       change.slot = ir::FrameSlot::shift;
       change.combine = ir::FrameCombine::replace;
@@ -289,14 +314,18 @@ void BlockLowerer::apply_frame(const GWord& g) {
   result_->needs_program = true;
   ir::FrameChange change;
   switch (g.row->use) {
-    case Use::mirror_off: act(ir::FrameOp{frame_of(ir::FrameSlot::mirror, ir::FrameKind::mirror, ir::FrameCombine::clear)}, g.word); return;
+    case Use::mirror_off:
+      act(ir::FrameOp{frame_of(ir::FrameSlot::mirror, ir::FrameKind::mirror, ir::FrameCombine::clear)}, g.word);
+      return;
     case Use::mirror_axis:
     case Use::mirror_axes: {
       change.slot = ir::FrameSlot::mirror;
       change.kind = ir::FrameKind::mirror;
       change.combine = ir::FrameCombine::replace_named;
-      if (g.row->use == Use::mirror_axes) take_coordinates_into(change);
-      else change.words.push_back({g.row->value, ir::Value(1), ir::WordScale::modal, {}});
+      if (g.row->use == Use::mirror_axes)
+        take_coordinates_into(change);
+      else
+        change.words.push_back({g.row->value, ir::Value(1), ir::WordScale::modal, {}});
       for (auto& w : change.words) w.value = ir::Value(1);
       if (change.words.empty()) state_.error("FAG-014", g.word->pos, "G14 needs the axes to be mirrored");
       break;
@@ -304,7 +333,9 @@ void BlockLowerer::apply_frame(const GWord& g) {
     case Use::scale: {
       const Word* s = take('S');
       if (coord_count_ != 0) {
-        state_.error("FAG-007", g.word->pos, "a scale factor of single axes acts on the compensated path and on the feed; it is not translated yet");
+        state_.error(
+            "FAG-007", g.word->pos,
+            "a scale factor of single axes acts on the compensated path and on the feed; it is not translated yet");
         result_->opaque = "motion.transformation";
         return;
       }
@@ -383,13 +414,15 @@ void BlockLowerer::look_ahead(const GWord& g) {
   if (!letter('E')) state_.error("FAG-014", g.word->pos, "G51 needs the contour error E");
   setting(g, Order::before);
   own_words_noted(g);
-  state_.note("FAG-008", g.word->pos, "G51 (look-ahead machining) is read as G05: the programmed path is the same", "its values are kept as text");
+  state_.note("FAG-008", g.word->pos, "G51 (look-ahead machining) is read as G05: the programmed path is the same",
+              "its values are kept as text");
 }
 
 void BlockLowerer::home(const GWord& g) {
   result_->needs_program = true;
   if (coord_count_ == 0) {
-    state_.error("FAG-007", g.word->pos, "G74 without axes runs a subroutine that only the machine knows; it is not translated yet");
+    state_.error("FAG-007", g.word->pos,
+                 "G74 without axes runs a subroutine that only the machine knows; it is not translated yet");
     result_->opaque = "block.word";
     return;
   }
@@ -405,8 +438,8 @@ void BlockLowerer::home(const GWord& g) {
   act(off, nullptr);
 }
 
-/// G81 G82 G83 of the mill (25.2, 25.3): the word of the longitudinal axis is the reference plane, I the bottom (or one peck),
-/// K the dwell, J the number of pecks.
+/// G81 G82 G83 of the mill (25.2, 25.3): the word of the longitudinal axis is the reference plane, I the bottom (or one
+/// peck), K the dwell, J the number of pecks.
 void BlockLowerer::hole_cycle(const GWord& g) {
   cycle_ = true;
   result_->needs_program = true;
@@ -419,7 +452,8 @@ void BlockLowerer::hole_cycle(const GWord& g) {
     c.reference.base = ir::LevelBase::distance_mode;
     c.reference.otherwise = ir::LevelBase::from_initial;
     c.reference.value = value(*coords_[i]);
-    std::copy(coords_.begin() + static_cast<std::ptrdiff_t>(i) + 1, coords_.begin() + static_cast<std::ptrdiff_t>(coord_count_),
+    std::copy(coords_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+              coords_.begin() + static_cast<std::ptrdiff_t>(coord_count_),
               coords_.begin() + static_cast<std::ptrdiff_t>(i));
     --coord_count_;
     break;
@@ -448,10 +482,12 @@ void BlockLowerer::hole_cycle(const GWord& g) {
     const ir::Value peck = c.bottom.value, pecks = value(*count);
     c.kind = ir::HoleKind::peck_full;
     c.bottom.base = ir::LevelBase::from_reference;
-    c.bottom.value = peck.literal() && pecks.literal() ? ir::Value(peck.number * pecks.number)
-                                                       : ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(peck), ir::as_expr(pecks)));
+    c.bottom.value = peck.literal() && pecks.literal()
+                         ? ir::Value(peck.number * pecks.number)
+                         : ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(peck), ir::as_expr(pecks)));
     c.pecks.law = ir::PeckLaw::count;
-    c.pecks.first = peck.literal() ? ir::Value(std::fabs(peck.number)) : ir::Value(ir::call(ir::Function::abs, {peck.expr}));
+    c.pecks.first =
+        peck.literal() ? ir::Value(std::fabs(peck.number)) : ir::Value(ir::call(ir::Function::abs, {peck.expr}));
     c.pecks.count = pecks;
     c.pecks.reapproach = ir::Value(state_.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
   }

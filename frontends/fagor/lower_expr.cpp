@@ -18,9 +18,13 @@ using ir::ExprPtr;
 using syntax::Expr;
 using syntax::ExprKind;
 
-ExprPtr nothing() { return ir::number(0); }
+ExprPtr nothing() {
+  return ir::number(0);
+}
 
-bool is_letter(const Expr& e) { return e.kind == ExprKind::variable && e.text.size() == 1 && e.args.empty(); }
+bool is_letter(const Expr& e) {
+  return e.kind == ExprKind::variable && e.text.size() == 1 && e.args.empty();
+}
 
 /// `P100`, `P(expr)`, a letter. A fixed number that no parameter has is an error.
 ir::VarRef parameter(const Expr& e, LowerState& state) {
@@ -48,15 +52,12 @@ Datum known_datum(const facts::VariableInfo& info, const Expr& e) {
     case Datum::offset_number:
     case Datum::feed:
     case Datum::spindle_speed:
-    case Datum::part_count:
-      return info.datum;
+    case Datum::part_count: return info.datum;
     case Datum::tool_length:
-    case Datum::tool_radius:
-      return e.args.size() == 1 ? info.datum : Datum::other;
+    case Datum::tool_radius: return e.args.size() == 1 ? info.datum : Datum::other;
     case Datum::work_offset:
       return e.args.size() == 1 && e.args[0].kind == ExprKind::number ? info.datum : Datum::other;
-    default:
-      return Datum::other;
+    default: return Datum::other;
   }
 }
 
@@ -75,7 +76,9 @@ std::optional<ir::SystemRef> system_variable(const Expr& e, LowerState& state, b
   }
   using facts::Access;
   if (written ? info->access == Access::read || info->access == Access::none : info->access == Access::write) {
-    state.error("FAG-021", e.pos, "the variable " + e.text + (written ? " can't be written by a program" : " can't be read by a program"));
+    state.error(
+        "FAG-021", e.pos,
+        "the variable " + e.text + (written ? " can't be written by a program" : " can't be read by a program"));
     return std::nullopt;
   }
   ir::SystemRef ref;
@@ -84,13 +87,16 @@ std::optional<ir::SystemRef> system_variable(const Expr& e, LowerState& state, b
   ref.axis = axis != ir::axis::none ? axis : tool_axis(info->name);
   if (ref.datum == Datum::work_offset) {
     const int row = facts::offset_row(static_cast<int>(e.args[0].number));
-    if (row == 0) state.error("FAG-013", e.args[0].pos, "the zero offset table has no row " + e.args[0].text, "rows are 54 to 59 and 1 to 20");
+    if (row == 0)
+      state.error("FAG-013", e.args[0].pos, "the zero offset table has no row " + e.args[0].text,
+                  "rows are 54 to 59 and 1 to 20");
     ref.args.push_back(ir::number(row));
   } else {
     for (const auto& a : e.args) ref.args.push_back(lower_expr(a, state));
   }
   if (ref.datum == Datum::other) {
-    state.error("FAG-020", e.pos, "the value of " + e.text + " is known to the machine only; it can't be run or translated yet");
+    state.error("FAG-020", e.pos,
+                "the value of " + e.text + " is known to the machine only; it can't be run or translated yet");
   }
   return ref;
 }
@@ -104,7 +110,9 @@ ExprPtr variable(const Expr& e, LowerState& state) {
   return std::make_shared<const ir::Expr>(std::move(node));
 }
 
-bool condition(const ExprPtr& e) { return e->type == ir::Type::boolean; }
+bool condition(const ExprPtr& e) {
+  return e->type == ir::Type::boolean;
+}
 
 /// AND OR XOR: of two conditions the truth value, else bit by bit on 32 bits (§11.4).
 BinaryOp by_operands(BinaryOp logical, const ExprPtr& a, const ExprPtr& b) {
@@ -141,14 +149,16 @@ ExprPtr function(const Expr& e, LowerState& state) {
 
 char parameter_letter(const syntax::Expr& e) {
   if (is_letter(e)) return e.text[0];
-  if (e.kind != ExprKind::variable || e.text != "P" || e.args.size() != 1 || e.args[0].kind != ExprKind::number) return 0;
+  if (e.kind != ExprKind::variable || e.text != "P" || e.args.size() != 1 || e.args[0].kind != ExprKind::number)
+    return 0;
   const double n = e.args[0].number;
   return n >= 0 && n <= 25 && n == std::floor(n) ? facts::parameter_letter(static_cast<int>(n)) : '\0';
 }
 
 ir::ExprPtr lower_expr(const syntax::Expr& e, LowerState& state) {
   switch (e.kind) {
-    case ExprKind::number: return ir::at(ir::number(e.number, e.text.substr(0, 1) == "$" ? std::string{} : e.text), e.pos);
+    case ExprKind::number:
+      return ir::at(ir::number(e.number, e.text.substr(0, 1) == "$" ? std::string{} : e.text), e.pos);
     case ExprKind::variable: return ir::at(variable(e, state), e.pos);
     case ExprKind::unary: return ir::at(unary(e, state), e.pos);
     case ExprKind::call: return ir::at(function(e, state), e.pos);

@@ -26,9 +26,11 @@ LowerState::LowerState(const machine::Profile& profile, Diagnostics& diagnostics
   for (const auto& axis : profile.axes) {
     if (axis.id < axes_.size()) axes_[axis.id] = true;
   }
-  for (std::size_t code = 0; code < g_rows_.size(); ++code) g_rows_[code] = dialects::fagor::find_g(static_cast<int>(code), lathe_);
+  for (std::size_t code = 0; code < g_rows_.size(); ++code)
+    g_rows_[code] = dialects::fagor::find_g(static_cast<int>(code), lathe_);
   for (const auto& m : profile.m_codes) {
-    if (m.code >= 0 && m.code < static_cast<std::int32_t>(m_rows_.size())) m_rows_[static_cast<std::size_t>(m.code)] = &m;
+    if (m.code >= 0 && m.code < static_cast<std::int32_t>(m_rows_.size()))
+      m_rows_[static_cast<std::size_t>(m.code)] = &m;
   }
   start_routine(false);
 }

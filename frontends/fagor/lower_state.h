@@ -20,23 +20,25 @@ inline constexpr ir::SpaceId parameter_space = 0;
 /// The spaces of a Fagor program: `P` with its ranges and scopes.
 std::vector<ir::VariableSpace> make_spaces();
 
-/// A block whose reading depends on the plane: decided by the last plane function in the text, judged at the file's end.
+/// A block whose reading depends on the plane: decided by the last plane function in the text, judged at the file's
+/// end.
 struct PlaneUse {
   Span span;
-  bool from_caller = false;         ///< in a subroutine before any plane function of its own
-  std::size_t first_label = 0, last_label = 0;  ///< labels passed since the plane function: indices into LowerState::labels
+  bool from_caller = false;  ///< in a subroutine before any plane function of its own
+  std::size_t first_label = 0,
+              last_label = 0;  ///< labels passed since the plane function: indices into LowerState::labels
 };
 
 /// Features of the file that change how other blocks are completed at its end.
 struct FileFacts {
-  std::array<bool, 3> planes{};     ///< programmed by G17 G18 G19 G16
-  bool polar = false;               ///< polar words, or G93
-  bool preset = false;              ///< G92 with axes
-  bool table_shift = false;         ///< G58 G59
-  bool shift = false;               ///< G158
-  bool calls = false;               ///< routines that may stand in other files
+  std::array<bool, 3> planes{};  ///< programmed by G17 G18 G19 G16
+  bool polar = false;            ///< polar words, or G93
+  bool preset = false;           ///< G92 with axes
+  bool table_shift = false;      ///< G58 G59
+  bool shift = false;            ///< G158
+  bool calls = false;            ///< routines that may stand in other files
   bool computed_jumps = false;
-  std::array<bool, 2> units{};      ///< programmed by G71 [0], G70 [1]
+  std::array<bool, 2> units{};  ///< programmed by G71 [0], G70 [1]
   Span first_table_shift, first_machine_move;
   std::vector<std::string> jump_targets;
   std::vector<PlaneUse> plane_uses;
@@ -56,7 +58,9 @@ class LowerState {
   }
   [[nodiscard]] const machine::MCode* m(int code) const;
   [[nodiscard]] bool tool_changer() const { return tool_changer_; }
-  [[nodiscard]] bool rollover() const { return rollover_; }  ///< rotary axes: the sign of an absolute value is the sense
+  [[nodiscard]] bool rollover() const {
+    return rollover_;
+  }  ///< rotary axes: the sign of an absolute value is the sense
 
   // report; places are words of the line at hand
   void set_line(const Span& line) { line_ = line; }
@@ -99,7 +103,11 @@ class LowerState {
 };
 
 /// The word as written, and an ISO word's letter in capitals.
-inline std::string_view word_text(const syntax::Word& w) { return {w.address.data(), w.pos.length}; }
-inline char word_letter(const syntax::Word& w) { return static_cast<char>(w.address[0] & 0x5F); }
+inline std::string_view word_text(const syntax::Word& w) {
+  return {w.address.data(), w.pos.length};
+}
+inline char word_letter(const syntax::Word& w) {
+  return static_cast<char>(w.address[0] & 0x5F);
+}
 
 }  // namespace cnctrans::fagor

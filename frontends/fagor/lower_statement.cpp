@@ -20,7 +20,8 @@ using syntax::ExprKind;
 using Node = decltype(ir::Statement::node);
 
 /// Without effect on the path: single-block, stop and feed-hold switches, screens, texts in files.
-constexpr std::array<std::string_view, 10> harmless_words = {"ESBLK", "DSBLK", "ESTOP", "DSTOP", "EFHOLD", "DFHOLD", "DGWZ", "PAGE", "SYMBOL", "ODW"};
+constexpr std::array<std::string_view, 10> harmless_words = {"ESBLK",  "DSBLK", "ESTOP", "DSTOP",  "EFHOLD",
+                                                             "DFHOLD", "DGWZ",  "PAGE",  "SYMBOL", "ODW"};
 constexpr std::array<std::string_view, 4> screen_variables = {"DW", "DWH", "DWB", "SK"};
 
 template <class List>
@@ -32,11 +33,14 @@ std::string without_zeros(std::string_view digits) {
   const std::size_t first = digits.find_first_not_of('0');
   return std::string(first == std::string_view::npos ? "0" : digits.substr(first));
 }
-bool whole(double n, double limit) { return n >= 0 && n <= limit && n == std::floor(n); }
+bool whole(double n, double limit) {
+  return n >= 0 && n <= limit && n == std::floor(n);
+}
 
 class StatementLowerer {
  public:
-  StatementLowerer(const syntax::Block& block, std::string_view text, LowerState& state) : block_(block), text_(text), state_(state) {}
+  StatementLowerer(const syntax::Block& block, std::string_view text, LowerState& state)
+      : block_(block), text_(text), state_(state) {}
 
   Node lower(const syntax::Statement& s);
 
@@ -167,7 +171,8 @@ void StatementLowerer::routine(const Expr& e, ir::CallRoutine& call) {
     call.computed = lower_expr(e, state_);
     return;
   }
-  if (!whole(e.number, static_cast<double>(facts::max_oem_subroutine))) state_.error("FAG-013", e.pos, "a subroutine has a number from 0 to 9999");
+  if (!whole(e.number, static_cast<double>(facts::max_oem_subroutine)))
+    state_.error("FAG-013", e.pos, "a subroutine has a number from 0 to 9999");
   call.routine.number = static_cast<std::int64_t>(e.number);
 }
 
@@ -180,7 +185,8 @@ Node StatementLowerer::call(const syntax::Statement& s) {
   for (std::size_t i = 1; i + 1 < s.args.size(); i += 2) {
     const char letter = parameter_letter(s.args[i]);
     if (letter == 0) return malformed(s, "an argument of " + s.keyword + " is a local parameter: A to Z or P0 to P25");
-    if (s.args[i + 1].kind == ExprKind::missing) return malformed(s, std::string("the argument ") + letter + " has no value");
+    if (s.args[i + 1].kind == ExprKind::missing)
+      return malformed(s, std::string("the argument ") + letter + " has no value");
     ir::Argument a;
     a.name = std::string(1, letter);
     a.value = lower_expr(s.args[i + 1], state_);
@@ -208,8 +214,10 @@ Node StatementLowerer::error(const syntax::Statement& s) {
   ir::Message m;
   m.kind = ir::MessageKind::error;
   for (const auto& a : s.args) {
-    if (a.kind == ExprKind::string) m.parts = message_parts(a.text, state_);
-    else m.number = lower_expr(a, state_);
+    if (a.kind == ExprKind::string)
+      m.parts = message_parts(a.text, state_);
+    else
+      m.number = lower_expr(a, state_);
   }
   if (s.args.empty() || s.args.size() > 2) return malformed(s, "ERROR needs a number, a text or both");
   return m;
@@ -246,12 +254,14 @@ std::vector<ir::ExprPtr> message_parts(std::string_view text, LowerState& state)
   for (std::size_t i = 0; i < text.size();) {
     std::size_t digits = i + 2;
     while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9') ++digits;
-    if (text[i] != '?' || i + 2 >= text.size() || (text[i + 1] != 'P' && text[i + 1] != 'p') || digits == i + 2 || digits > i + 7) {
+    if (text[i] != '?' || i + 2 >= text.size() || (text[i + 1] != 'P' && text[i + 1] != 'p') || digits == i + 2 ||
+        digits > i + 7) {
       plain += text[i++];
       continue;
     }
     const double n = parse_decimal(text.substr(i + 2, digits - i - 2)).value_or(0);
-    if (!facts::valid_parameter(static_cast<std::int64_t>(n))) state.error("FAG-018", {}, "the parameter in " + std::string(text.substr(i, digits - i)) + " does not exist");
+    if (!facts::valid_parameter(static_cast<std::int64_t>(n)))
+      state.error("FAG-018", {}, "the parameter in " + std::string(text.substr(i, digits - i)) + " does not exist");
     if (!plain.empty()) parts.push_back(ir::string_literal(std::move(plain)));
     plain.clear();
     parts.push_back(ir::numbered(parameter_space, static_cast<std::int64_t>(n)));
@@ -263,7 +273,8 @@ std::vector<ir::ExprPtr> message_parts(std::string_view text, LowerState& state)
 
 std::int64_t subroutine_number(const syntax::Statement& s, LowerState& state) {
   const Expr& e = s.args.at(0);
-  if (e.kind == ExprKind::number && whole(e.number, static_cast<double>(facts::max_oem_subroutine))) return static_cast<std::int64_t>(e.number);
+  if (e.kind == ExprKind::number && whole(e.number, static_cast<double>(facts::max_oem_subroutine)))
+    return static_cast<std::int64_t>(e.number);
   state.error("FAG-013", e.pos, "a subroutine has a fixed number from 0 to 9999");
   return -1;
 }
@@ -285,7 +296,8 @@ void lower_g_call(const syntax::Block& block, const syntax::Word& code, LowerSta
     const char c = word_letter(w);
     const bool named = c == 'P' && w.extension >= 0;
     if ((named && w.extension > 25) || (c == 'P' && !w.equals) || c == 'G') {
-      state.error("FAG-024", w.pos, std::string(word_text(w)) + " is no argument of " + std::string(word_text(code)), "arguments are local parameters: A5, P3=2");
+      state.error("FAG-024", w.pos, std::string(word_text(w)) + " is no argument of " + std::string(word_text(code)),
+                  "arguments are local parameters: A5, P3=2");
       continue;
     }
     ir::Argument a;

@@ -9,7 +9,8 @@
 
 namespace cnctrans::fagor {
 
-/// `(...)` other than SUB and LSUB; `text` is the statement as written, for what is kept as text. Fills `out.node` only.
+/// `(...)` other than SUB and LSUB; `text` is the statement as written, for what is kept as text. Fills `out.node`
+/// only.
 void lower_statement(const syntax::Block& block, std::string_view text, LowerState& state, ir::Statement& out);
 /// `G180 A5 P3=2`: a call of the subroutine of that number, with its own level when there are arguments.
 void lower_g_call(const syntax::Block& block, const syntax::Word& code, LowerState& state, ir::Statement& out);

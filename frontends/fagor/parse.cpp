@@ -98,7 +98,8 @@ bool BlockParser::Impl::within_limits(std::string_view line, ParseError& error) 
     } else if (type == FagorLexer::RPAREN) {
       --depth;
     }
-    const bool prefix = type == FagorLexer::MINUS || type == FagorLexer::PLUS || type == FagorLexer::NOT || type == FagorLexer::FUNCTION;
+    const bool prefix = type == FagorLexer::MINUS || type == FagorLexer::PLUS || type == FagorLexer::NOT ||
+                        type == FagorLexer::FUNCTION;
     prefixes = prefix ? prefixes + 1 : 0;
     if (depth > max_nesting || prefixes > max_nesting) {
       error = {{static_cast<std::uint32_t>(t->getStartIndex() + 1), 1}, "brackets or functions are nested too deeply"};
@@ -149,10 +150,12 @@ void BlockParser::Impl::explain(std::string_view line, ParseError& error) const 
     case FagorLexer::BAD: error.message = describe_byte(text.empty() ? '?' : text.front()); break;
     case FagorLexer::RPAREN: error.message = "the bracket ) does not fit here"; break;
     case FagorLexer::LPAREN:
-      error.message = iso && start > 0 ? "a block holds either ISO words or one ( ) statement, not both" : "the bracket ( does not fit here";
+      error.message = iso && start > 0 ? "a block holds either ISO words or one ( ) statement, not both"
+                                       : "the bracket ( does not fit here";
       break;
     case FagorLexer::NUMBER:
-      error.message = iso ? "the number " + std::string(text) + " has no letter before it" : quoted(text) + " does not fit here";
+      error.message =
+          iso ? "the number " + std::string(text) + " has no letter before it" : quoted(text) + " does not fit here";
       break;
     default: error.message = quoted(text) + " does not fit here"; break;
   }

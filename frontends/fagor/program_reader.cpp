@@ -10,7 +10,9 @@ namespace cnctrans::fagor {
 
 namespace {
 
-bool is_trivia(const syntax::Block& b) { return b.words.empty() && b.statements.empty() && b.number.empty(); }
+bool is_trivia(const syntax::Block& b) {
+  return b.words.empty() && b.statements.empty() && b.number.empty();
+}
 
 }  // namespace
 
@@ -80,7 +82,8 @@ void ProgramReader::percent(std::string_view text) {
   if (header_allowed_ && !main.header.span.known()) {
     main.header.span = state_.line();
     if (text.size() > 1 && !read_header(text, main.title, main.attributes)) {
-      state_.warning("FAG-001", {}, "the header is not of the form %comment,MX, with a comment of at most 20 characters",
+      state_.warning("FAG-001", {},
+                     "the header is not of the form %comment,MX, with a comment of at most 20 characters",
                      "the control lists such a program with asterisks; attributes are O, H, M and X");
     }
     return;
@@ -102,7 +105,8 @@ void ProgramReader::percent(std::string_view text) {
     return;
   }
   ++stats_.blocks;
-  state_.error("FAG-032", {}, "a line with % is the file's header or, after local subroutines, the start of the main part");
+  state_.error("FAG-032", {},
+               "a line with % is the file's header or, after local subroutines, the start of the main part");
   ir::Statement s = fresh();
   s.node = ir::Opaque{std::string(text), "text.unread", false};
   add(std::move(s));
@@ -115,7 +119,8 @@ ir::Statement ProgramReader::fresh() const {
 }
 
 void ProgramReader::unread(std::string_view text, const ParseError& error) {
-  state_.error("FAG-002", error.pos, "the block can't be read: " + error.message, "it is kept as text; the program can't run with it");
+  state_.error("FAG-002", error.pos, "the block can't be read: " + error.message,
+               "it is kept as text; the program can't run with it");
   ir::Statement s;
   s.line.span = state_.line();
   s.node = ir::Opaque{std::string(trim(text)), "text.unread", false};
@@ -146,7 +151,8 @@ void ProgramReader::block(std::string_view text) {
     }
     state_.pass_label(block_.number);
   } else if (!block_.words.empty() && block_.statements.empty() && word_letter(block_.words.front()) == 'N') {
-    state_.error("FAG-015", block_.words.front().pos, "a block number is a fixed number; a parameter can't stand for it");
+    state_.error("FAG-015", block_.words.front().pos,
+                 "a block number is a fixed number; a parameter can't stand for it");
   }
   if (block_.statements.empty()) {
     iso_block(text);
@@ -169,7 +175,8 @@ void ProgramReader::iso_block(std::string_view text) {
   if (!result.opaque.empty()) {
     const auto& first = block_.words.front();
     const std::size_t end = block_.comments.empty() ? text.size() : block_.comments.front().pos.column - 1;
-    s.node = ir::Opaque{std::string(trim(text.substr(first.pos.column - 1, end - first.pos.column + 1))), std::string(result.opaque), result.harmless};
+    s.node = ir::Opaque{std::string(trim(text.substr(first.pos.column - 1, end - first.pos.column + 1))),
+                        std::string(result.opaque), result.harmless};
   } else if (result.call) {
     lower_g_call(block_, *result.call, state_, s);
   } else if (result.end) {
@@ -215,7 +222,8 @@ void ProgramReader::open_subroutine(const syntax::Statement& statement) {
   }
   pending_.clear();
   if (number >= 0 && !numbers_.insert({local, number}).second) {
-    state_.error("FAG-025", statement.pos, "the subroutine " + std::to_string(number) + " is defined twice in the file");
+    state_.error("FAG-025", statement.pos,
+                 "the subroutine " + std::to_string(number) + " is defined twice in the file");
   }
   if (local && main_has_code_) state_.error("FAG-025", statement.pos, "local subroutines stand before the main part");
   ir::Routine r;
@@ -242,7 +250,8 @@ void ProgramReader::close_subroutine() {
   }
   const Span now = state_.line();
   state_.set_line(r.header.span);
-  state_.error("FAG-025", {}, "the subroutine " + std::to_string(r.name.number) + " does not end with (RET)", "blocks after the last (RET) belong to no subroutine");
+  state_.error("FAG-025", {}, "the subroutine " + std::to_string(r.name.number) + " does not end with (RET)",
+               "blocks after the last (RET) belong to no subroutine");
   state_.set_line(now);
 }
 

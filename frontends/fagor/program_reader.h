@@ -40,10 +40,10 @@ class ProgramReader {
   std::size_t current_ = 0;
   bool main_has_code_ = false;
   bool header_allowed_ = true;
-  bool local_group_ = false;   ///< LSUB groups were read and the start mark was not
-  bool ended_ = false;         ///< a lone % after code: only blank lines may follow
+  bool local_group_ = false;  ///< LSUB groups were read and the start mark was not
+  bool ended_ = false;        ///< a lone % after code: only blank lines may follow
   bool control_noted_ = false;
-  ir::Body pending_;           ///< comments and blank lines that wait for the block they belong to
+  ir::Body pending_;  ///< comments and blank lines that wait for the block they belong to
   std::set<std::pair<bool, std::int64_t>> numbers_;
   frontends::ReadStats stats_;
 };

@@ -5,8 +5,8 @@
 
 namespace cnctrans::fagor {
 
-/// Any letter with a number, or bare, is a plain word; `P` may be the value of the word before it and `N` at the end of a
-/// block is the repeat count: both go to the grammar. Blanks may stand between letter and value.
+/// Any letter with a number, or bare, is a plain word; `P` may be the value of the word before it and `N` at the end of
+/// a block is the repeat count: both go to the grammar. Blanks may stand between letter and value.
 constexpr frontends::ScanTable make_scan_table() {
   frontends::ScanTable t;
   for (unsigned c = 'A'; c <= 'Z'; ++c) {
@@ -15,7 +15,7 @@ constexpr frontends::ScanTable make_scan_table() {
     t.letters[c] = letter;
     t.letters[c + ('a' - 'A')] = letter;
   }
-  t.skip_first_level = 0;   // `/` and `/1` are the first level
+  t.skip_first_level = 0;  // `/` and `/1` are the first level
   t.skip_digit_offset = 1;
   t.skip_digits = true;
   t.blank_before_value = true;

@@ -28,7 +28,8 @@ class TreeReader {
   [[nodiscard]] WordPos pos(antlr4::ParserRuleContext* c) const { return between(c->getStart(), c->getStop()); }
   [[nodiscard]] static WordPos pos(antlr4::Token* t) { return between(t, t); }
   [[nodiscard]] static WordPos between(const antlr4::Token* a, const antlr4::Token* b) {
-    return {static_cast<std::uint32_t>(a->getStartIndex() + 1), static_cast<std::uint32_t>(b->getStopIndex() - a->getStartIndex() + 1)};
+    return {static_cast<std::uint32_t>(a->getStartIndex() + 1),
+            static_cast<std::uint32_t>(b->getStopIndex() - a->getStartIndex() + 1)};
   }
   [[nodiscard]] std::string_view text(WordPos p) const { return line_.substr(p.column - 1, p.length); }
   [[nodiscard]] std::string folded(WordPos p) const;
@@ -66,7 +67,9 @@ class TreeReader {
   bool ok_ = true;
 };
 
-std::string TreeReader::folded(WordPos p) const { return to_upper_ascii(text(p)); }
+std::string TreeReader::folded(WordPos p) const {
+  return to_upper_ascii(text(p));
+}
 
 bool TreeReader::fail(WordPos p, std::string message) {
   if (ok_) error_ = {p, std::move(message)};
@@ -98,7 +101,8 @@ Expr TreeReader::hex(antlr4::Token* t) {
   e.pos = pos(t);
   e.text = folded(e.pos);
   if (e.text.size() > 9) fail(e.pos, "a hexadecimal number has at most 8 digits");
-  for (const char c : std::string_view(e.text).substr(1)) e.number = e.number * 16 + (c <= '9' ? c - '0' : c - 'A' + 10);
+  for (const char c : std::string_view(e.text).substr(1))
+    e.number = e.number * 16 + (c <= '9' ? c - '0' : c - 'A' + 10);
   return e;
 }
 
@@ -246,7 +250,8 @@ void TreeReader::skip_marks(Parser::BlockContext* c, syntax::Block& out) {
     }
     out.skip_mask = static_cast<std::uint16_t>(out.skip_mask | (1U << level));
   }
-  if (!c->skipMark().empty()) out.skip_pos = between(c->skipMark().front()->getStart(), c->skipMark().back()->getStop());
+  if (!c->skipMark().empty())
+    out.skip_pos = between(c->skipMark().front()->getStart(), c->skipMark().back()->getStop());
 }
 
 void TreeReader::value(Parser::ValueContext* c, syntax::Word& w, syntax::Block& out) {

@@ -14,6 +14,7 @@ namespace cnctrans::fagor {
 
 /// `tree` is the tree of the rule `block` without faults. False and `error` for what the grammar lets through and the
 /// language does not: a label with decimals, a skip mark above 3, a number too large to be one.
-[[nodiscard]] bool read_tree(antlr4::tree::ParseTree* tree, std::string_view line, syntax::Block& out, ParseError& error);
+[[nodiscard]] bool read_tree(antlr4::tree::ParseTree* tree, std::string_view line, syntax::Block& out,
+                             ParseError& error);
 
 }  // namespace cnctrans::fagor

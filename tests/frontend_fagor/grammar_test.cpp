@@ -51,9 +51,12 @@ std::string read(std::string_view line) {
     std::string t(w.address);
     if (w.extension >= 0) t += std::to_string(w.extension);
     if (w.equals) t += "=";
-    if (w.is_expression) t += tree(b.exprs.at(static_cast<std::size_t>(w.expr)));
-    else if (w.has_value) t += std::string(w.number_text);
-    else t += "_";
+    if (w.is_expression)
+      t += tree(b.exprs.at(static_cast<std::size_t>(w.expr)));
+    else if (w.has_value)
+      t += std::string(w.number_text);
+    else
+      t += "_";
     add(t);
   }
   for (const auto& c : b.comments) add(";" + std::string(c.text));
@@ -66,8 +69,8 @@ std::string read_expr(const std::string& text) {
 
 TEST(FagorGrammar, IsoWords) {
   EXPECT_EQ(read("N120 G1 X10.5 Z-3 F0.2 ;text"), "#120 G1 X10.5 Z-3 F0.2 ;text");
-  EXPECT_EQ(read("G 1 X 100"), "G1 X100");          // blanks inside words (ch. 2)
-  EXPECT_EQ(read("G X Z-.5 F5."), "G_ X_ Z-.5 F5."); // the value may be left out (ch. 2)
+  EXPECT_EQ(read("G 1 X 100"), "G1 X100");            // blanks inside words (ch. 2)
+  EXPECT_EQ(read("G X Z-.5 F5."), "G_ X_ Z-.5 F5.");  // the value may be left out (ch. 2)
   EXPECT_EQ(read("G1X0.0Y0.0F360"), "G1 X0.0 Y0.0 F360");
   EXPECT_EQ(read("G74 XYA"), "G74 X_ Y_ A_");
   EXPECT_EQ(read("X Y S800"), "X_ Y_ S800");
@@ -100,7 +103,7 @@ TEST(FagorGrammar, HeadOfTheBlock) {
 TEST(FagorGrammar, Comments) {
   EXPECT_EQ(read(";(MSG \"x\")"), ";(MSG \"x\")");
   EXPECT_EQ(read("X1;a;b "), "X1 ;a;b ");
-  EXPECT_EQ(read("X1 ; \xe4\xf6 (\"") , "X1 ; \xe4\xf6 (\"");
+  EXPECT_EQ(read("X1 ; \xe4\xf6 (\""), "X1 ; \xe4\xf6 (\"");
 }
 
 TEST(FagorGrammar, Priority) {  // manual 11.5.1
