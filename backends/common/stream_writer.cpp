@@ -172,7 +172,8 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
   bool plain = false;
   bool m_code_fits = true;
   if (const auto* f = std::get_if<ir::SetFeed>(&a.data)) {
-    plain = !(f->zero_is_maximum && f->value.number == 0) && valued(table_.feed, f->value, Rank::feed);
+    const bool special = f->value.number == 0 && (f->zero_is_maximum || !table_.zero_feed);
+    plain = !special && valued(table_.feed, f->value, Rank::feed);
   } else if (const auto* m = std::get_if<ir::ModalSet>(&a.data)) {
     plain = add_modal(*m, w);
   } else if (const auto* s = std::get_if<ir::SetSpindle>(&a.data)) {
@@ -216,6 +217,7 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
     } else if (o->index.literal() && row >= 1 && row < static_cast<double>(table_.work_offsets.size())) {
       w.address = table_.work_offsets[static_cast<std::size_t>(row)];
     }
+    words.alone = words.alone || (table_.work_offset_alone && !same_dialect_);
     plain = true;
   } else if (std::holds_alternative<ir::ExactStopBlock>(a.data)) {
     w.address = style_.exact_stop_block;
@@ -250,6 +252,13 @@ bool PlainStreamWriter::add_motion(const ir::Motion& m, Words& words) const {
     w.column = m.code_pos.column;
     w.rank = Rank::motion_code;
     if (!words.add(w)) return false;
+  }
+  const bool keep_order = table_.axes_in_order && !same_dialect_;
+  for (std::size_t i = 1; keep_order && i < m.coords.size(); ++i) {
+    if (m.coords[i].axis < m.coords[i - 1].axis) return false;
+  }
+  for (std::size_t i = 1; keep_order && i < m.centers.size(); ++i) {
+    if (m.centers[i].axis < m.centers[i - 1].axis) return false;
   }
   for (const ir::CoordWord& c : m.coords) {
     if (c.mode != ir::WordMode::modal || c.scale != ir::WordScale::modal ||

@@ -35,6 +35,9 @@ struct PlainTable {
   double dwell_unit = 1;                           ///< seconds of one unit of it
   bool select_changes_too = false;                 ///< a T that also carries out the change is a plain T there
   bool units_with_feed = true;                     ///< the codes of `units` change F words as well
+  bool zero_feed = true;           ///< F0 is a plain word there, not one with a meaning of its own
+  bool axes_in_order = false;      ///< coordinate and centre words must come in the order of their axes
+  bool work_offset_alone = false;  ///< a work offset stands alone in its line
   /// M codes that are carried as they are (no meaning, or the same one, on the target).
   std::array<bool, 1000> machine_functions{};
 };
