@@ -2,10 +2,16 @@
 
 #include "base/text.h"
 #include "dialects/num/functions.h"
+#include "dialects/num/variables.h"
 
 namespace cnctrans::backends::num {
 
 namespace facts = dialects::num;
+
+bool system_units(const ir::ExprPtr& e) {
+  const auto* n = std::get_if<ir::Number>(&e->node);
+  return n != nullptr && n->text.empty() && (n->value == facts::units_per_mm || n->value == facts::units_per_degree);
+}
 
 std::string ChainPrinter::variable(const ir::ExprPtr& e, const ir::VarRef& v) {
   if (v.space >= program_.spaces.size()) {
@@ -39,6 +45,10 @@ std::string ChainPrinter::string(const ir::ExprPtr& e, const ir::String& /*s*/) 
 
 bool ChainPrinter::primary(const ir::ExprPtr& e) {
   if (const auto* n = std::get_if<ir::Number>(&e->node)) return n->value >= 0;
+  if (const auto* b = std::get_if<ir::Binary>(&e->node)) {
+    return b->op == ir::BinaryOp::multiply && std::holds_alternative<ir::SystemRef>(b->left->node) &&
+           system_units(b->right);
+  }
   if (const auto* c = std::get_if<ir::Call>(&e->node)) return c->args.size() == 1 && primary(c->args[0]);
   return std::holds_alternative<ir::VarRef>(e->node) || std::holds_alternative<ir::SystemRef>(e->node);
 }
@@ -51,6 +61,11 @@ Printed ChainPrinter::chain(const ir::ExprPtr& e, const ir::Binary& b) {
   if (text == nullptr) {
     problem(e, "the operator '" + std::string(ir::name(b.op)) + "' has no counterpart on this control");
     return {};
+  }
+  // An E parameter is read in system units: the reader wrote its scaling out.
+  if (program_.dialect == "num" && b.op == ir::BinaryOp::multiply &&
+      std::holds_alternative<ir::SystemRef>(b.left->node) && system_units(b.right)) {
+    return print_node(b.left);
   }
   Printed left = print_node(b.left);
   // a + (-2) is a - 2.

@@ -5,6 +5,9 @@
 
 namespace cnctrans::backends::num {
 
+/// A factor that the reader put beside machine data: system units in a millimetre or a degree.
+bool system_units(const ir::ExprPtr& e);
+
 class ChainPrinter final : public ExpressionPrinter {
  public:
   using ExpressionPrinter::ExpressionPrinter;

@@ -110,8 +110,8 @@ constexpr const LRange* l_range(std::int64_t number) {
 
 /// System units in a millimetre and in a degree.
 inline constexpr double units_per_mm = 1000, units_per_degree = 10000;
-/// Components of the one settable offset row of a NUM: they add up.
-inline constexpr int offset_row = 1, offset_dec1 = 0, offset_pref = 1, offset_dec3 = 2;
+/// The one settable offset row of a NUM; PREF, DEC1 and DEC3 add up in it.
+inline constexpr int offset_row = 1;
 
 /// Indices of the spaces below in a program.
 inline constexpr ir::SpaceId space_l = 0, space_e = 1, space_symbol = 2;
@@ -131,6 +131,8 @@ inline std::vector<ir::VariableSpace> spaces() {
       list[space_e].segments.push_back({p.lo, p.hi, ir::Scope::global, true, false, true});
     }
   }
+  // PREF, DEC1 and DEC3, where a program keeps them apart.
+  list[space_e].segments.push_back({60000, 68999, ir::Scope::global, true, false, true});
   list[space_symbol].scope = ir::Scope::program;
   list[space_symbol].starts_at_zero = true;
   return list;

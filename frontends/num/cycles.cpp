@@ -1,4 +1,4 @@
-// Drilling cycles G81..G83, G85, G87, G89 (reference 11). The other ones are read and refused.
+// Hole cycles G81..G85, G87, G89 (reference 11). G86 and G88 are read and refused.
 #include <cmath>
 #include <utility>
 
@@ -13,16 +13,6 @@ using slot::letter;
 ir::AxisId Lowering::cycle_axis() const {
   if (settings_.lathe) return ir::axis::z;
   return state_.tool_axis != ir::axis::none ? state_.tool_axis : ir::plane_axes(state_.plane).w;
-}
-
-bool Lowering::has_position_word(bool plane_only) const {
-  const ir::PlaneAxes plane = ir::plane_axes(state_.plane);
-  const ir::AxisId tool = cycle_axis();
-  for (const auto& c : out_->motion.coords) {
-    if (c.axis == tool) continue;
-    if (!plane_only || c.axis == plane.u || c.axis == plane.v) return true;
-  }
-  return false;
 }
 
 void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here) {
@@ -49,11 +39,11 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
   }
   if (const Word* eh = use(e('H'))) cycle.reference = level(*eh);
   if (const Word* ef = use(e('F'))) {
-    if (number != 82 && number != 83 && number != 89) {
+    if (number != 82 && number != 83 && number != 87 && number != 89) {
       report_.refuse("NUM-027", ef->pos, "EF (dwell) in this cycle is not described", {}, "cycle.hole");
       return false;
     }
-    cycle.dwell_bottom = value(*ef);
+    (number == 87 ? cycle.pecks.dwell : cycle.dwell_bottom) = value(*ef);
   }
   const Word* p = use(letter('P'));
   const Word* q = use(letter('Q'));
@@ -114,9 +104,13 @@ void Lowering::define_cycle(const Word& g) {
     case 81:
     case 82: cycle.kind = ir::HoleKind::drill; break;
     case 83: cycle.kind = ir::HoleKind::peck_full; break;
+    case 84: cycle.kind = ir::HoleKind::tap_floating; break;
+    case 85:
+    case 89: cycle.kind = ir::HoleKind::ream; break;
+    case 87: cycle.kind = ir::HoleKind::peck_break; break;
     default:
       report_.refuse("NUM-004", g.pos,
-                     "`" + std::string(text_of(g)) + "`: only the cycles G81, G82 and G83 are carried yet", {},
+                     "`" + std::string(text_of(g)) + "`: the sequence of this cycle is not carried yet", {},
                      "cycle.hole");
       return;
   }
@@ -127,13 +121,14 @@ void Lowering::define_cycle(const Word& g) {
   }
   if (settings_.lathe || state_.tool_axis != ir::axis::none) cycle.axis = cycle_axis();
   if (number == 83) cycle.pecks.reapproach = ir::Value(1);
+  cycle.approach_by_retract = true;
   if (!cycle_bottom(cycle, g)) return;
   // Without ER the tool goes back to the height from which the cycle was called.
   cycle.retract = cycle.reference =
       ir::Level{ir::Value(0), ir::LevelBase::from_initial, ir::LevelBase::from_initial, true};
-  const int pecks = number;
-  if (!cycle_words(cycle, pecks)) return;
-  if (number == 83 && cycle.pecks.law == ir::PeckLaw::none) cycle.kind = ir::HoleKind::drill;
+  if (!cycle_words(cycle, number)) return;
+  const bool pecks = cycle.kind == ir::HoleKind::peck_full || cycle.kind == ir::HoleKind::peck_break;
+  if (pecks && cycle.pecks.law == ir::PeckLaw::none) cycle.kind = ir::HoleKind::drill;
   state_.cycle_code = number;
   out_->has_motion = out_->has_motion || !out_->motion.coords.empty();
   put_cycle(g, std::make_shared<const ir::HoleCycle>(std::move(cycle)), true);
@@ -155,6 +150,9 @@ void Lowering::change_cycle() {
   const bool plane_given = has(e('R'));
   const bool to_plane = plane_given && out_->motion.coords.empty();
   if (!cycle_words(cycle, state_.cycle_code)) return;
+  if (cycle.pecks.law != ir::PeckLaw::none) {
+    cycle.kind = state_.cycle_code == 83 ? ir::HoleKind::peck_full : ir::HoleKind::peck_break;
+  }
   if (to_plane) {
     // The block goes to the plane at once and drills nothing.
     auto& m = out_->motion;

@@ -33,11 +33,38 @@ ir::SystemRef table_ref(ir::Datum datum, std::int64_t number, std::string text) 
   return r;
 }
 
-ir::SystemRef offset_ref(ir::AxisId axis, int component, std::string text) {
+/// Without PREF and DEC3, DEC1 is the whole offset.
+ir::SystemRef offset_ref(ir::AxisId axis, std::string text) {
   ir::SystemRef r = table_ref(ir::Datum::work_offset, facts::offset_row, std::move(text));
   r.axis = axis;
-  r.args.push_back(ir::number(component));
   return r;
+}
+
+ir::VarRef e_variable(std::int64_t number) {
+  ir::VarRef ref;
+  ref.space = facts::space_e;
+  ref.index = ir::number(static_cast<double>(number));
+  return ref;
+}
+
+bool is_offset(const facts::EParameter& row) {
+  return row.meaning == EMeaning::pref || row.meaning == EMeaning::dec1 || row.meaning == EMeaning::dec3;
+}
+
+/// offset of the axis := (PREF + DEC1 + DEC3) / units. The system's name is empty: no source text says this.
+ir::Assign::Item offset_item(std::int64_t number, WordPos pos) {
+  const std::int64_t base = number / 1000 * 1000;
+  const auto axis = static_cast<ir::AxisId>((base - 60000) / 1000);
+  const auto part = [base](std::int64_t component) {
+    return ir::variable(e_variable(base + component), ir::Type::integer);
+  };
+  ir::ExprPtr sum = ir::binary(ir::BinaryOp::add, ir::binary(ir::BinaryOp::add, part(0), part(1)), part(4));
+  ir::Assign::Item item;
+  item.pos = pos;
+  item.to_system = true;
+  item.system = offset_ref(axis, {});
+  item.value = ir::binary(ir::BinaryOp::divide, std::move(sum), ir::number(axis_units(axis)));
+  return item;
 }
 
 ir::SystemRef axis_ref(ir::Datum datum, ir::AxisId axis, std::string text) {
@@ -54,9 +81,7 @@ std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number
   const auto axis = static_cast<ir::AxisId>(index);
   std::string text = "E" + std::to_string(number);
   switch (row.meaning) {
-    case EMeaning::pref: return Neutral{offset_ref(axis, facts::offset_pref, std::move(text)), axis_units(axis)};
-    case EMeaning::dec1: return Neutral{offset_ref(axis, facts::offset_dec1, std::move(text)), axis_units(axis)};
-    case EMeaning::dec3: return Neutral{offset_ref(axis, facts::offset_dec3, std::move(text)), axis_units(axis)};
+    case EMeaning::dec1: return Neutral{offset_ref(axis, std::move(text)), axis_units(axis)};
     case EMeaning::shift:
       return Neutral{axis_ref(ir::Datum::programmed_shift, axis, std::move(text)), axis_units(axis)};
     case EMeaning::position:
@@ -142,12 +167,7 @@ ir::ExprPtr Expressions::parameter(const syntax::Expr& e) {
     report_.refuse("NUM-018", e.pos, "there is no parameter E" + (e.args.empty() ? "" : e.args[0].text));
     return nullptr;
   }
-  if (row->meaning == EMeaning::user || row->meaning == EMeaning::scale_factor) {
-    ir::VarRef ref;
-    ref.space = facts::space_e;
-    ref.index = ir::number(static_cast<double>(n));
-    return ir::at(ir::variable(std::move(ref), ir::Type::integer), e.pos);
-  }
+  if (is_memory(*row)) return ir::at(ir::variable(e_variable(n), ir::Type::integer), e.pos);
   auto found = neutral(*row, n, settings_.lathe);
   if (!found) {
     report_.refuse("NUM-019", e.pos,
@@ -205,8 +225,8 @@ ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis
   if (!value || inner.kind != ExprKind::variable || inner.text != "E") return value;
   // System units: micrometres or 1/10000 degree. A datum is in neutral units already below its scaling.
   const facts::EParameter* row = facts::e_parameter(variable_number(inner));
-  if (row == nullptr || row->unit == facts::EUnit::none) {
-    if (row != nullptr && row->meaning != EMeaning::user) return value;
+  if (row == nullptr || row->unit == facts::EUnit::none || is_memory(*row)) {
+    if (row != nullptr && row->unit == facts::EUnit::none && row->meaning != EMeaning::user) return value;
     return ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(axis)));
   }
   ir::ExprPtr plain = lower(inner);
@@ -214,7 +234,13 @@ ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis
   return sign && e.text == "-" ? ir::at(ir::unary(ir::UnaryOp::negate, std::move(plain)), e.pos) : plain;
 }
 
-bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value, ir::Assign::Item& item) {
+bool Expressions::is_memory(const facts::EParameter& row) const {
+  if (row.meaning == EMeaning::user || row.meaning == EMeaning::scale_factor) return true;
+  return offsets_apart_ && is_offset(row);
+}
+
+bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value, std::vector<ir::Assign::Item>& items,
+                                   WordPos pos) {
   const std::int64_t n = variable_number(target);
   const facts::EParameter* row = facts::e_parameter(n);
   const std::string name = "E" + (target.args.empty() ? std::string() : target.args[0].text);
@@ -233,10 +259,13 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
     return false;
   }
   value = integer_part(std::move(value));  // E parameters hold integers: a value is truncated
-  if (row->meaning == EMeaning::user || row->meaning == EMeaning::scale_factor) {
-    item.target.space = facts::space_e;
-    item.target.index = ir::number(static_cast<double>(n));
+  ir::Assign::Item item;
+  item.pos = pos;
+  if (is_memory(*row)) {
+    item.target = e_variable(n);
     item.value = std::move(value);
+    items.push_back(std::move(item));
+    if (is_offset(*row)) items.push_back(offset_item(n, pos));
     return true;
   }
   auto found = neutral(*row, n, settings_.lathe);
@@ -249,19 +278,22 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
   item.system = std::move(found->ref);
   item.value = found->scale == 1 ? std::move(value)
                                  : ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(found->scale));
+  items.push_back(std::move(item));
   return true;
 }
 
-bool Expressions::assignment(const syntax::Statement& s, ir::Assign::Item& item) {
+bool Expressions::assignment(const syntax::Statement& s, std::vector<ir::Assign::Item>& items) {
   const syntax::Expr& target = s.args.at(0);
-  item.pos = s.pos;
   ir::ExprPtr value = lower(s.args.at(1));
   if (!value) return false;
-  if (target.text == "E") return assign_parameter(target, std::move(value), item);
+  if (target.text == "E") return assign_parameter(target, std::move(value), items, s.pos);
   auto ref = target.text == "L" ? l_variable(target) : symbol(target);
   if (!ref) return false;
+  ir::Assign::Item item;
+  item.pos = s.pos;
   item.target = std::move(*ref);
   item.value = std::move(value);
+  items.push_back(std::move(item));
   return true;
 }
 

@@ -5,7 +5,9 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "dialects/num/variables.h"
 #include "frontends/common/syntax.h"
 #include "frontends/num/report.h"
 #include "frontends/num/settings.h"
@@ -21,8 +23,11 @@ class Expressions {
   ir::ExprPtr lower(const syntax::Expr& e);
   /// The variable as the value of an axis word: an E parameter is in system units there.
   ir::ExprPtr lower_axis_value(const syntax::Expr& e, ir::AxisId axis);
-  /// Target and value of one assignment; false after a refusal.
-  bool assignment(const syntax::Statement& s, ir::Assign::Item& item);
+  /// Appends target and value of one assignment; false after a refusal. PREF or DEC1 of a program that uses both give a
+  /// second item: their sum is the offset of the machine.
+  bool assignment(const syntax::Statement& s, std::vector<ir::Assign::Item>& items);
+  /// PREF, DEC1 and DEC3 are kept apart (memory), because the program works with more than DEC1.
+  void keep_offsets_apart(bool apart) { offsets_apart_ = apart; }
 
   /// Symbols declared so far, and those used: an undeclared one is a fault (see frontend.cpp).
   void declare(std::string name) { declared_.insert(std::move(name)); }
@@ -42,7 +47,10 @@ class Expressions {
   ir::ExprPtr parameter(const syntax::Expr& e);
   std::optional<ir::VarRef> symbol(const syntax::Expr& e);
   std::optional<ir::VarRef> l_variable(const syntax::Expr& e);
-  bool assign_parameter(const syntax::Expr& target, ir::ExprPtr value, ir::Assign::Item& item);
+  bool assign_parameter(const syntax::Expr& target, ir::ExprPtr value, std::vector<ir::Assign::Item>& items,
+                        WordPos pos);
+  [[nodiscard]] bool is_memory(const dialects::num::EParameter& row) const;
+  bool offsets_apart_ = false;
 
   const Settings& settings_;
   Report& report_;

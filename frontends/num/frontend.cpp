@@ -40,7 +40,7 @@ class NumStream : public StreamReader {
         !reader_.difference().empty()) {
       return StreamLine::needs_program;
     }
-    if (!syntax_.plain) return header(span, out);
+    if (!syntax_.plain) return header(span);
     if (!std::holds_alternative<ir::Block>(out.node)) out.node = ir::Block{};
     fill_line(syntax_, span, out.line);
     started_ = started_ || !syntax_.words.empty() || !syntax_.number.empty();
@@ -57,7 +57,7 @@ class NumStream : public StreamReader {
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 
  private:
-  StreamLine header(const Span& span, ir::Statement& out) {
+  StreamLine header(const Span& span) {
     const auto& list = syntax_.statements;
     if (started_ || list.size() != 1 || list[0].keyword != "%" || list[0].args.empty() ||
         frame_.routines[0].header.span.known()) {
@@ -70,11 +70,7 @@ class NumStream : public StreamReader {
     main.name = {static_cast<std::int64_t>(n), {}};
     main.header.span = span;
     if (!syntax_.comments.empty()) main.title = std::string(trim(syntax_.comments[0].text));
-    out.node = ir::Block{};
-    out.line.clear();
-    out.line.span = span;
-    out.line.joined = true;  // the header is in the frame: nothing of its own is to be written here
-    return StreamLine::statement;
+    return StreamLine::no_statement;
   }
 
   FileId file_;

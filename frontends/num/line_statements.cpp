@@ -47,10 +47,7 @@ bool FileReader::assignments() {
   ir::Assign assign;
   std::vector<const syntax::Statement*> declarations;
   const syntax::Statement* text = nullptr;
-  const auto take = [&](const syntax::Statement& s) {
-    ir::Assign::Item item;
-    if (lower_.expressions().assignment(s, item)) assign.items.push_back(std::move(item));
-  };
+  const auto take = [&](const syntax::Statement& s) { lower_.expressions().assignment(s, assign.items); };
   for (const auto& s : syntax_.statements) {
     if (s.keyword == "ASSIGN" && in_var_ && s.args[0].text[0] == '[')
       declarations.push_back(&s);
@@ -189,14 +186,14 @@ bool FileReader::structured(const syntax::Statement& s) {
     const syntax::Expr& counter = s.args.at(0);
     syntax::Statement assign;
     assign.args = {counter, s.args.at(1)};
-    ir::Assign::Item start;
-    if (!lower_.expressions().assignment(assign, start) || start.to_system) {
+    std::vector<ir::Assign::Item> items;
+    if (!lower_.expressions().assignment(assign, items) || items.size() != 1 || items[0].to_system) {
       if (!report.refused())
         report.refuse("NUM-023", counter.pos, "machine data as a counter", {}, "language.statement");
       return true;
     }
-    node.counter = std::move(start.target);
-    node.from = std::move(start.value);
+    node.counter = std::move(items[0].target);
+    node.from = std::move(items[0].value);
     node.to = lower_.expressions().lower(s.args.at(2));
     ir::ExprPtr step =
         s.args.at(3).kind == syntax::ExprKind::missing ? nullptr : lower_.expressions().lower(s.args.at(3));

@@ -40,6 +40,16 @@ ir::RoutineName name_of_file(std::string_view stem) {
 
 namespace {
 
+/// Whether the text names PREF (E6x000) or DEC3 (E6x004).
+bool names_pref(std::string_view text) {
+  for (std::size_t at = text.find("E6"); at != std::string_view::npos; at = text.find("E6", at + 1)) {
+    const std::string_view digits = text.substr(at + 2, 4);
+    if (digits.size() == 4 && digits[0] <= '8' && digits.substr(1, 2) == "00" && (digits[3] == '0' || digits[3] == '4'))
+      return true;
+  }
+  return false;
+}
+
 Span line_span(FileId file, const SourceLine& l) {
   return {file, l.number, 1, l.number, static_cast<std::uint32_t>(l.text.size() + 1)};
 }
@@ -54,11 +64,6 @@ std::string_view without_tape_bytes(std::string_view text) {
 
 bool blank(std::string_view text) {
   return text.find_first_not_of(" \t") == std::string_view::npos;
-}
-
-bool only_comment_or_blank(const ir::Statement& s) {
-  const auto* b = std::get_if<ir::Block>(&s.node);
-  return b != nullptr && b->empty() && s.line.number.empty();
 }
 
 }  // namespace
@@ -85,6 +90,7 @@ ir::Program FileReader::read() {
   look.eol = source_->main_eol();
   look.bom = source_->has_bom();
   const auto& lines = source_->lines();
+  lower_.expressions().keep_offsets_apart(names_pref(to_upper_ascii(source_->text())));
   look.final_eol = lines.empty() || lines.back().has_eol;
   program_.files.push_back(std::move(look));
   for (const SourceLine& l : lines) line(l);
@@ -193,13 +199,6 @@ ir::Statement FileReader::with_line() {
 
 void FileReader::put(ir::Statement s) {
   builder_.add(std::move(s));
-}
-
-template <class Node>
-void FileReader::put_node(Node node) {
-  ir::Statement s = with_line();
-  s.node = std::move(node);
-  put(std::move(s));
 }
 
 void FileReader::opaque(const Span&, std::string_view text, std::string_view feature, bool harmless) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frontends/common/frontend.h"
@@ -43,7 +44,11 @@ class FileReader {
   void opaque(const Span& span, std::string_view text, std::string_view feature, bool harmless);
   void put(ir::Statement s);
   template <class Node>
-  void put_node(Node node);
+  void put_node(Node node) {
+    ir::Statement s = with_line();
+    s.node = std::move(node);
+    put(std::move(s));
+  }
   [[nodiscard]] ir::Statement with_line();
   void check_label();
 

@@ -112,7 +112,6 @@ class Lowering {
   bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);
   void put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here);
   [[nodiscard]] ir::AxisId cycle_axis() const;
-  [[nodiscard]] bool has_position_word(bool plane_only) const;
 
   // flow.cpp
   bool jump(const Flow& flow, const syntax::Statement* test, ir::Statement& out);

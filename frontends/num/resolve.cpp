@@ -161,9 +161,6 @@ void Lowering::resolve_motion() {
       return;
     }
     if ((present_ & cycle_slots) != 0) return change_cycle();
-    if (!m.coords.empty() && !has_position_word(true) && has_position_word(false)) {
-      put_cycle(block_->words.front(), state_.cycle, true);  // a position of the other axes drills as well
-    }
   }
   if (marks_.three_points != nullptr) return through_points();
   if ((present_ & arc_slots & ~used_) != 0 || (marks_.motion && is_arc(m.kind))) {
