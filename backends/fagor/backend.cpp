@@ -1,0 +1,52 @@
+#include "backends/fagor/backend.h"
+
+#include "backends/fagor/capabilities.h"
+#include "backends/fagor/stream.h"
+#include "backends/fagor/tables.h"
+#include "backends/fagor/writer.h"
+
+namespace cnctrans::backends::fagor {
+namespace {
+
+bool is_lathe(const machine::Profile& profile) {
+  return profile.kind == machine::Kind::lathe;
+}
+
+/// Inches anywhere in the program: length words have five decimals.
+bool uses_inches(const ir::Program& program) {
+  bool found = program.unit_hint == ir::Units::inch;
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr) return;
+      for (const ir::Action& a : b->actions) {
+        const auto* m = std::get_if<ir::ModalSet>(&a.data);
+        found = found || (m != nullptr && m->setting == ir::Setting::units && m->value == code_value(ir::Units::inch));
+      }
+    });
+  }
+  return found;
+}
+
+class FagorBackend : public Backend {
+ public:
+  [[nodiscard]] std::string_view dialect() const override { return dialect_name; }
+  [[nodiscard]] const ir::Capabilities& capabilities() const override { return fagor::capabilities(false); }
+  [[nodiscard]] const ir::Capabilities& capabilities_for(const machine::Profile& target) const override {
+    return fagor::capabilities(is_lathe(target));
+  }
+  std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
+                                Diagnostics& diagnostics) const override {
+    const Style style = make_style(is_lathe(*options.profile), uses_inches(program), program.dialect != dialect_name);
+    return Writer(program, options, style, diagnostics).write();
+  }
+  std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override { return make_stream(options); }
+};
+
+}  // namespace
+
+std::shared_ptr<const Backend> make_backend() {
+  return std::make_shared<const FagorBackend>();
+}
+
+}  // namespace cnctrans::backends::fagor

@@ -1,0 +1,142 @@
+#include "backends/fagor/cycles.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ir/cycles/hole.h"
+
+namespace cnctrans::backends::fagor {
+namespace {
+
+using ir::HoleCycle;
+using ir::Level;
+using ir::LevelBase;
+using ir::Value;
+
+constexpr double tiny = 1e-9;
+
+bool zero(const Value& v) {
+  return v.is(0);
+}
+
+/// A level as a coordinate of absolute mode; a level that follows the mode stays as written.
+std::optional<Value> coordinate(const HoleCycle& c, const Level& l) {
+  switch (l.base) {
+    case LevelBase::absolute:
+    case LevelBase::distance_mode: return l.value;
+    case LevelBase::from_surface: {
+      if (!c.surface.given || c.surface.base != LevelBase::absolute) return std::nullopt;
+      return zero(l.value) ? c.surface.value : ir::add(c.surface.value, l.value);
+    }
+    case LevelBase::from_reference: {
+      if (&l == &c.reference || !c.reference.given) return std::nullopt;
+      const auto reference = coordinate(c, c.reference);
+      if (!reference || c.reference.base == LevelBase::distance_mode) return std::nullopt;
+      return zero(l.value) ? *reference : ir::add(*reference, l.value);
+    }
+    case LevelBase::from_initial: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool plain_hole(const HoleCycle& c) {
+  return !c.has_feed && !c.has_feed_out && !c.dwell_in_revolutions && zero(c.dwell_top) && c.axis == ir::axis::none &&
+         !c.approach_by_retract && !c.reference_may_be_below && zero(c.pecks.dwell) && !c.pecks.has_first_feed_factor;
+}
+
+/// Equal pecks, and the control's own 1 mm above the last bottom: G83.
+bool equal_pecks(const HoleCycle& c, CycleWords& w) {
+  const ir::Pecks& p = c.pecks;
+  const bool usual_gap = !p.reapproach_automatic && (p.reapproach.is(1) || p.reapproach.is(1 / 25.4));
+  if (c.kind != ir::HoleKind::peck_full || !usual_gap || !zero(c.dwell_bottom) || p.first_to.given) return false;
+  if (p.law == ir::PeckLaw::count && (!c.bottom.given || c.bottom.base == LevelBase::from_reference)) {
+    w.depth = p.first;
+    w.count = p.count;
+    const bool other_way = c.bottom.given && c.bottom.value.literal() && p.first.literal() &&
+                           (c.bottom.value.number < 0) != (p.first.number < 0);
+    if (other_way) w.depth = ir::negate(p.first);
+    return true;
+  }
+  if (c.reference.base == LevelBase::distance_mode) return false;
+  std::string error;
+  const auto literal = [](const Value& v) { return v.literal() ? std::optional<double>(v.number) : std::nullopt; };
+  const auto n = ir::cycles::resolve(c, {}, literal, &error);
+  if (!n || n->from_surface) return false;
+  const auto sizes = ir::cycles::peck_sizes(*n, std::abs(n->reference - n->bottom));
+  if (sizes.empty()) return false;
+  for (const double s : sizes) {
+    if (std::abs(s - sizes.front()) > tiny) return false;
+  }
+  w.depth = Value(-n->up * sizes.front());
+  w.count = Value(static_cast<double>(sizes.size()));
+  return true;
+}
+
+bool reference_word(const HoleCycle& c, CycleWords& w) {
+  const Level& r = c.reference;
+  if (!r.given || (r.base == LevelBase::from_initial && zero(r.value))) return true;  // left out: the present height
+  const auto value = coordinate(c, r);
+  if (!value) return false;
+  w.has_reference = true;
+  w.reference = *value;
+  return true;
+}
+
+bool retract_words(const HoleCycle& c, CycleWords& w) {
+  if (!c.retract.given) return true;
+  const auto value = coordinate(c, c.retract);
+  if (!value || c.retract.base == LevelBase::distance_mode || c.reference.base == LevelBase::distance_mode)
+    return false;
+  w.retract_given = true;
+  w.retract = *value;
+  w.retract_is_reference = w.has_reference && ir::equal(w.retract, w.reference);
+  return w.has_reference;
+}
+
+}  // namespace
+
+std::optional<CycleWords> cycle_words(const ir::Cycle& cycle) {
+  const auto* c = std::get_if<HoleCycle>(&cycle.node);
+  if (c == nullptr || !plain_hole(*c)) return std::nullopt;
+  CycleWords w;
+  if (!reference_word(*c, w) || !retract_words(*c, w)) return std::nullopt;
+  if (c->kind == ir::HoleKind::drill) {
+    if (c->pecks.law != ir::PeckLaw::none || !c->bottom.given) return std::nullopt;
+    const auto bottom = coordinate(*c, c->bottom);
+    if (!bottom) return std::nullopt;
+    w.depth = *bottom;
+    w.code = "G81";
+    if (!zero(c->dwell_bottom)) {
+      w.code = "G82";
+      w.dwell = c->dwell_bottom;
+      w.dwell_scale = c->dwell_scale;
+    }
+    return w;
+  }
+  if (!equal_pecks(*c, w)) return std::nullopt;
+  w.code = "G83";
+  return w;
+}
+
+std::string_view level_problem(const HoleCycle& c, std::optional<ir::Distance> distance) {
+  const auto follows = [](const Level& l, LevelBase otherwise) {
+    return !l.given || (l.base == LevelBase::distance_mode && l.otherwise == otherwise) ||
+           (l.base == LevelBase::from_initial && zero(l.value));
+  };
+  const bool pecks_by_count = c.kind == ir::HoleKind::peck_full;
+  const bool always =
+      follows(c.reference, LevelBase::from_initial) && (pecks_by_count || follows(c.bottom, LevelBase::from_reference));
+  if (always && !c.retract.given) return {};
+  if (!distance) return "whether the levels of this cycle are absolute depends on the path that leads here";
+  const bool mixed =
+      (c.reference.base == LevelBase::distance_mode && c.reference.otherwise != LevelBase::from_initial) ||
+      (c.bottom.base == LevelBase::distance_mode && c.bottom.otherwise != LevelBase::from_reference);
+  if (*distance == ir::Distance::incremental) {
+    return mixed || !always ? "the absolute levels of this cycle can't be written while increments are programmed (G91)"
+                            : "";
+  }
+  return {};
+}
+
+}  // namespace cnctrans::backends::fagor

@@ -1,0 +1,71 @@
+// Name and header of the file.
+#include <algorithm>
+#include <cctype>
+
+#include "backends/common/comments.h"
+#include "backends/fagor/tables.h"
+#include "backends/fagor/writer.h"
+#include "base/text.h"
+#include "dialects/fagor/limits.h"
+
+namespace cnctrans::backends::fagor {
+namespace {
+
+constexpr auto name_digits = static_cast<std::size_t>(dialects::fagor::program_digits);
+
+std::string digits_in(std::string_view text) {
+  std::string out;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(out), [](char c) { return c >= '0' && c <= '9'; });
+  return out;
+}
+
+bool is_program_number(std::string_view stem) {
+  return stem.size() == name_digits && digits_in(stem).size() == stem.size();
+}
+
+std::string number_name(std::string digits) {
+  if (digits.size() > name_digits) digits.erase(0, digits.size() - name_digits);
+  return std::string(name_digits - digits.size(), '0') + digits;
+}
+
+const ir::Routine* first_routine(const ir::Program& program) {
+  return program.routines.empty() ? nullptr : &program.routines.front();
+}
+
+std::string title_of(const ir::Program& program, const WriteOptions& options) {
+  const ir::Routine* r = first_routine(program);
+  std::string title = r != nullptr ? r->title : std::string{};
+  if (title.empty() && r != nullptr) title = r->name.text;
+  if (title.empty() && !is_program_number(options.main_stem)) title = to_upper_ascii(options.main_stem);
+  title = to_ascii(title, nullptr);
+  for (char& c : title) {
+    if (c == ',' || c == '_' || c == '\t') c = ' ';
+  }
+  std::string_view cut = trim(title);
+  return std::string(trim(cut.substr(0, static_cast<std::size_t>(dialects::fagor::max_header_comment))));
+}
+
+}  // namespace
+
+std::string file_name(const ir::Program& program, const WriteOptions& options, bool lathe) {
+  const char* const extension = lathe ? ".PIT" : ".PIM";
+  if (is_program_number(options.main_stem)) return options.main_stem + extension;
+  const ir::Routine* r = first_routine(program);
+  if (r != nullptr && r->kind == ir::RoutineKind::main && r->name.number >= 0 && r->name.number <= 999'999) {
+    return number_name(std::to_string(r->name.number)) + extension;
+  }
+  std::string digits = digits_in(options.main_stem);
+  if (digits.empty()) digits = "1";
+  return number_name(std::move(digits)) + extension;
+}
+
+std::string header_line(const ir::Program& program, const WriteOptions& options) {
+  const ir::Routine* r = first_routine(program);
+  if (program.dialect == dialect_name) {
+    if (r == nullptr || (!r->header.span.known() && r->title.empty() && r->attributes.empty())) return {};
+    return '%' + r->title + " ," + (r->attributes.empty() ? "MX" : r->attributes) + ',';
+  }
+  return '%' + title_of(program, options) + " ,MX,";
+}
+
+}  // namespace cnctrans::backends::fagor

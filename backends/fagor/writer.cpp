@@ -1,0 +1,410 @@
+#include "backends/fagor/writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "backends/common/comments.h"
+#include "backends/fagor/tables.h"
+#include "base/text.h"
+#include "dialects/fagor/limits.h"
+
+namespace cnctrans::backends::fagor {
+namespace {
+
+namespace facts = dialects::fagor;
+
+bool is_trivia(const ir::Statement& s) {
+  const auto* b = std::get_if<ir::Block>(&s.node);
+  return b != nullptr && b->empty() && s.line.number.empty() && s.line.labels.empty();
+}
+
+/// The last statement that does something; null: none.
+const ir::Statement* last_statement(const ir::Body& body) {
+  for (auto s = body.rbegin(); s != body.rend(); ++s) {
+    if (!is_trivia(*s)) return &*s;
+  }
+  return nullptr;
+}
+
+bool leaves(const ir::Statement* s) {
+  if (s == nullptr) return false;
+  const auto* j = std::get_if<ir::Jump>(&s->node);
+  return std::holds_alternative<ir::End>(s->node) || (j != nullptr && !j->condition);
+}
+
+void collect_called(const ir::Body& body, std::vector<const ir::CallRoutine*>& out) {
+  ir::for_each_statement(body, [&](const ir::Statement& s) {
+    if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) out.push_back(c);
+    const auto* m = std::get_if<ir::ModalCall>(&s.node);
+    if (m != nullptr && !m->off && !m->cycle) out.push_back(&m->call);
+  });
+}
+
+}  // namespace
+
+Writer::Writer(const ir::Program& program, const WriteOptions& options, const Style& style, Diagnostics& diagnostics)
+    : ProgramWriter(program, options, style, diagnostics),
+      lathe_(options.profile->kind == machine::Kind::lathe),
+      printer_(this->program(), lathe_, number_format()) {}
+
+// ---- file frame ----------------------------------------------------------------------------------------------------
+
+/// The source's order; of another language: subroutines in the order of their first call, then those nobody calls.
+std::vector<std::size_t> Writer::routine_order() const {
+  const auto& routines = program().routines;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < routines.size(); ++i) order.push_back(i);
+  if (same_dialect() || routines.empty() || routines[0].kind != ir::RoutineKind::main) return order;
+  order = {0};
+  std::set<std::size_t> seen{0};
+  for (std::size_t at = 0; at < order.size(); ++at) {
+    std::vector<const ir::CallRoutine*> calls;
+    collect_called(routines[order[at]].body, calls);
+    for (const ir::CallRoutine* c : calls) {
+      for (std::size_t i = 0; i < routines.size(); ++i) {
+        if (routines[i].name == c->routine && seen.insert(i).second) order.push_back(i);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < routines.size(); ++i) {
+    if (seen.insert(i).second) order.push_back(i);
+  }
+  return order;
+}
+
+void Writer::write_program() {
+  open_file(file_name(program(), options(), lathe_), true);
+  if (program().routines.empty()) return;
+  const ir::Routine& first = program().routines[0];
+  const bool has_main = first.kind == ir::RoutineKind::main;
+  const std::vector<std::size_t> order = routine_order();
+  const auto local = [&](std::size_t i) {
+    return same_dialect() && program().routines[i].locality == ir::Locality::file_local;
+  };
+  const std::string raw(trim(source_line(first.header.span)));
+  const bool raw_header = same_dialect() && !raw.empty() && raw.front() == '%';
+  const bool only_start_mark = raw_header && !first.header_text.empty() && raw == first.header_text;
+  if (!only_start_mark) {
+    const std::string header = raw_header ? raw : header_line(program(), options());
+    if (!header.empty()) raw_line(header, first.header.span);
+  }
+  for (const std::size_t i : order) {
+    if (local(i)) write_routine(i);
+  }
+  if (same_dialect() && !first.header_text.empty()) raw_line(first.header_text, first.header.span);
+  if (has_main) write_main(0);
+  for (const std::size_t i : order) {
+    if ((i != 0 || !has_main) && !local(i)) write_routine(i);
+  }
+  finish_line();
+  const auto& files = program().files;
+  if (same_dialect() && !files.empty() && files[0].trailer == "%") raw_line("%");
+}
+
+void Writer::write_main(std::size_t index) {
+  start_routine(index);
+  const ir::Body& statements = routine().body;
+  body(statements);
+  finish_line();
+  if (!same_dialect() && !leaves(last_statement(statements))) raw_line("M30");
+}
+
+/// `(SUB n)` ... `(RET)`. Comments that stand before the line of SUB in the source are written before it.
+void Writer::write_routine(std::size_t index) {
+  start_routine(index);
+  const ir::Routine& r = routine();
+  std::size_t before = 0;
+  const bool placed = same_dialect() && r.header.span.known();
+  while (placed && before < r.body.size() && is_trivia(r.body[before]) &&
+         r.body[before].line.span.line < r.header.span.line) {
+    ++before;
+  }
+  const auto split = r.body.begin() + static_cast<std::ptrdiff_t>(before);
+  if (before != 0) body(ir::Body(r.body.begin(), split));
+  ir::LineInfo line = r.header;
+  const bool local = same_dialect() && r.locality == ir::Locality::file_local;
+  const std::string name = r.title.empty() ? r.name.text : r.title;
+  const bool named = !same_dialect() && !name.empty() && line.comments.empty();
+  if (named) line.comments.push_back({name, ir::CommentPlace::end_of_line, {}});
+  begin_line(line);
+  if (r.name.number < 0) {
+    refuse("TRN-220", {}, "the subroutine '" + name + "' has no number",
+           "subroutines of the target have a number from 0 to 9999");
+  }
+  add((local ? "(LSUB " : "(SUB ") + std::to_string(r.name.number) + ')', Rank::head);
+  finish_line();
+  if (before != 0) {
+    body(ir::Body(split, r.body.end()));
+  } else {
+    body(r.body);
+  }
+  finish_line();
+  const ir::Statement* last = last_statement(r.body);
+  if (last == nullptr || !std::holds_alternative<ir::Return>(last->node)) raw_line("(RET)");
+}
+
+// ---- statements ----------------------------------------------------------------------------------------------------
+
+/// Words share a line with words only; ( ) statements stand alone.
+bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
+  if (!std::holds_alternative<ir::Block>(before.node)) return false;
+  if (std::holds_alternative<ir::End>(next.node)) return true;
+  return same_dialect() && std::holds_alternative<ir::Block>(next.node);
+}
+
+void Writer::statement_line(const std::string& text) {
+  after_offset_ = false;
+  add('(' + text + ')', Rank::head);
+}
+
+void Writer::text_problem(std::string what) {
+  refuse("TRN-203", {}, std::move(what));
+}
+
+std::string Writer::assignments(const ir::Assign& a, std::size_t from, std::size_t to) {
+  std::string text;
+  for (std::size_t i = from; i < to; ++i) {
+    const auto& item = a.items[i];
+    ir::Expr target;
+    if (item.to_system) {
+      target.node = item.system;
+    } else {
+      target.node = item.target;
+    }
+    target.pos = item.pos;
+    if (i != from) text += ", ";
+    text += expression_text(std::make_shared<const ir::Expr>(std::move(target)), item.pos);
+    text += '=' + expression_text(item.value, item.pos);
+  }
+  return text;
+}
+
+void Writer::assign(const ir::Assign& a) {
+  constexpr auto most = static_cast<std::size_t>(facts::max_assignments);
+  for (std::size_t from = 0; from < a.items.size(); from += most) {
+    next_line();
+    statement_line(assignments(a, from, std::min(a.items.size(), from + most)));
+  }
+}
+
+std::string Writer::jump_text(const ir::Jump& j) {
+  if (j.search != ir::Search::whole_first || j.quiet) {
+    text_problem("a jump that searches its label in one direction, or goes on without it, has no counterpart here");
+  }
+  if (!j.target.computed) {
+    if (!j.target.is_number) text_problem("the jump target '" + j.target.text + "' is no block number");
+    return "GOTO " + number_target(j.target);
+  }
+  const std::string parameter = printer_.parameter(j.target.computed);
+  if (!parameter.empty() && parameter.front() != '-') return "GOTO N" + parameter;
+  return "GOTO N(" + expression_text(j.target.computed) + ')';
+}
+
+void Writer::jump(const ir::Jump& j) {
+  const std::string text = jump_text(j);
+  if (!j.condition) return statement_line(text);
+  const std::string condition = printer_.condition(j.condition);
+  WordPos at;
+  if (const std::string problem = printer_.take_problem(&at); !problem.empty()) refuse("TRN-203", at, problem);
+  statement_line("IF " + condition + ' ' + text);
+}
+
+/// One action of an IF: assignments or one statement, never ISO words.
+std::string Writer::action_text(const ir::Body& statements) {
+  std::string text;
+  for (const ir::Statement& s : statements) {
+    std::string one;
+    if (const auto* a = std::get_if<ir::Assign>(&s.node)) {
+      one = assignments(*a, 0, a->items.size());
+    } else if (statements.size() > 1) {
+      text_problem("an action of IF is one statement, or assignments only");
+    } else if (const auto* j = std::get_if<ir::Jump>(&s.node); j != nullptr && !j->condition) {
+      one = jump_text(*j);
+    } else if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) {
+      one = call_text({}, *c);
+    } else if (const auto* m = std::get_if<ir::Message>(&s.node)) {
+      one = message_text(*m);
+    } else if (const auto* r = std::get_if<ir::Repeat>(&s.node); r != nullptr && !r->count) {
+      one = range_text(*r);
+    } else if (const auto* t = std::get_if<ir::ModalCall>(&s.node); t != nullptr && (t->off || t->here)) {
+      one = t->off ? "MDOFF" : call_text("MCALL", t->call);
+    } else if (std::holds_alternative<ir::Return>(s.node) && same_dialect()) {
+      one = "RET";
+    } else {
+      text_problem("this can't be the action of an IF");
+    }
+    text += (text.empty() ? "" : ", ") + one;
+  }
+  return text;
+}
+
+void Writer::if_else(const ir::If& i) {
+  for (const auto* statements : {&i.then_body, &i.else_body}) {
+    for (const ir::Statement& s : *statements) {
+      const auto* o = std::get_if<ir::Opaque>(&s.node);
+      if (o != nullptr && i.one_line) return opaque(*o);  // its text is the whole statement
+    }
+  }
+  if (!i.one_line || i.then_body.empty()) return ProgramWriter::if_else(i);
+  std::string text = "IF " + printer_.condition(i.condition) + ' ' + action_text(i.then_body);
+  if (const std::string problem = printer_.take_problem(); !problem.empty()) text_problem(problem);
+  if (!i.else_body.empty()) text += " ELSE " + action_text(i.else_body);
+  statement_line(text);
+  finish_line();
+  nested_body({});  // a call inside may have changed every setting: nothing is known any more
+}
+
+std::string Writer::range_text(const ir::Repeat& r) {
+  if (r.search != ir::Search::whole_first || r.first.computed || r.last.computed || r.last.text.empty()) {
+    text_problem("this way to name a repeated range of blocks has no counterpart here");
+    return {};
+  }
+  if (!r.first.is_number || !r.last.is_number) text_problem("the ends of a repeated range must be block numbers here");
+  std::string text = "RPT ";
+  if (r.has_program) {
+    if (r.program.number < 0) text_problem("the program of the repeated range has no number");
+    text += 'N' + r.first.text + ",N" + r.last.text + ",P" + std::to_string(r.program.number);
+  } else {
+    text += number_target(r.first);
+    text += ',' + number_target(r.last);
+  }
+  return text;
+}
+
+void Writer::repeat(const ir::Repeat& r) {
+  statement_line(range_text(r));
+  if (!r.count) return;
+  if (const auto* n = std::get_if<ir::Number>(&r.count->node)) {
+    const bool whole =
+        n->value >= 0 && n->value <= static_cast<double>(facts::max_repeat) && n->value == std::floor(n->value);
+    if (!whole) return refuse("TRN-203", {}, "a repeat count is a whole number from 0 to 9999");
+    if (n->value != 1 || same_dialect()) add('N' + shortest(n->value), Rank::tail);
+    return;
+  }
+  const std::string parameter = printer_.parameter(r.count);
+  if (parameter.empty()) return refuse("TRN-203", {}, "a repeat count is a number or a parameter here");
+  add('N' + parameter, Rank::tail);
+}
+
+std::string Writer::argument_text(const ir::Argument& a) {
+  if (a.name.size() != 1 || a.name[0] < 'A' || a.name[0] > 'Z' || a.by_reference) {
+    text_problem("the argument '" + a.name + "' has no letter: arguments are local parameters A to Z here");
+    return {};
+  }
+  const std::string value = expression_text(a.value, a.value->pos);
+  const bool constant = plain_number(value);
+  return a.name + (constant ? "" : "=") + value;
+}
+
+/// `keyword` empty: CALL, or PCALL when the callee has a level of its own.
+std::string Writer::call_text(std::string_view keyword, const ir::CallRoutine& c) {
+  const bool level = c.level == ir::CallLevel::new_level;
+  std::string text(!keyword.empty() ? keyword : level ? "PCALL" : "CALL");
+  text += ' ';
+  if (c.computed) {
+    const std::string parameter = printer_.parameter(c.computed);
+    text += !parameter.empty() && parameter.front() != '-' ? parameter : '(' + expression_text(c.computed) + ')';
+  } else if (c.routine.number >= 0) {
+    text += std::to_string(c.routine.number);
+  } else {
+    text_problem("the called subroutine '" + c.routine.text + "' has no number");
+  }
+  const auto* count = c.count ? std::get_if<ir::Number>(&c.count->node) : nullptr;
+  if (c.count && (count == nullptr || count->value != 1)) text_problem("a call with a count has no counterpart here");
+  if (c.has_range) text_problem("a call of some blocks of a program has no counterpart here");
+  if (c.tail || c.optional) text_problem("this kind of call has no counterpart here");
+  if (!level && !c.arguments.empty()) text_problem("arguments need local parameters of the subroutine's own");
+  for (const ir::Argument& a : c.arguments) {
+    if (a.value) text += ", " + argument_text(a);
+  }
+  return text;
+}
+
+/// `G180 A5`: the source wrote the call as a G function (18.2).
+bool Writer::written_as_g_call(const ir::CallRoutine& c) const {
+  const facts::GCode* code =
+      c.computed
+          ? nullptr
+          : facts::find_g(static_cast<int>(std::clamp<std::int64_t>(c.routine.number, -1, facts::max_g_code)), lathe_);
+  if (!same_dialect() || code == nullptr || code->use != facts::Use::call) return false;
+  const std::string source = source_line(current().line.span);
+  return !source.empty() && source.find('(') == std::string::npos;
+}
+
+void Writer::g_call(const ir::CallRoutine& c) {
+  add('G' + std::to_string(c.routine.number), Rank::setting);
+  for (const ir::Argument& a : c.arguments) {
+    if (a.value) add(argument_text(a), Rank::coordinate);
+  }
+}
+
+void Writer::call(const ir::CallRoutine& c) {
+  if (written_as_g_call(c)) return g_call(c);
+  statement_line(call_text({}, c));
+}
+
+void Writer::modal_call(const ir::ModalCall& c) {
+  if (c.off) return statement_line("MDOFF");
+  if (c.cycle || !c.here) {
+    return refuse("TRN-201", {}, "a modal call that does not run at its own block has no counterpart here",
+                  "call the subroutine after each motion");
+  }
+  statement_line(call_text("MCALL", c.call));
+}
+
+void Writer::return_from(const ir::Return& r) {
+  if (!r.values.empty() || routine().kind == ir::RoutineKind::main) return ProgramWriter::return_from(r);
+  statement_line("RET");
+}
+
+void Writer::end_program(const ir::End& e) {
+  if (e.returns_from_sub && routine().kind != ir::RoutineKind::main) return ProgramWriter::end_program(e);
+  add(same_dialect() && !e.text.empty() ? std::string(e.text) : "M30", Rank::tail);
+}
+
+std::string Writer::message_text(const ir::Message& m) {
+  std::string text;
+  bool changed = false;
+  for (const ir::ExprPtr& part : m.parts) {
+    if (!part) continue;
+    if (const auto* s = std::get_if<ir::String>(&part->node)) {
+      std::string piece = same_dialect() ? s->text : to_ascii(s->text, &changed);
+      for (char& c : piece) {
+        const bool special = c == '"' || (!same_dialect() && (c == '$' || c == '?'));
+        if (!special) continue;
+        changed = changed || c != '"';
+        c = c == '"' ? '\'' : ' ';
+      }
+      text += piece;
+    } else if (const std::string p = printer_.parameter(part); !p.empty() && p.front() != '-') {
+      text += '?' + p;
+    } else if (const auto v = ir::constant_value(part)) {
+      text += shortest(*v);
+    } else {
+      text_problem("a message shows parameters only");
+    }
+  }
+  if (changed) {
+    diagnostics().warning("TRN-209", current().line.span,
+                          "characters of this message do not exist on the target and are replaced");
+  }
+  if (m.kind == ir::MessageKind::clear && text.empty()) text = " ";
+  if (!same_dialect() && text.size() > static_cast<std::size_t>(facts::max_message)) {
+    diagnostics().warning("TRN-209", current().line.span,
+                          "the message is cut to the 59 characters that the target shows");
+    text.resize(static_cast<std::size_t>(facts::max_message));
+  }
+  if (m.kind != ir::MessageKind::error) return "MSG \"" + text + '"';
+  std::string out = "ERROR ";
+  if (m.number) out += expression_text(m.number);
+  if (m.number && !m.parts.empty()) out += ", ";
+  if (!m.parts.empty()) out += '"' + text + '"';
+  return out;
+}
+
+void Writer::message(const ir::Message& m) {
+  statement_line(message_text(m));
+}
+
+}  // namespace cnctrans::backends::fagor

@@ -1,0 +1,300 @@
+// Motion, corners and cycles (manual ch. 6, 10, 25.2).
+#include <algorithm>
+#include <cmath>
+
+#include "backends/fagor/tables.h"
+#include "backends/fagor/writer.h"
+#include "base/text.h"
+
+namespace cnctrans::backends::fagor {
+namespace {
+
+using dialects::fagor::Use;
+
+constexpr std::string_view no_word = "TRN-202";
+constexpr std::string_view no_cycle = "TRN-214";
+
+const ir::CycleDefine* cycle_of(const ir::Block* b) {
+  if (b == nullptr) return nullptr;
+  for (const ir::Action& a : b->actions) {
+    if (const auto* c = std::get_if<ir::CycleDefine>(&a.data)) return c;
+  }
+  return nullptr;
+}
+
+bool is_straight(ir::MotionKind k) {
+  return k == ir::MotionKind::rapid || k == ir::MotionKind::linear;
+}
+
+}  // namespace
+
+bool Writer::absolute_center(const ir::CenterWord& c) {
+  if (c.mode != ir::CenterMode::follows_distance) return c.mode == ir::CenterMode::absolute;
+  const auto distance = known<ir::Distance>(ir::Setting::distance);
+  if (!distance)
+    refuse(no_word, c.pos, "whether the centre of this arc is absolute depends on the path that leads here");
+  return distance == ir::Distance::absolute;
+}
+
+/// A cycle's block reaches its point in rapid without a motion code of its own (25.3).
+void Writer::motion(const ir::Motion& m) {
+  ir::Motion copy;
+  const ir::Motion* use = &m;
+  const auto own = [&]() -> ir::Motion& {
+    if (use != &copy) copy = m;
+    use = &copy;
+    return copy;
+  };
+  const auto by_axis = [](const auto& a, const auto& b) { return a.axis < b.axis; };
+  if (!same_dialect() && !std::is_sorted(m.coords.begin(), m.coords.end(), by_axis)) {
+    std::stable_sort(own().coords.begin(), own().coords.end(), by_axis);
+  }
+  if (!same_dialect() && !std::is_sorted(m.centers.begin(), m.centers.end(), by_axis)) {
+    std::stable_sort(own().centers.begin(), own().centers.end(), by_axis);
+  }
+  const bool point_of_cycle = cycle_of(block_) != nullptr && m.kind == ir::MotionKind::rapid && !m.explicit_code;
+  if (point_of_cycle) {
+    const auto text = motion_tracker().text();
+    if (!text || is_straight(*text)) own().kind = ir::MotionKind::modal;
+  }
+  if (!m.centers.empty()) {
+    const bool absolute = absolute_center(m.centers.front());
+    for (const ir::CenterWord& c : m.centers) {
+      if (absolute_center(c) != absolute)
+        return refuse(no_word, c.pos, "a centre that is absolute on one axis only has no counterpart here");
+    }
+    if (absolute && !refused()) add(std::string(g(Use::absolute_centre)), Rank::frame);
+  }
+  ProgramWriter::motion(*use);
+}
+
+/// G53: machine coordinates without length and radius compensation, in the block (8.2).
+void Writer::frame_use(const ir::Motion& m) {
+  if (m.frame == ir::FrameUse::normal) return;
+  bool no_length = m.frame == ir::FrameUse::machine;
+  if (m.frame == ir::FrameUse::machine_with_length && block_ != nullptr) {
+    for (const ir::Action& a : block_->actions) {
+      const auto* d = std::get_if<ir::ToolOffset>(&a.data);
+      no_length = no_length || (d != nullptr && d->number.is(0));
+    }
+  }
+  if (!no_length) {
+    return refuse(no_word, m.frame_pos,
+                  m.frame == ir::FrameUse::no_programmable
+                      ? "a block that leaves out the programmed shift has no counterpart here"
+                      : "machine coordinates with the tool length have no counterpart here: G53 ignores the length",
+                  "select offset 0 in this block");
+  }
+  add(std::string(g(Use::machine_coordinates)), Rank::frame, m.frame_pos);
+}
+
+void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
+  if (w.mode != ir::WordMode::modal) {
+    const auto distance = known<ir::Distance>(ir::Setting::distance);
+    const bool absolute = w.mode == ir::WordMode::absolute;
+    if (!distance || (*distance == ir::Distance::absolute) != absolute) {
+      return refuse(no_word, w.pos, "a word that is absolute or incremental by itself has no counterpart here");
+    }
+  }
+  auto value = scaled(w.axis, w.scale, w.value);
+  if (!value) return refuse(no_word, w.pos, "whether this word is a radius or a diameter is not known here");
+  const bool machine_units = m.frame != ir::FrameUse::normal && !same_dialect() && !ir::is_rotary_letter(w.axis) &&
+                             profile().option("machine_move.units") == "machine";
+  if (machine_units) {
+    const auto units = known<ir::Units>(ir::Setting::units);
+    if (!units)
+      return refuse(no_word, w.pos,
+                    "the unit in force is not known here, and machine coordinates have the machine's own");
+    if (*units == ir::Units::inch) {
+      if (!value->literal())
+        return refuse(no_word, w.pos,
+                      "machine coordinates are in the machine's own unit, a parameter in inches can't be used");
+      value = ir::Value(value->number * 25.4);
+    }
+  }
+  switch (w.direction) {
+    case ir::RotaryDirection::as_value:
+    case ir::RotaryDirection::by_sign: break;
+    case ir::RotaryDirection::positive:
+    case ir::RotaryDirection::negative: {
+      if (!value->literal())
+        return refuse(no_word, w.pos, "the direction of this rotary move is the sign of a number here");
+      const double turn = std::fmod(std::fmod(value->number, 360) + 360, 360);
+      const bool backward = w.direction == ir::RotaryDirection::negative;
+      if (backward && turn == 0)
+        return refuse(no_word, w.pos, "the direction of a rotary move to 0 can't be said here");
+      value = ir::Value(backward ? -turn : turn);
+      break;
+    }
+    case ir::RotaryDirection::shortest:
+      return refuse(no_word, w.pos, "a rotary move the shortest way has no counterpart here");
+  }
+  add(word(axis_name(w.axis), *value, w.pos), Rank::coordinate, w.pos);
+}
+
+/// From the start: always radius. Absolute (G6): as the end point (6.4).
+void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
+  const std::string_view letter = center_letter(w.axis);
+  if (letter.empty()) return refuse(no_word, w.pos, "the centre of an arc on this axis has no counterpart here");
+  std::optional<ir::Value> value = w.value;
+  if (absolute_center(w)) {
+    value = scaled(w.axis, w.scale, w.value);
+  } else if (w.scale != ir::WordScale::radius) {
+    const machine::AxisSpec* spec = profile().axis(w.axis);
+    const auto mode = known<ir::DiameterMode>(ir::Setting::diameter);
+    const bool diameter = w.scale == ir::WordScale::diameter || mode != ir::DiameterMode::radius;
+    if (spec != nullptr && spec->diameter && diameter) {
+      const bool sure = w.scale == ir::WordScale::diameter || mode == ir::DiameterMode::diameter;
+      value = sure && w.value.literal() ? std::optional(ir::Value(w.value.number / 2)) : std::nullopt;
+    }
+  }
+  if (!value) return refuse(no_word, w.pos, "whether this centre is a radius or a diameter is not known here");
+  add(word(letter, *value, w.pos), Rank::center, w.pos);
+}
+
+void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
+  if (e.has_turns || e.has_angle)
+    return refuse(no_word, m.code_pos, "an arc by its opening angle or with full turns has no counterpart here");
+  if (e.polar_mode != ir::WordMode::modal)
+    return refuse(no_word, m.code_pos,
+                  "polar words that are absolute or incremental by themselves have no counterpart here");
+  // Polar words stand before the Cartesian ones (25.1).
+  if (e.has_polar_radius) add(word("R", e.polar_radius, m.code_pos), Rank::motion_code);
+  if (e.has_polar_angle) add(word("Q", e.polar_angle, m.code_pos), Rank::motion_code);
+  if (e.has_line_angle) add(word("Q", e.line_angle, m.code_pos), Rank::motion_code);
+  if (e.has_pitch) {
+    const auto plane = known<ir::Plane>(ir::Setting::plane);
+    if (!plane) return refuse(no_word, m.code_pos, "the plane of this helix is not known here");
+    add(word(center_letter(ir::plane_axes(*plane).w), e.pitch, m.code_pos), Rank::motion_extra);
+  }
+  for (const ir::CenterWord& c : e.through) {
+    const auto distance = known<ir::Distance>(ir::Setting::distance);
+    const bool as_end = c.mode == ir::CenterMode::follows_distance ||
+                        (distance && (c.mode == ir::CenterMode::absolute) == (*distance == ir::Distance::absolute));
+    const auto value = scaled(c.axis, c.scale, c.value);
+    if (!as_end || !value) return refuse(no_word, c.pos, "this form of the point on an arc has no counterpart here");
+    add(word(center_letter(c.axis), *value, c.pos), Rank::center, c.pos);
+  }
+  if (!e.has_lead) return;
+  if (!same_dialect() && m.coords.size() > 1) {
+    diagnostics().warning("TRN-221", span_of(m.code_pos),
+                          "the manual of the target does not say along which axis the pitch of a taper thread is "
+                          "measured; it is written as it is",
+                          "check the first part");
+  }
+  add(word("L", e.lead, m.code_pos), Rank::motion_extra);
+  if (e.has_start_angle) add(word("Q", e.start_angle, m.code_pos), Rank::motion_extra);
+  if (m.kind == ir::MotionKind::thread_variable) add(word("K", e.lead_change, m.code_pos), Rank::motion_extra);
+}
+
+// ---- corners -------------------------------------------------------------------------------------------------------
+
+/// `G36 R5`: the first R after the code is the corner's (10.8).
+void Writer::corner(const ir::Action& a, const ir::Corner& c) {
+  if (c.modal || c.feed || c.kind == ir::CornerKind::chamfer_chord) return ProgramWriter::corner(a, c);
+  const std::string code(g(c.kind == ir::CornerKind::round ? Use::round : Use::chamfer));
+  add(code + ' ' + word("R", c.value, a.pos), Rank::motion_code, a.pos);
+}
+
+void Writer::tangential_end(const ir::Action& a, const ir::TangentialEnd& t) {
+  const std::string code(g(t.end == ir::TangentEnd::entry ? Use::tangent_entry : Use::tangent_exit));
+  add(code + ' ' + word("R", t.radius, a.pos), Rank::motion_code, a.pos);
+}
+
+// ---- cycles --------------------------------------------------------------------------------------------------------
+
+void Writer::cycle_cancel(const ir::Action& a) {
+  const std::string_view code = g(Use::cycle_cancel);
+  if (!code.empty()) add(std::string(code), Rank::setting, a.pos);  // the lathe model has no modal cycles
+}
+
+/// G98 or G99 as the cycle needs it; a program of this language says it itself.
+void Writer::cycle_retract(const ir::Action& a, const CycleWords& w) {
+  if (w.retract_given) {
+    const auto plane = w.retract_is_reference ? ir::RetractPlane::reference : ir::RetractPlane::initial;
+    add(std::string(modal_code(style(), ir::Setting::retract_plane, code_value(plane))), Rank::motion_code);
+    return;
+  }
+  if (same_dialect()) return;
+  const bool written = std::any_of(block_->actions.begin(), block_->actions.end(), [](const ir::Action& x) {
+    const auto* m = std::get_if<ir::ModalSet>(&x.data);
+    return m != nullptr && m->setting == ir::Setting::retract_plane;
+  });
+  if (written) return;
+  const auto plane = setting(ir::Setting::retract_plane);
+  if (!plane) return refuse(no_cycle, a.pos, "where this cycle retracts to depends on the path that leads here");
+  add(std::string(modal_code(style(), ir::Setting::retract_plane, *plane)), Rank::motion_code);
+}
+
+/// The control retracts to the height at which the cycle was defined (G98): the tool has to stand there before.
+void Writer::cycle_approach(const CycleWords& w) {
+  if (!w.retract_given || w.retract_is_reference) return;
+  const auto plane = known<ir::Plane>(ir::Setting::plane).value_or(ir::Plane::xy);
+  const ir::AxisId axis = ir::plane_axes(plane).w;
+  const ir::Facts* f = facts();
+  const auto height = f != nullptr ? f->position[axis] : std::nullopt;
+  if (height && w.retract.is(*height)) return;
+  const bool surely_above = height && w.retract.literal() && *height > w.retract.number;
+  if (!surely_above) {
+    diagnostics().warning(
+        "TRN-222", current().line.span,
+        "the height of the tool before this cycle is not known; a move to its retract plane is put before it",
+        "the hole is the same; check the move to the retract plane");
+  }
+  ir::Motion up;
+  up.kind = ir::MotionKind::rapid;
+  up.explicit_code = true;
+  up.keeps_modal = false;
+  ir::CoordWord z;
+  z.axis = axis;
+  z.value = w.retract;
+  up.coords.push_back(z);
+  ProgramWriter::motion(up);
+  further_line({});
+}
+
+void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
+  const auto words = lathe_ ? std::nullopt : cycle_words(*c.cycle);
+  if (!words) return ProgramWriter::cycle_define(a, c);
+  const auto& hole = std::get<ir::HoleCycle>(c.cycle->node);
+  if (!c.here || (c.modal && c.trigger != ir::CycleTrigger::plane_axis_word)) {
+    return refuse(no_cycle, a.pos, "a modal cycle runs at its own block and at every later point of the plane there");
+  }
+  const auto distance = known<ir::Distance>(ir::Setting::distance);
+  if (const auto problem = level_problem(hole, distance); !problem.empty())
+    return refuse(no_cycle, a.pos, std::string(problem));
+  const auto plane = known<ir::Plane>(ir::Setting::plane);
+  if (!plane) return refuse(no_cycle, a.pos, "the plane of this cycle is not known here");
+  const bool peck = words->code == "G83";
+  if (peck && !same_dialect()) {
+    const auto units = known<ir::Units>(ir::Setting::units);
+    if (!hole.pecks.reapproach.is(units == ir::Units::inch ? 1 / 25.4 : 1)) {
+      return refuse(no_cycle, a.pos,
+                    "the control feeds again 1 mm above the last depth; this cycle has another distance");
+    }
+  }
+  if (words->retract_given && !words->retract_is_reference && block_->has_motion && block_->motion.moves())
+    further_line(a.pos);
+  cycle_approach(*words);
+  const bool spelled = same_dialect() && !a.text.empty();
+  add(spelled ? std::string(a.text) : std::string(words->code), Rank::frame, a.pos);
+  cycle_retract(a, *words);
+  if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::coordinate);
+  add(word("I", words->depth, a.pos), Rank::center);
+  if (words->dwell) {
+    ir::Value k = *words->dwell;
+    if (words->dwell_scale != 0.01) {
+      if (!k.literal())
+        return refuse("TRN-203", a.pos,
+                      "the dwell of a cycle is a number or a parameter in hundredths of a second here");
+      k = ir::Value(std::round(k.number * words->dwell_scale * 100));
+    }
+    add(word("K", k, a.pos), Rank::motion_extra);
+  }
+  if (words->count) add(word("J", *words->count, a.pos), Rank::motion_extra);
+  if (c.modal) return;
+  further_line(a.pos);
+  add(std::string(g(Use::cycle_cancel)), Rank::setting);
+}
+
+}  // namespace cnctrans::backends::fagor

@@ -1,0 +1,214 @@
+// Words of settings, technology and machine functions.
+#include <cmath>
+
+#include "backends/fagor/capabilities.h"
+#include "backends/fagor/tables.h"
+#include "backends/fagor/writer.h"
+#include "base/text.h"
+
+namespace cnctrans::backends::fagor {
+namespace {
+
+using dialects::fagor::Use;
+
+constexpr std::string_view no_word = "TRN-202";
+
+template <class T>
+bool holds(const ir::Action& a) {
+  return std::holds_alternative<T>(a.data);
+}
+
+bool sets(const ir::Action& a, ir::Setting s) {
+  const auto* m = std::get_if<ir::ModalSet>(&a.data);
+  return m != nullptr && m->setting == s;
+}
+
+const ir::FrameChange* frame_change(const ir::Action& a) {
+  const auto* f = std::get_if<ir::FrameOp>(&a.data);
+  return f != nullptr ? f->change.get() : nullptr;
+}
+
+}  // namespace
+
+std::string_view Writer::g(Use use, int value) const {
+  return g_word(lathe_, use, value);
+}
+
+std::string Writer::word(std::string_view address, const ir::Value& value, WordPos pos) {
+  std::string text(address);
+  if (value.literal()) return text + number_text(value);
+  if (const auto* n = std::get_if<ir::Number>(&value.expr->node))
+    return text + number_text(ir::Value(n->value, n->text));
+  const std::string parameter = printer_.parameter(value.expr);
+  if (parameter.empty()) {
+    refuse("TRN-203", pos, "a word holds a number or one parameter here, no expression");
+    return text;
+  }
+  if (const std::string problem = printer_.take_problem(); !problem.empty()) refuse("TRN-203", pos, problem);
+  return text + parameter;
+}
+
+// ---- decisions -----------------------------------------------------------------------------------------------------
+
+void Writer::block(const ir::Block& b) {
+  offset_before_ = after_offset_;
+  if (!b.empty()) after_offset_ = false;
+  if (b.repeat_given == 0) {
+    block_ = &b;
+    ProgramWriter::block(b);
+  } else {
+    ir::Block once = b;
+    once.repeat_given = 0;
+    block_ = &once;
+    ProgramWriter::block(once);
+    add(word("N", b.repeat, {}), Rank::tail);
+  }
+  block_ = nullptr;
+}
+
+ir::Order Writer::target_order(const ir::Action& a) const {
+  if (sets(a, ir::Setting::diameter)) return ir::Order::after;  // G151 G152 act on the blocks that follow (3.5)
+  if (holds<ir::CycleDefine>(a) || holds<ir::Corner>(a) || holds<ir::TangentialEnd>(a)) return a.order;
+  return ProgramWriter::target_order(a);
+}
+
+bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
+  const bool others = b.actions.size() > 1 || b.has_motion;
+  if (others && stands_alone(a) && !(same_dialect() && !a.text.empty())) return true;
+  return ProgramWriter::own_line(a, b);
+}
+
+/// Words that belong to the code are said by the hooks; the other words stand by themselves.
+bool Writer::spelling_is_whole_word(const ir::Action& a) const {
+  if (holds<ir::SpindleOrient>(a) || holds<ir::SpindleLimit>(a) || holds<ir::Corner>(a) || holds<ir::TangentialEnd>(a))
+    return false;
+  return ProgramWriter::spelling_is_whole_word(a);
+}
+
+/// What another word of the block says already: a work offset ends a preset, a plane resets the pole (8.3, 7), going
+/// home ends the compensations (8.1).
+bool Writer::implied(const ir::Action& a) {
+  if (a.pos.column != 0 || !a.text.empty() || block_ == nullptr) return false;
+  bool offset = offset_before_;
+  bool plane = false;
+  for (const ir::Action& other : block_->actions) {
+    if (&other == &a) break;
+    offset = offset || holds<ir::WorkOffset>(other);
+    plane = plane || sets(other, ir::Setting::plane);
+  }
+  if (const ir::FrameChange* f = frame_change(a); f != nullptr && f->combine == ir::FrameCombine::clear && offset) {
+    return f->slot == ir::FrameSlot::preset || (same_dialect() && f->slot == ir::FrameSlot::shift);
+  }
+  if (holds<ir::PoleSet>(a)) return plane && !stands_alone(a);
+  const bool home = block_->has_motion && block_->motion.kind == ir::MotionKind::reference_point;
+  return home && (sets(a, ir::Setting::comp) || sets(a, ir::Setting::length_comp));
+}
+
+void Writer::action(const ir::Action& a) {
+  if (implied(a)) {
+    if (const auto* m = std::get_if<ir::ModalSet>(&a.data)) note_setting(m->setting, m->value);
+    return;
+  }
+  if (const ir::FrameChange* f = frame_change(a);
+      f != nullptr && f->slot == ir::FrameSlot::preset && line().has_column(a.pos.column)) {
+    return frame_words(*f, a.pos);  // G92 S X: the code stands there already
+  }
+  ProgramWriter::action(a);
+  if (holds<ir::WorkOffset>(a)) after_offset_ = true;
+}
+
+// ---- settings ------------------------------------------------------------------------------------------------------
+
+void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  const bool neutral =
+      (m.setting == ir::Setting::diameter && !lathe_ && m.value == 0) ||
+      (m.setting == ir::Setting::spindle_mode && !lathe_ && m.value == code_value(ir::SpindleMode::rpm)) ||
+      (m.setting == ir::Setting::length_comp && lathe_ && m.value == code_value(ir::OnOff::on)) ||
+      (m.setting == ir::Setting::feed_point && lathe_ && m.value == code_value(ir::FeedPoint::centre)) ||
+      (m.setting == ir::Setting::retract_plane && lathe_);
+  if (neutral) return;  // always so on this model
+  if (m.setting == ir::Setting::feed_override) {
+    diagnostics().note("TRN-211", span_of(a.pos), "the switch of the feed override has no counterpart and is left out");
+    return;
+  }
+  if (m.setting == ir::Setting::units && !m.feed_too) {
+    return refuse(no_word, a.pos, "a unit that leaves the feed alone has no counterpart here");
+  }
+  if (m.setting == ir::Setting::retract_plane && block_ != nullptr) {  // after the code of its cycle (25.2)
+    for (const ir::Action& other : block_->actions) {
+      if (!holds<ir::CycleDefine>(other)) continue;
+      add(std::string(modal_code(style(), m.setting, m.value)), Rank::motion_code, a.pos);
+      return;
+    }
+  }
+  ProgramWriter::modal_set(a, m);
+}
+
+/// F0 is the greatest feed of the machine, on this control.
+void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
+  if (f.value.is(0) && !f.zero_is_maximum) {
+    return refuse(no_word, a.pos, "a feed of zero can't be written: F0 is the greatest feed of the machine there");
+  }
+  add(word("F", f.value, a.pos), Rank::feed, a.pos);
+}
+
+// ---- spindle and tool ----------------------------------------------------------------------------------------------
+
+void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
+  if (s.number != 1) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
+  const bool marker = s.angle.is(0) && s.angle.text.empty();
+  if (!marker) add(word("S", s.angle, a.pos), Rank::spindle);
+  add(same_dialect() && !a.text.empty() ? std::string(a.text) : m_word(19), Rank::machine, a.pos);
+}
+
+void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
+  if (s.number != 1 || s.lower)
+    return refuse(no_word, a.pos, "this limit of the spindle speed has no counterpart here");
+  add(std::string(g(Use::preset)), Rank::setting, a.pos);
+  add(word("S", s.value, a.pos), Rank::spindle);
+}
+
+void Writer::spindle_gear(const ir::Action& a, const ir::SpindleGear& s) {
+  if (s.automatic) {
+    diagnostics().note("TRN-211", span_of(a.pos), "the automatic choice of the gear has no code there and is left out");
+    return;
+  }
+  if (s.gear < 1 || s.gear > 4) return refuse(no_word, a.pos, "the control has the gears 1 to 4 (M41 to M44)");
+  ProgramWriter::spindle_gear(a, s);
+}
+
+/// T changes at once on a turret (9.3); a T that does so elsewhere takes M6 with it.
+void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
+  if (!t.name.empty()) return refuse(no_word, a.pos, "a tool called by its name has no counterpart here");
+  add(word("T", t.number, a.pos), Rank::tool, a.pos);
+  const std::string how = profile().option("fagor.tool_change");
+  const bool at_once = !how.empty() && how != "m6";
+  if (same_dialect() || t.changes == at_once) return;
+  if (t.changes) return tool_change(a);
+  refuse(no_word, a.pos, "a tool that is selected before its change: T changes at once on the target machine");
+}
+
+// ---- dwell ---------------------------------------------------------------------------------------------------------
+
+void Writer::dwell(const ir::Action& a, const ir::Dwell& d) {
+  if (d.revolutions) return refuse(no_word, a.pos, "a dwell in revolutions of the spindle has no counterpart here");
+  const std::string code = same_dialect() && !a.text.empty() ? std::string(a.text) : std::string(g(Use::dwell));
+  ir::Value hundredths = d.value;
+  if (d.scale != 0.01) {
+    if (!d.value.literal())
+      return refuse("TRN-203", a.pos, "a dwell is a number or a parameter in hundredths of a second here");
+    hundredths = ir::Value(d.value.number * d.scale * 100);
+  }
+  if (hundredths.literal()) {
+    const double whole = std::round(hundredths.number);
+    if (whole <= 0) return;  // G04 K0 is no dwell but a stop of the preparation
+    if (std::fabs(whole - hundredths.number) > 1e-9) {
+      diagnostics().warning("TRN-210", span_of(a.pos), "the dwell is rounded to hundredths of a second");
+      hundredths = ir::Value(whole);
+    }
+  }
+  add(code, Rank::setting, a.pos);
+  add(word("K", hundredths, a.pos), Rank::center);
+}
+
+}  // namespace cnctrans::backends::fagor
