@@ -254,7 +254,7 @@ class LineStream final : public StreamReader {
     auto* node = std::get_if<ir::Block>(&out.node);
     if (node == nullptr) node = &out.node.emplace<ir::Block>();
     fill_line_info(block_, context_.line, out.line);
-    unused_.clear();
+    if (!unused_.empty()) unused_.clear();
     const bool ok = words_.lower(block_, *node);
     if (!unused_.empty()) diagnostics.append(unused_);
     if (!ok || words_.tail() == Tail::subprogram_end) return StreamLine::needs_program;

@@ -49,6 +49,12 @@ ir::Type arithmetic_type(ir::BinaryOp op, ir::Type left, ir::Type right) {
   }
 }
 
+/// A system variable that is known by its name only: its type is not known either.
+bool is_unknown_datum(const ir::ExprPtr& e) {
+  const auto* ref = std::get_if<ir::SystemRef>(&e->node);
+  return ref != nullptr && ref->datum == ir::Datum::other;
+}
+
 /// What `name` means without a symbol: TRUE, FALSE.
 std::optional<double> constant_name(std::string_view name) {
   if (name == "TRUE") return 1;
@@ -83,7 +89,7 @@ ir::ExprPtr ExprLowering::lower(const Expr& e) {
 }
 
 ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
-  if (!e || e->type == type) return e;
+  if (!e || e->type == type || is_unknown_datum(e)) return e;
   const bool from_string = e->type == ir::Type::string;
   const bool to_string = type == ir::Type::string;
   if (from_string != to_string || e->type == ir::Type::axis || type == ir::Type::axis) {
@@ -317,7 +323,7 @@ void ExprLowering::warn_priority(const Expr& e) {
 }
 
 ir::ExprPtr ExprLowering::as_string(ir::ExprPtr e) {
-  if (!e || e->type == ir::Type::string) return e;
+  if (!e || e->type == ir::Type::string || is_unknown_datum(e)) return e;
   const WordPos pos = e->pos;
   if (e->type == ir::Type::axis || e->type == ir::Type::frame) {
     c_.error("SIN-012", pos, "an axis can't be made a text by `<<`", "use AXSTRING()");
@@ -350,7 +356,8 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
   const bool relation = ir::is_comparison(row->op);
   const bool texts = left->type == ir::Type::string || right->type == ir::Type::string;
   const bool axes = left->type == ir::Type::axis || right->type == ir::Type::axis;
-  if ((texts || axes) && (left->type != right->type || (row->op != ir::BinaryOp::eq && row->op != ir::BinaryOp::ne))) {
+  const bool unknown = is_unknown_datum(left) || is_unknown_datum(right);
+  if (!unknown && (texts || axes) && (left->type != right->type || (row->op != ir::BinaryOp::eq && row->op != ir::BinaryOp::ne))) {
     c_.error("SIN-012", e.pos,
              "`" + e.text + "` can't join " + std::string(ir::name(left->type)) + " and " + std::string(ir::name(right->type)));
     return nullptr;
