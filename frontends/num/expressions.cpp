@@ -117,9 +117,8 @@ bool whole(const syntax::Expr& e) {
 
 /// Bit operations work on the integer parts.
 ir::ExprPtr integer_part(ir::ExprPtr e) {
-  if (const auto* n = std::get_if<ir::Number>(&e->node)) {
-    if (n->value == std::trunc(n->value)) return e;
-  }
+  const auto value = ir::constant_value(e);
+  if (value && *value == std::trunc(*value)) return e;
   return ir::call(ir::Function::trunc, {std::move(e)});
 }
 

@@ -312,6 +312,13 @@ bool Builder::item(NumParser::ItemContext& item, NumParser::ItemContext* next) {
     if (t->test() != nullptr) test(*t->test());
   } else if (auto* o = dynamic_cast<NumParser::LetterOItemContext*>(&item)) {
     code(o->G_LETTER_O()->getSymbol(), nullptr);
+  } else if (auto* signed_code = dynamic_cast<NumParser::SignedCodeItemContext*>(&item)) {
+    code(signed_code->getStart(), nullptr);
+    Word& w = out_.words.back();
+    const double n = number(signed_code->NUMBER()->getSymbol()).number;
+    w.number = signed_code->sign()->MINUS() != nullptr ? -n : n;
+    w.number_text = slice(signed_code->sign()->getStart(), signed_code->getStop());
+    w.pos = pos(*signed_code);
   } else if (auto* g = dynamic_cast<NumParser::BareCodeItemContext*>(&item)) {
     if (dynamic_cast<NumParser::AssignItemContext*>(next) != nullptr) {
       return fail(pos(*g), "`G` has no value and an assignment follows it: write the number of the code");

@@ -22,6 +22,7 @@ item
   : G_TEST test?           # testItem
   | G_CODE sign?           # codeItem
   | G_LETTER_O             # letterOItem
+  | G sign NUMBER          # signedCodeItem
   | G                      # bareCodeItem
   | address value?         # wordItem
   | E sign                 # discriminantItem

@@ -17,21 +17,15 @@ inline std::string show(const syntax::Expr& e) {
     return s;
   };
   switch (e.kind) {
-    case ExprKind::number:
-      return e.text;
+    case ExprKind::number: return e.text;
     case ExprKind::variable:
       if (e.text[0] == '[' || e.text[0] == '\'') return e.text + (e.args.empty() ? "" : "(" + list() + ")");
       return e.text + show(e.args.at(0));
-    case ExprKind::unary:
-      return "(" + e.text + show(e.args.at(0)) + ")";
-    case ExprKind::binary:
-      return "(" + show(e.args.at(0)) + e.text + show(e.args.at(1)) + ")";
-    case ExprKind::call:
-      return e.text + "{" + show(e.args.at(0)) + "}";
-    case ExprKind::missing:
-      return "_";
-    default:
-      return e.text;
+    case ExprKind::unary: return "(" + e.text + show(e.args.at(0)) + ")";
+    case ExprKind::binary: return "(" + show(e.args.at(0)) + e.text + show(e.args.at(1)) + ")";
+    case ExprKind::call: return e.text + "{" + show(e.args.at(0)) + "}";
+    case ExprKind::missing: return "_";
+    default: return e.text;
   }
 }
 
