@@ -23,24 +23,45 @@ struct Facts {
   std::optional<double> feed;
   std::optional<double> spindle;
   bool cycle_active = false, cycle_active_known = true;
+  /// The active cycle is known to be a hole along the normal of the plane: it leaves the tool over the hole.
+  bool cycle_is_hole = false;
+  /// Routine that a modal call in force runs after motions: its index + 1; 0: no modal call; -1: unknown.
+  std::int32_t modal_call = 0;
+
+  /// Nothing is known any more (reachable stays).
+  void forget();
+  bool operator==(const Facts&) const = default;
 };
 
+///
+/// The id of a structured statement stands for its opening line, where the condition is evaluated; also that of an
+/// Until, whose body comes next and leads both back to it and on. A label on a closing line leads to the head of the
+/// loop, or past an If. A statement that block skip can leave out has its follower as successor as well. A repeated
+/// range leads from its last statement back to its first and on behind its Repeat.
 struct ControlFlow {
-  /// successors[id] = ids of the statements that can come next (0 = routine exit).
+  /// successors[id] = ids of the statements that can come next, ascending (0 = routine exit).
   std::vector<std::vector<std::uint32_t>> successors;
   std::vector<const Statement*> statements;  ///< by id
 };
-/// Of one routine; statements must have ids. Computed jumps lead to every label of the routine.
+/// Of one routine; statements must have ids. Computed jumps lead to every label their search can reach. A jump to a
+/// label that is not there has no successor by that way.
 ControlFlow control_flow(const Program& program, const Routine& routine);
 
 class FactTable {
  public:
+  /// Of an unreachable or unknown statement: nothing known.
   [[nodiscard]] const Facts& before(std::uint32_t id) const;
-  std::vector<Facts> facts;
+  std::vector<Facts> facts;  ///< by id
 };
-/// Whole program: calls are followed (callee facts flow back to the caller; recursion and unknown callees: all unknown).
+/// Whole program, statements must have ids. Starts at the main routine with the power-on state; a routine that nothing
+/// calls starts with nothing known (a further main routine: with the power-on state). Calls are followed: the callee
+/// starts with what all its callers agree on; back in a caller, what the callee cannot change is as before the call,
+/// the rest as at the callee's returns. After a call of an unknown or computed routine nothing is known.
 FactTable analyse(const Program& program, const ModalState& power_on);
-/// Facts after a statement carried out under `before` (transfer function; calls excluded).
+/// Facts after a statement carried out under `facts` (transfer function). Of structured statements: their opening line.
+/// A call, or a range of another routine: nothing is known after it.
 void apply(const Statement& statement, Facts& facts);
+/// What holds on both ways: `facts` is narrowed to what `other` says as well. True when it changed.
+bool join(Facts& facts, const Facts& other);
 
 }  // namespace cnctrans::ir

@@ -142,8 +142,12 @@ void fields(V& v, T& x) {
 }
 template <class V, Is<WorkOffset> T>
 void fields(V& v, T& x) {
-  v.item("index", x.index);
   v.flag("off", x.off);
+  if (x.off) {
+    v.opt("index", x.index);
+  } else {
+    v.item("index", x.index);
+  }
 }
 template <class V, Is<FrameWord> T>
 void fields(V& v, T& x) {

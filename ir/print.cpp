@@ -1,4 +1,5 @@
 // Printing of lines, statements, routines and the program.
+#include "ir/nesting.h"
 #include "ir/text_printer.h"
 
 namespace cnctrans::ir {
@@ -217,20 +218,6 @@ void Printer::cases(std::string_view, const std::vector<std::pair<ExprPtr, Jump>
   }
 }
 
-namespace {
-
-/// The line whose comments stand after all the rest of the statement.
-const LineInfo& last_line(const Statement& s) {
-  if (const auto* i = std::get_if<If>(&s.node)) return i->end_line;
-  if (const auto* w = std::get_if<While>(&s.node)) return w->end_line;
-  if (const auto* u = std::get_if<Until>(&s.node)) return u->end_line;
-  if (const auto* f = std::get_if<For>(&s.node)) return f->end_line;
-  if (const auto* l = std::get_if<Loop>(&s.node)) return l->end_line;
-  return s.line;
-}
-
-}  // namespace
-
 void Printer::statements(const Body& body) {
   ++depth_;
   for (const auto& s : body) statement(s);
@@ -242,7 +229,8 @@ void Printer::statement(const Statement& s) {
   put(statement_names[s.node.index()]);
   opening_ = &s.line;
   std::visit([this](const auto& x) { fields(*this, x); }, s.node);
-  close_line(last_line(s));
+  const LineInfo* end = end_line_of(s);
+  close_line(end != nullptr ? *end : s.line);
 }
 
 void Printer::routine(const Routine& r) {

@@ -1,0 +1,240 @@
+// The control-flow graph of a routine.
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "ir/dataflow.h"
+#include "ir/labels.h"
+#include "ir/nesting.h"
+
+namespace cnctrans::ir {
+namespace {
+
+using Ids = std::vector<std::uint32_t>;
+
+void add_id(Ids& ids, std::uint32_t id) {
+  if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+}
+void add_ids(Ids& ids, const Ids& more) {
+  for (const auto id : more) add_id(ids, id);
+}
+
+bool runs_at_least_once(const ExprPtr& count) {
+  if (!count) return true;
+  const auto value = constant_value(count);
+  return value && *value >= 1;
+}
+
+class Builder {
+ public:
+  explicit Builder(const Routine& routine) : routine_(routine), labels_(routine) {}
+
+  ControlFlow build() {
+    prepare(routine_.body);
+    find_ranges();
+    // What follows a repeated range depends on what follows its Repeat, which may itself end a range.
+    do {
+      for (auto& s : flow_.successors) s.clear();
+      jumps_.clear();
+      body(routine_.body, {0}, nullptr);
+    } while (grow_ranges());
+    for (const auto& [from, site] : jumps_) {
+      const Ids to = targets(site);
+      flow_.successors[from].insert(flow_.successors[from].end(), to.begin(), to.end());
+    }
+    for (auto& ids : flow_.successors) {
+      std::sort(ids.begin(), ids.end());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    }
+    return std::move(flow_);
+  }
+
+ private:
+  /// A range of lines run again by `repeat`: after `end` comes `first` again, or what follows the Repeat.
+  struct Range {
+    std::uint32_t repeat, first, end;
+  };
+
+  // Tables by id, groups of joined statements, Repeats.
+  void prepare(const Body& b) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      const Statement& s = b[i];
+      if (flow_.successors.size() <= s.id) {
+        flow_.successors.resize(s.id + 1);
+        flow_.statements.resize(s.id + 1);
+      }
+      flow_.statements[s.id] = &s;
+      if (const std::size_t last = detail::line_end(b, i); last != i) line_end_[s.id] = b[last].id;
+      if (detail::skippable(b, i)) skipped_.insert(s.id);
+      if (std::holds_alternative<Repeat>(s.node)) repeats_.push_back(&s);
+      for (const Body* inner : detail::bodies_of(s)) {
+        if (inner != nullptr) prepare(*inner);
+      }
+    }
+  }
+
+  void find_ranges() {
+    for (const Statement* s : repeats_) {
+      const auto& r = std::get<Repeat>(s->node);
+      if (r.has_program || r.first.computed || r.last.computed || r.last.text.empty()) continue;
+      const auto order = labels_.order(s->id);
+      auto first = labels_.find(r.first, r.search, order);
+      auto last = labels_.find(r.last, r.search, order);
+      if (!first || !last) continue;
+      if (r.order_free && last->order < first->order) std::swap(first, last);
+      const auto end = line_end_.find(last->statement);
+      ranges_.push_back({s->id, first->statement, end == line_end_.end() ? last->statement : end->second});
+    }
+  }
+
+  bool grow_ranges() {
+    bool grown = false;
+    for (const auto& r : ranges_) {
+      Ids& more = after_range_[r.end];
+      const std::size_t before = more.size();
+      add_id(more, r.first);
+      add_ids(more, continuation_[r.repeat]);
+      grown |= more.size() != before;
+    }
+    return grown;
+  }
+
+  static std::uint32_t entry(const Body& b, std::uint32_t otherwise) { return b.empty() ? otherwise : b.front().id; }
+  static void add_entry(Ids& ids, const Body& b, const Ids& otherwise) {
+    if (b.empty()) {
+      add_ids(ids, otherwise);
+    } else {
+      add_id(ids, b.front().id);
+    }
+  }
+
+  /// `after`: what follows the body; `exit`: what follows the innermost loop.
+  void body(const Body& b, const Ids& after, const Ids* exit) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      Ids next = i + 1 < b.size() ? Ids{b[i + 1].id} : after;
+      if (const auto more = after_range_.find(b[i].id); more != after_range_.end()) add_ids(next, more->second);
+      statement(b[i], next, exit);
+      if (skipped_.count(b[i].id) != 0) add_ids(flow_.successors[b[i].id], next);
+    }
+  }
+
+  void statement(const Statement& s, const Ids& next, const Ids* exit) {
+    current_ = s.id;
+    Ids& out = flow_.successors[s.id];
+    if (const auto* i = std::get_if<If>(&s.node)) {
+      add_entry(out, i->then_body, next);
+      add_entry(out, i->else_body, next);
+      continuation_[s.id] = next;
+      body(i->then_body, next, exit);
+      body(i->else_body, next, exit);
+    } else if (const auto* w = std::get_if<While>(&s.node)) {
+      loop(s.id, w->body, next, true);
+    } else if (const auto* f = std::get_if<For>(&s.node)) {
+      loop(s.id, f->body, next, true);
+    } else if (const auto* l = std::get_if<Loop>(&s.node)) {
+      loop(s.id, l->body, next, false);
+    } else if (const auto* u = std::get_if<Until>(&s.node)) {
+      Ids after_body{s.id};
+      add_ids(after_body, next);
+      continuation_[s.id] = after_body;
+      add_entry(out, u->body, after_body);
+      body(u->body, after_body, &next);
+    } else if (std::holds_alternative<Exit>(s.node)) {
+      add_ids(out, exit != nullptr ? *exit : next);
+    } else if (const auto* j = std::get_if<Jump>(&s.node)) {
+      jump(*j, next);
+    } else if (const auto* w2 = std::get_if<Switch>(&s.node)) {
+      for (const auto& c : w2->cases) jump(c.second, next);
+      for (const auto& j2 : w2->fallback) jump(j2, next);
+      if (w2->fallback.empty()) add_ids(out, next);
+    } else if (const auto* r = std::get_if<Repeat>(&s.node)) {
+      repeat(*r, next);
+    } else if (const auto* c = std::get_if<CallRoutine>(&s.node)) {
+      if (!c->tail) add_ids(out, next);
+    } else if (std::holds_alternative<Return>(s.node) || std::holds_alternative<End>(s.node)) {
+      add_id(out, 0);
+    } else {
+      add_ids(out, next);
+    }
+  }
+
+  void loop(std::uint32_t id, const Body& b, const Ids& next, bool tests_first) {
+    Ids& out = flow_.successors[id];
+    add_id(out, entry(b, id));
+    if (tests_first) add_ids(out, next);
+    continuation_[id] = {id};
+    body(b, {id}, &next);
+  }
+
+  void jump(const Jump& j, const Ids& next) {
+    const std::uint32_t from = current_;
+    Ids& out = flow_.successors[from];
+    if (j.search == Search::to_start) {
+      add_id(out, entry(routine_.body, 0));
+    } else if (j.target.computed) {
+      computed(j.search);
+      if (j.quiet) add_ids(out, next);
+    } else if (const auto site = labels_.find(j.target, j.search, labels_.order(from))) {
+      jumps_.emplace_back(from, *site);
+    } else if (j.quiet) {
+      add_ids(out, next);
+    }
+    if (j.condition) add_ids(out, next);
+  }
+
+  void computed(Search search) {
+    const auto from = labels_.order(current_);
+    for (const auto& site : labels_.sites()) {
+      if (search == Search::forward && site.order <= from) continue;
+      if (search == Search::backward && site.order > from) continue;
+      jumps_.emplace_back(current_, site);
+    }
+  }
+
+  void repeat(const Repeat& r, const Ids& next) {
+    Ids& out = flow_.successors[current_];
+    continuation_[current_] = next;
+    const bool known_range = !r.first.computed && !r.last.computed;
+    if (!r.has_program && known_range) {
+      auto first = labels_.find(r.first, r.search, labels_.order(current_));
+      if (r.order_free && !r.last.text.empty()) {
+        const auto last = labels_.find(r.last, r.search, labels_.order(current_));
+        if (first && last && last->order < first->order) first = last;
+      }
+      if (first) jumps_.emplace_back(current_, *first);
+    } else if (!r.has_program) {
+      computed(Search::whole_first);
+    }
+    // Up to this statement: the range comes back here by itself, and goes on after the last time.
+    const bool comes_back_here = known_range && r.last.text.empty();
+    if (r.has_program || !known_range || comes_back_here || !runs_at_least_once(r.count)) add_ids(out, next);
+  }
+
+  /// Where a jump to a label continues.
+  Ids targets(const LabelSite& site) {
+    if (site.part == SitePart::statement) return {site.statement};
+    return continuation_[site.statement];
+  }
+
+  const Routine& routine_;
+  LabelTable labels_;
+  ControlFlow flow_;
+  std::uint32_t current_ = 0;
+  std::unordered_map<std::uint32_t, std::uint32_t> line_end_;  ///< first of joined statements -> the last
+  std::unordered_set<std::uint32_t> skipped_;                  ///< statements that a block skip can leave out
+  std::vector<const Statement*> repeats_;
+  std::vector<Range> ranges_;
+  std::unordered_map<std::uint32_t, Ids> after_range_;
+  /// Repeats: what follows. Structured statements: what a label on their closing line leads to.
+  std::unordered_map<std::uint32_t, Ids> continuation_;
+  std::vector<std::pair<std::uint32_t, LabelSite>> jumps_;
+};
+
+}  // namespace
+
+ControlFlow control_flow(const Program&, const Routine& routine) {
+  return Builder(routine).build();
+}
+
+}  // namespace cnctrans::ir

@@ -1,0 +1,530 @@
+// Modal facts of the whole program: a worklist in text order over the graphs of all routines, with calls followed.
+#include "ir/dataflow.h"
+
+#include <algorithm>
+#include <bitset>
+#include <unordered_map>
+#include <utility>
+
+#include "ir/labels.h"
+#include "ir/nesting.h"
+
+namespace cnctrans::ir {
+namespace {
+
+// One bit a fact: settings, positions, then these.
+constexpr std::size_t position_bit = setting_count;
+constexpr std::size_t motion_bit = position_bit + axis::count_max;
+constexpr std::size_t work_offset_bit = motion_bit + 1;
+constexpr std::size_t feed_bit = motion_bit + 2;
+constexpr std::size_t spindle_bit = motion_bit + 3;
+constexpr std::size_t cycle_bit = motion_bit + 4;
+constexpr std::size_t modal_call_bit = motion_bit + 5;
+using FactSet = std::bitset<modal_call_bit + 1>;
+
+/// Which facts differ.
+FactSet differing(const Facts& a, const Facts& b) {
+  FactSet set;
+  for (std::size_t i = 0; i < setting_count; ++i) set[i] = a.settings[i] != b.settings[i];
+  for (std::size_t i = 0; i < a.position.size(); ++i) set[position_bit + i] = a.position[i] != b.position[i];
+  set[motion_bit] = a.motion != b.motion;
+  set[work_offset_bit] = a.work_offset != b.work_offset;
+  set[feed_bit] = a.feed != b.feed;
+  set[spindle_bit] = a.spindle != b.spindle;
+  set[cycle_bit] = a.cycle_active != b.cycle_active || a.cycle_active_known != b.cycle_active_known ||
+                   a.cycle_is_hole != b.cycle_is_hole;
+  set[modal_call_bit] = a.modal_call != b.modal_call;
+  return set;
+}
+
+/// The facts of `from` that are in `set` replace those of `facts`.
+void take(Facts& facts, const Facts& from, const FactSet& set) {
+  for (std::size_t i = 0; i < setting_count; ++i) {
+    if (set[i]) facts.settings[i] = from.settings[i];
+  }
+  for (std::size_t i = 0; i < facts.position.size(); ++i) {
+    if (set[position_bit + i]) facts.position[i] = from.position[i];
+  }
+  if (set[motion_bit]) facts.motion = from.motion;
+  if (set[work_offset_bit]) facts.work_offset = from.work_offset;
+  if (set[feed_bit]) facts.feed = from.feed;
+  if (set[spindle_bit]) facts.spindle = from.spindle;
+  if (set[cycle_bit]) {
+    facts.cycle_active = from.cycle_active;
+    facts.cycle_active_known = from.cycle_active_known;
+    facts.cycle_is_hole = from.cycle_is_hole;
+  }
+  if (set[modal_call_bit]) facts.modal_call = from.modal_call;
+}
+
+/// Which cycles a program has: they decide what a motion can change.
+struct CyclesUsed {
+  bool any = false;
+  bool other_than_holes = false;
+};
+
+/// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
+std::array<Facts, 4> probes(const CyclesUsed& cycles) {
+  std::array<Facts, 4> all;
+  for (unsigned n = 0; n < all.size(); ++n) {
+    Facts& f = all[n];
+    f.reachable = true;
+    f.settings.fill(static_cast<std::uint8_t>(n % 3));
+    f.position.fill(7777.125 + n);
+    f.motion = n % 2 == 0 ? MotionKind::linear : MotionKind::rapid;
+    f.work_offset = -5 - static_cast<std::int32_t>(n);
+    f.feed = 7777.125 + n;
+    f.spindle = 7777.125 + n;
+    f.cycle_active = cycles.any && n < 3;
+    f.cycle_is_hole = f.cycle_active && !cycles.other_than_holes;
+  }
+  return all;
+}
+
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states) {
+  FactSet set;
+  for (const Facts& before : states) {
+    Facts after = before;
+    apply(s, after);
+    set |= differing(before, after);
+  }
+  return set;
+}
+
+bool moves(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  return b != nullptr && b->has_motion && b->motion.moves();
+}
+
+bool more_than_once(const ExprPtr& count) {
+  if (!count) return false;
+  const auto n = constant_value(count);
+  return !n || *n > 1;
+}
+bool maybe_never(const ExprPtr& count) {
+  if (!count) return false;
+  const auto n = constant_value(count);
+  return !n || *n < 1;
+}
+
+class Analysis {
+ public:
+  Analysis(const Program& program, const ModalState& power_on) : program_(program), power_on_(power_on) {}
+
+  FactTable run() {
+    prepare();
+    if (program_.routines.empty()) return FactTable{std::move(facts_)};
+    const Routine* main = program_.main();
+    if (main != nullptr) start(static_cast<std::size_t>(main - program_.routines.data()), true);
+    for (std::size_t i = 0; i < routines_.size(); ++i) {
+      if (!routines_[i].entered) start(i, program_.routines[i].kind == RoutineKind::main);
+    }
+    return FactTable{std::move(facts_)};
+  }
+
+ private:
+  static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+
+  struct RoutineState {
+    std::uint32_t entry = 0;  ///< first statement; 0: empty body
+    bool entered = false;
+    Facts at_exit;
+    FactSet changes;  ///< what it and all it calls can change
+    std::vector<std::uint32_t> callers;
+  };
+  /// A call or range: `first` and `last` statement, 0: all of the routine.
+  struct Callee {
+    std::size_t routine = nowhere;
+    std::uint32_t first = 0, last = 0;
+    bool known = false;
+    bool computed = false;
+    bool may_leave = false;  ///< the range can be left otherwise than behind `last`
+  };
+
+  // --- tables -----------------------------------------------------------------------------------------------------
+
+  void prepare() {
+    for (std::size_t i = 0; i < program_.routines.size(); ++i) {
+      const Routine& r = program_.routines[i];
+      RoutineState& state = routines_.emplace_back();
+      if (!r.body.empty()) state.entry = r.body.front().id;
+      ControlFlow flow = control_flow(program_, r);
+      if (successors_.size() < flow.successors.size()) resize(flow.successors.size());
+      for (std::size_t id = 1; id < flow.statements.size(); ++id) {
+        if (flow.statements[id] == nullptr) continue;
+        statements_[id] = flow.statements[id];
+        successors_[id] = std::move(flow.successors[id]);
+        routine_of_[id] = i;
+      }
+      mark_skipped(r.body);
+    }
+    for (const auto* s : statements_) {
+      if (s != nullptr) note_cycles(*s);
+      const auto* m = s != nullptr ? std::get_if<ModalCall>(&s->node) : nullptr;
+      if (m == nullptr || m->off || m->cycle) continue;
+      const Callee callee = called(m->call);
+      if (callee.known) modal_targets_.push_back(callee.routine);
+      modal_unknown_ |= !callee.known;
+    }
+    probes_ = probes(cycles_);
+    find_changes();
+  }
+
+  void note_cycle(const CyclePtr& cycle) {
+    const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+    cycles_.any = true;
+    cycles_.other_than_holes |= hole == nullptr || hole->axis != axis::none;
+  }
+  void note_cycles(const Statement& s) {
+    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) note_cycle(m->cycle);
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (const auto* c = std::get_if<CycleDefine>(&a.data)) note_cycle(c->cycle);
+    }
+  }
+
+  void resize(std::size_t n) {
+    successors_.resize(n);
+    statements_.resize(n);
+    routine_of_.resize(n, nowhere);
+    facts_.resize(n);
+    dirty_.resize(n);
+    skipped_.resize(n);
+  }
+
+  void mark_skipped(const Body& body) {
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      skipped_[body[i].id] = detail::skippable(body, i);
+      for (const Body* inner : detail::bodies_of(body[i])) {
+        if (inner != nullptr) mark_skipped(*inner);
+      }
+    }
+  }
+
+  const LabelTable& labels(std::size_t routine) {
+    return labels_.try_emplace(routine, program_.routines[routine]).first->second;
+  }
+
+  std::size_t find_routine(const RoutineName& name) const {
+    const Routine* r = program_.find(name);
+    return r == nullptr ? nowhere : static_cast<std::size_t>(r - program_.routines.data());
+  }
+
+  Callee range_of(std::size_t routine, const LabelRef& first, const LabelRef& last, Search search) {
+    Callee c;
+    c.routine = routine;
+    if (routine == nowhere || first.computed || last.computed) return c;
+    const auto a = labels(routine).find(first, search, 0);
+    const auto b = labels(routine).find(last, search, 0);
+    if (!a || !b || b->statement < a->statement || a->part != SitePart::statement || b->part != SitePart::statement)
+      return c;
+    c.known = true;
+    c.first = a->statement;
+    c.last = b->statement;
+    // The last line may hold several statements.
+    while (c.last + 1 < statements_.size() && statements_[c.last + 1] != nullptr &&
+           routine_of_[c.last + 1] == routine && statements_[c.last + 1]->line.joined) {
+      ++c.last;
+    }
+    for (auto id = c.first; id <= c.last; ++id) {
+      const auto& node = statements_[id]->node;
+      c.may_leave |= std::holds_alternative<Return>(node) || std::holds_alternative<End>(node) ||
+                     std::holds_alternative<Jump>(node) || std::holds_alternative<Switch>(node);
+    }
+    return c;
+  }
+
+  Callee called(const CallRoutine& call) {
+    Callee c;
+    c.computed = call.computed != nullptr;
+    if (c.computed) return c;
+    c.routine = find_routine(call.routine);
+    if (call.has_range) return range_of(c.routine, call.first, call.last, Search::whole_first);
+    c.known = c.routine != nowhere;
+    return c;
+  }
+
+  // --- what a routine can change ------------------------------------------------------------------------------------
+
+  FactSet changed_through_calls(const Statement& s) {
+    FactSet all;
+    all.set();
+    const auto of = [&](const Callee& c) { return c.known ? routines_[c.routine].changes : all; };
+    if (const auto* c = std::get_if<CallRoutine>(&s.node)) return of(called(*c));
+    if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
+      return of(range_of(find_routine(r->program), r->first, r->last, Search::whole_first));
+    }
+    FactSet set = changed_by(s, probes_);
+    if (moves(s)) {
+      for (const auto target : modal_targets_) set |= routines_[target].changes;
+      if (modal_unknown_) set = all;
+    }
+    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->here) set |= of(called(m->call));
+    return set;
+  }
+
+  /// Only called routines matter, and most programs have few or none: a straight program is not looked through.
+  void find_changes() {
+    std::vector<bool> wanted(routines_.size());
+    for (const auto* s : statements_) {
+      if (s == nullptr) continue;
+      std::size_t callee = nowhere;
+      if (const auto* c = std::get_if<CallRoutine>(&s->node)) callee = find_routine(c->routine);
+      if (const auto* m = std::get_if<ModalCall>(&s->node)) callee = find_routine(m->call.routine);
+      if (const auto* r = std::get_if<Repeat>(&s->node)) callee = find_routine(r->program);
+      if (callee != nowhere) wanted[callee] = true;
+    }
+    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (std::uint32_t id = 1; id < statements_.size(); ++id) {
+        if (statements_[id] == nullptr || !wanted[routine_of_[id]]) continue;
+        FactSet& changes = routines_[routine_of_[id]].changes;
+        if (changes.all()) continue;
+        const FactSet more = changes | changed_through_calls(*statements_[id]);
+        grown |= more != changes;
+        changes = more;
+      }
+    }
+  }
+
+  // --- the worklist -------------------------------------------------------------------------------------------------
+
+  Facts power_on_facts() const {
+    Facts f;
+    f.reachable = true;
+    for (std::size_t i = 0; i < setting_count; ++i) f.settings[i] = power_on_.get(static_cast<Setting>(i));
+    f.motion = power_on_.motion;
+    f.work_offset = power_on_.work_offset;
+    return f;
+  }
+
+  void start(std::size_t routine, bool at_power_on) {
+    Facts f;
+    if (at_power_on) {
+      f = power_on_facts();
+    } else {
+      f.forget();
+      f.reachable = true;
+    }
+    current_ = dirty_.size();
+    enter(routine, f);
+    while (first_dirty_ < dirty_.size()) {
+      for (current_ = std::exchange(first_dirty_, dirty_.size()); current_ < dirty_.size(); ++current_) {
+        if (!dirty_[current_]) continue;
+        dirty_[current_] = false;
+        if (facts_[current_].reachable) process(static_cast<std::uint32_t>(current_));
+      }
+    }
+  }
+
+  void mark(std::uint32_t id) {
+    dirty_[id] = true;
+    if (id <= current_) first_dirty_ = std::min<std::size_t>(first_dirty_, id);  // else this sweep comes to it
+  }
+
+  void flow_to(std::uint32_t id, const Facts& f) {
+    if (join(facts_[id], f)) mark(id);
+  }
+
+  void enter(std::size_t routine, const Facts& f) {
+    RoutineState& r = routines_[routine];
+    r.entered = true;
+    if (r.entry != 0) {
+      flow_to(r.entry, f);
+    } else {
+      leave(routine, f);
+    }
+  }
+
+  void leave(std::size_t routine, const Facts& f) {
+    RoutineState& r = routines_[routine];
+    if (!join(r.at_exit, f)) return;
+    for (const auto caller : r.callers) mark(caller);
+  }
+
+  void process(std::uint32_t id) {
+    const Statement& s = *statements_[id];
+    Facts out = facts_[id];
+    if (!carry_out(s, out)) out.reachable = false;
+    if (skipped_[id]) {
+      Facts both = facts_[id];
+      join(both, out);
+      out = both;
+    }
+    if (!out.reachable) return;
+    if (const auto range = range_ends_.find(id); range != range_ends_.end() && join(range->second.facts, out)) {
+      for (const auto caller : range->second.callers) mark(caller);
+    }
+    const auto* end = std::get_if<End>(&s.node);
+    for (const auto to : successors_[id]) {
+      if (to != 0) {
+        flow_to(to, out);
+      } else if (end == nullptr || end->returns_from_sub || skipped_[id]) {
+        leave(routine_of_[id], out);
+      }
+    }
+  }
+
+  /// Calls followed, everything else by apply(). False: nothing comes after it (yet).
+  bool carry_out(const Statement& s, Facts& f) {
+    if (const auto* c = std::get_if<CallRoutine>(&s.node)) {
+      return call(s.id, called(*c), c->count, f) && !c->tail;
+    }
+    if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
+      return call(s.id, range_of(find_routine(r->program), r->first, r->last, Search::whole_first), r->count, f);
+    }
+    if (const auto* m = std::get_if<ModalCall>(&s.node)) return modal_call(s, *m, f);
+    if (moves(s) && f.modal_call != 0) return block_with_modal_call(s, f);
+    apply(s, f);
+    return true;
+  }
+
+  bool call(std::uint32_t id, const Callee& callee, const ExprPtr& count, Facts& f) {
+    const Facts before = f;
+    if (!callee.known) {
+      f.forget();
+      if (callee.computed) enter_all(before);
+      if (callee.routine != nowhere) enter_anywhere(callee.routine, f);
+      return true;
+    }
+    Facts entry = before;
+    if (entry.modal_call != 0) entry.modal_call = -1;  // whether it goes on in the callee is the machine's affair
+    const Facts at_exit = outcome(id, callee, entry);
+    if (!at_exit.reachable) return false;
+    if (more_than_once(count)) {
+      Facts again = at_exit;
+      if (callee.first == 0) {
+        enter(callee.routine, again);
+      } else {
+        flow_to(callee.first, again);
+      }
+    }
+    take(f, at_exit, kept_changes(callee.routine, before, f));
+    if (maybe_never(count)) join(f, before);
+    return true;
+  }
+
+  static void listen(std::vector<std::uint32_t>& callers, std::uint32_t id) {
+    if (std::find(callers.begin(), callers.end(), id) == callers.end()) callers.push_back(id);
+  }
+
+  /// The facts at the end of the callee; they grow while the analysis goes on, and `id` is visited again then.
+  Facts outcome(std::uint32_t id, const Callee& callee, const Facts& entry) {
+    RoutineState& routine = routines_[callee.routine];
+    if (callee.first == 0) {
+      listen(routine.callers, id);
+      enter(callee.routine, entry);
+      return routine.at_exit;
+    }
+    const bool is_new = range_ends_.count(callee.last) == 0;
+    RangeEnd& end = range_ends_[callee.last];
+    listen(end.callers, id);
+    if (is_new) mark(callee.last);
+    routine.entered = true;
+    flow_to(callee.first, entry);
+    if (!callee.may_leave) return end.facts;
+    listen(routine.callers, id);
+    Facts both = end.facts;
+    join(both, routine.at_exit);
+    return both;
+  }
+
+  /// The changes of the callee that stay; with modals saved, the others are as before, and positions are forgotten.
+  FactSet kept_changes(std::size_t routine, const Facts& before, Facts& f) const {
+    FactSet set = routines_[routine].changes;
+    if (!program_.routines[routine].saves_modals) return set;
+    for (std::size_t i = 0; i < f.position.size(); ++i) {
+      if (set[position_bit + i]) f.position[i].reset();
+      set[position_bit + i] = false;
+    }
+    for (std::size_t i = 0; i < setting_count; ++i) {
+      if (set[i]) f.settings[i] = before.settings[i];
+      set[i] = false;
+    }
+    set[motion_bit] = set[work_offset_bit] = false;
+    return set;
+  }
+
+  void enter_anywhere(std::size_t routine, const Facts& f) {
+    routines_[routine].entered = true;
+    for (std::uint32_t id = 1; id < statements_.size(); ++id) {
+      if (statements_[id] != nullptr && routine_of_[id] == routine) flow_to(id, f);
+    }
+  }
+
+  void enter_all(const Facts& f) {
+    Facts entry = f;
+    if (entry.modal_call != 0) entry.modal_call = -1;
+    for (std::size_t i = 0; i < routines_.size(); ++i) enter(i, entry);
+  }
+
+  bool modal_call(const Statement& s, const ModalCall& m, Facts& f) {
+    if (m.here && !m.cycle && !m.off) {
+      if (!call(s.id, called(m.call), nullptr, f)) return false;
+    } else if (m.here) {
+      f.forget();  // a cycle that runs at once
+    }
+    const Facts before = f;
+    apply(s, f);
+    if (m.off || m.cycle) return true;
+    take(f, before, ~FactSet(1ULL << cycle_bit | 1ULL << modal_call_bit));
+    const Callee callee = called(m.call);
+    f.modal_call = callee.known && callee.first == 0 ? static_cast<std::int32_t>(callee.routine) + 1 : -1;
+    return true;
+  }
+
+  bool block_with_modal_call(const Statement& s, Facts& f) {
+    const std::int32_t active = std::exchange(f.modal_call, 0);
+    apply(s, f);
+    if (active < 0) {
+      for (const auto target : modal_targets_) enter(target, f);
+      f.forget();
+      return true;
+    }
+    const bool back = call(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, nullptr, f);
+    f.modal_call = active;
+    return back;
+  }
+
+  struct RangeEnd {
+    Facts facts;  ///< after the last statement
+    std::vector<std::uint32_t> callers;
+  };
+
+  const Program& program_;
+  const ModalState& power_on_;
+  std::vector<RoutineState> routines_;
+  std::vector<const Statement*> statements_;
+  std::vector<std::vector<std::uint32_t>> successors_;
+  std::vector<std::size_t> routine_of_;
+  std::vector<Facts> facts_;
+  std::vector<bool> dirty_;
+  std::vector<bool> skipped_;
+  std::size_t first_dirty_ = 0;
+  std::size_t current_ = 0;
+  std::unordered_map<std::size_t, LabelTable> labels_;
+  std::unordered_map<std::uint32_t, RangeEnd> range_ends_;
+  std::vector<std::size_t> modal_targets_;
+  CyclesUsed cycles_;
+  std::array<Facts, 4> probes_;
+  bool modal_unknown_ = false;
+};
+
+}  // namespace
+
+const Facts& FactTable::before(std::uint32_t id) const {
+  static const Facts nothing = [] {
+    Facts f;
+    f.forget();
+    return f;
+  }();
+  return id < facts.size() && facts[id].reachable ? facts[id] : nothing;
+}
+
+FactTable analyse(const Program& program, const ModalState& power_on) {
+  return Analysis(program, power_on).run();
+}
+
+}  // namespace cnctrans::ir

@@ -1,0 +1,266 @@
+// What one statement does to the modal facts.
+#include <cmath>
+
+#include "ir/dataflow.h"
+
+namespace cnctrans::ir {
+namespace {
+
+std::optional<double> known(const Value& v) {
+  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
+}
+
+class Transfer {
+ public:
+  explicit Transfer(Facts& facts) : f_(facts) {}
+
+  void block(const Block& b) {
+    for (const auto& a : b.actions) {
+      if (a.order != Order::after) std::visit(*this, a.data);
+    }
+    if (b.has_motion) motion(b);
+    if (runs_here_ || (b.has_motion && b.motion.moves())) cycle_moves();
+    for (const auto& a : b.actions) {
+      if (a.order == Order::after) std::visit(*this, a.data);
+    }
+    if (runs_here_) cycle_moves();
+    if (not_understood_) f_.forget();
+  }
+
+  // --- actions ---
+  void operator()(const ModalSet& x) {
+    auto& setting = f_.settings[static_cast<std::size_t>(x.setting)];
+    const bool same = setting == x.value;
+    setting = x.value;
+    if (same) return;
+    if (x.setting == Setting::units) {
+      forget_positions();
+      if (x.feed_too) f_.feed.reset();
+    } else if (x.setting == Setting::feed_mode && x.feed_memory != FeedMemory::shared) {
+      f_.feed.reset();
+    } else if (x.setting == Setting::spindle_mode) {
+      f_.spindle.reset();
+    }
+  }
+  void operator()(const SetFeed& x) {
+    f_.feed = x.zero_is_maximum && !x.value.literal() ? std::nullopt : known(x.value);
+    if (x.zero_is_maximum && f_.feed == 0.0) f_.feed.reset();
+  }
+  void operator()(const SetSpindle& x) {
+    if (x.number == 1) f_.spindle = known(x.value);
+  }
+  void operator()(const WorkOffset& x) {
+    const auto row = x.off ? std::optional(0.0) : known(x.index);
+    std::optional<std::int32_t> offset;
+    if (row && std::fabs(*row) < 1e6) offset = static_cast<std::int32_t>(std::lround(*row));
+    if (!offset || offset != f_.work_offset) forget_positions();
+    f_.work_offset = offset;
+  }
+  /// Presetting says where the tool is; any other frame change moves the coordinates under it.
+  void operator()(const FrameOp& x) {
+    if (!x.change || x.change->combine != FrameCombine::preset) return forget_positions();
+    for (const auto& w : x.change->words) set_position(w.axis, resolved(w.axis, w.scale, true, known(w.value)));
+  }
+  void operator()(const CycleDefine& x) {
+    const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
+    const bool plain_hole = hole != nullptr && hole->axis == axis::none;
+    runs_here_ = x.here;
+    here_is_hole_ = plain_hole;
+    if (!x.modal) return;
+    f_.cycle_active = f_.cycle_active_known = true;
+    f_.cycle_is_hole = plain_hole;
+  }
+  void operator()(const CycleCancel&) {
+    f_.cycle_active = f_.cycle_is_hole = false;
+    f_.cycle_active_known = true;
+  }
+  void operator()(const OpaqueWord&) { not_understood_ = true; }
+  template <class T>
+  void operator()(const T&) {}
+
+  void forget_positions() { f_.position.fill(std::nullopt); }
+
+ private:
+  void set_position(AxisId id, std::optional<double> x) {
+    if (id < f_.position.size()) f_.position[id] = x;
+  }
+  std::optional<std::uint8_t> setting(Setting s) const { return f_.settings[static_cast<std::size_t>(s)]; }
+
+  /// A coordinate as radius. Only X can be a diameter axis.
+  std::optional<double> resolved(AxisId id, WordScale scale, bool absolute, std::optional<double> x) const {
+    if (!x || scale == WordScale::radius) return x;
+    if (scale == WordScale::diameter) return *x / 2;
+    if (id != axis::x) return x;
+    const auto mode = setting(Setting::diameter);
+    if (!mode) return std::nullopt;
+    const auto m = static_cast<DiameterMode>(*mode);
+    const bool diameter = m == DiameterMode::diameter || (m == DiameterMode::absolute_only && absolute);
+    return diameter ? *x / 2 : *x;
+  }
+
+  std::optional<double> target(const CoordWord& w, bool repeated) const {
+    std::optional<std::uint8_t> mode = setting(Setting::distance);
+    if (w.mode != WordMode::modal) {
+      mode = static_cast<std::uint8_t>(w.mode == WordMode::absolute ? Distance::absolute : Distance::incremental);
+    }
+    if (!mode || w.axis >= f_.position.size() || w.direction != RotaryDirection::as_value) return std::nullopt;
+    const bool absolute = *mode == static_cast<std::uint8_t>(Distance::absolute);
+    const auto x = resolved(w.axis, w.scale, absolute, known(w.value));
+    if (absolute || !x) return x;
+    const auto start = f_.position[w.axis];
+    return start && !repeated ? std::optional(*start + *x) : std::nullopt;
+  }
+
+  /// The motion ends where its words say.
+  static bool ends_at_words(std::optional<MotionKind> kind) {
+    switch (kind.value_or(MotionKind::polynomial)) {
+      case MotionKind::polynomial:
+      case MotionKind::probe_toward:
+      case MotionKind::probe_away:
+      case MotionKind::to_stop:
+      case MotionKind::reference_point:
+      case MotionKind::fixed_point: return false;
+      default: return true;
+    }
+  }
+
+  void motion(const Block& b) {
+    const Motion& m = b.motion;
+    const auto kind = m.kind == MotionKind::modal ? f_.motion : std::optional(m.kind);
+    if (m.kind != MotionKind::modal && m.keeps_modal) f_.motion = m.kind;
+    const bool plain = ends_at_words(kind) && m.frame == FrameUse::normal;
+    if (!plain && m.coords.empty() && kind != std::nullopt && !ends_at_words(kind)) return forget_positions();
+    for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);
+    if (m.extra) extra(*m.extra, m);
+  }
+
+  static bool has_word(const Motion& m, AxisId id) {
+    for (const auto& w : m.coords) {
+      if (w.axis == id) return true;
+    }
+    return false;
+  }
+
+  /// Ends that follow from angles, radii and turns are not computed here.
+  void extra(const MotionExtra& x, const Motion& m) {
+    const auto plane = setting(Setting::plane);
+    const bool in_plane = x.has_polar_radius || x.has_polar_angle || x.has_line_angle || x.has_angle;
+    const bool along_normal = x.has_pitch;
+    if (!in_plane && !along_normal) return;
+    if (!plane) {
+      for (const AxisId id : {axis::x, axis::y, axis::z}) {
+        if (!has_word(m, id) || in_plane) set_position(id, std::nullopt);
+      }
+      return;
+    }
+    const PlaneAxes axes = plane_axes(static_cast<Plane>(*plane));
+    const bool polar = x.has_polar_radius || x.has_polar_angle;
+    for (const AxisId id : {axes.u, axes.v}) {
+      if (in_plane && (polar || !has_word(m, id))) set_position(id, std::nullopt);
+    }
+    if (along_normal && !has_word(m, axes.w)) set_position(axes.w, std::nullopt);
+  }
+
+  /// A cycle that can run in this block leaves the tool elsewhere than the words say.
+  void cycle_moves() {
+    const bool active = f_.cycle_active || !f_.cycle_active_known;
+    if (!active && !runs_here_) return;
+    const bool holes_only = (!active || (f_.cycle_active_known && f_.cycle_is_hole)) && (!runs_here_ || here_is_hole_);
+    const auto plane = setting(Setting::plane);
+    if (!holes_only || !plane) return forget_positions();
+    set_position(plane_axes(static_cast<Plane>(*plane)).w, std::nullopt);
+  }
+
+  Facts& f_;
+  bool runs_here_ = false;
+  bool here_is_hole_ = false;
+  bool not_understood_ = false;
+};
+
+void assign(const Assign& a, Facts& f) {
+  for (const auto& it : a.items) {
+    if (!it.to_system) continue;
+    // A machine datum may be an offset, a frame or a tool: what depends on them is no longer known.
+    Transfer(f).forget_positions();
+    f.feed.reset();
+    f.spindle.reset();
+    if (it.system.datum == Datum::other) f.work_offset.reset();
+  }
+}
+
+}  // namespace
+
+void Facts::forget() {
+  const bool was_reachable = reachable;
+  *this = Facts{};
+  reachable = was_reachable;
+  cycle_active_known = false;
+  modal_call = -1;
+}
+
+void apply(const Statement& statement, Facts& facts) {
+  if (const auto* b = std::get_if<Block>(&statement.node)) {
+    Transfer(facts).block(*b);
+    if (facts.modal_call != 0 && b->has_motion && b->motion.moves()) facts.forget();
+  } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
+    assign(*a, facts);
+  } else if (const auto* o = std::get_if<Opaque>(&statement.node)) {
+    if (!o->harmless) facts.forget();
+  } else if (std::holds_alternative<CallRoutine>(statement.node)) {
+    facts.forget();
+  } else if (const auto* r = std::get_if<Repeat>(&statement.node)) {
+    if (r->has_program || r->first.computed || r->last.computed) facts.forget();
+  } else if (const auto* m = std::get_if<ModalCall>(&statement.node)) {
+    if (m->here) facts.forget();
+    const auto* hole = m->cycle ? std::get_if<HoleCycle>(&m->cycle->node) : nullptr;
+    facts.cycle_active = !m->off && m->cycle != nullptr;
+    facts.cycle_active_known = true;
+    facts.cycle_is_hole = !m->off && hole != nullptr && hole->axis == axis::none;
+    facts.modal_call = m->off || m->cycle ? 0 : -1;
+  }
+}
+
+namespace {
+
+template <class T>
+bool narrow(std::optional<T>& a, const std::optional<T>& b) {
+  if (!a || a == b) return false;
+  a.reset();
+  return true;
+}
+
+bool narrow_cycle(Facts& a, const Facts& b) {
+  if (!a.cycle_active_known) return false;
+  if (!b.cycle_active_known || a.cycle_active != b.cycle_active) {
+    a.cycle_active_known = a.cycle_active = a.cycle_is_hole = false;
+    return true;
+  }
+  if (!a.cycle_is_hole || b.cycle_is_hole) return false;
+  a.cycle_is_hole = false;
+  return true;
+}
+
+}  // namespace
+
+bool join(Facts& facts, const Facts& other) {
+  if (!other.reachable) return false;
+  if (!facts.reachable) {
+    facts = other;
+    return true;
+  }
+  bool changed = false;
+  for (std::size_t i = 0; i < setting_count; ++i) changed |= narrow(facts.settings[i], other.settings[i]);
+  for (std::size_t i = 0; i < facts.position.size(); ++i) changed |= narrow(facts.position[i], other.position[i]);
+  changed |= narrow(facts.motion, other.motion);
+  changed |= narrow(facts.work_offset, other.work_offset);
+  changed |= narrow(facts.feed, other.feed);
+  changed |= narrow(facts.spindle, other.spindle);
+  changed |= narrow_cycle(facts, other);
+  if (facts.modal_call != other.modal_call && facts.modal_call != -1) {
+    facts.modal_call = -1;
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace cnctrans::ir
