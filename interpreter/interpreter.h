@@ -28,7 +28,7 @@ struct Options {
 
 struct Result {
   EndReason reason = EndReason::program_end;
-  std::string error_code;   ///< with EndReason::error
+  std::string error_code;  ///< with EndReason::error
   std::string error_text;
   Span error_span;
   std::uint64_t steps = 0;

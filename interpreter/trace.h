@@ -14,7 +14,22 @@
 namespace cnctrans::interpreter {
 
 enum class EventKind : std::uint8_t {
-  rapid, linear, arc, thread, dwell, feed_stop, spindle, tool, offset, comp, coolant, m, probe, message, stop, end
+  rapid,
+  linear,
+  arc,
+  thread,
+  dwell,
+  feed_stop,
+  spindle,
+  tool,
+  offset,
+  comp,
+  coolant,
+  m,
+  probe,
+  message,
+  stop,
+  end
 };
 /// Machine position of every axis of the channel: mm (radius) or degrees. Bit n of `known`: axis n is known.
 struct Position {
@@ -43,14 +58,14 @@ struct Event {
   bool revolutions = false;
   // spindle, tool, offset, comp, coolant, m, stop
   std::int32_t number = 0;
-  std::string state;        ///< cw ccw off oriented / off left right / coolant state
+  std::string state;  ///< cw ccw off oriented / off left right / coolant state
   bool css = false;
   double value = 0;
   bool has_limit = false;
   double limit = 0;
   double angle = 0;
-  std::string text;         ///< tool name, message, error text
-  bool change = false;
+  std::string text;     ///< tool name, message, error text
+  bool change = false;  ///< tool: carried out; probe: toward the part
   bool optional_stop = false;
   // end
   EndReason reason = EndReason::program_end;
@@ -80,6 +95,7 @@ class TraceCounter : public TraceSink {
 };
 
 /// One JSON object without a line end, keys in the contract's order, numbers shortest round-trip.
+void append_json(std::string& out, const Event& e, const FileTable& files, const std::vector<std::string>& axis_names);
 std::string to_json(const Event& e, const FileTable& files, const std::vector<std::string>& axis_names);
 std::string_view name(EventKind k);
 std::string_view name(EndReason r);

@@ -1,0 +1,234 @@
+// The machine at block level: modal state, position, frame, spindle, tool, active cycle. It carries out one word block
+// at a time and emits its events. It knows no control flow and no variables.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/emitter.h"
+#include "interpreter/expressions.h"
+#include "interpreter/failure.h"
+#include "interpreter/frame.h"
+#include "interpreter/geometry.h"
+#include "ir/block.h"
+#include "ir/cycles/hole.h"
+#include "machine/profile.h"
+
+namespace cnctrans::interpreter {
+
+/// One motion, resolved in the work frame.
+struct Move {
+  enum class Kind : std::uint8_t { rapid, linear, arc, thread, probe };
+  Kind kind = Kind::linear;
+  Axes from{}, to{};
+  ir::Plane plane = ir::Plane::xy;
+  Vec centre;
+  bool ccw = false;
+  std::int32_t turns = 0;
+  double feed = 0;
+  ir::FeedMode feed_mode = ir::FeedMode::per_minute;
+  double pitch = 0, pitch_change = 0, start_angle = 0;
+  bool toward = true;
+  FileId file = 0;
+  std::uint32_t line = 0;
+};
+
+class BlockMachine final : public SystemData {
+ public:
+  BlockMachine(const machine::Profile& profile, Emitter& emitter, Failure& failure, ValueSource* values);
+
+  /// Carries out one block. `with_cycle` false: positions only (a block repeated zero times). False on failure.
+  bool block(const ir::Block& b, const Span& where, bool with_cycle = true);
+  /// The block just carried out was a path motion (for modal calls).
+  [[nodiscard]] bool moved() const { return block_moves_; }
+  /// A cycle that runs after every later block with path motion; null ends it.
+  bool modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here);
+  void cancel_cycle() { hole_.reset(); }
+  void message(std::string text, const Span& where);
+  /// The program has ended: nothing may wait for a next element.
+  bool finish();
+  void end_event(EndReason reason, const Failure& failure, const Span& where);
+
+  [[nodiscard]] const ir::ModalState& modal() const { return modal_; }
+  void restore_modal(const ir::ModalState& state);
+
+  bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) override;
+  bool write(const ir::SystemRef& ref, std::span<const double> args, double value) override;
+  /// --set of a machine datum by its name.
+  void preset_datum(const std::string& name, double value) { written_[name] = value; }
+  std::uint64_t arguments_given = 0;  ///< of the present call level
+
+ private:
+  struct AxisState {
+    bool present = false, rotary = false, diameter = false;
+    double scale_absolute = 1, scale_incremental = 1;  ///< mm (radius) in one unit of a word under the modes in force
+  };
+  struct Spindle {
+    ir::SpindleMode mode = ir::SpindleMode::rpm;
+    ir::SpindleState state = ir::SpindleState::off;
+    bool oriented = false;
+    std::array<double, 2> value{};  ///< by SpindleMode
+    bool has_limit = false;
+    double limit = 0;
+    double angle = 0;
+    // as the last event showed it
+    ir::SpindleMode shown_mode = ir::SpindleMode::rpm;
+    double shown_value = 0, shown_limit = 0;
+  };
+  /// Options of the profile, looked up once.
+  struct Policies {
+    bool cycle_rapid = false, rotary_triggers = false, keeps_programmed = false, centre_through_frame = false;
+    bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, offsets_at_once = false;
+  };
+  struct Pending {
+    Move move;
+    ir::CornerKind corner = ir::CornerKind::round;
+    bool tangential = false, exit = false, modal = false;
+    double size = 0;
+    bool has_feed = false;
+    double feed = 0;
+    std::uint64_t frame_serial = 0;
+  };
+  // values
+  double value(const ir::Value& v) { return v.expr ? expression(v) : v.number; }
+  double expression(const ir::Value& v);
+  [[nodiscard]] double unit() const { return modal_.units == ir::Units::inch ? 25.4 : 1; }
+  [[nodiscard]] double feed_unit() const;
+  double coordinate(ir::AxisId a, const ir::Value& v, ir::WordScale scale, bool absolute);
+  bool check_axis(ir::AxisId a);
+
+  // actions (actions.cpp)
+  friend struct ActionRunner;
+  bool actions(const ir::Block& b, bool after);
+  bool settings_first(const ir::Block& b);
+  void set_modal(const ir::ModalSet& m, const ir::Block& b);
+  void set_comp(ir::CompSide side);
+  void set_feed(const ir::SetFeed& f);
+  void set_spindle_value(const ir::SetSpindle& s);
+  void set_spindle_limit(const ir::SpindleLimit& l);
+  void select_tool(const ir::ToolSelect& t);
+  bool machine_function(const ir::MachineFunction& m);
+  bool define_cycle(const ir::CycleDefine& c);
+  void set_corner(const ir::Corner& c);
+  void set_tangential(const ir::TangentialEnd& t);
+  bool set_work_offset(const ir::WorkOffset& w);
+  bool profile_function(const machine::MCode& m);
+  void set_units();
+  void set_spindle_mode(ir::SpindleMode mode, bool with_value);
+  Spindle* spindle(int number);
+  void run_spindle(int number, ir::SpindleState state);
+  void emit_spindle(int number);
+  void emit_if_running(const ir::Block& b, int number);
+  void emit_tool(bool change);
+  void emit_coolant(std::string_view state);
+  void emit_dwell(double amount, bool revolutions);
+  void emit_stop(bool optional);
+  Event& plain(EventKind kind);
+
+  // frames (frames.cpp)
+  bool change_frame(const ir::FrameChange& c);
+  void set_pole(const ir::PoleSet& p);
+  bool preset(const ir::FrameChange& c, Frame& slot);
+  bool change_slot(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
+  bool translate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
+  bool rotate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
+  bool stretch(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
+  Frame inner_of(ir::FrameSlot slot) const;
+  bool rebuild_frame();
+  bool use_frame(const Frame& f);
+  Frame offset_frame() const;
+
+  // motion (motion.cpp, arcs.cpp, threads in motion.cpp)
+  bool motion(const ir::Block& b, bool with_cycle);
+  bool quick_line(const ir::Motion& m, bool rapid);
+  [[nodiscard]] Move move_from_here() const;
+  bool general_motion(const ir::Motion& m, ir::MotionKind kind);
+  bool machine_move(const ir::Motion& m, ir::MotionKind kind);
+  bool reference_move(const ir::Motion& m);
+  bool end_point(const ir::Motion& m, Move& move);
+  bool polar_end(const ir::MotionExtra& x, Move& move);
+  bool line_by_angle(const ir::Motion& m, Move& move);
+  bool thread(const ir::Motion& m, bool variable, Move& move);
+  double rotary_target(const ir::CoordWord& w, double v) const;
+  bool arc(const ir::Motion& m, ir::MotionKind kind, Move& move);
+  bool arc_centre(const ir::Motion& m, Move& move);
+  bool polar_arc(const ir::Motion& m, Move& move);
+  bool opening_arc(const ir::Motion& m, Move& move);
+  bool through_arc(const ir::Motion& m, Move& move);
+  bool tangent_arc(Move& move);
+  bool arc_turns(const ir::Motion& m, Move& move);
+  bool check_radii(const Move& move);
+  Vec last_direction(const ir::PlaneAxes& plane) const;
+  void arrived(const Move& move);
+  [[nodiscard]] double feed_now() const { return feed_[static_cast<std::size_t>(modal_.feed_mode)]; }
+
+  // path (path.cpp): corners and emission
+  bool send(const Move& move);
+  bool emit_move(const Move& move, bool past_held);
+  bool join(Move& next);
+  bool corner_between(const Pending& p, const Element& a, const Element& b, Fillet& f, std::string& error);
+  bool hold_if_corner(const Move& move);
+  bool emit_joint(const Move& first, const Move& corner);
+  void release_pending();
+
+  // cycles (cycles.cpp)
+  bool run_cycle();
+  bool resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cycles::HoleNumbers>& out, ir::AxisId& axis);
+  bool cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, ir::SpindleState sense);
+  bool cycle_path(const ir::cycles::CycleMove& m, const Axes& hole);
+  bool cycle_pitch(const ir::cycles::CycleMove& m, double& pitch);
+  [[nodiscard]] bool cycle_triggers(const ir::Block& b) const;
+
+  const machine::Profile& profile_;
+  Emitter& emitter_;
+  Failure& failure_;
+  ValueSource* values_;
+
+  ir::ModalState modal_;
+  std::array<AxisState, ir::axis::count_max> axis_{};
+  std::vector<ir::AxisId> axes_;
+  Event path_event_;  ///< `to` is the machine position; reused for every move
+  Event event_;       ///< every other event
+  Axes p_{};          ///< position in the work frame
+  Frame frame_, inverse_;
+  bool plain_frame_ = true;  ///< frame_ only translates
+  std::uint64_t frame_serial_ = 0;
+  std::array<Frame, 6> slots_;  ///< by FrameSlot
+  Policies policy_;
+  std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets_;
+  std::map<ir::AxisId, double> active_offset_;
+  Axes increment_base_{};           ///< last programmed coordinate before a frame change, where that is what counts
+  std::uint32_t base_pending_ = 0;  ///< bit n: an incremental word of axis n starts from there
+  std::array<double, 3> feed_{};
+  std::array<Spindle, 32> spindles_{};
+  std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
+  std::string tool_name_;
+  Vec pole_;
+
+  // the last path element, for tangents
+  std::array<double, 3> before_{};
+  bool last_was_arc_ = false, has_path_ = false;
+  Vec last_centre_;
+  bool last_ccw_ = false;
+  double lead_ = 0;
+
+  // per block
+  std::optional<Pending> block_corner_;
+  bool block_moves_ = false, feed_stop_ = false, cycle_defined_here_ = false, cycle_waits_ = false;
+  std::optional<Pending> pending_;
+  double modal_corner_ = 0;
+  bool modal_corner_has_feed_ = false;
+  double modal_corner_feed_ = 0;
+
+  std::optional<ir::cycles::HoleNumbers> hole_;
+  ir::AxisId hole_axis_ = ir::axis::z;
+  ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
+  bool once_ = false;
+
+  std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
+};
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,184 @@
+// Faults that are visible without running: what control can reach is followed from the start of the main program.
+#include <map>
+#include <vector>
+
+#include "interpreter/routines.h"
+#include "interpreter/run_codes.h"
+
+namespace cnctrans::interpreter {
+
+namespace {
+
+class Checker {
+ public:
+  Checker(const ir::Program& program, const Options& options, Diagnostics& diagnostics)
+      : routines_(program, options, nullptr), diagnostics_(diagnostics) {}
+
+  void run() {
+    auto* main = routines_.main();
+    if (main == nullptr) {
+      diagnostics_.error(code::no_program, {}, "there is no program to run");
+      return;
+    }
+    reach(*main, 0);
+    while (!work_.empty()) {
+      const auto [flow, at] = work_.back();
+      work_.pop_back();
+      visit(*flow, at);
+    }
+    for (auto* flow : routines_.all_of_main()) unreached(*flow);
+  }
+
+ private:
+  void reach(Flow& flow, std::uint32_t at) {
+    auto& seen = seen_[&flow];
+    if (seen.empty()) seen.resize(flow.code.size() + 1, false);
+    if (at >= flow.code.size() || seen[at]) return;
+    seen[at] = true;
+    work_.emplace_back(&flow, at);
+  }
+  void reach_all_labels(Flow& flow) {
+    for (const auto& [key, places] : flow.labels) {
+      for (const auto& p : places) reach(flow, p.begin);
+    }
+  }
+
+  void visit(Flow& flow, std::uint32_t at) {
+    const auto& in = flow.code[at];
+    switch (in.op) {
+      case Op::go: reach(flow, in.target); return;
+      case Op::branch_false:
+      case Op::for_test: reach(flow, in.target); break;
+      case Op::for_step: reach(flow, in.target); return;
+      case Op::jump:
+        jump(flow, at, *in.jump_node);
+        if (!in.jump_node->condition && !in.jump_node->quiet) return;
+        break;
+      case Op::choose: {
+        const auto& s = std::get<ir::Switch>(in.statement->node);
+        for (const auto& c : s.cases) jump(flow, at, c.second);
+        for (const auto& j : s.fallback) jump(flow, at, j);
+        break;
+      }
+      case Op::repeat: repeat(flow, at, std::get<ir::Repeat>(in.statement->node)); break;
+      case Op::call: call(flow, *in.statement, std::get<ir::CallRoutine>(in.statement->node)); break;
+      case Op::modal_call: {
+        const auto& m = std::get<ir::ModalCall>(in.statement->node);
+        if (!m.off && !m.cycle) call(flow, *in.statement, m.call);
+        break;
+      }
+      case Op::give_back:
+      case Op::end: return;
+      case Op::opaque: {
+        const auto& o = std::get<ir::Opaque>(in.statement->node);
+        if (o.harmless) break;
+        diagnostics_.error(code::opaque, in.statement->line.span,
+                           "this statement is not understood and may move the machine or change its state",
+                           "the program cannot be run; see the diagnostic of the reader for the same line");
+        break;
+      }
+      case Op::stray_exit:
+        diagnostics_.error(code::exit_outside, in.statement->line.span, "an exit stands outside of every loop");
+        break;
+      default: break;
+    }
+    reach(flow, at + 1);
+  }
+
+  void missing_label(const ir::Statement& s, const std::string& text) {
+    diagnostics_.error(code::unknown_label, s.line.span, "there is no block labelled " + text,
+                       "the program is not run: the jump or repeat would lead nowhere");
+  }
+
+  void jump(Flow& flow, std::uint32_t at, const ir::Jump& j) {
+    if (j.target.computed) {
+      reach_all_labels(flow);
+      return;
+    }
+    if (j.search == ir::Search::to_start) {
+      reach(flow, 0);
+      return;
+    }
+    const auto key = label_key(j.target);
+    if (const auto* p = flow.find(key, j.search, at)) {
+      reach(flow, p->begin);
+    } else if (!j.quiet) {
+      missing_label(*flow.code[at].statement, label_text(key));
+    }
+  }
+
+  void range(Flow& flow, const ir::Statement& s, const ir::LabelRef& first, const ir::LabelRef& last, ir::Search search,
+             bool order_free, std::uint32_t from) {
+    if (first.computed || last.computed) {
+      reach_all_labels(flow);
+      return;
+    }
+    std::uint32_t begin = 0, end = 0;
+    std::string missing;
+    const auto last_key = last.text.empty() ? std::string{} : label_key(last);
+    if (flow.range(label_key(first), last_key, search, order_free, from, begin, end, missing)) {
+      reach(flow, begin);
+    } else {
+      missing_label(s, missing);
+    }
+  }
+
+  void repeat(Flow& flow, std::uint32_t at, const ir::Repeat& r) {
+    const auto& s = *flow.code[at].statement;
+    if (!r.has_program) {
+      range(flow, s, r.first, r.last, r.search, r.order_free, at);
+    } else if (auto* other = routines_.find(r.program, flow)) {
+      range(*other, s, r.first, r.last, ir::Search::whole_first, r.order_free, 0);
+    } else {
+      missing_routine(s, r.program);
+    }
+  }
+
+  void missing_routine(const ir::Statement& s, const ir::RoutineName& name) {
+    diagnostics_.error(code::unknown_routine, s.line.span, "there is no subprogram " + routine_text(name),
+                       "name the folder it is in with --lib");
+  }
+
+  void call(Flow& flow, const ir::Statement& s, const ir::CallRoutine& c) {
+    if (c.computed) return;
+    auto* callee = routines_.find(c.routine, flow);
+    if (callee == nullptr) {
+      if (!c.optional) missing_routine(s, c.routine);
+      return;
+    }
+    if (c.has_range) {
+      range(*callee, s, c.first, c.last.text.empty() && !c.last.computed ? c.first : c.last, ir::Search::whole_first,
+            true, 0);
+    } else {
+      reach(*callee, 0);
+    }
+  }
+
+  /// What control never reaches cannot stop a run, but is worth a word.
+  void unreached(Flow& flow) {
+    const auto& seen = seen_[&flow];
+    for (std::uint32_t at = 0; at < flow.code.size(); ++at) {
+      const auto& in = flow.code[at];
+      if (in.op != Op::jump || (!seen.empty() && seen[at])) continue;
+      const auto& j = *in.jump_node;
+      if (j.target.computed || j.quiet || j.search == ir::Search::to_start) continue;
+      const auto key = label_key(j.target);
+      if (flow.find(key, j.search, at) != nullptr) continue;
+      diagnostics_.warning(code::unknown_label, in.statement->line.span,
+                           "there is no block labelled " + label_text(key) + "; the program never comes here");
+    }
+  }
+
+  Routines routines_;
+  Diagnostics& diagnostics_;
+  std::map<Flow*, std::vector<bool>> seen_;
+  std::vector<std::pair<Flow*, std::uint32_t>> work_;
+};
+
+}  // namespace
+
+void check_program(const ir::Program& program, const Options& options, Diagnostics& diagnostics) {
+  Checker(program, options, diagnostics).run();
+}
+
+}  // namespace cnctrans::interpreter

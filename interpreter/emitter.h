@@ -1,0 +1,60 @@
+// Hands events to the sink: counts them, ends at the limit, and holds them back while a corner waits for its second
+// element.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/trace.h"
+
+namespace cnctrans::interpreter {
+
+class Emitter {
+ public:
+  Emitter(TraceSink& sink, std::uint64_t max_events) : sink_(sink), left_(max_events) {}
+
+  void emit(const Event& e) {
+    if (holding_) {
+      held_.push_back(e);
+    } else {
+      pass(e);
+    }
+  }
+  /// From now on events wait.
+  void hold() { holding_ = true; }
+  [[nodiscard]] bool holding() const { return holding_; }
+  /// Past the held ones: for the moves that come before them.
+  void pass(const Event& e) {
+    if (left_ == 0) {
+      limit_ = true;
+      return;
+    }
+    --left_;
+    ++count_;
+    sink_.on_event(e);
+  }
+  /// The held events go out.
+  void release() {
+    holding_ = false;
+    for (const auto& e : held_) pass(e);
+    held_.clear();
+  }
+  /// The `end` event is always delivered.
+  void finish(const Event& e) {
+    release();
+    ++count_;
+    sink_.on_event(e);
+  }
+  [[nodiscard]] bool limit_reached() const { return limit_; }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+ private:
+  TraceSink& sink_;
+  std::uint64_t left_;
+  std::uint64_t count_ = 0;
+  bool limit_ = false;
+  bool holding_ = false;
+  std::vector<Event> held_;
+};
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,243 @@
+// Work offsets, the programmable frame and the pole.
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/block_machine.h"
+#include "interpreter/run_codes.h"
+
+namespace cnctrans::interpreter {
+
+namespace {
+std::size_t index_of(ir::FrameSlot s) {
+  return static_cast<std::size_t>(s);
+}
+
+double& diagonal(Frame& f, ir::AxisId a) {
+  return a < 3 ? f.m[a][a] : f.d[a];
+}
+}  // namespace
+
+Frame BlockMachine::offset_frame() const {
+  Axes t{};
+  for (const auto& [axis, v] : active_offset_) t[axis] = v;
+  return translation(t);
+}
+
+bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
+  const auto row = w.off ? 0 : static_cast<std::int32_t>(std::lround(value(w.index)));
+  modal_.work_offset = row;
+  const auto it = work_offsets_.find(row);
+  active_offset_ = row != 0 && it != work_offsets_.end() ? it->second : std::map<ir::AxisId, double>{};
+  return !failure_.set && rebuild_frame();
+}
+
+void BlockMachine::restore_modal(const ir::ModalState& state) {
+  const bool other_offset = state.work_offset != modal_.work_offset;
+  modal_ = state;
+  set_units();
+  for (auto& s : spindles_) s.mode = modal_.spindle_mode;
+  if (other_offset) set_work_offset(ir::WorkOffset{ir::Value(double(state.work_offset)), state.work_offset == 0});
+}
+
+/// The parts of the frame inside `slot`.
+Frame BlockMachine::inner_of(ir::FrameSlot slot) const {
+  Frame f;
+  bool inside = false;
+  for (const auto s : profile_.frame_order) {
+    if (inside) f = compose(f, slots_[index_of(s)]);
+    inside = inside || s == slot;
+  }
+  return f;
+}
+
+bool BlockMachine::rebuild_frame() {
+  Frame f = offset_frame();
+  for (const auto s : profile_.frame_order) f = compose(f, slots_[index_of(s)]);
+  return use_frame(f);
+}
+
+/// The machine stays where it is; its point is seen in the new frame.
+bool BlockMachine::use_frame(const Frame& f) {
+  if (f == frame_ && frame_serial_ != 0) return true;
+  Frame inverse;
+  if (!invert(f, inverse)) return failure_.fail(code::frame, "a scale of zero");
+  const Axes machine = frame_.apply(p_);
+  const Axes seen = inverse.apply(machine);
+  for (const auto a : axes_) {
+    if (policy_.keeps_programmed && std::abs(seen[a] - p_[a]) > 1e-12 && ((base_pending_ >> a) & 1U) == 0) {
+      increment_base_[a] = p_[a];
+      base_pending_ |= 1U << a;
+    }
+    p_[a] = seen[a];
+  }
+  frame_ = f;
+  inverse_ = inverse;
+  plain_frame_ = f.is_translation();
+  has_path_ = false;
+  ++frame_serial_;
+  return true;
+}
+
+bool BlockMachine::change_frame(const ir::FrameChange& c) {
+  auto& slot = slots_[index_of(c.slot)];
+  if (std::find(profile_.frame_order.begin(), profile_.frame_order.end(), c.slot) == profile_.frame_order.end()) {
+    return failure_.fail(code::frame, "the machine " + profile_.name + " has no such part in its frame");
+  }
+  auto combine = c.combine;
+  if (c.by_distance_mode) {
+    combine = modal_.distance == ir::Distance::absolute ? ir::FrameCombine::replace_named : ir::FrameCombine::add;
+  }
+  for (const auto& w : c.words) {
+    if (!check_axis(w.axis)) return false;
+  }
+  if (combine == ir::FrameCombine::clear) {
+    if (c.slot == ir::FrameSlot::chain) {
+      for (const auto s : profile_.frame_order) {
+        if (s != ir::FrameSlot::preset) slots_[index_of(s)] = Frame{};
+      }
+    }
+    slot = Frame{};
+  } else if (combine == ir::FrameCombine::preset) {
+    if (!preset(c, slot)) return false;
+  } else if (!change_slot(c, combine, slot)) {
+    return false;
+  }
+  return !failure_.set && rebuild_frame();
+}
+
+bool BlockMachine::change_slot(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot) {
+  switch (c.kind) {
+    case ir::FrameKind::translate: return translate(c, combine, slot);
+    case ir::FrameKind::rotate: return rotate(c, combine, slot);
+    case ir::FrameKind::scale:
+    case ir::FrameKind::mirror: break;
+  }
+  return stretch(c, combine, slot);
+}
+
+/// The slot becomes the shift that gives the named axes these coordinates where the machine stands now.
+bool BlockMachine::preset(const ir::FrameChange& c, Frame& slot) {
+  Frame outer = offset_frame();
+  for (const auto s : profile_.frame_order) {
+    if (s == c.slot) break;
+    outer = compose(outer, slots_[index_of(s)]);
+  }
+  Frame outward;
+  if (!invert(outer, outward)) return failure_.fail(code::frame, "a scale of zero");
+  const Axes wanted_at = outward.apply(frame_.apply(p_));
+  Axes point = p_;
+  for (const auto& w : c.words) point[w.axis] = coordinate(w.axis, w.value, w.scale, true);
+  const Axes seen = inner_of(c.slot).apply(point);
+  const bool straight = inner_of(c.slot).is_translation();
+  const auto set = [&](ir::AxisId a) { slot.t[a] = wanted_at[a] - seen[a]; };
+  if (straight) {
+    for (const auto& w : c.words) set(w.axis);
+  } else {
+    for (const auto a : axes_) set(a);
+  }
+  return true;
+}
+
+bool BlockMachine::translate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot) {
+  Axes t{};
+  for (const auto& w : c.words) t[w.axis] = coordinate(w.axis, w.value, w.scale, true);
+  switch (combine) {
+    case ir::FrameCombine::replace: slot = translation(t); break;
+    case ir::FrameCombine::compose: slot = compose(slot, translation(t)); break;
+    case ir::FrameCombine::replace_named:
+      for (const auto& w : c.words) slot.t[w.axis] = t[w.axis];
+      break;
+    case ir::FrameCombine::add:
+      for (const auto& w : c.words) slot.t[w.axis] += t[w.axis];
+      break;
+    case ir::FrameCombine::clear:
+    case ir::FrameCombine::preset: break;
+  }
+  return true;
+}
+
+bool BlockMachine::rotate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot) {
+  Frame turn;
+  if (c.has_angle) {
+    auto plane = ir::plane_axes(modal_.plane);
+    if (c.rotation_axis == ir::axis::x) plane = ir::plane_axes(ir::Plane::yz);
+    if (c.rotation_axis == ir::axis::y) plane = ir::plane_axes(ir::Plane::zx);
+    if (c.rotation_axis == ir::axis::z) plane = ir::plane_axes(ir::Plane::xy);
+    turn = rotation(plane.u, plane.v, value(c.angle));
+    Axes centre{};
+    for (const auto& w : c.words) centre[w.axis] = coordinate(w.axis, w.value, w.scale, true);
+    if (policy_.centre_through_frame) centre = inner_of(c.slot).apply(centre);
+    const Axes turned = turn.apply(centre);
+    for (std::size_t i = 0; i < 3; ++i) turn.t[i] = centre[i] - turned[i];
+  } else {  // words are angles about the axes: first about X, then Y, then Z, all fixed
+    for (const auto k : {ir::axis::x, ir::axis::y, ir::axis::z}) {
+      for (const auto& w : c.words) {
+        if (w.axis != k) continue;
+        const auto u = static_cast<ir::AxisId>((k + 1) % 3), v = static_cast<ir::AxisId>((k + 2) % 3);
+        turn = compose(rotation(u, v, value(w.value)), turn);
+      }
+    }
+  }
+  switch (combine) {
+    case ir::FrameCombine::add: slot = compose(turn, slot); break;
+    case ir::FrameCombine::compose: slot = compose(slot, turn); break;
+    default: slot = turn;
+  }
+  return true;
+}
+
+/// Scale and mirror: a factor per axis.
+bool BlockMachine::stretch(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot) {
+  const bool mirror = c.kind == ir::FrameKind::mirror;
+  Frame f;
+  std::array<bool, ir::axis::count_max> named{};
+  for (const auto& w : c.words) {
+    const double x = value(w.value);
+    diagonal(f, w.axis) = mirror ? (x != 0 ? -1 : 1) : x;
+    named[w.axis] = true;
+  }
+  if (!mirror && c.uniform_scale && !c.words.empty()) {
+    for (const auto a : axes_) {
+      if (axis_[a].rotary) continue;
+      diagonal(f, a) = value(c.words[0].value);
+      named[a] = true;
+    }
+  }
+  switch (combine) {
+    case ir::FrameCombine::compose: slot = compose(slot, f); break;
+    case ir::FrameCombine::replace_named:
+    case ir::FrameCombine::add:
+      for (const auto a : axes_) {
+        if (!named[a]) continue;
+        const bool times = !mirror && combine == ir::FrameCombine::add;
+        diagonal(slot, a) = times ? diagonal(slot, a) * diagonal(f, a) : diagonal(f, a);
+      }
+      break;
+    default: slot = f;
+  }
+  return true;
+}
+
+/// The pole: absolute in the work frame; `add`: from the last pole; `compose`: from the present point. Without words:
+/// the present point.
+void BlockMachine::set_pole(const ir::PoleSet& p) {
+  const auto plane = ir::plane_axes(modal_.plane);
+  const Vec here{p_[plane.u], p_[plane.v]};
+  if (p.at == nullptr || p.at->words.empty()) {
+    pole_ = here;
+    return;
+  }
+  Vec base =
+      p.at->combine == ir::FrameCombine::add ? pole_ : (p.at->combine == ir::FrameCombine::compose ? here : Vec{});
+  const bool relative = p.at->combine == ir::FrameCombine::add || p.at->combine == ir::FrameCombine::compose;
+  if (!relative) base = pole_;
+  for (const auto& w : p.at->words) {
+    if (!check_axis(w.axis)) return;
+    const double x = coordinate(w.axis, w.value, w.scale, !relative);
+    if (w.axis == plane.u) base.u = relative ? base.u + x : x;
+    if (w.axis == plane.v) base.v = relative ? base.v + x : x;
+  }
+  pole_ = base;
+}
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,162 @@
+// Hole cycles: definition, what triggers them, one hole.
+#include <cmath>
+
+#include "interpreter/block_machine.h"
+#include "interpreter/run_codes.h"
+
+namespace cnctrans::interpreter {
+
+bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cycles::HoleNumbers>& out,
+                                 ir::AxisId& axis) {
+  const auto* hole = cycle ? std::get_if<ir::HoleCycle>(&cycle->node) : nullptr;
+  if (hole == nullptr) {
+    const auto* named = cycle ? std::get_if<ir::NamedCycle>(&cycle->node) : nullptr;
+    return failure_.fail(code::not_carried, "the cycle " + (named != nullptr ? named->name : std::string("here")) +
+                                                " is not carried out yet");
+  }
+  axis = hole->axis == ir::axis::none ? ir::plane_axes(modal_.plane).w : hole->axis;
+  if (!check_axis(axis)) return false;
+  ir::cycles::HoleContext context;
+  context.length_unit = unit();
+  context.level_unit = axis_[axis].scale_absolute;
+  context.feed_unit = feed_unit();
+  context.distance = modal_.distance;
+  context.height = p_[axis];
+  const auto evaluate = [this](const ir::Value& v) -> std::optional<double> {
+    const double x = value(v);
+    if (failure_.set) return std::nullopt;
+    return x;
+  };
+  std::string error;
+  out = ir::cycles::resolve(*hole, context, evaluate, &error);
+  if (out) return true;
+  return failure_.fail(code::bad_cycle, error);
+}
+
+bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
+  std::optional<ir::cycles::HoleNumbers> numbers;
+  ir::AxisId axis = ir::axis::z;
+  if (!resolve_cycle(c.cycle, numbers, axis)) return false;
+  hole_ = numbers;
+  hole_axis_ = axis;
+  trigger_ = c.trigger;
+  once_ = !c.modal;
+  cycle_defined_here_ = true;
+  cycle_waits_ = !c.here;
+  return true;
+}
+
+bool BlockMachine::modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here) {
+  if (!cycle) {
+    hole_.reset();
+    return true;
+  }
+  ir::CycleDefine c;
+  c.cycle = cycle;
+  c.trigger = trigger;
+  c.here = here;
+  if (!define_cycle(c)) return false;
+  once_ = false;
+  return !here || run_cycle();
+}
+
+bool BlockMachine::cycle_triggers(const ir::Block& b) const {
+  const auto& m = b.motion;
+  if (b.has_motion && m.frame != ir::FrameUse::normal) return false;
+  if (trigger_ == ir::CycleTrigger::path_motion) {
+    if (b.has_motion && m.moves()) return true;
+    if (modal_.motion != ir::MotionKind::rapid && modal_.motion != ir::MotionKind::linear) return false;
+    if (b.has_motion && m.explicit_code) return true;
+    for (const auto& a : b.actions) {
+      if (std::holds_alternative<ir::SetFeed>(a.data) || std::holds_alternative<ir::SetSpindle>(a.data)) return true;
+    }
+    return false;
+  }
+  if (!b.has_motion) return false;
+  const auto plane = ir::plane_axes(modal_.plane);
+  for (const auto& w : m.coords) {
+    if (w.axis == hole_axis_) continue;
+    if (w.axis == plane.u || w.axis == plane.v || w.axis == plane.w) return true;
+    if (policy_.rotary_triggers && axis_[w.axis].rotary) return true;
+  }
+  return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
+}
+
+bool BlockMachine::run_cycle() {
+  if (pending_) {
+    release_pending();
+    return failure_.fail(code::corner_alone, "a cycle follows a corner function");
+  }
+  std::string error;
+  const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);
+  if (!error.empty()) return failure_.fail(code::not_carried, error);
+  const bool taps = hole_->kind == ir::HoleKind::tap || hole_->kind == ir::HoleKind::tap_floating;
+  auto& spindle = spindles_[1];
+  if (taps && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
+  const auto sense = spindle.state;
+  const Axes hole = p_;
+  for (const auto& m : moves) {
+    if (!cycle_move(m, hole, sense)) return false;
+  }
+  return true;
+}
+
+bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, ir::SpindleState sense) {
+  using ir::cycles::CycleStep;
+  const auto opposite = sense == ir::SpindleState::cw ? ir::SpindleState::ccw : ir::SpindleState::cw;
+  switch (m.step) {
+    case CycleStep::rapid:
+    case CycleStep::feed:
+    case CycleStep::thread: return cycle_path(m, hole);
+    case CycleStep::dwell: emit_dwell(m.amount, m.revolutions); break;
+    case CycleStep::spindle_reverse: run_spindle(1, sense == ir::SpindleState::off ? sense : opposite); break;
+    case CycleStep::spindle_restore:
+      if (sense != ir::SpindleState::off || spindles_[1].oriented) run_spindle(1, sense);
+      break;
+    case CycleStep::spindle_stop: run_spindle(1, ir::SpindleState::off); break;
+    case CycleStep::spindle_orient:
+      spindles_[1].oriented = true;
+      spindles_[1].state = ir::SpindleState::off;
+      spindles_[1].angle = m.amount;
+      emit_spindle(1);
+      break;
+    case CycleStep::operator_stop: emit_stop(false); break;
+  }
+  return true;
+}
+
+bool BlockMachine::cycle_path(const ir::cycles::CycleMove& m, const Axes& hole) {
+  using ir::cycles::CycleStep;
+  const auto plane = ir::plane_axes(modal_.plane);
+  Move move = move_from_here();
+  move.to[hole_axis_] = m.w;
+  if (plane.u != hole_axis_) move.to[plane.u] = hole[plane.u] + m.du;
+  if (plane.v != hole_axis_) move.to[plane.v] = hole[plane.v] + m.dv;
+  move.feed = (m.has_feed ? m.feed : feed_now()) * m.feed_factor;
+  move.kind = m.step == CycleStep::rapid ? Move::Kind::rapid : Move::Kind::linear;
+  if (m.step == CycleStep::thread) {
+    move.kind = Move::Kind::thread;
+    if (!cycle_pitch(m, move.pitch)) return false;
+  }
+  if (!emit_move(move, false)) return false;
+  p_ = move.to;
+  has_path_ = false;
+  return true;
+}
+
+/// Pitch of a tap: its own, else feed per revolution, else feed over spindle speed.
+bool BlockMachine::cycle_pitch(const ir::cycles::CycleMove& m, double& pitch) {
+  pitch = m.pitch;
+  if (pitch != 0) return true;
+  const double feed = m.has_feed ? m.feed : feed_now();
+  if (modal_.feed_mode == ir::FeedMode::per_rev) {
+    pitch = feed;
+    return true;
+  }
+  const double speed = spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  if (speed <= 0) return failure_.fail(code::bad_cycle, "tapping needs a pitch, or a feed and a spindle speed");
+  pitch = feed / speed;
+  return true;
+}
+
+}  // namespace cnctrans::interpreter

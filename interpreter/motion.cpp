@@ -1,0 +1,267 @@
+// Motion of a block: end points of lines, threads, probing, machine coordinates.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "interpreter/block_machine.h"
+#include "interpreter/run_codes.h"
+
+namespace cnctrans::interpreter {
+
+namespace {
+constexpr double no_move = 1e-9;  ///< mm or degrees: less is no motion
+
+bool is_arc(ir::MotionKind k) {
+  return k == ir::MotionKind::arc_cw || k == ir::MotionKind::arc_ccw || k == ir::MotionKind::arc_through_point ||
+         k == ir::MotionKind::arc_tangent;
+}
+}  // namespace
+
+bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
+  const auto& m = b.motion;
+  auto kind = m.kind;
+  if (kind == ir::MotionKind::modal) {
+    kind = modal_.motion;
+  } else if (m.keeps_modal) {
+    modal_.motion = kind;
+  }
+  if (kind == ir::MotionKind::reference_point || kind == ir::MotionKind::fixed_point) return reference_move(m);
+  if (!m.moves()) return true;
+  block_moves_ = true;
+  if (hole_ && policy_.cycle_rapid && !m.explicit_code && kind == ir::MotionKind::linear && with_cycle &&
+      (cycle_defined_here_ || cycle_triggers(b))) {
+    kind = ir::MotionKind::rapid;
+  }
+  const bool rapid = kind == ir::MotionKind::rapid;
+  if (m.frame == ir::FrameUse::normal) {
+    const bool quick =
+        plain_frame_ && !m.extra && base_pending_ == 0 && !pending_ && !block_corner_ && modal_corner_ == 0;
+    if (quick && (rapid || kind == ir::MotionKind::linear)) return quick_line(m, rapid);
+    return general_motion(m, kind);
+  }
+  if (m.frame != ir::FrameUse::no_programmable) return machine_move(m, kind);
+  const Frame whole = frame_;
+  const bool done = use_frame(offset_frame()) && general_motion(m, kind);
+  return done && use_frame(whole);
+}
+
+/// The common case: straight, Cartesian, nothing but a shift between work and machine.
+bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
+  auto& to = path_event_.to.value;
+  const std::array<double, 3> from{p_[0], p_[1], p_[2]};
+  bool moves = false;
+  for (const auto& w : m.coords) {
+    const auto a = w.axis;
+    if (!check_axis(a)) return false;
+    const auto& axis = axis_[a];
+    const bool absolute = w.mode == ir::WordMode::absolute ||
+                          (w.mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
+    double x = 0;
+    if (w.scale == ir::WordScale::modal) {
+      x = value(w.value) * (absolute ? axis.scale_absolute : axis.scale_incremental);
+    } else {
+      x = coordinate(a, w.value, w.scale, absolute);
+    }
+    if (!absolute) {
+      x += p_[a];
+    } else if (w.direction != ir::RotaryDirection::as_value) {
+      x = rotary_target(w, x);
+    }
+    p_[a] = x;
+    x += frame_.t[a];
+    if (std::abs(x - to[a]) > no_move) moves = true;
+    to[a] = x;
+  }
+  if (failure_.set) return false;
+  if (!moves) return true;
+  before_ = from;
+  last_was_arc_ = false;
+  has_path_ = true;
+  path_event_.kind = rapid ? EventKind::rapid : EventKind::linear;
+  path_event_.feed = feed_now();
+  path_event_.feed_mode = modal_.feed_mode;
+  emitter_.emit(path_event_);
+  return true;
+}
+
+/// Absolute target on a modulo axis, unwrapped from where the axis stands.
+double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
+  const double here = p_[w.axis];
+  auto direction = w.direction;
+  double target = v;
+  if (direction == ir::RotaryDirection::by_sign) {
+    direction = std::signbit(v) ? ir::RotaryDirection::negative : ir::RotaryDirection::positive;
+    target = std::abs(v);
+  }
+  double turn = std::fmod(target - here, 360);
+  if (std::abs(turn) < no_move || std::abs(std::abs(turn) - 360) < no_move) return here;
+  switch (direction) {
+    case ir::RotaryDirection::positive:
+      if (turn < 0) turn += 360;
+      break;
+    case ir::RotaryDirection::negative:
+      if (turn > 0) turn -= 360;
+      break;
+    case ir::RotaryDirection::shortest:
+      if (turn > 180) turn -= 360;
+      if (turn <= -180) turn += 360;
+      break;
+    case ir::RotaryDirection::as_value:
+    case ir::RotaryDirection::by_sign: return v;
+  }
+  return here + turn;
+}
+
+Move BlockMachine::move_from_here() const {
+  Move move;
+  move.from = move.to = p_;
+  move.plane = modal_.plane;
+  move.feed = feed_now();
+  move.feed_mode = modal_.feed_mode;
+  move.file = failure_.where.file;
+  move.line = failure_.where.line;
+  return move;
+}
+
+bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
+  Move move = move_from_here();
+  if (!end_point(m, move)) return false;
+  switch (kind) {
+    case ir::MotionKind::rapid: move.kind = Move::Kind::rapid; break;
+    case ir::MotionKind::linear:
+    case ir::MotionKind::to_stop: move.kind = Move::Kind::linear; break;
+    case ir::MotionKind::thread:
+    case ir::MotionKind::thread_variable:
+      if (!thread(m, kind == ir::MotionKind::thread_variable, move)) return false;
+      break;
+    case ir::MotionKind::probe_toward:
+    case ir::MotionKind::probe_away:
+      move.kind = Move::Kind::probe;
+      move.toward = kind == ir::MotionKind::probe_toward;
+      break;
+    case ir::MotionKind::spline:
+    case ir::MotionKind::polynomial:
+      return failure_.fail(code::not_carried, "splines and polynomials are not carried out yet");
+    default:
+      if (is_arc(kind) && !arc(m, kind, move)) return false;
+  }
+  return !failure_.set && send(move);
+}
+
+/// Coordinates of the end in the work frame: Cartesian words, polar words, a line by its angle.
+bool BlockMachine::end_point(const ir::Motion& m, Move& move) {
+  for (const auto& w : m.coords) {
+    const auto a = w.axis;
+    if (!check_axis(a)) return false;
+    const bool absolute = w.mode == ir::WordMode::absolute ||
+                          (w.mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
+    const double x = coordinate(a, w.value, w.scale, absolute);
+    const bool from_base = ((base_pending_ >> a) & 1U) != 0;
+    if (absolute) {
+      move.to[a] = w.direction == ir::RotaryDirection::as_value ? x : rotary_target(w, x);
+    } else {
+      move.to[a] = x + (from_base ? increment_base_[a] : p_[a]);
+    }
+    base_pending_ &= ~(1U << a);
+  }
+  if (failure_.set || !m.extra) return !failure_.set;
+  const bool arc_kind = is_arc(m.kind) || (m.kind == ir::MotionKind::modal && is_arc(modal_.motion));
+  if ((m.extra->has_polar_radius || m.extra->has_polar_angle) && !arc_kind) return polar_end(*m.extra, move);
+  return !m.extra->has_line_angle || line_by_angle(m, move);
+}
+
+bool BlockMachine::polar_end(const ir::MotionExtra& x, Move& move) {
+  const auto plane = ir::plane_axes(modal_.plane);
+  if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
+  const Vec here = Vec{p_[plane.u], p_[plane.v]} - pole_;
+  double radius = length(here);
+  double angle = radius < same_point ? 0 : std::atan2(here.v, here.u) * 180 / std::numbers::pi;
+  const bool absolute = x.polar_mode == ir::WordMode::absolute ||
+                        (x.polar_mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
+  if (x.has_polar_radius) radius = value(x.polar_radius) * unit() + (absolute ? 0 : radius);
+  if (x.has_polar_angle) angle = value(x.polar_angle) + (absolute ? 0 : angle);
+  if (radius < 0) return failure_.fail(code::polar, "the polar radius becomes negative");
+  move.to[plane.u] = pole_.u + radius * cos_degrees(angle);
+  move.to[plane.v] = pole_.v + radius * sin_degrees(angle);
+  return !failure_.set;
+}
+
+/// The direction of the line and one coordinate of the plane give the other.
+bool BlockMachine::line_by_angle(const ir::Motion& m, Move& move) {
+  const auto plane = ir::plane_axes(modal_.plane);
+  const double angle = value(m.extra->line_angle);
+  const double s = sin_degrees(angle), c = cos_degrees(angle);
+  bool has_u = false, has_v = false;
+  for (const auto& w : m.coords) {
+    has_u = has_u || w.axis == plane.u;
+    has_v = has_v || w.axis == plane.v;
+  }
+  if (has_u == has_v)
+    return failure_.fail(code::polar, "a line by its angle needs exactly one coordinate of the plane");
+  if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
+  const double along = has_u ? c : s, across = has_u ? s : c;
+  const double travel = has_u ? move.to[plane.u] - move.from[plane.u] : move.to[plane.v] - move.from[plane.v];
+  if (std::abs(along) < 1e-12 && std::abs(travel) > no_move) {
+    return failure_.fail(code::polar, "a line at this angle never reaches the coordinate");
+  }
+  const double other = std::abs(travel) <= no_move ? 0 : travel * across / along;
+  if (has_u) {
+    move.to[plane.v] = move.from[plane.v] + other;
+  } else {
+    move.to[plane.u] = move.from[plane.u] + other;
+  }
+  return !failure_.set;
+}
+
+bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
+  move.kind = Move::Kind::thread;
+  if (m.extra) {
+    const auto& x = *m.extra;
+    if (x.has_lead) lead_ = value(x.lead) * unit();
+    if (variable) move.pitch_change = value(x.lead_change) * unit();
+    if (x.has_start_angle) move.start_angle = value(x.start_angle);
+  }
+  move.pitch = lead_;
+  return !failure_.set;
+}
+
+/// Coordinates of the machine itself; the frame stays out of it.
+bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
+  if (pending_ || block_corner_)
+    return failure_.fail(code::corner_alone, "a corner cannot stand beside a move in machine coordinates");
+  if (kind != ir::MotionKind::rapid && kind != ir::MotionKind::linear) {
+    return failure_.fail(code::not_carried, "only straight moves are carried out in machine coordinates");
+  }
+  Axes machine = frame_.apply(p_);
+  const double metric = policy_.machine_metric && modal_.units == ir::Units::inch ? 1 / 25.4 : 1;
+  for (const auto& w : m.coords) {
+    if (!check_axis(w.axis)) return false;
+    const bool incremental = w.mode == ir::WordMode::incremental;
+    const double x = coordinate(w.axis, w.value, w.scale, !incremental) * (axis_[w.axis].rotary ? 1 : metric);
+    machine[w.axis] = incremental ? machine[w.axis] + x : x;
+    base_pending_ &= ~(1U << w.axis);
+  }
+  if (failure_.set) return false;
+  Move move = move_from_here();
+  move.kind = kind == ir::MotionKind::rapid ? Move::Kind::rapid : Move::Kind::linear;
+  move.to = inverse_.apply(machine);
+  return send(move);
+}
+
+/// To the reference point of the named axes (machine coordinates of the profile), in rapid.
+bool BlockMachine::reference_move(const ir::Motion& m) {
+  ir::Motion to;
+  to.frame = ir::FrameUse::machine;
+  for (const auto& w : m.coords) {
+    if (!check_axis(w.axis)) return false;
+    ir::CoordWord word;
+    word.axis = w.axis;
+    word.scale = ir::WordScale::radius;
+    word.value = ir::Value(profile_.axis(w.axis)->reference_point / (axis_[w.axis].rotary ? 1 : unit()));
+    to.coords.push_back(word);
+  }
+  block_moves_ = !to.coords.empty();
+  return to.coords.empty() || machine_move(to, ir::MotionKind::rapid);
+}
+
+}  // namespace cnctrans::interpreter

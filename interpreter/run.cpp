@@ -1,0 +1,248 @@
+// The loop over instructions, limits, the end of a run.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "interpreter/run_codes.h"
+#include "interpreter/runner.h"
+
+namespace cnctrans::interpreter {
+
+namespace {
+/// A program that emits nothing for so many statements is in an endless loop.
+constexpr std::uint64_t most_silent_steps = 20'000'000;
+constexpr std::uint64_t check_every = 65'536;
+}  // namespace
+
+Runner::Runner(const ir::Program& program, const machine::Profile& profile, const Options& options, TraceSink& sink,
+               Diagnostics& diagnostics)
+    : program_(program),
+      profile_(profile),
+      options_(options),
+      diagnostics_(diagnostics),
+      variables_(failure_),
+      evaluator_(variables_, failure_),
+      emitter_(sink, options.max_events),
+      machine_(profile, emitter_, failure_, &evaluator_),
+      routines_(program, options, &variables_) {
+  evaluator_.set_system(&machine_);
+  local_levels_ = static_cast<std::size_t>(parse_decimal(profile.option("calls.local_levels")).value_or(0));
+}
+
+Result Runner::run() {
+  const auto before = diagnostics_.error_count();
+  Diagnostics found;
+  check_program(program_, options_, found);
+  for (const auto& d : found.all()) {
+    if (d.severity == Severity::error && !failure_.set) {
+      failure_.where = d.span;
+      failure_.fail(d.code, d.message);
+    }
+  }
+  diagnostics_.append(found);
+  if (diagnostics_.error_count() != before) return refuse();
+  auto* main = routines_.main();
+  Activation& a = calls_.emplace_back();
+  a.flow = main;
+  for (const auto& shape : main->locals) a.locals.push_back({shape, false, {}});
+  enter_top();
+  if (!apply_settings()) return refuse();
+  loop();
+  switch (state_) {
+    case State::event_limit: return finish(EndReason::event_limit, last_);
+    case State::step_limit: return finish(EndReason::step_limit, last_);
+    case State::failed: return finish(EndReason::error, failure_.span);
+    case State::running:
+    case State::ended: break;
+  }
+  if (machine_.finish()) return finish(EndReason::program_end, last_);
+  return finish(EndReason::error, failure_.span);
+}
+
+/// Nothing has moved: the diagnostics say why, the trace has its end only.
+Result Runner::refuse() {
+  keep_locals();
+  Result r;
+  r.reason = EndReason::error;
+  r.error_code = failure_.code;
+  r.error_text = failure_.text;
+  r.error_span = failure_.span;
+  machine_.end_event(EndReason::error, failure_, failure_.span);
+  r.events = emitter_.count();
+  return r;
+}
+
+Result Runner::finish(EndReason reason, const Span& where) {
+  keep_locals();
+  Result r;
+  r.reason = reason;
+  if (reason == EndReason::error) {
+    r.error_code = failure_.code;
+    r.error_text = failure_.text;
+    r.error_span = failure_.span;
+    diagnostics_.error(failure_.code, failure_.span, failure_.text);
+  }
+  machine_.end_event(reason, failure_, where);
+  r.steps = steps_;
+  r.blocks = blocks_;
+  r.events = emitter_.count();
+  r.variables = variables_.report();
+  r.covered.assign(covered_.begin(), covered_.end());
+  return r;
+}
+
+void Runner::keep_locals() {
+  for (std::size_t i = calls_.size(); i-- > 0;) variables_.leave(calls_[i].locals, static_cast<std::uint32_t>(i));
+}
+
+// --- settings of the command line ------------------------------------------------------------------------------
+
+bool Runner::apply_settings() {
+  for (const auto& [name, value] : options_.set) {
+    if (!apply_setting(name, value)) return false;
+  }
+  return true;
+}
+
+bool Runner::apply_setting(const std::string& name, const std::string& value) {
+  const auto digit = name.find_first_of("0123456789");
+  auto* space = digit == std::string::npos ? nullptr : variables_.numbered(to_upper_ascii(name.substr(0, digit)));
+  const auto index = space == nullptr ? std::nullopt : parse_decimal(std::string_view(name).substr(digit));
+  const auto x = preset_number(value);
+  if (!index) {
+    variables_.preset(name, value);
+    if (x) machine_.preset_datum(name, *x);
+    return true;
+  }
+  Place p;
+  if (!x) {
+    failure_.fail(code::bad_set, "--set " + name + "=" + value + ": this is not a number");
+  } else if (variables_.place(*space, *index, p)) {
+    Variables::assign(p, *x);
+  }
+  if (failure_.set) diagnostics_.error(code::bad_set, {}, failure_.text);
+  return !failure_.set;
+}
+
+// --- the loop --------------------------------------------------------------------------------------------------
+
+void Runner::loop() {
+  while (state_ == State::running) {
+    if (at_ >= flow_->code.size()) {
+      leave(false);
+      continue;
+    }
+    auto& in = flow_->code[at_];
+    if (in.statement != nullptr) {
+      last_ = in.statement->line.span;
+      failure_.where = last_;
+      if (steps_ >= next_check_ && over_limits()) return;
+      ++steps_;
+      const auto id = in.statement->id;
+      if (id != 0 && flow_->program == &program_) {
+        if (id >= covered_.size()) covered_.resize(id + std::size_t{1} + covered_.size(), 0);
+        covered_[id] = 1;
+      }
+    }
+    step(in);
+    if (failure_.set) fail_state();
+  }
+}
+
+bool Runner::over_limits() {
+  if (steps_ >= options_.max_steps) {
+    state_ = State::step_limit;
+    return true;
+  }
+  if (emitter_.count() != seen_events_) {
+    seen_events_ = emitter_.count();
+    silent_since_ = steps_;
+  } else if (steps_ - silent_since_ > most_silent_steps) {
+    state_ = State::step_limit;
+    return true;
+  }
+  next_check_ = std::min(steps_ + check_every, options_.max_steps);
+  return false;
+}
+
+void Runner::step(Instruction& in) {
+  switch (in.op) {
+    case Op::nothing: go_to(at_ + 1); return;
+    case Op::block: block(in); return;
+    case Op::assign:
+      assign(*in.statement);
+      go_to(at_ + 1);
+      return;
+    case Op::branch_false: go_to(condition(in) ? at_ + 1 : in.target); return;
+    case Op::go: go_to(in.target); return;
+    case Op::jump: jump(in); return;
+    case Op::choose: choose(std::get<ir::Switch>(in.statement->node)); return;
+    case Op::for_begin:
+      for_begin(std::get<ir::For>(in.statement->node));
+      go_to(at_ + 1);
+      return;
+    case Op::for_test: go_to(for_test(std::get<ir::For>(in.statement->node)) ? at_ + 1 : in.target); return;
+    case Op::for_step:
+      for_step(std::get<ir::For>(in.statement->node));
+      go_to(in.target);
+      return;
+    case Op::repeat: repeat(std::get<ir::Repeat>(in.statement->node)); return;
+    case Op::call: call(std::get<ir::CallRoutine>(in.statement->node)); return;
+    case Op::modal_call: modal_call(std::get<ir::ModalCall>(in.statement->node)); return;
+    case Op::give_back: leave(true); return;
+    case Op::end: end_program(std::get<ir::End>(in.statement->node)); return;
+    case Op::message:
+      message(std::get<ir::Message>(in.statement->node), in.statement->line.span);
+      go_to(at_ + 1);
+      return;
+    case Op::declare:
+      declare(std::get<ir::Declare>(in.statement->node));
+      go_to(at_ + 1);
+      return;
+    case Op::opaque:
+      if (!std::get<ir::Opaque>(in.statement->node).harmless) {
+        failure_.fail(code::not_carried, "this statement is not understood and may move the machine");
+      }
+      go_to(at_ + 1);
+      return;
+    case Op::stray_exit: failure_.fail(code::exit_outside, "an exit stands outside of every loop"); return;
+  }
+}
+
+/// Control comes to `next` in sequence (a programmed jump sets at_ itself): ends of repeated parts and ranges count
+/// here.
+void Runner::go_to(std::uint32_t next) {
+  at_ = next;
+  if (next == repeat_end_ || next == stop_) arrived();
+}
+
+void Runner::arrived() {
+  while (at_ == repeat_end_) {
+    auto& r = repeats_.back();
+    if (--r.left > 0) {
+      at_ = r.begin;
+      return;
+    }
+    at_ = r.return_to;
+    repeats_.pop_back();
+    repeat_end_ = repeats_.size() > calls_.back().repeats ? repeats_.back().end : nowhere;
+  }
+  if (at_ == stop_) leave(false);
+}
+
+/// The registers of the innermost activation.
+void Runner::enter_top() {
+  auto& a = calls_.back();
+  flow_ = a.flow;
+  stop_ = a.stop;
+  repeat_end_ = repeats_.size() > a.repeats ? repeats_.back().end : nowhere;
+  evaluator_.enter(&flow_->names, &a.locals);
+  machine_.arguments_given = variables_.level().arguments;
+}
+
+Result run(const ir::Program& program, const machine::Profile& profile, const Options& options, TraceSink& sink,
+           Diagnostics& diagnostics) {
+  return Runner(program, profile, options, sink, diagnostics).run();
+}
+
+}  // namespace cnctrans::interpreter

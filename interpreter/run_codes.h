@@ -1,0 +1,47 @@
+// Codes of the faults of a run. Each has a paragraph in docs/diagnostics/run.md.
+#pragma once
+
+#include <string_view>
+
+namespace cnctrans::interpreter::code {
+
+// Found while running.
+inline constexpr std::string_view division_by_zero = "RUN-001";
+inline constexpr std::string_view function_domain = "RUN-002";
+inline constexpr std::string_view number_range = "RUN-003";
+inline constexpr std::string_view no_variable = "RUN-004";
+inline constexpr std::string_view array_index = "RUN-005";
+inline constexpr std::string_view wrong_type = "RUN-006";
+inline constexpr std::string_view no_datum = "RUN-007";
+inline constexpr std::string_view read_only = "RUN-008";
+inline constexpr std::string_view no_axis = "RUN-010";
+inline constexpr std::string_view arc_radii = "RUN-011";
+inline constexpr std::string_view arc_radius = "RUN-012";
+inline constexpr std::string_view arc_undefined = "RUN-013";
+inline constexpr std::string_view helix_pitch = "RUN-014";
+inline constexpr std::string_view arc_frame = "RUN-015";
+inline constexpr std::string_view corner_fit = "RUN-016";
+inline constexpr std::string_view corner_alone = "RUN-017";
+inline constexpr std::string_view bad_cycle = "RUN-018";
+inline constexpr std::string_view polar = "RUN-019";
+inline constexpr std::string_view label_missing = "RUN-020";
+inline constexpr std::string_view routine_missing = "RUN-021";
+inline constexpr std::string_view call_depth = "RUN-022";
+inline constexpr std::string_view level_depth = "RUN-023";
+inline constexpr std::string_view repeat_depth = "RUN-024";
+inline constexpr std::string_view bad_count = "RUN-025";
+inline constexpr std::string_view argument = "RUN-026";
+inline constexpr std::string_view frame = "RUN-027";
+inline constexpr std::string_view program_error = "RUN-030";
+inline constexpr std::string_view not_carried = "RUN-040";
+inline constexpr std::string_view spindle_number = "RUN-041";
+inline constexpr std::string_view needs_whole_program = "RUN-042";
+// Found before anything moves.
+inline constexpr std::string_view unknown_label = "RUN-101";
+inline constexpr std::string_view unknown_routine = "RUN-102";
+inline constexpr std::string_view opaque = "RUN-103";
+inline constexpr std::string_view no_program = "RUN-104";
+inline constexpr std::string_view exit_outside = "RUN-105";
+inline constexpr std::string_view bad_set = "RUN-106";
+
+}  // namespace cnctrans::interpreter::code
