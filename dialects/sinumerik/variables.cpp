@@ -25,7 +25,24 @@ std::vector<ir::VariableSpace> variable_spaces() {
           named(ir::Scope::routine, ir::Type::boolean),
           named(ir::Scope::routine, ir::Type::string),
           named(ir::Scope::routine, ir::Type::axis),
-          named(ir::Scope::global, ir::Type::real)};
+          named(ir::Scope::global, ir::Type::real),
+          named(ir::Scope::global, ir::Type::integer),
+          named(ir::Scope::global, ir::Type::boolean),
+          named(ir::Scope::global, ir::Type::string)};
+}
+
+std::optional<ir::SpaceId> space_of(ir::Type type, bool global) {
+  switch (type) {
+    case ir::Type::real: return global ? space::global_real : space::real;
+    case ir::Type::integer: return global ? space::global_integer : space::integer;
+    case ir::Type::boolean: return global ? space::global_boolean : space::boolean;
+    case ir::Type::string: return global ? space::global_string : space::string;
+    case ir::Type::axis:
+      if (!global) return space::axis;
+      return std::nullopt;
+    case ir::Type::frame: break;
+  }
+  return std::nullopt;
 }
 
 }  // namespace cnctrans::sinumerik

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
+#include "dialects/sinumerik/variables.h"
 #include "ir/program.h"
 #include "machine/profile.h"
 
@@ -27,15 +28,6 @@ struct MachineFacts {
   [[nodiscard]] ir::AxisId axis(char letter) const;     ///< any case; none when it is no letter or no axis
   [[nodiscard]] ir::AxisId axis(std::string_view name) const;  ///< by name in capitals, also "X1" of the profile
 };
-
-/// Spaces every Sinumerik program has, in this order.
-namespace space {
-inline constexpr ir::SpaceId r = 0, real = 1, integer = 2, boolean = 3, string = 4, axis = 5;
-inline constexpr ir::SpaceId global_real = 6, global_integer = 7, global_boolean = 8, global_string = 9;
-}
-/// The space for variables of a type; types without a space give none.
-std::optional<ir::SpaceId> space_of(ir::Type type, bool global);
-std::vector<ir::VariableSpace> make_spaces();
 
 /// A declared variable or formal parameter.
 struct Symbol {

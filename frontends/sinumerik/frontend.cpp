@@ -27,7 +27,7 @@ Span line_span(FileId file, const SourceLine& line) {
 
 void fill_frame(ir::Program& program, const machine::Profile& profile) {
   program.dialect = "sinumerik";
-  program.spaces = make_spaces();
+  program.spaces = variable_spaces();
   program.lathe = profile.kind == machine::Kind::lathe;
   program.unit_hint = profile.power_on.units;
   for (const auto& a : profile.axes) {
