@@ -1,6 +1,7 @@
 #include "backends/common/stream_writer.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -22,38 +23,68 @@ struct PlainStreamWriter::Word {
   bool has_number = false;
 };
 
+/// The words of a block, and the order to write them in. Words are built in their place: copying half-written ones
+/// costs more than the writing itself.
 struct PlainStreamWriter::Words {
   static constexpr std::size_t max = 40;
   std::array<Word, max> list;
+  std::array<std::uint8_t, max> order{};
   std::size_t count = 0;
   bool sorted = true;   ///< columns came in ascending order
   bool columns = true;  ///< every word has one
   bool alone = false;   ///< a word that must have the line for itself
 
-  bool add(const Word& w) {
-    if (count == max) return false;
-    if (w.column == 0) {
+  void clear() {
+    count = 0;
+    sorted = columns = true;
+    alone = false;
+  }
+  /// A place for a further word; null when the line is full. It counts after commit().
+  [[nodiscard]] Word* next() { return count == max ? nullptr : &list[count]; }
+  void commit() {
+    const std::uint32_t column = list[count].column;
+    if (column == 0) {
       columns = false;
-    } else if (count != 0 && w.column <= list[count - 1].column) {
+    } else if (count != 0 && column <= list[count - 1].column) {
       for (std::size_t i = 0; i < count; ++i) {
-        if (list[i].column == w.column) return true;  // one word of the source, several actions
+        if (list[i].column == column) return;  // one word of the source, several actions
       }
       sorted = false;
     }
-    list[count++] = w;
+    order[count] = static_cast<std::uint8_t>(count);
+    ++count;
+  }
+  bool add(std::string_view address, Rank rank, std::uint32_t column) {
+    Word* w = next();
+    if (w == nullptr) return false;
+    w->address = address;
+    w->column = column;
+    w->rank = rank;
+    w->has_number = false;
+    commit();
+    return true;
+  }
+  bool add(std::string_view address, const ir::Value& v, Rank rank, std::uint32_t column) {
+    Word* w = next();
+    if (w == nullptr) return false;
+    w->address = address;
+    w->text = v.text;
+    w->number = v.number;
+    w->column = column;
+    w->rank = rank;
+    w->has_number = true;
+    commit();
     return true;
   }
   void sort(bool by_rank) {
-    if (by_rank || !columns) {
-      std::stable_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
-                       [](const Word& a, const Word& b) { return a.rank < b.rank; });
-    } else if (!sorted) {
-      for (std::size_t i = 1; i < count; ++i) {
-        Word w = list[i];
-        std::size_t k = i;
-        for (; k > 0 && list[k - 1].column > w.column; --k) list[k] = list[k - 1];
-        list[k] = w;
-      }
+    const bool ranks = by_rank || !columns;
+    if (!ranks && sorted) return;
+    const auto key = [&](std::uint8_t i) { return ranks ? static_cast<std::uint32_t>(list[i].rank) : list[i].column; };
+    for (std::size_t i = 1; i < count; ++i) {  // stable; few words, nearly in order
+      const std::uint8_t w = order[i];
+      std::size_t k = i;
+      for (; k > 0 && key(order[k - 1]) > key(w); --k) order[k] = order[k - 1];
+      order[k] = w;
     }
   }
 };
@@ -62,11 +93,59 @@ namespace {
 
 constexpr std::size_t line_max = 2048;
 
-bool put(std::string_view text, char*& p, const char* end) {
+/// Words are short: two overlapping copies of a fixed size beat a call.
+inline void copy_short(char* to, const char* from, std::size_t n) {
+  if (n >= 8 && n <= 16) {
+    std::uint64_t head, tail;
+    std::memcpy(&head, from, 8);
+    std::memcpy(&tail, from + n - 8, 8);
+    std::memcpy(to, &head, 8);
+    std::memcpy(to + n - 8, &tail, 8);
+  } else if (n >= 4 && n < 8) {
+    std::uint32_t head, tail;
+    std::memcpy(&head, from, 4);
+    std::memcpy(&tail, from + n - 4, 4);
+    std::memcpy(to, &head, 4);
+    std::memcpy(to + n - 4, &tail, 4);
+  } else if (n < 4) {
+    for (std::size_t i = 0; i < n; ++i) to[i] = from[i];
+  } else {
+    std::memcpy(to, from, n);
+  }
+}
+
+inline bool put(std::string_view text, char*& p, const char* end) {
   if (text.size() > static_cast<std::size_t>(end - p)) return false;
-  std::memcpy(p, text.data(), text.size());
+  copy_short(p, text.data(), text.size());
   p += text.size();
   return true;
+}
+
+constexpr int no_number = 1000;
+
+/// Digits after the point of unsigned digits; no_number when it is anything else.
+inline int places_of_digits(std::string_view digits) {
+  const std::size_t size = digits.size();
+  if (std::endian::native == std::endian::little && size >= 4 &&
+      size <= 8) {  // all bytes at once: a byte that is no digit becomes one set bit
+    std::uint32_t head, tail;
+    std::memcpy(&head, digits.data(), 4);
+    std::memcpy(&tail, digits.data() + size - 4, 4);
+    constexpr std::uint64_t zeros = 0x3030303030303030U, high = 0x8080808080808080U, ten = 0x7676767676767676U;
+    const std::uint64_t bytes = head | std::uint64_t{tail} << (8 * (size - 4));
+    const std::uint64_t x = (bytes ^ zeros) & (~std::uint64_t{0} >> (8 * (8 - size)));
+    const std::uint64_t others = (((x & ~high) + ten) | x) & high;
+    if (others == 0) return 0;
+    const auto at = static_cast<std::size_t>(std::countr_zero(others)) / 8;
+    const bool one_point = (others & (others - 1)) == 0 && digits[at] == '.';
+    return one_point ? static_cast<int>(size - at - 1) : no_number;
+  }
+  if (!plain_number(digits) || digits[0] == '-' || digits[0] == '+') return no_number;
+  return decimals_of(digits);
+}
+inline int places_of(std::string_view text) {
+  const bool minus = text.substr(0, 1) == "-";
+  return places_of_digits(minus ? text.substr(1) : text);
 }
 
 template <class T>
@@ -77,7 +156,7 @@ std::size_t index_of(T value) {
 }  // namespace
 
 PlainStreamWriter::PlainStreamWriter(const Style& style, const WriteOptions& options, const PlainTable& table)
-    : style_(style), options_(options), table_(table) {
+    : style_(style), options_(options), table_(table), words_(std::make_unique<Words>()) {
   for (const machine::MCode& m : options.profile->m_codes) {
     if (m.code >= 0 && index_of(m.code) < m_after_.size()) m_after_[index_of(m.code)] = m.order == ir::Order::after;
   }
@@ -91,6 +170,8 @@ PlainStreamWriter::PlainStreamWriter(const Style& style, const WriteOptions& opt
   m_codes_[7] = code_of(table.tool_change);
 }
 
+PlainStreamWriter::~PlainStreamWriter() = default;
+
 void PlainStreamWriter::begin(const ir::Program& frame, std::string& out) {
   same_dialect_ = frame.dialect == style_.dialect;
   lathe_ = frame.lathe;
@@ -103,7 +184,8 @@ void PlainStreamWriter::end(std::string& /*out*/) {}
 bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) {
   const ir::LineInfo& info = statement.line;
   if (!info.labels.empty()) return false;
-  Words words;
+  Words& words = *words_;
+  words.clear();
   if (const auto* b = std::get_if<ir::Block>(&statement.node)) {
     if (info.joined || !collect(*b, words)) return false;
   } else if (const auto* e = std::get_if<ir::End>(&statement.node)) {
@@ -115,7 +197,7 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
       out += '\n';
       return true;
     }
-    words.add(Word{text, {}, 0, 0, Rank::tail, false});
+    words.add(text, Rank::tail, 0);
   } else {
     return false;
   }
@@ -135,10 +217,10 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
 bool PlainStreamWriter::collect(const ir::Block& b, Words& words) const {
   if (b.repeat_given != 0) return false;
   const bool moves = b.has_motion && b.motion.moves();
+  if (b.has_motion && !add_motion(b.motion, words)) return false;  // first: F and M mostly stand behind
   for (const ir::Action& a : b.actions) {
     if (!add_action(a, moves, words)) return false;
   }
-  if (b.has_motion && !add_motion(b.motion, words)) return false;
   return !words.alone || words.count == 1;
 }
 
@@ -157,9 +239,13 @@ bool PlainStreamWriter::add_modal(const ir::ModalSet& m, Word& w) const {
 }
 
 bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words) const {
-  Word w;
+  Word* const place = words.next();
+  if (place == nullptr) return false;
+  Word& w = *place;
   w.column = a.pos.column;
   w.rank = Rank::machine;
+  w.has_number = false;
+  w.address = {};
   const auto valued = [&](std::string_view address, const ir::Value& v, Rank rank) {
     if (!v.literal()) return false;
     w.address = address;
@@ -203,6 +289,7 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
       m_code_fits = order_fits(a, index_of(x->code), moves);
       w.address = style_.two_digit_m && x->code < 10 ? "M0" : "M";
       w.number = x->code;
+      w.text = {};
       w.has_number = true;
     }
   } else if (const auto* h = std::get_if<ir::Stop>(&a.data)) {
@@ -239,19 +326,17 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
   } else if (!m_code_fits) {
     return false;
   }
-  return words.add(w);
+  words.commit();
+  return true;
 }
 
 bool PlainStreamWriter::add_motion(const ir::Motion& m, Words& words) const {
   if (m.extra || m.frame != ir::FrameUse::normal || !m.keeps_modal) return false;
   if (m.kind != ir::MotionKind::modal) {
-    Word w;
     const std::string_view code = index_of(m.kind) < table_.motions.size() ? table_.motions[index_of(m.kind)] : "";
     if (code.empty()) return false;
-    w.address = same_dialect_ && !m.code_text.empty() ? m.code_text : code;
-    w.column = m.code_pos.column;
-    w.rank = Rank::motion_code;
-    if (!words.add(w)) return false;
+    const bool own = same_dialect_ && !m.code_text.empty();
+    if (!words.add(own ? m.code_text : code, Rank::motion_code, m.code_pos.column)) return false;
   }
   const bool keep_order = table_.axes_in_order && !same_dialect_;
   for (std::size_t i = 1; keep_order && i < m.coords.size(); ++i) {
@@ -265,48 +350,28 @@ bool PlainStreamWriter::add_motion(const ir::Motion& m, Words& words) const {
         c.direction != ir::RotaryDirection::as_value || !c.value.literal() || c.axis >= table_.axes.size()) {
       return false;
     }
-    if (!words.add(Word{table_.axes[c.axis], c.value.text, c.value.number, c.pos.column, Rank::coordinate, true}))
-      return false;
+    if (!words.add(table_.axes[c.axis], c.value, Rank::coordinate, c.pos.column)) return false;
   }
   for (const ir::CenterWord& c : m.centers) {
     if (c.mode != table_.center_mode || !c.value.literal() || c.axis >= table_.centers.size()) return false;
     if (table_.centers[c.axis].empty() || (lathe_ && c.scale != ir::WordScale::radius)) return false;
-    if (!words.add(Word{table_.centers[c.axis], c.value.text, c.value.number, c.pos.column, Rank::center, true}))
-      return false;
+    if (!words.add(table_.centers[c.axis], c.value, Rank::center, c.pos.column)) return false;
   }
   if (m.radius_given) {
     if (!m.radius.literal() || table_.radius.empty()) return false;
     if (m.radius.number < 0 && !table_.radius_major) return false;
-    if (!words.add(Word{table_.radius, m.radius.text, m.radius.number, m.radius_pos.column, Rank::radius, true}))
-      return false;
+    if (!words.add(table_.radius, m.radius, Rank::radius, m.radius_pos.column)) return false;
   }
   return true;
 }
 
-bool PlainStreamWriter::write_number(const Word& w, char*& p, const char* end) {
+inline bool PlainStreamWriter::write_number(const Word& w, char*& p, const char* end) {
   if (static_cast<std::size_t>(end - p) < w.text.size() + 1) return false;
   if (!w.text.empty()) {
     if (numbers_.verbatim) return put(w.text, p, end);
-    const char* from = w.text.data();
-    const char* const last = from + w.text.size();
-    if (*from == '+') ++from;
-    char* q = p;
-    const char* point = nullptr;
-    bool plain = from != last;
-    for (; from != last; ++from) {
-      const char c = *from;
-      if (c == '.') {
-        if (point != nullptr) plain = false;
-        point = q;
-      } else if (static_cast<unsigned char>(c - '0') > 9 && !(c == '-' && q == p)) {
-        plain = false;
-      }
-      *q++ = c;
-    }
-    if (plain && (point == nullptr || q - point - 1 <= numbers_.kept_decimals)) {
-      p = q;
-      return true;
-    }
+    std::string_view text = w.text;
+    if (text.front() == '+') text.remove_prefix(1);
+    if (places_of(text) <= numbers_.kept_decimals) return put(text, p, end);
   }
   std::string text;
   if (append_number(text, w.number, w.text, numbers_) != 0) rounded_ = true;
@@ -358,7 +423,7 @@ bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words,
   if (!write_head(info, words.count != 0, p, end)) return false;
   char* const head_end = p;
   for (std::size_t i = 0; i < words.count; ++i) {
-    const Word& w = words.list[i];
+    const Word& w = words.list[words.order[i]];
     if (i != 0 && !put(" ", p, end)) return false;
     if (!put(w.address, p, end)) return false;
     if (w.has_number && !write_number(w, p, end)) return false;
@@ -387,66 +452,6 @@ bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words,
   }
   out += '\n';
   return true;
-}
-
-// ---- table ---------------------------------------------------------------------------------------------------------
-
-namespace {
-
-/// M words by number; the texts live as long as the program.
-std::string_view m_text(std::int32_t code, bool two_digits) {
-  static const std::array<std::string, 200> texts = [] {
-    std::array<std::string, 200> t;
-    for (std::size_t i = 0; i < 100; ++i) {
-      t[i] = "M" + std::to_string(i);
-      t[100 + i] = i < 10 ? "M0" + std::to_string(i) : t[i];
-    }
-    return t;
-  }();
-  if (code < 0 || code > 99) return {};
-  return texts[static_cast<std::size_t>(code) + (two_digits ? 100 : 0)];
-}
-
-std::int32_t code_with(const machine::Profile& profile, MMeaning meaning, std::int32_t usual) {
-  const machine::MCode* at = profile.m_code(usual);
-  if (at == nullptr || at->meaning == meaning) return usual;
-  for (const machine::MCode& m : profile.m_codes) {
-    if (m.meaning == meaning) return m.code;
-  }
-  return usual;
-}
-
-}  // namespace
-
-PlainTable plain_table(const Style& style, const machine::Profile& profile) {
-  PlainTable t;
-  for (const ModalCode& c : style.modal_codes) {
-    if (c.value < PlainTable::setting_values) t.settings[index_of(c.setting)][c.value] = c.code;
-  }
-  for (const MotionCode& c : style.motion_codes) {
-    const bool plain = c.kind == ir::MotionKind::rapid || c.kind == ir::MotionKind::linear ||
-                       c.kind == ir::MotionKind::arc_cw || c.kind == ir::MotionKind::arc_ccw;
-    if (plain) t.motions[index_of(c.kind)] = c.code;
-  }
-  for (std::size_t i = 0; i < t.axes.size(); ++i) t.axes[i] = ir::fixed_axis_name(static_cast<ir::AxisId>(i));
-  t.centers[ir::axis::x] = "I";
-  t.centers[ir::axis::y] = "J";
-  t.centers[ir::axis::z] = "K";
-  t.radius = style.radius_address;
-  const auto m = [&](MMeaning meaning, std::int32_t usual) {
-    return m_text(code_with(profile, meaning, usual), style.two_digit_m);
-  };
-  t.spindle_states = {m(MMeaning::spindle_stop, 5), m(MMeaning::spindle_cw, 3), m(MMeaning::spindle_ccw, 4)};
-  t.coolant_states = {m(MMeaning::coolant_off, 9), m(MMeaning::coolant_flood, 8), m(MMeaning::coolant_mist, 7),
-                      m(MMeaning::coolant_second, 7)};
-  t.stops = {m(MMeaning::stop, 0), m(MMeaning::optional_stop, 1)};
-  t.tool_change = m(MMeaning::tool_change, 6);
-  t.machine_functions.fill(true);
-  for (const machine::MCode& c : profile.m_codes) {
-    if (c.code < 0 || index_of(c.code) >= t.machine_functions.size()) continue;
-    t.machine_functions[index_of(c.code)] = c.meaning == MMeaning::machine_function || c.meaning == MMeaning::none;
-  }
-  return t;
 }
 
 }  // namespace cnctrans::backends

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -35,9 +36,9 @@ struct PlainTable {
   double dwell_unit = 1;                           ///< seconds of one unit of it
   bool select_changes_too = false;                 ///< a T that also carries out the change is a plain T there
   bool units_with_feed = true;                     ///< the codes of `units` change F words as well
-  bool zero_feed = true;           ///< F0 is a plain word there, not one with a meaning of its own
-  bool axes_in_order = false;      ///< coordinate and centre words must come in the order of their axes
-  bool work_offset_alone = false;  ///< a work offset stands alone in its line
+  bool zero_feed = true;                           ///< F0 is a plain word there, not one with a meaning of its own
+  bool axes_in_order = false;                      ///< coordinate and centre words must come in the order of their axes
+  bool work_offset_alone = false;                  ///< a work offset stands alone in its line
   /// M codes that are carried as they are (no meaning, or the same one, on the target).
   std::array<bool, 1000> machine_functions{};
 };
@@ -50,6 +51,7 @@ PlainTable plain_table(const Style& style, const machine::Profile& profile);
 class PlainStreamWriter : public StreamWriter {
  public:
   PlainStreamWriter(const Style& style, const WriteOptions& options, const PlainTable& table);
+  ~PlainStreamWriter() override;
   void begin(const ir::Program& frame, std::string& out) override;
   bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) final;
   void end(std::string& out) override;
@@ -76,6 +78,7 @@ class PlainStreamWriter : public StreamWriter {
   WriteOptions options_;
   PlainTable table_;
   NumberFormat numbers_;
+  std::unique_ptr<Words> words_;              ///< of the block being written; its memory is used again and again
   std::array<std::uint8_t, 1000> m_after_{};  ///< 1: the target carries the M code out after the motion
   std::array<std::uint16_t, 8> m_codes_{};    ///< spindle off cw ccw, coolant off flood mist second, tool change
   bool same_dialect_ = false;

@@ -247,6 +247,25 @@ TEST(Streams, RoundLikeTheWholeProgramWriter) {
   EXPECT_EQ(f.diagnostics.warning_count(), 1U);
 }
 
+// Short texts are looked at eight bytes at once: every length, with and without sign and point, must come out the same.
+TEST(Streams, NumberTextsOfAllLengths) {
+  for (const std::string text :
+       {"1",     "-1",    "12",     "1.",    ".5",      "-.5",      "123",      "1.5",       "1234",
+        "12.5",  "-12.5", "1234.",  "12.34", "123.456", "-123.456", "1234.567", "12345.678", "123456789.125",
+        "+7.25", "00012", "1.50000"}) {
+    Fixture f;
+    f.add(line(ir::MotionKind::linear, std::stod(text), text));
+    EXPECT_EQ(f.streamed(), f.text()) << text;
+    EXPECT_EQ(f.streamed(), "G1 X" + (text == "1.50000" ? "1.5" : text.substr(text[0] == '+' ? 1 : 0)) + "\n");
+  }
+  for (const std::string text :
+       {"1.2.3", "12-3", "$1F", "1EX2", "--12", "1 23"}) {  // no plain numbers: made from the value
+    Fixture f;
+    f.add(line(ir::MotionKind::linear, 42, text));
+    EXPECT_EQ(f.streamed(), "G1 X42\n") << text;
+  }
+}
+
 TEST(Streams, GiveUpWhereTheBlockIsNotPlain) {
   const auto not_plain = [](ir::Block b) {
     Fixture f;
