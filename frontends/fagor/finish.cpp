@@ -16,25 +16,11 @@ std::shared_ptr<const ir::FrameChange> cleared(ir::FrameSlot slot) {
   return std::make_shared<const ir::FrameChange>(std::move(f));
 }
 
-/// Selecting a plane puts the pole on its origin (§3.6.2).
-ir::Action pole_at_origin(ir::Plane plane) {
-  const ir::PlaneAxes axes = ir::plane_axes(plane);
-  ir::FrameChange at;
-  at.words.push_back({axes.u, ir::Value(0), ir::WordScale::modal, {}});
-  at.words.push_back({axes.v, ir::Value(0), ir::WordScale::modal, {}});
-  ir::Action a;
-  a.data = ir::PoleSet{std::make_shared<const ir::FrameChange>(std::move(at))};
-  return a;
-}
-
 /// Adds to every block what its functions do besides their own: see finish_program.
 void complete_block(ir::Block& b, const FileFacts& facts, bool clear_preset) {
   for (std::size_t i = 0; i < b.actions.size(); ++i) {
     std::vector<ir::Action> more;
-    if (const auto* set = std::get_if<ir::ModalSet>(&b.actions[i].data);
-        set && set->setting == ir::Setting::plane && facts.polar) {
-      more.push_back(pole_at_origin(static_cast<ir::Plane>(set->value)));
-    } else if (std::holds_alternative<ir::WorkOffset>(b.actions[i].data)) {
+    if (std::holds_alternative<ir::WorkOffset>(b.actions[i].data)) {
       ir::Action a;
       if (clear_preset) {
         a.data = ir::FrameOp{cleared(ir::FrameSlot::preset)};
@@ -102,7 +88,7 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_planes(state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
-  if (clear_preset || facts.polar || facts.table_shift) {
+  if (clear_preset || facts.table_shift) {
     for (auto& r : program.routines) {
       ir::for_each_statement(r.body, [&](ir::Statement& s) {
         if (auto* b = std::get_if<ir::Block>(&s.node)) complete_block(*b, facts, clear_preset);

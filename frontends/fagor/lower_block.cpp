@@ -298,7 +298,20 @@ void BlockLowerer::coordinates(ir::Motion& m) {
     c.axis = axis;
     c.value = value(w);
     c.pos = w.pos;
-    if (ir::is_rotary_letter(axis) && state_.rollover()) c.direction = ir::RotaryDirection::by_sign;
+    if (ir::is_rotary_letter(axis)) rotary(c, w);
+  }
+}
+
+/// Absolute words of a rollover axis: the sign is the sense of turning and the value the target (3.7).
+void BlockLowerer::rotary(ir::CoordWord& c, const Word& w) {
+  if (state_.rollover()) {
+    c.direction = ir::RotaryDirection::by_sign;
+  } else if (!state_.facts.rotary) {
+    state_.facts.rotary = true;
+    state_.warning("FAG-035", w.pos,
+                   std::string("the words of the rotary axis ") + word_letter(w) + " are read as plain coordinates",
+                   "on a rollover axis the sign of an absolute word is its direction: set the option "
+                   "fagor.rotary_rollover to yes");
   }
 }
 
@@ -349,7 +362,6 @@ void BlockLowerer::radius_and_polar(ir::Motion& m) {
     m.radius_pos = r->pos;
     return;
   }
-  state_.facts.polar = true;
   result_->needs_program = true;
   if (q && !r && !arc && m.centers.empty() && !m.coords.empty()) {
     extra().has_line_angle = true;

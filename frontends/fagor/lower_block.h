@@ -74,6 +74,7 @@ class BlockLowerer {
   // the rest of the block
   void motion();
   void coordinates(ir::Motion& m);
+  void rotary(ir::CoordWord& c, const Word& w);
   void centers(ir::Motion& m);
   void radius_and_polar(ir::Motion& m);
   void thread(ir::Motion& m);

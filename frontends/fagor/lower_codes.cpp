@@ -302,7 +302,7 @@ void BlockLowerer::hole_cycle(const GWord& g) {
   }
   ir::CycleDefine define;
   define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
-  act(std::move(define), g.word, Order::after);
+  act(std::move(define), g.word);
 }
 
 }  // namespace cnctrans::fagor

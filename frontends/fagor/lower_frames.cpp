@@ -194,7 +194,6 @@ void BlockLowerer::rotation(const GWord& g) {
 
 /// I is the abscissa of the plane, J the ordinate; alone: the present point.
 void BlockLowerer::pole(const GWord& g) {
-  state_.facts.polar = true;
   const Word* i = take('I');
   const Word* j = take('J');
   if ((i == nullptr) != (j == nullptr)) {

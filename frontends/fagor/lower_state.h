@@ -32,12 +32,12 @@ struct PlaneUse {
 /// Features of the file that change how other blocks are completed at its end.
 struct FileFacts {
   std::array<bool, 3> planes{};  ///< programmed by G17 G18 G19 G16
-  bool polar = false;            ///< polar words, or G93
   bool preset = false;           ///< G92 with axes
   bool table_shift = false;      ///< G58 G59
   bool shift = false;            ///< G158
   bool calls = false;            ///< routines that may stand in other files
   bool computed_jumps = false;
+  bool rotary = false;          ///< an absolute word of a rotary axis was read as a plain coordinate
   std::array<bool, 2> units{};  ///< programmed by G71 [0], G70 [1]
   Span first_table_shift, first_machine_move;
   std::vector<std::string> jump_targets;
@@ -90,7 +90,7 @@ class LowerState {
   Diagnostics* diagnostics_;
   bool lathe_ = false;
   bool tool_changer_ = false;
-  bool rollover_ = true;
+  bool rollover_ = false;
   std::array<bool, 9> axes_{};
   std::array<const dialects::fagor::GCode*, dialects::fagor::max_g_code + 1> g_rows_{};
   std::array<const machine::MCode*, 256> m_rows_{};

@@ -92,21 +92,20 @@ TEST(FagorBlock, MirrorScaleRotation) {
 }
 
 TEST(FagorBlock, DrillingCycles) {  // 25.2, 25.3: Z reference plane, I bottom, G83: J pecks of I
-  EXPECT_EQ(line("G81 G99 X10 Y5 Z2 I-5"),
-            "block retract_plane reference as \"G99\", rapid once X 10 Y 5, cycle hole drill reference distance_mode 2 "
-            "bottom "
-            "distance_mode otherwise from_reference -5 after as \"G81\"");
+  EXPECT_EQ(
+      line("G81 G99 X10 Y5 Z2 I-5"),
+      "block cycle hole drill reference distance_mode 2 bottom distance_mode otherwise from_reference -5 as \"G81\", "
+      "retract_plane reference as \"G99\", rapid once X 10 Y 5");
   EXPECT_EQ(line("G83 Z2 I-4 J3"),
             "block cycle hole peck_full reference distance_mode 2 bottom from_reference #-12 pecks count first #4 "
-            "count 3 reapproach #1 after as \"G83\"");
+            "count 3 reapproach #1 as \"G83\"");
   EXPECT_NE(line("G82 Z2 I-5 K50").find("dwell_bottom 50 dwell_scale 0.01"), std::string::npos)
       << line("G82 Z2 I-5 K50");
   EXPECT_EQ(test::read("G82 Z2 I-5").codes(), "FAG-014");
   EXPECT_EQ(test::read("G81 X1 Y1 Z2").codes(), "FAG-014");
   EXPECT_EQ(test::read("G83 Z2 I-5 J1.5").codes(), "FAG-014");
   // in ZX the longitudinal axis is Y
-  EXPECT_NE(line("G18\nG81 Z1 X2 Y3 I-5").find("rapid once Z 1 X 2, cycle hole drill reference distance_mode 3"),
-            std::string::npos)
+  EXPECT_NE(line("G18\nG81 Z1 X2 Y3 I-5").find("cycle hole drill reference distance_mode 3"), std::string::npos)
       << line("G18\nG81 Z1 X2 Y3 I-5");
 }
 
@@ -121,6 +120,11 @@ TEST(FagorBlock, Computed) {
   EXPECT_EQ(line("XP100 Y-P101 FP115"), "block feed P[115] zero_is_maximum as \"FP115\", modal X P[100] Y (-P[101])");
   EXPECT_EQ(test::read("GP1 X5").codes(), "FAG-012");
   EXPECT_EQ(test::read("XP26").codes(), "FAG-018");  // 26..99 do not exist
+}
+
+TEST(FagorBlock, RotaryWords) {  // 3.7
+  EXPECT_EQ(line("G1 A-90"), "block linear as \"G1\" A -90 | FAG-035");
+  EXPECT_EQ(test::read("A10\nA20\nB5").codes(), "FAG-035");
 }
 
 TEST(FagorBlock, Refusals) {
