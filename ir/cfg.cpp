@@ -1,5 +1,6 @@
 // The control-flow graph of a routine.
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -28,7 +29,7 @@ bool runs_at_least_once(const ExprPtr& count) {
 
 class Builder {
  public:
-  explicit Builder(const Routine& routine) : routine_(routine), labels_(routine) {}
+  explicit Builder(const Routine& routine) : routine_(routine) {}
 
   ControlFlow build() {
     prepare(routine_.body);
@@ -74,13 +75,18 @@ class Builder {
     }
   }
 
+  const LabelTable& labels() {
+    if (!labels_) labels_.emplace(routine_);
+    return *labels_;
+  }
+
   void find_ranges() {
     for (const Statement* s : repeats_) {
       const auto& r = std::get<Repeat>(s->node);
       if (r.has_program || r.first.computed || r.last.computed || r.last.text.empty()) continue;
-      const auto order = labels_.order(s->id);
-      auto first = labels_.find(r.first, r.search, order);
-      auto last = labels_.find(r.last, r.search, order);
+      const auto order = labels().order(s->id);
+      auto first = labels().find(r.first, r.search, order);
+      auto last = labels().find(r.last, r.search, order);
       if (!first || !last) continue;
       if (r.order_free && last->order < first->order) std::swap(first, last);
       const auto end = line_end_.find(last->statement);
@@ -175,7 +181,7 @@ class Builder {
     } else if (j.target.computed) {
       computed(j.search);
       if (j.quiet) add_ids(out, next);
-    } else if (const auto site = labels_.find(j.target, j.search, labels_.order(from))) {
+    } else if (const auto site = labels().find(j.target, j.search, labels().order(from))) {
       jumps_.emplace_back(from, *site);
     } else if (j.quiet) {
       add_ids(out, next);
@@ -184,8 +190,8 @@ class Builder {
   }
 
   void computed(Search search) {
-    const auto from = labels_.order(current_);
-    for (const auto& site : labels_.sites()) {
+    const auto from = labels().order(current_);
+    for (const auto& site : labels().sites()) {
       if (search == Search::forward && site.order <= from) continue;
       if (search == Search::backward && site.order > from) continue;
       jumps_.emplace_back(current_, site);
@@ -197,9 +203,9 @@ class Builder {
     continuation_[current_] = next;
     const bool known_range = !r.first.computed && !r.last.computed;
     if (!r.has_program && known_range) {
-      auto first = labels_.find(r.first, r.search, labels_.order(current_));
+      auto first = labels().find(r.first, r.search, labels().order(current_));
       if (r.order_free && !r.last.text.empty()) {
-        const auto last = labels_.find(r.last, r.search, labels_.order(current_));
+        const auto last = labels().find(r.last, r.search, labels().order(current_));
         if (first && last && last->order < first->order) first = last;
       }
       if (first) jumps_.emplace_back(current_, *first);
@@ -218,7 +224,7 @@ class Builder {
   }
 
   const Routine& routine_;
-  LabelTable labels_;
+  std::optional<LabelTable> labels_;  ///< made when the first jump or range asks for it
   ControlFlow flow_;
   std::uint32_t current_ = 0;
   std::unordered_map<std::uint32_t, std::uint32_t> line_end_;  ///< first of joined statements -> the last

@@ -30,9 +30,8 @@ void LabelTable::add_body(const Body& body) {
 }
 
 void LabelTable::add_statement(const Statement& s) {
-  if (orders_.empty()) first_id_ = s.id;
-  orders_.resize(s.id - first_id_ + 1);
-  orders_[s.id - first_id_] = order_ + 1;
+  if (orders_.size() <= s.id) orders_.resize(s.id + 1);
+  orders_[s.id] = order_ + 1;
   add_line(s.line, s.id, SitePart::statement);
   const auto bodies = detail::bodies_of(s);
   if (bodies[0] != nullptr) add_body(*bodies[0]);
@@ -44,8 +43,7 @@ void LabelTable::add_statement(const Statement& s) {
 }
 
 std::uint32_t LabelTable::order(std::uint32_t statement_id) const {
-  const bool inside = statement_id >= first_id_ && statement_id - first_id_ < orders_.size();
-  return inside ? orders_[statement_id - first_id_] : 0;
+  return statement_id < orders_.size() ? orders_[statement_id] : 0;
 }
 
 const std::vector<LabelSite>& LabelTable::all(std::string_view text, bool is_number) const {

@@ -48,9 +48,8 @@ class LabelTable {
 
   std::map<std::string, std::vector<LabelSite>, std::less<>> by_name_;
   std::vector<LabelSite> sites_;
-  std::vector<std::uint32_t> orders_;  ///< by id - first_id_
+  std::vector<std::uint32_t> orders_;  ///< by id
   std::uint32_t order_ = 0;
-  std::uint32_t first_id_ = 0;
 };
 
 /// How a label is written for comparison: digits without leading zeros after 'N', or the identifier in capitals after
