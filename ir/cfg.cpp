@@ -84,13 +84,11 @@ class Builder {
     for (const Statement* s : repeats_) {
       const auto& r = std::get<Repeat>(s->node);
       if (r.has_program || r.first.computed || r.last.computed || r.last.text.empty()) continue;
-      const auto order = labels().order(s->id);
-      auto first = labels().find(r.first, r.search, order);
-      auto last = labels().find(r.last, r.search, order);
-      if (!first || !last) continue;
-      if (r.order_free && last->order < first->order) std::swap(first, last);
-      const auto end = line_end_.find(last->statement);
-      ranges_.push_back({s->id, first->statement, end == line_end_.end() ? last->statement : end->second});
+      const auto range = labels().range(r, labels().order(s->id));
+      if (!range) continue;
+      const auto& [first, last] = *range;
+      const auto end = line_end_.find(last.statement);
+      ranges_.push_back({s->id, first.statement, end == line_end_.end() ? last.statement : end->second});
     }
   }
 
@@ -203,11 +201,10 @@ class Builder {
     continuation_[current_] = next;
     const bool known_range = !r.first.computed && !r.last.computed;
     if (!r.has_program && known_range) {
-      auto first = labels().find(r.first, r.search, labels().order(current_));
-      if (r.order_free && !r.last.text.empty()) {
-        const auto last = labels().find(r.last, r.search, labels().order(current_));
-        if (first && last && last->order < first->order) first = last;
-      }
+      const auto from = labels().order(current_);
+      const auto range = labels().range(r, from);
+      if (range) jumps_.emplace_back(current_, range->first);
+      const auto first = r.last.text.empty() ? labels().find(r.first, r.search, from) : std::nullopt;
       if (first) jumps_.emplace_back(current_, *first);
     } else if (!r.has_program) {
       computed(Search::whole_first);

@@ -2,94 +2,17 @@
 #include "ir/dataflow.h"
 
 #include <algorithm>
-#include <bitset>
 #include <unordered_map>
 #include <utility>
 
+#include "ir/fact_set.h"
 #include "ir/labels.h"
 #include "ir/nesting.h"
 
 namespace cnctrans::ir {
 namespace {
 
-// One bit a fact: settings, positions, then these.
-constexpr std::size_t position_bit = setting_count;
-constexpr std::size_t motion_bit = position_bit + axis::count_max;
-constexpr std::size_t work_offset_bit = motion_bit + 1;
-constexpr std::size_t feed_bit = motion_bit + 2;
-constexpr std::size_t spindle_bit = motion_bit + 3;
-constexpr std::size_t cycle_bit = motion_bit + 4;
-constexpr std::size_t modal_call_bit = motion_bit + 5;
-using FactSet = std::bitset<modal_call_bit + 1>;
-
-/// Which facts differ.
-FactSet differing(const Facts& a, const Facts& b) {
-  FactSet set;
-  for (std::size_t i = 0; i < setting_count; ++i) set[i] = a.settings[i] != b.settings[i];
-  for (std::size_t i = 0; i < a.position.size(); ++i) set[position_bit + i] = a.position[i] != b.position[i];
-  set[motion_bit] = a.motion != b.motion;
-  set[work_offset_bit] = a.work_offset != b.work_offset;
-  set[feed_bit] = a.feed != b.feed;
-  set[spindle_bit] = a.spindle != b.spindle;
-  set[cycle_bit] = a.cycle_active != b.cycle_active || a.cycle_active_known != b.cycle_active_known ||
-                   a.cycle_is_hole != b.cycle_is_hole;
-  set[modal_call_bit] = a.modal_call != b.modal_call;
-  return set;
-}
-
-/// The facts of `from` that are in `set` replace those of `facts`.
-void take(Facts& facts, const Facts& from, const FactSet& set) {
-  for (std::size_t i = 0; i < setting_count; ++i) {
-    if (set[i]) facts.settings[i] = from.settings[i];
-  }
-  for (std::size_t i = 0; i < facts.position.size(); ++i) {
-    if (set[position_bit + i]) facts.position[i] = from.position[i];
-  }
-  if (set[motion_bit]) facts.motion = from.motion;
-  if (set[work_offset_bit]) facts.work_offset = from.work_offset;
-  if (set[feed_bit]) facts.feed = from.feed;
-  if (set[spindle_bit]) facts.spindle = from.spindle;
-  if (set[cycle_bit]) {
-    facts.cycle_active = from.cycle_active;
-    facts.cycle_active_known = from.cycle_active_known;
-    facts.cycle_is_hole = from.cycle_is_hole;
-  }
-  if (set[modal_call_bit]) facts.modal_call = from.modal_call;
-}
-
-/// Which cycles a program has: they decide what a motion can change.
-struct CyclesUsed {
-  bool any = false;
-  bool other_than_holes = false;
-};
-
-/// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
-std::array<Facts, 4> probes(const CyclesUsed& cycles) {
-  std::array<Facts, 4> all;
-  for (unsigned n = 0; n < all.size(); ++n) {
-    Facts& f = all[n];
-    f.reachable = true;
-    f.settings.fill(static_cast<std::uint8_t>(n % 3));
-    f.position.fill(7777.125 + n);
-    f.motion = n % 2 == 0 ? MotionKind::linear : MotionKind::rapid;
-    f.work_offset = -5 - static_cast<std::int32_t>(n);
-    f.feed = 7777.125 + n;
-    f.spindle = 7777.125 + n;
-    f.cycle_active = cycles.any && n < 3;
-    f.cycle_is_hole = f.cycle_active && !cycles.other_than_holes;
-  }
-  return all;
-}
-
-FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states) {
-  FactSet set;
-  for (const Facts& before : states) {
-    Facts after = before;
-    apply(s, after);
-    set |= differing(before, after);
-  }
-  return set;
-}
+using namespace detail;
 
 bool moves(const Statement& s) {
   const auto* b = std::get_if<Block>(&s.node);
@@ -211,17 +134,16 @@ class Analysis {
     return r == nullptr ? nowhere : static_cast<std::size_t>(r - program_.routines.data());
   }
 
-  Callee range_of(std::size_t routine, const LabelRef& first, const LabelRef& last, Search search) {
+  /// The range that `repeat` names in another routine.
+  Callee range_of(std::size_t routine, const Repeat& repeat) {
     Callee c;
     c.routine = routine;
-    if (routine == nowhere || first.computed || last.computed) return c;
-    const auto a = labels(routine).find(first, search, 0);
-    const auto b = labels(routine).find(last, search, 0);
-    if (!a || !b || b->statement < a->statement || a->part != SitePart::statement || b->part != SitePart::statement)
-      return c;
+    if (routine == nowhere || repeat.first.computed || repeat.last.computed) return c;
+    const auto range = labels(routine).range(repeat, 0);
+    if (!range || range->first.part != SitePart::statement || range->second.part != SitePart::statement) return c;
     c.known = true;
-    c.first = a->statement;
-    c.last = b->statement;
+    c.first = range->first.statement;
+    c.last = range->second.statement;
     // The last line may hold several statements.
     while (c.last + 1 < statements_.size() && statements_[c.last + 1] != nullptr &&
            routine_of_[c.last + 1] == routine && statements_[c.last + 1]->line.joined) {
@@ -240,7 +162,12 @@ class Analysis {
     c.computed = call.computed != nullptr;
     if (c.computed) return c;
     c.routine = find_routine(call.routine);
-    if (call.has_range) return range_of(c.routine, call.first, call.last, Search::whole_first);
+    if (call.has_range) {
+      Repeat range;
+      range.first = call.first;
+      range.last = call.last;
+      return range_of(c.routine, range);
+    }
     c.known = c.routine != nowhere;
     return c;
   }
@@ -253,7 +180,7 @@ class Analysis {
     const auto of = [&](const Callee& c) { return c.known ? routines_[c.routine].changes : all; };
     if (const auto* c = std::get_if<CallRoutine>(&s.node)) return of(called(*c));
     if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
-      return of(range_of(find_routine(r->program), r->first, r->last, Search::whole_first));
+      return of(range_of(find_routine(r->program), *r));
     }
     FactSet set = changed_by(s, probes_);
     if (moves(s)) {
@@ -373,7 +300,7 @@ class Analysis {
       return call(s.id, called(*c), c->count, f) && !c->tail;
     }
     if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
-      return call(s.id, range_of(find_routine(r->program), r->first, r->last, Search::whole_first), r->count, f);
+      return call(s.id, range_of(find_routine(r->program), *r), r->count, f);
     }
     if (const auto* m = std::get_if<ModalCall>(&s.node)) return modal_call(s, *m, f);
     if (moves(s) && f.modal_call != 0) return block_with_modal_call(s, f);

@@ -63,4 +63,18 @@ std::optional<LabelSite> LabelTable::find(std::string_view text, bool is_number,
   return *std::prev(later);
 }
 
+std::optional<std::pair<LabelSite, LabelSite>> LabelTable::range(const Repeat& repeat, std::uint32_t from) const {
+  auto first = find(repeat.first, repeat.search, from);
+  if (!first && repeat.search == Search::backward) first = find(repeat.first, Search::forward, from);
+  const auto& ends = all(repeat.last.text, repeat.last.is_number);
+  if (!first || ends.empty()) return std::nullopt;
+  auto last = ends.begin();
+  if (repeat.search != Search::whole_first) {
+    last = std::find_if(ends.begin(), ends.end(), [&](const LabelSite& s) { return s.order >= first->order; });
+    if (last == ends.end()) last = ends.begin();
+  }
+  if (last->order >= first->order) return std::pair{*first, *last};
+  return repeat.order_free ? std::optional(std::pair{*last, *first}) : std::nullopt;
+}
+
 }  // namespace cnctrans::ir

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ir/program.h"
@@ -34,6 +35,11 @@ class LabelTable {
   [[nodiscard]] std::optional<LabelSite> find(const LabelRef& label, Search search, std::uint32_t from) const {
     return find(label.text, label.is_number, search, from);
   }
+  /// First and last line of the range that a Repeat on the line `from` runs. The first label is found like a jump's (a
+  /// backward search that fails goes forward), the last one is the next of its name from there on (`whole_first`: the
+  /// first of all). nullopt when a label is missing or stands in the wrong order. Only for a Repeat of this routine
+  /// with fixed labels and a `last`.
+  [[nodiscard]] std::optional<std::pair<LabelSite, LabelSite>> range(const Repeat& repeat, std::uint32_t from) const;
   /// All sites of a label, in text order.
   [[nodiscard]] const std::vector<LabelSite>& all(std::string_view text, bool is_number) const;
   /// All sites of all labels, in text order.

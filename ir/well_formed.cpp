@@ -148,6 +148,7 @@ class Checker {
   void structure(const Statement& s, bool in_loop);
   void jump(const Jump& j, std::uint32_t from);
   void found(const LabelRef& label, Search search, std::uint32_t from, bool quiet);
+  void range(const Repeat& r, std::uint32_t from);
   void motion(const Motion& m);
 
   Report report_;
@@ -225,6 +226,16 @@ void Checker::found(const LabelRef& label, Search search, std::uint32_t from, bo
   }
 }
 
+void Checker::range(const Repeat& r, std::uint32_t from) {
+  if (r.first.computed || r.last.computed) return;
+  if (r.last.text.empty()) return found(r.first, r.search, from, false);
+  if (labels_->range(r, labels_->order(from))) return;
+  report_.diagnostics.error("IR-020", report_.line,
+                            "a label of the range " + r.first.text + " to " + r.last.text +
+                                " is not there, or the labels stand in the wrong order",
+                            "write the labels, or correct the names");
+}
+
 void Checker::jump(const Jump& j, std::uint32_t from) {
   condition(j.condition, "a jump");
   found(j.target, j.search, from, j.quiet);
@@ -247,8 +258,7 @@ void Checker::structure(const Statement& s, bool in_loop) {
     for (const auto& d : w2->fallback) jump(d, s.id);
     if (w2->fallback.size() > 1) report_.error("IR-023", "a switch has two defaults");
   } else if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && !r->has_program) {
-    found(r->first, r->search, s.id, false);
-    if (!r->last.text.empty()) found(r->last, r->search, s.id, false);
+    range(*r, s.id);
   }
 }
 

@@ -106,6 +106,16 @@ TEST(Cfg, RepeatRangesComeBackBehindTheRepeat) {
       << "without a second label: up to the repeat";
 }
 
+TEST(Cfg, RepeatRangeWithDuplicateLabels) {
+  // Backward: the nearest A before the repeat, then the next B from there on.
+  EXPECT_EQ(edges("A: block\nB: block\nA: block\nB: block\nrepeat A B search backward\nblock\n").at(3),
+            (std::vector<std::uint32_t>{3, 5, 6}));
+  EXPECT_EQ(edges("A: block\nB: block\nA: block\nB: block\nrepeat A B\nblock\n").at(1),
+            (std::vector<std::uint32_t>{1, 3, 6}));
+  EXPECT_EQ(edges("B: block\nA: block\nrepeat A B\nblock\n").at(2), (std::vector<std::uint32_t>{}))
+      << "the wrong order";
+}
+
 TEST(Cfg, RepeatRangeEndsBehindEverythingOnItsLastLine) {
   EXPECT_EQ(edges("N10 block\n& block\nblock\nrepeat N10 N10\nblock\n"), (Edges{{2}, {1, 3, 5}, {4}, {1}, {0}}));
 }

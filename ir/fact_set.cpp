@@ -1,0 +1,65 @@
+#include "ir/fact_set.h"
+
+namespace cnctrans::ir::detail {
+
+FactSet differing(const Facts& a, const Facts& b) {
+  FactSet set;
+  for (std::size_t i = 0; i < setting_count; ++i) set[i] = a.settings[i] != b.settings[i];
+  for (std::size_t i = 0; i < a.position.size(); ++i) set[position_bit + i] = a.position[i] != b.position[i];
+  set[motion_bit] = a.motion != b.motion;
+  set[work_offset_bit] = a.work_offset != b.work_offset;
+  set[feed_bit] = a.feed != b.feed;
+  set[spindle_bit] = a.spindle != b.spindle;
+  set[cycle_bit] = a.cycle_active != b.cycle_active || a.cycle_active_known != b.cycle_active_known ||
+                   a.cycle_is_hole != b.cycle_is_hole;
+  set[modal_call_bit] = a.modal_call != b.modal_call;
+  return set;
+}
+
+void take(Facts& facts, const Facts& from, const FactSet& set) {
+  for (std::size_t i = 0; i < setting_count; ++i) {
+    if (set[i]) facts.settings[i] = from.settings[i];
+  }
+  for (std::size_t i = 0; i < facts.position.size(); ++i) {
+    if (set[position_bit + i]) facts.position[i] = from.position[i];
+  }
+  if (set[motion_bit]) facts.motion = from.motion;
+  if (set[work_offset_bit]) facts.work_offset = from.work_offset;
+  if (set[feed_bit]) facts.feed = from.feed;
+  if (set[spindle_bit]) facts.spindle = from.spindle;
+  if (set[cycle_bit]) {
+    facts.cycle_active = from.cycle_active;
+    facts.cycle_active_known = from.cycle_active_known;
+    facts.cycle_is_hole = from.cycle_is_hole;
+  }
+  if (set[modal_call_bit]) facts.modal_call = from.modal_call;
+}
+
+std::array<Facts, 4> probes(const CyclesUsed& cycles) {
+  std::array<Facts, 4> all;
+  for (unsigned n = 0; n < all.size(); ++n) {
+    Facts& f = all[n];
+    f.reachable = true;
+    f.settings.fill(static_cast<std::uint8_t>(n % 3));
+    f.position.fill(7777.125 + n);
+    f.motion = n % 2 == 0 ? MotionKind::linear : MotionKind::rapid;
+    f.work_offset = -5 - static_cast<std::int32_t>(n);
+    f.feed = 7777.125 + n;
+    f.spindle = 7777.125 + n;
+    f.cycle_active = cycles.any && n < 3;
+    f.cycle_is_hole = f.cycle_active && !cycles.other_than_holes;
+  }
+  return all;
+}
+
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states) {
+  FactSet set;
+  for (const Facts& before : states) {
+    Facts after = before;
+    apply(s, after);
+    set |= differing(before, after);
+  }
+  return set;
+}
+
+}  // namespace cnctrans::ir::detail

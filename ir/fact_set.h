@@ -1,0 +1,36 @@
+// Sets of facts, and what a statement can change. Only for the .cpp files of ir/.
+#pragma once
+
+#include <array>
+#include <bitset>
+
+#include "ir/dataflow.h"
+
+namespace cnctrans::ir::detail {
+
+// One bit a fact: settings, positions, then these.
+inline constexpr std::size_t position_bit = setting_count;
+inline constexpr std::size_t motion_bit = position_bit + axis::count_max;
+inline constexpr std::size_t work_offset_bit = motion_bit + 1;
+inline constexpr std::size_t feed_bit = motion_bit + 2;
+inline constexpr std::size_t spindle_bit = motion_bit + 3;
+inline constexpr std::size_t cycle_bit = motion_bit + 4;
+inline constexpr std::size_t modal_call_bit = motion_bit + 5;
+using FactSet = std::bitset<modal_call_bit + 1>;
+
+/// Which cycles a program has: they decide what a motion can change.
+struct CyclesUsed {
+  bool any = false;
+  bool other_than_holes = false;
+};
+
+/// Which facts differ.
+FactSet differing(const Facts& a, const Facts& b);
+/// The facts of `from` that are in `set` replace those of `facts`.
+void take(Facts& facts, const Facts& from, const FactSet& set);
+/// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
+std::array<Facts, 4> probes(const CyclesUsed& cycles);
+/// What a statement can change, carried out under any of these states.
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states);
+
+}  // namespace cnctrans::ir::detail
