@@ -85,13 +85,7 @@ void Lowering::resolve_special() {
     act(*marks_.orient, Step::machine_before, std::move(orient));
   }
   if (marks_.retract != nullptr && flow_->label_count == 1) {
-    const Word& n = *flow_->labels[0];
-    const std::size_t from = marks_.retract->pos.column - 1, to = n.pos.column - 1 + n.pos.length;
-    report_.warn(
-        "NUM-033", marks_.retract->pos,
-        "G75 names the blocks of an emergency retract; they are never run here, and no other control gets them");
-    act(*marks_.retract, Step::setting,
-        ir::OpaqueWord{from < to ? text_.substr(from, to - from) : text_of(*marks_.retract)});
+    leave_out(*marks_.retract, "NUM-033", "names the blocks of an emergency retract, which are never run here", 2);
     flow_->label_count = 0;
   } else if (marks_.retract != nullptr) {
     unknown(*marks_.retract, "G75 needs one block number");
@@ -298,8 +292,7 @@ void Lowering::resolve_values() {
     act(*w, Step::frame, frame_op(std::move(change)));
   }
   if (const Word* w = use(e('G'))) {
-    report_.note("NUM-034", w->pos, "EG lowers the acceleration; it does not change the path and is kept as text");
-    act(*w, Step::value, ir::OpaqueWord{text_of(*w)});
+    leave_out(*w, "NUM-034", "lowers the acceleration; it does not change the path", 1);
   }
 }
 
@@ -447,9 +440,7 @@ void Lowering::tool_axis(const Word& g16) {
                             "motion.transformation");
     }
     state_.tool_axis = axis;
-    report_.note("NUM-034", g16.pos, "G16 R+ is the tool axis that counts anyway; kept as text");
-    act(g16, Step::setting,
-        ir::OpaqueWord{text_.substr(g16.pos.column - 1, w.pos.column + w.pos.length - g16.pos.column)});
+    leave_out(g16, "NUM-034", "R+ names the tool axis that counts anyway", 2);
     return;
   }
   unknown(g16, "G16 needs P, Q or R with a sign");

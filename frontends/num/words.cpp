@@ -29,7 +29,10 @@ bool joined_digits(std::string_view text) {
   return false;
 }
 bool has_blank(std::string_view text) {
-  return text.find_first_of(" \t(") != std::string_view::npos;
+  for (const char c : text) {
+    if (c == ' ' || c == '\t' || c == '(') return true;
+  }
+  return false;
 }
 
 /// The number of a G, M, N or H word: a literal integer; -1 otherwise.
@@ -56,6 +59,14 @@ void Lowering::start_program(bool main) {
 
 void Lowering::unknown(const Word& w, std::string_view why) {
   report_.refuse("NUM-005", w.pos, "`" + std::string(text_of(w)) + "`: " + std::string(why), {}, "block.word");
+}
+
+void Lowering::leave_out(const Word& w, std::string_view code, const std::string& what, std::size_t words) {
+  const std::string message = "`" + std::string(text_of(w)) + "` " + what;
+  if (block_->words.size() == words && block_->statements.empty()) {
+    return report_.carry(code, w.pos, message + "; the block is kept as text", "block.word");
+  }
+  report_.warn(code, w.pos, message + "; it is left out");
 }
 
 const syntax::Word* Lowering::use(int slot) {
@@ -232,11 +243,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::exact_stop: act(w, Step::special, ir::ExactStopBlock{}); return;
     case GKind::handwheel:
     case GKind::lathe_plain:
-      report_.note(
-          "NUM-034", w.pos,
-          "`" + std::string(text_of(w)) + "` (" + std::string(row.title) + ") does not change the path; kept as text");
-      act(w, Step::setting, ir::OpaqueWord{text_of(w)});
-      return;
+      return leave_out(w, "NUM-034", "(" + std::string(row.title) + ") does not change the path", 1);
     case GKind::tool_axis: return mark(marks_.tool_axis);
     case GKind::three_points: return mark(marks_.three_points);
     case GKind::mirror: return mark(marks_.mirror);

@@ -111,7 +111,7 @@ TEST(NumLower, DwellAndFeed) {  // 6.5, 7
 
 TEST(NumLower, Frames) {  // 8
   EXPECT_EQ(line("G59 X10 Y L1"), "block frame shift translate replace_named by_distance_mode X 10 Y L[1] as \"G59\"");
-  EXPECT_EQ(line("G53"), "block work_offset #0 off as \"G53\"");
+  EXPECT_EQ(line("G53"), "block work_offset off as \"G53\"");
   EXPECT_EQ(line("G54"), "block work_offset #1 as \"G54\"");
   EXPECT_NE(line("ED30").find("frame rotation rotate replace angle 30"), std::string::npos) << line("ED30");
   EXPECT_NE(line("G59 X1 I5 J6 ED30").find("frame rotation rotate replace X 5 Y 6 angle 30"), std::string::npos)
