@@ -278,7 +278,7 @@ Json JsonWriter::program() {
 }  // namespace detail
 
 std::string to_json(const Program& program) {
-  return detail::JsonWriter(program).program().dump(1) + "\n";
+  return detail::JsonWriter(program).program().dump(1);
 }
 
 }  // namespace cnctrans::ir

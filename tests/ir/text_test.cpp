@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "ir/enum_names.h"
@@ -262,6 +264,15 @@ TEST(Text, LooksAsDocumented) {
       "  N30 end_program as \"M30\"\n"
       "}\n";
   EXPECT_EQ(to_text(read_all(text)), text);
+}
+
+TEST(Text, TheExampleInTheDocumentationIsAsPrinted) {
+  std::ifstream file(CNCTRANS_SOURCE_DIR "/docs/ir.md");
+  const std::string doc{std::istreambuf_iterator<char>(file), {}};
+  const auto begin = doc.find("```\n") + 4;
+  const std::string example = doc.substr(begin, doc.find("```", begin) - begin);
+  ASSERT_GT(example.size(), 300U);
+  EXPECT_EQ(to_text(read_all(example)), example);
 }
 
 TEST(Text, NumberTextsAndPassMadeNumbersDiffer) {
