@@ -57,6 +57,7 @@ struct Capabilities {
   std::int64_t repeat_max = 9999;         ///< largest count of a Repeat or a call
   bool block_repeat = false;       ///< Block::repeat
   bool modal_call = false;
+  bool modal_call_here = false;    ///< a modal call also runs where it stands
   bool modal_cycle_by_call = false;  ///< a modal cycle is written as a modal call (definition does not run by itself)
   bool declares_variables = false; ///< Declare, named variables
   bool assignment_joins_words = true;  ///< an assignment may share a line with words
@@ -76,6 +77,7 @@ struct Capabilities {
   bool word_variable = true;         ///< XP100, X L1
   bool word_variable_sign = true;    ///< X-P100
   bool word_indirect = false;        ///< a variable with a computed index in a word or an expression
+  bool word_indirect_value = true;    ///< with word_indirect: as the value of a word too (X=R[R1]), not only in expressions
   bool relation_as_value = false;    ///< stores 1/0
   std::set<UnaryOp> unary;
   std::set<BinaryOp> binary;
@@ -138,6 +140,8 @@ struct Capabilities {
   bool work_offset_off = true;
   bool units_with_feed = true;         ///< a unit switch that holds for F as well
   bool units_geometry_only = false;    ///< a unit switch that leaves F alone
+  bool retract_plane_switch = false;   ///< Setting::retract_plane can be written
+  bool feed_point_switch = false, feed_override_switch = false;
   bool gear_needed = false;            ///< a gear range must be programmed (profile option "default_gear")
   FeedMemory feed_memory = FeedMemory::shared;
   bool frame_chain = false;          ///< FrameSlot::chain (else shift/rotation/scale/mirror slots)

@@ -52,6 +52,7 @@ std::vector<std::string_view> block_local_passes();
 std::vector<std::string_view> block_local_passes();
 
 /// For streams: true when no pass would touch this block (plain motion in forms the target has). Cheap: no allocation.
-bool plain_legal(const Block& block, const Capabilities& target);
+/// Without the target's machine a block that moves and switches something besides is not plain.
+bool plain_legal(const Block& block, const Capabilities& target, const machine::Profile* machine = nullptr);
 
 }  // namespace cnctrans::ir

@@ -1,0 +1,23 @@
+// What the target machine does with the actions of a block.
+#pragma once
+
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+/// When the target machine carries the action out, by its M table.
+Order target_order(const Action& action, const machine::Profile& target);
+/// False for modal settings and values: carrying them out makes no event and they wait for nothing.
+bool makes_event(const Action& action);
+/// Actions whose place among the others of a block without motion counts.
+bool own_block(const Action& action, const Capabilities& target);
+/// T carries out the tool change (turret, or a control set up so).
+bool changes_on_select(const machine::Profile& machine);
+/// True when the block moves or runs a cycle.
+bool has_motion(const Block& block);
+
+/// Runs `edit(editor, statement, out)` over the blocks of every routine; other statements pass through.
+using BlockEdit = std::function<void(class Editor&, Statement&&, Body&)>;
+void edit_blocks(Program& program, const LegaliseContext& context, const BlockEdit& edit);
+
+}  // namespace cnctrans::ir::passes

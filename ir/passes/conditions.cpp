@@ -1,0 +1,271 @@
+// Conditions: what one relation can't say becomes several jumps; comparisons with a tolerance.
+#include <cmath>
+
+#include "ir/passes/expression_lowering.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// The value that a control with tolerant comparison takes for equal; exact controls get this band.
+constexpr double band = 0.000001;
+
+bool is_truth_literal(const ExprPtr& e, bool& value) {
+  const auto c = constant_value(e);
+  if (!c) return false;
+  value = *c != 0;
+  return true;
+}
+
+}  // namespace
+
+// --- whole numbers ----------------------------------------------------------------------------------------------
+
+std::string IntegerVariables::key(const VarRef& v) {
+  std::string k = std::to_string(v.space) + ":" + v.name;
+  if (v.index) {
+    const auto n = constant_index(v);
+    k += n ? std::to_string(*n) : "?";
+  }
+  return k;
+}
+
+IntegerVariables::IntegerVariables(const Program& program) {
+  std::vector<std::pair<std::string, ExprPtr>> writes;
+  const auto unknown = [this](const VarRef& v) {
+    assigned_.insert(key(v));
+    not_whole_.insert(key(v));
+  };
+  for (const auto& r : program.routines) {
+    for (const auto& p : r.parameters) {
+      if (p.type != Type::integer && p.type != Type::boolean) unknown(p.variable);
+    }
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* a = std::get_if<Assign>(&s.node)) {
+        for (const auto& i : a->items) {
+          if (!i.to_system) writes.emplace_back(key(i.target), i.value);
+        }
+      } else if (const auto* f = std::get_if<For>(&s.node)) {
+        writes.emplace_back(key(f->counter), f->from);
+        if (f->step) writes.emplace_back(key(f->counter), f->step);
+      } else {
+        each_target(s, unknown);
+      }
+    });
+  }
+  for (const auto& [k, e] : writes) assigned_.insert(k);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [k, e] : writes) {
+      if (not_whole_.count(k) == 0 && !whole(e)) changed = not_whole_.insert(k).second || changed;
+    }
+  }
+}
+
+bool IntegerVariables::whole(const ExprPtr& e) const {
+  if (!e) return false;
+  if (e->type == Type::integer || e->type == Type::boolean) return true;
+  if (const auto* n = as_number(e)) return std::nearbyint(n->value) == n->value;
+  if (const auto* v = as_variable(e)) {
+    const std::string k = key(*v);
+    return assigned_.count(k) != 0 && not_whole_.count(k) == 0 && not_whole_.count(std::to_string(v->space) + ":?") == 0;
+  }
+  if (const auto* u = std::get_if<Unary>(&e->node)) return whole(u->operand);
+  if (const auto* b = std::get_if<Binary>(&e->node)) {
+    if (is_comparison(b->op)) return true;
+    if (b->op == BinaryOp::divide || b->op == BinaryOp::power) return false;
+    return whole(b->left) && whole(b->right);
+  }
+  if (const auto* c = std::get_if<Call>(&e->node)) {
+    switch (c->function) {
+      case Function::trunc:
+      case Function::ceil:
+      case Function::floor:
+      case Function::round:
+      case Function::sign:
+      case Function::to_integer: return true;
+      case Function::abs:
+      case Function::min:
+      case Function::max:
+      case Function::bound:
+      case Function::square: {
+        for (const auto& a : c->args) {
+          if (!whole(a)) return false;
+        }
+        return true;
+      }
+      default: return false;
+    }
+  }
+  return false;
+}
+
+// --- lowering of conditions -------------------------------------------------------------------------------------
+
+ExprPtr ExpressionLowering::condition(const ExprPtr& e) {
+  if (editor_.target().conditions == ConditionForm::expression) {
+    if (const auto* b = std::get_if<Binary>(&e->node)) {
+      if (is_comparison(b->op)) {
+        const ExprPtr left = node(b->left), right = node(b->right);
+        return left == b->left && right == b->right ? e : binary(b->op, left, right, b->compare);
+      }
+      if ((b->op == BinaryOp::logical_and || b->op == BinaryOp::logical_or) && has(b->op)) {
+        return binary(b->op, condition(b->left), condition(b->right));
+      }
+    }
+    if (!is_condition(e) && e->type != Type::boolean) return binary(BinaryOp::ne, node(e), number(0));
+    if (const auto* u = std::get_if<Unary>(&e->node); u != nullptr && u->op == UnaryOp::logical_not) {
+      return editor_.target().unary.count(u->op) != 0 ? unary(u->op, condition(u->operand)) : condition(negated_condition(u->operand));
+    }
+    return node(e);
+  }
+  return e;
+}
+
+void ExpressionLowering::jump_if(const ExprPtr& e, const LabelRef& target) {
+  bool always = false;
+  if (is_truth_literal(e, always)) {
+    if (always) pre.push_back(make_jump(like_, target));
+    return;
+  }
+  if (editor_.target().conditions == ConditionForm::expression) {
+    pre.push_back(make_jump(like_, target, condition(e)));
+    return;
+  }
+  if (const auto* u = std::get_if<Unary>(&e->node); u != nullptr && u->op == UnaryOp::logical_not) {
+    const ExprPtr turned = negated_condition(u->operand);
+    if (const auto* again = std::get_if<Unary>(&turned->node); again == nullptr || again->op != UnaryOp::logical_not) {
+      return jump_if(turned, target);
+    }
+    return jump_if(binary(BinaryOp::eq, u->operand, number(0)), target);
+  }
+  const auto* b = std::get_if<Binary>(&e->node);
+  if (b != nullptr && b->op == BinaryOp::logical_or) {
+    jump_if(b->left, target);
+    return jump_if(b->right, target);
+  }
+  if (b != nullptr && b->op == BinaryOp::logical_and) {
+    const LabelRef behind = editor_.fresh_label();
+    jump_if(negated_condition(b->left), behind);
+    jump_if(b->right, target);
+    return label_here(behind);
+  }
+  if (b != nullptr && b->op == BinaryOp::logical_xor) {
+    return jump_if(binary(BinaryOp::ne, truth_value(b->left), truth_value(b->right)), target);
+  }
+  if (b != nullptr && is_comparison(b->op)) return jump_if_relation(*b, target);
+  jump_if(binary(BinaryOp::ne, e, number(0)), target);
+}
+
+void ExpressionLowering::jump_if_relation(const Binary& b, const LabelRef& target) {
+  static constexpr auto mirrored = [](BinaryOp op) {
+    switch (op) {
+      case BinaryOp::lt: return BinaryOp::gt;
+      case BinaryOp::le: return BinaryOp::ge;
+      case BinaryOp::gt: return BinaryOp::lt;
+      case BinaryOp::ge: return BinaryOp::le;
+      default: return op;
+    }
+  };
+  ExprPtr left = b.left, right = b.right;
+  BinaryOp op = b.op;
+  if (as_number(left) != nullptr && as_number(right) == nullptr) {  // the variable first
+    std::swap(left, right);
+    op = mirrored(op);
+  }
+  // The side that needs more goes first, so that its temporaries are free for the other.
+  const ExprPtr r = editor_.target().condition_right_chain ? lower(right) : primary(right);
+  const ExprPtr l = primary(left);
+  pre.push_back(make_jump(like_, target, binary(op, l, r, b.compare)));
+}
+
+// --- the pass ---------------------------------------------------------------------------------------------------
+
+namespace {
+
+class ConditionPass {
+ public:
+  ConditionPass(Program& program, const LegaliseContext& context) : context_(context), integers_(program) {}
+
+  void routine(Program& program, Routine& r) {
+    Editor editor(program, r, context_);
+    rewrite_body(r.body, [&](Statement&& s, Body& out) {
+      tolerance(s);
+      auto* j = std::get_if<Jump>(&s.node);
+      if (j == nullptr || !j->condition || context_.target.conditions == ConditionForm::expression || j->target.computed ||
+          s.line.skip_mask != 0) {
+        out.push_back(std::move(s));
+        return;
+      }
+      split(editor, std::move(s), out);
+    });
+  }
+
+ private:
+  /// One jump with a condition of several relations: several jumps. The last carries the line.
+  static void split(Editor& editor, Statement&& s, Body& out) {
+    Jump j = std::get<Jump>(s.node);
+    ExpressionLowering lowering(editor, s.line);
+    lowering.jump_if(j.condition, j.target);
+    Body pieces = std::move(lowering.pre);
+    if (pieces.empty()) {  // never taken
+      s.node = Label{};
+      out.push_back(std::move(s));
+      return;
+    }
+    std::size_t main = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      auto* piece = std::get_if<Jump>(&pieces[i].node);
+      if (piece == nullptr || !same_label(piece->target, j.target)) continue;
+      piece->search = j.search;
+      piece->quiet = j.quiet;
+      main = i;
+    }
+    s.node = std::move(pieces[main].node);
+    pieces[main] = std::move(s);
+    editor.put_group(out, std::move(pieces), main);
+  }
+
+  /// Equality of computed values on a control that compares exactly: a band.
+  void tolerance(Statement& s) {
+    if (context_.target.compare == Compare::relative_1e12) return;
+    StatementVisitor visit;
+    visit.expression = [&](const ExprPtr& e) {
+      return map_expr(e, [&](const ExprPtr& x) {
+        const auto* b = std::get_if<Binary>(&x->node);
+        if (b == nullptr || !is_comparison(b->op) || b->compare == Compare::exact) return x;
+        if ((b->op != BinaryOp::eq && b->op != BinaryOp::ne) || b->left->type == Type::string ||
+            (integers_.whole(b->left) && integers_.whole(b->right)))
+          return binary(b->op, b->left, b->right);
+        warn(s);
+        const ExprPtr difference = binary(BinaryOp::subtract, b->left, b->right);
+        if (context_.target.functions.count(Function::abs) != 0) {
+          return binary(b->op == BinaryOp::eq ? BinaryOp::le : BinaryOp::gt, call(Function::abs, {difference}), number(band));
+        }
+        const ExprPtr above = binary(BinaryOp::le, difference, number(band)), below = binary(BinaryOp::ge, difference, number(-band));
+        const ExprPtr inside = binary(BinaryOp::logical_and, above, below);
+        return b->op == BinaryOp::eq ? inside : negated_condition(inside);
+      });
+    };
+    visit_statement(s, visit);
+  }
+  void warn(const Statement& s) {
+    context_.diagnostics.warning("TRN-115", s.line.span,
+                                 "the source takes values that differ by less than 1e-12 of their size for equal, the target "
+                                 "compares exactly: written as a difference of at most 0.000001",
+                                 "count with whole numbers where you can");
+  }
+
+  const LegaliseContext& context_;
+  IntegerVariables integers_;
+};
+
+}  // namespace
+
+void lower_conditions(Program& program, const LegaliseContext& context) {
+  ConditionPass pass(program, context);
+  for (auto& r : program.routines) pass.routine(program, r);
+}
+
+}  // namespace cnctrans::ir::passes

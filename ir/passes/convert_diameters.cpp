@@ -1,0 +1,133 @@
+// Diameter and radius words of a lathe (equivalences 5.2): the target's own rule for every word; numbers are rescaled
+// where the two controls read the same word differently.
+#include <algorithm>
+
+#include "base/text.h"
+#include "ir/passes/blocks.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/words.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+class DiameterPass {
+ public:
+  DiameterPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+
+  void block(Statement& s, Block& b) {
+    const Facts& facts = facts_.before(s);
+    if (b.has_motion) {
+      for (auto& c : b.motion.coords) coordinate(s, c, b, facts);
+      for (auto& c : b.motion.centers) center(s, c, b, facts);
+    }
+    for (auto& a : b.actions) {
+      if (auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) frame(s, *f, b, facts);
+    }
+    settings(b);
+  }
+
+ private:
+  /// Radius from a word of the target: 0.5 or 1. `mode` is the source's mode of the moment.
+  std::optional<double> target_factor(AxisId axis, WordScale scale, std::optional<Distance> distance,
+                                      std::optional<DiameterMode> mode) const {
+    if (!is_diameter_axis(context_.target_machine, axis) || scale == WordScale::radius) return 1;
+    if (scale == WordScale::diameter) return 0.5;
+    if (!context_.target.diameter_switch) return context_.target.fixed_diameter == DiameterMode::radius ? 1 : 0.5;
+    if (!mode) return std::nullopt;
+    if (*mode == DiameterMode::radius) return 1;
+    if (*mode == DiameterMode::absolute_only && context_.target.diameter_absolute_only &&
+        distance != Distance::absolute)
+      return 1;
+    return 0.5;
+  }
+
+  void rescale(const Statement& s, Value& v, std::optional<double> from, std::optional<double> to, WordPos pos) const {
+    if (from && to) {
+      if (*from == *to) return;
+      v = ir::scale(v, *from / *to);
+      v.text = {};
+      return;
+    }
+    context_.diagnostics.error("TRN-173", word_span(s.line.span, pos),
+                               "whether this word is a radius or a diameter depends on the path that leads here",
+                               "write the diameter or radius code before this block on every path");
+  }
+
+  void coordinate(const Statement& s, CoordWord& c, const Block& b, const Facts& facts) const {
+    if (!concerns(c.axis)) return;
+    const auto distance = distance_of(c, b, facts);
+    const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
+    const auto to = target_factor(c.axis, WordScale::modal, distance, mode);
+    if (c.scale == WordScale::modal && !mode && context_.target.diameter_switch) return;  // the same code does the same
+    rescale(s, c.value, to_radius(c.axis, c.scale, distance, b, facts, context_.source_machine), to, c.pos);
+    c.scale = WordScale::modal;
+  }
+
+  void center(const Statement& s, CenterWord& c, const Block& b, const Facts& facts) const {
+    if (!concerns(c.axis)) return;
+    const auto it = context_.target.center_scales.find(c.mode);
+    const WordScale wanted = it == context_.target.center_scales.end() ? WordScale::radius : it->second;
+    auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    if (c.mode == CenterMode::absolute) distance = Distance::absolute;
+    if (c.mode == CenterMode::from_start) distance = Distance::incremental;
+    const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
+    if (wanted == c.scale && (c.scale != WordScale::modal || context_.target.diameter_switch)) return;
+    rescale(s, c.value, to_radius(c.axis, c.scale, distance, b, facts, context_.source_machine),
+            target_factor(c.axis, wanted, distance, mode), c.pos);
+    c.scale = wanted;
+  }
+
+  void frame(const Statement& s, FrameOp& f, const Block& b, const Facts& facts) const {
+    if (f.change->kind != FrameKind::translate) return;
+    auto copy = std::make_shared<FrameChange>(*f.change);
+    for (auto& w : copy->words) {
+      if (!concerns(w.axis)) continue;
+      const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
+      if (w.scale == WordScale::modal && !mode && context_.target.diameter_switch) continue;
+      rescale(s, w.value, to_radius(w.axis, w.scale, Distance::absolute, b, facts, context_.source_machine),
+              target_factor(w.axis, WordScale::modal, Distance::absolute, mode), w.pos);
+      w.scale = WordScale::modal;
+    }
+    f.change = std::move(copy);
+  }
+
+  void settings(Block& b) const {
+    const auto& t = context_.target;
+    std::erase_if(b.actions, [&](Action& a) {
+      auto* m = std::get_if<ModalSet>(&a.data);
+      if (m == nullptr || m->setting != Setting::diameter) return false;
+      if (!t.diameter_switch) return true;
+      if (m->value == static_cast<std::uint8_t>(DiameterMode::absolute_only) && !t.diameter_absolute_only) {
+        m->value = static_cast<std::uint8_t>(DiameterMode::diameter);
+        a.text = {};
+      }
+      return false;
+    });
+  }
+
+  bool concerns(AxisId axis) const {
+    return is_diameter_axis(context_.source_machine, axis) || is_diameter_axis(context_.target_machine, axis);
+  }
+
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+};
+
+}  // namespace
+
+void convert_diameters(Program& program, const LegaliseContext& context) {
+  const auto diameter = [](const machine::AxisSpec& a) { return a.diameter; };
+  const auto& from = context.source_machine.axes;
+  const auto& to = context.target_machine.axes;
+  if (std::none_of(from.begin(), from.end(), diameter) && std::none_of(to.begin(), to.end(), diameter)) return;
+  const FactsOf facts(program, context);
+  DiameterPass pass(context, facts);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&pass](Statement& s) {
+      if (auto* b = std::get_if<Block>(&s.node)) pass.block(s, *b);
+    });
+  }
+}
+
+}  // namespace cnctrans::ir::passes

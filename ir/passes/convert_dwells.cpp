@@ -1,0 +1,192 @@
+// Dwells in the target's unit, exact stop, settings that the target can't switch (equivalences 13, 14.1).
+#include <cmath>
+#include <set>
+
+#include "base/text.h"
+#include "ir/passes/blocks.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+class DwellPass {
+ public:
+  DwellPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+
+  void block(Editor& editor, Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    drop_settings(s, b);
+    Body pieces;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < b.actions.size(); ++i) {
+      if (auto* d = std::get_if<Dwell>(&b.actions[i].data)) {
+        if (!dwell(s, b.actions[i], *d, pieces)) {
+          b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(i));
+          --i;
+        }
+      }
+    }
+    at = pieces.size();
+    const bool stop = exact_stop(s, b, pieces);
+    if (stop) at = pieces.size();
+    pieces.push_back(std::move(s));
+    if (stop) pieces.push_back(path_mode(pieces.back().line, PathMode::continuous));
+    editor.put_group(out, std::move(pieces), at);
+  }
+
+ private:
+  static Statement path_mode(const LineInfo& like, PathMode mode) {
+    return make_block(like, action(ModalSet{Setting::path_mode, static_cast<std::uint8_t>(mode), true, {}}));
+  }
+
+  /// Exact stop of one block where the target has the modal one only.
+  bool exact_stop(const Statement& s, Block& b, Body& pieces) {
+    if (context_.target.exact_stop_block) return false;
+    const bool wanted = std::erase_if(b.actions, [](const Action& a) {
+                          return std::holds_alternative<ExactStopBlock>(a.data);
+                        }) != 0;
+    if (!wanted) return false;
+    if (!context_.target.exact_stop_modal) {
+      context_.diagnostics.note("TRN-152", s.line.span, "the target has no exact stop: left out; the path is the same");
+      return false;
+    }
+    if (setting_in<PathMode>(b, facts_.before(s), Setting::path_mode) == PathMode::exact_stop) return false;
+    pieces.push_back(path_mode(s.line, PathMode::exact_stop));
+    return true;
+  }
+
+  void drop_settings(const Statement& s, Block& b) {
+    const auto& t = context_.target;
+    std::erase_if(b.actions, [&](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      if (m == nullptr) return false;
+      switch (m->setting) {
+        case Setting::path_mode:
+          if (t.exact_stop_modal) return false;
+          if (m->value == static_cast<std::uint8_t>(PathMode::exact_stop)) {
+            note_once(Setting::path_mode, s, a, "the target has no modal exact stop: left out; the path is the same");
+          }
+          return true;
+        case Setting::retract_plane: return !t.retract_plane_switch;
+        case Setting::feed_point:
+          if (t.feed_point_switch) return false;
+          note_once(Setting::feed_point, s, a, "the target can't choose the point F holds for: left out; the path is the same");
+          return true;
+        case Setting::feed_override:
+          if (t.feed_override_switch) return false;
+          note_once(Setting::feed_override, s, a, "the target can't switch the feed override: left out");
+          return true;
+        default: return false;
+      }
+    });
+    if (t.inverse_time) return;
+    for (const auto& a : b.actions) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      if (m != nullptr && m->setting == Setting::feed_mode && m->value == static_cast<std::uint8_t>(FeedMode::inverse_time)) {
+        context_.diagnostics.error("TRN-153", word_span(s.line.span, a.pos), "the target has no inverse-time feed",
+                                   "program the feed in mm/min");
+      }
+    }
+  }
+
+  void note_once(Setting setting, const Statement& s, const Action& a, std::string text) {
+    if (noted_.insert(setting).second) context_.diagnostics.note("TRN-151", word_span(s.line.span, a.pos), std::move(text));
+  }
+
+  /// Seconds of a dwell in revolutions under a known speed; nullopt (reported) otherwise.
+  std::optional<Value> seconds_of_revolutions(const Statement& s, const Action& a, const Dwell& d) {
+    const auto& f = facts_.before(s);
+    const auto mode = setting<SpindleMode>(f, Setting::spindle_mode);
+    if (d.value.literal() && f.spindle && *f.spindle > 0 && mode == SpindleMode::rpm) {
+      const double seconds = d.value.number * d.scale * 60 / *f.spindle;
+      context_.diagnostics.warning("TRN-154", word_span(s.line.span, a.pos),
+                                   "a dwell of " + shortest(d.value.number) + " revolutions is written as " +
+                                       rounded(seconds, 2) + " s, for " + shortest(*f.spindle) + " rev/min");
+      return Value{seconds};
+    }
+    context_.diagnostics.error("TRN-155", word_span(s.line.span, a.pos),
+                               "a dwell in spindle revolutions, and the speed is not known here",
+                               "program the dwell in seconds");
+    return std::nullopt;
+  }
+
+  /// False: the action goes away.
+  bool dwell(const Statement& s, Action& a, Dwell& d, Body& pieces) {
+    const auto& t = context_.target;
+    if (d.revolutions && t.dwell_revolutions) return true;
+    Value value = d.value;
+    double scale = d.scale;
+    if (d.revolutions) {
+      const auto seconds = seconds_of_revolutions(s, a, d);
+      if (!seconds) return true;
+      value = *seconds;
+      scale = 1;
+    }
+    if (!value.literal()) {
+      d.value = ir::scale(value, scale / t.dwell_unit);
+      d.scale = t.dwell_unit;
+      d.revolutions = false;
+      return true;
+    }
+    double seconds = value.number * scale;
+    if (seconds <= 0) {
+      a.text = {};
+      return false;  // no dwell at all: nothing is written
+    }
+    if (seconds < t.dwell_min) {
+      context_.diagnostics.warning("TRN-156", word_span(s.line.span, a.pos),
+                                   "a dwell of " + shortest(seconds) + " s is raised to the target's shortest, " +
+                                       shortest(t.dwell_min) + " s");
+      seconds = t.dwell_min;
+    }
+    seconds = spread(s, seconds, pieces);
+    const bool same = scale == t.dwell_unit && !d.revolutions && seconds == value.number * scale;
+    if (!same) {
+      d.value = Value{in_units(s, a, seconds)};
+      a.text = {};
+    }
+    d.scale = t.dwell_unit;
+    d.revolutions = false;
+    return true;
+  }
+
+  double in_units(const Statement& s, const Action& a, double seconds) {
+    const double units = seconds / context_.target.dwell_unit;
+    if (context_.target.dwell_unit >= 1) return units;
+    const double whole = std::max(1.0, std::round(units));
+    if (std::fabs(whole - units) > 1e-9 * units) {
+      context_.diagnostics.warning("TRN-157", word_span(s.line.span, a.pos),
+                                   "a dwell of " + shortest(seconds) + " s is rounded to " +
+                                       shortest(whole * context_.target.dwell_unit) + " s");
+    }
+    return whole;
+  }
+
+  /// A dwell beyond the largest word becomes several equal ones: all but the last go to `pieces`.
+  double spread(const Statement& s, double seconds, Body& pieces) {
+    if (seconds <= context_.target.dwell_max) return seconds;
+    const double n = std::ceil(seconds / context_.target.dwell_max);
+    const double each = seconds / n;
+    for (double i = 1; i < n; ++i) {
+      pieces.push_back(make_block(s.line, action(Dwell{Value{each / context_.target.dwell_unit}, context_.target.dwell_unit, false})));
+    }
+    return each;
+  }
+
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  std::set<Setting> noted_;
+};
+
+}  // namespace
+
+void convert_dwells(Program& program, const LegaliseContext& context) {
+  const FactsOf facts(program, context);
+  DwellPass pass(context, facts);
+  edit_blocks(program, context, [&pass](Editor& e, Statement&& s, Body& out) { pass.block(e, std::move(s), out); });
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,222 @@
+// Tools (equivalences 15): change at T or at M6, tool length compensation that must be switched, gear ranges.
+#include <algorithm>
+#include <charconv>
+
+#include "ir/passes/blocks.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+template <class T>
+bool has(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) { return std::holds_alternative<T>(a.data); });
+}
+
+template <class T>
+bool program_has(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      if (const auto* b = std::get_if<Block>(&s.node)) found = found || has<T>(*b);
+    });
+  }
+  return found;
+}
+
+bool sets(const Action& a, Setting s) {
+  const auto* m = std::get_if<ModalSet>(&a.data);
+  return m != nullptr && m->setting == s;
+}
+
+/// T that changes at once on one machine and waits for M6 on the other.
+class ToolChanges {
+ public:
+  explicit ToolChanges(const LegaliseContext& context)
+      : context_(context), at_once_(changes_on_select(context.target_machine)) {}
+
+  void block(Statement& s) {
+    auto& b = std::get<Block>(s.node);
+    if (!has<ToolSelect>(b) && !has<ToolChange>(b)) return;
+    std::vector<Action> out;
+    bool changed = false;
+    for (auto& a : b.actions) {
+      if (auto* t = std::get_if<ToolSelect>(&a.data)) {
+        changed = changed || t->changes != at_once_;
+        select(std::move(a), has<ToolChange>(b), out);
+      } else if (std::holds_alternative<ToolChange>(a.data) && at_once_) {
+        change(s, std::move(a), out);
+      } else {
+        out.push_back(std::move(a));
+      }
+    }
+    b.actions = std::move(out);
+  }
+
+ private:
+  void select(Action a, bool change_follows, std::vector<Action>& out) {
+    auto& t = std::get<ToolSelect>(a.data);
+    const bool did = t.changes;
+    selected_ = a;
+    if (did == at_once_) {
+      out.push_back(std::move(a));
+      return;
+    }
+    t.changes = at_once_;
+    if (at_once_) {  // the source changes at M6
+      if (change_follows) out.push_back(std::move(a));
+      else pending_ = std::move(a);
+      return;
+    }
+    out.push_back(std::move(a));
+    Action m6 = action(ToolChange{});
+    m6.order = target_order(m6, context_.target_machine);
+    out.push_back(std::move(m6));
+  }
+
+  /// M6 where the target changes at T: the T that was waiting is written here.
+  void change(const Statement& s, Action a, std::vector<Action>& out) {
+    if (pending_) {
+      pending_->pos = {};
+      out.push_back(std::move(*pending_));
+      pending_.reset();
+      return;
+    }
+    if (!selected_) {
+      context_.diagnostics.warning("TRN-141", word_span(s.line.span, a.pos),
+                                   "a tool change without a tool number before it in this program: left out, because the "
+                                   "target changes tools at T",
+                                   "write the T word before the change");
+    }
+  }
+
+  const LegaliseContext& context_;
+  bool at_once_;
+  std::optional<Action> pending_, selected_;
+};
+
+/// Length compensation: left out where the target always has it, switched on where the target needs it.
+class LengthCompensation {
+ public:
+  LengthCompensation(Program& program, const LegaliseContext& context) : program_(program), context_(context) {
+    source_switches_ = uses_switch();
+    add_ = context.target.length_comp_switch && !source_switches_ &&
+           context.target_machine.power_on.length_comp == OnOff::off &&
+           context.source_machine.power_on.length_comp == OnOff::on;
+    drop_ = !context.target.length_comp_switch || context.target_machine.power_on.length_comp == OnOff::on;
+  }
+
+  void run() {
+    if (drop_ && source_switches_) drop();
+    if (drop_ && !source_switches_ && context_.source_machine.power_on.length_comp == OnOff::off) warn_never_on();
+    if (add_) add();
+  }
+
+ private:
+  bool uses_switch() const {
+    bool found = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&found](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        for (const auto& a : b->actions) found = found || sets(a, Setting::length_comp);
+      });
+    }
+    return found;
+  }
+
+  void drop() {
+    for (auto& r : program_.routines) {
+      for_each_statement(r.body, [this](Statement& s) {
+        auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        std::erase_if(b->actions, [&](const Action& a) {
+          if (!sets(a, Setting::length_comp)) return false;
+          if (std::get<ModalSet>(a.data).value == static_cast<std::uint8_t>(OnOff::off)) warn_off(s, a);
+          return true;
+        });
+      });
+    }
+  }
+  void warn_off(const Statement& s, const Action& a) {
+    context_.diagnostics.warning("TRN-142", word_span(s.line.span, a.pos),
+                                 "tool length compensation is switched off here; the target has it on whenever an offset is "
+                                 "active: the programmed positions are the same, the machine stands off by the tool length",
+                                 "check the moves up to the next tool change, or select offset 0 here");
+  }
+  void warn_never_on() {
+    if (!program_has<ToolOffset>(program_) && !program_has<ToolSelect>(program_)) return;
+    const Routine* main = program_.main();
+    context_.diagnostics.warning("TRN-143", main != nullptr ? main->header.span : Span{},
+                                 "the program never switches tool length compensation on; the target always applies the "
+                                 "length of the active offset",
+                                 "use offsets with length 0 on the target, or switch the compensation on in the source");
+  }
+
+  void add() {
+    const FactsOf facts(program_, context_);
+    for (auto& r : program_.routines) {
+      bool wanted = r.kind == RoutineKind::main;
+      for_each_statement(r.body, [&](Statement& s) {
+        auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        if (has<ToolChange>(*b) || has<ToolSelect>(*b)) wanted = true;
+        if (!wanted || !b->has_motion || b->motion.frame != FrameUse::normal) return;
+        const Plane plane = setting_in<Plane>(*b, facts.before(s), Setting::plane).value_or(Plane::xy);
+        const AxisId w = plane_axes(plane).w;
+        const auto& coords = b->motion.coords;
+        if (std::none_of(coords.begin(), coords.end(), [w](const CoordWord& c) { return c.axis == w; })) return;
+        b->actions.insert(b->actions.begin(),
+                          action(ModalSet{Setting::length_comp, static_cast<std::uint8_t>(OnOff::on), true, {}}));
+        wanted = false;
+      });
+    }
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  bool source_switches_ = false, add_ = false, drop_ = false;
+};
+
+/// A gear range where the target asks for one and the source has none.
+void add_gear(Program& program, const LegaliseContext& context) {
+  if (!context.target.gear_needed || program_has<SpindleGear>(program)) return;
+  const std::string word = context.target_machine.option(context.target_machine.dialect + ".default_gear");
+  if (word.size() < 2) return;
+  std::int32_t code = 0;
+  std::from_chars(word.data() + 1, word.data() + word.size(), code);
+  const auto* m = context.target_machine.m_code(code);
+  if (m == nullptr || m->meaning != machine::MMeaning::gear) return;
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [m](Statement& s) {
+      auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (std::size_t i = 0; i < b->actions.size(); ++i) {
+        const auto* run = std::get_if<SpindleRun>(&b->actions[i].data);
+        if (run == nullptr || run->state == SpindleState::off) continue;
+        const auto number = run->number;
+        b->actions.insert(b->actions.begin() + static_cast<std::ptrdiff_t>(i),
+                          action(SpindleGear{number, m->argument, false}, m->order));
+        return;
+      }
+    });
+  }
+}
+
+}  // namespace
+
+void convert_tools(Program& program, const LegaliseContext& context) {
+  for (auto& r : program.routines) {
+    ToolChanges changes(context);
+    for_each_statement(r.body, [&changes](Statement& s) {
+      if (std::holds_alternative<Block>(s.node)) changes.block(s);
+    });
+  }
+  LengthCompensation(program, context).run();
+  add_gear(program, context);
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,88 @@
+// Inch and metric (equivalences 5.1). Where the target has the switch it stays; a switch that leaves F alone becomes one
+// that holds for F too, with F converted, and the other way round.
+#include "base/text.h"
+#include "ir/passes/blocks.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+class UnitPass {
+ public:
+  UnitPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+
+  void block(Statement& s, Block& b) {
+    for (auto& a : b.actions) {
+      auto* m = std::get_if<ModalSet>(&a.data);
+      if (m == nullptr || m->setting != Setting::units) continue;
+      const bool legal = m->feed_too ? context_.target.units_with_feed : context_.target.units_geometry_only;
+      last_feed_too_ = m->feed_too;
+      if (legal) {
+        convert_ = false;
+        continue;
+      }
+      convert_ = true;
+      source_feed_too_ = m->feed_too;
+      m->feed_too = !m->feed_too;
+      a.text = {};
+    }
+    if (convert_) feeds(s, b);
+  }
+
+ private:
+  void feeds(Statement& s, Block& b) {
+    const auto units = setting_in<Units>(b, facts_.before(s), Setting::units);
+    if (units == Units::metric) return;
+    for (auto& a : b.actions) {
+      auto* f = std::get_if<SetFeed>(&a.data);
+      if (f == nullptr) continue;
+      if (!units) {
+        context_.diagnostics.error("TRN-171", word_span(s.line.span, a.pos),
+                                   "the unit in force is not known here, and the unit of F differs between the controls",
+                                   "write the unit (inch or metric) before this block on every path");
+        return;
+      }
+      const auto mode = setting_in<FeedMode>(b, facts_.before(s), Setting::feed_mode);
+      if (mode == FeedMode::inverse_time) continue;
+      f->value = ir::scale(f->value, source_feed_too_ ? 25.4 : 1 / 25.4);  // F in mm where the switch leaves it alone
+      a.text = {};
+    }
+  }
+
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  bool convert_ = false, source_feed_too_ = true, last_feed_too_ = true;
+};
+
+bool has_illegal_switch(const Program& program, const Capabilities& target) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        if (m == nullptr || m->setting != Setting::units) continue;
+        found = found || !(m->feed_too ? target.units_with_feed : target.units_geometry_only);
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void convert_units(Program& program, const LegaliseContext& context) {
+  if (!has_illegal_switch(program, context.target)) return;
+  const FactsOf facts(program, context);
+  for (auto& r : program.routines) {
+    UnitPass pass(context, facts);
+    for_each_statement(r.body, [&pass](Statement& s) {
+      if (auto* b = std::get_if<Block>(&s.node)) pass.block(s, *b);
+    });
+  }
+}
+
+}  // namespace cnctrans::ir::passes

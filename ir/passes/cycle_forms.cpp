@@ -1,0 +1,251 @@
+#include <cmath>
+
+#include "ir/passes/lower_cycles.h"
+
+namespace cnctrans::ir::passes {
+
+std::optional<AxisId> cycle_axis(const HoleCycle& c, const Block& b, const Facts& facts) {
+  if (c.axis != axis::none) return c.axis;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  if (!plane) return std::nullopt;
+  return plane_axes(*plane).w;
+}
+
+namespace {
+
+Level absolute(Value v) {
+  v.text = {};
+  Level l;
+  l.value = std::move(v);
+  l.given = true;
+  return l;
+}
+
+struct Bases {
+  std::optional<Value> initial, surface, reference;
+  std::optional<Distance> distance;
+};
+
+/// Absolute, or as it was when its base is not known.
+Level resolved(const Level& l, const Bases& bases) {
+  if (!l.given || l.base == LevelBase::absolute) return l;
+  LevelBase base = l.base;
+  if (base == LevelBase::distance_mode) {
+    if (!bases.distance) return l;
+    if (*bases.distance == Distance::absolute) {
+      Level out = l;
+      out.base = LevelBase::absolute;
+      return out;
+    }
+    base = l.otherwise;
+  }
+  const std::optional<Value>* from = base == LevelBase::from_initial     ? &bases.initial
+                                     : base == LevelBase::from_reference ? &bases.reference
+                                     : base == LevelBase::from_surface   ? &bases.surface
+                                                                         : nullptr;
+  if (from == nullptr || !from->has_value()) return l;
+  return absolute(add(**from, l.value));
+}
+
+void note_base(const Level& l, std::optional<Value>& base) {
+  if (l.given && l.base == LevelBase::absolute) base = l.value;
+}
+
+}  // namespace
+
+HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts) {
+  HoleCycle out = c;
+  Bases bases;
+  bases.distance = setting_in<Distance>(b, facts, Setting::distance);
+  const auto w = cycle_axis(c, b, facts);
+  if (w && facts.position[*w]) bases.initial = Value{*facts.position[*w]};
+  out.surface = resolved(c.surface, bases);
+  note_base(out.surface, bases.surface);
+  out.reference = resolved(c.reference, bases);
+  note_base(out.reference, bases.reference);
+  out.bottom = resolved(c.bottom, bases);
+  out.retract = resolved(c.retract, bases);
+  if (!out.retract.given) {
+    const auto plane = setting_in<RetractPlane>(b, facts, Setting::retract_plane);
+    if (plane == RetractPlane::reference && bases.reference) out.retract = absolute(*bases.reference);
+    if (plane == RetractPlane::initial && bases.initial) out.retract = absolute(*bases.initial);
+  }
+  return out;
+}
+
+std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts, const LegaliseContext& context) {
+  const auto& native = context.target.native_cycle;
+  if (!native || context.options.cycles == CycleWriting::explode) return std::nullopt;
+  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+  if (hole == nullptr) return native(*cycle) ? std::optional(cycle) : std::nullopt;
+  const auto accepted = [&](const HoleCycle& h) -> std::optional<CyclePtr> {
+    auto made = std::make_shared<Cycle>();
+    made->node = h;
+    if (!native(*made)) return std::nullopt;
+    return CyclePtr(std::move(made));
+  };
+  HoleCycle h = with_absolute_levels(*hole, b, facts);
+  // An approach over the retract level is no detour when the tool stands there, or higher levels follow one line.
+  const auto w = cycle_axis(h, b, facts);
+  const bool literal = h.retract.given && h.retract.base == LevelBase::absolute && h.retract.value.literal();
+  const auto height = w ? facts.position[*w] : std::nullopt;
+  const bool straight = literal && height && std::fabs(*height - h.retract.value.number) < 1e-9;
+  const bool downward = literal && height && h.bottom.value.literal() && h.bottom.base == LevelBase::absolute &&
+                        *height >= h.retract.value.number && h.retract.value.number >= h.bottom.value.number;
+  if (auto form = accepted(h)) return form;
+  if (straight || downward) {
+    h.approach_by_retract = !h.approach_by_retract;
+    if (auto form = accepted(h)) return form;
+    h.approach_by_retract = !h.approach_by_retract;
+  }
+  if (h.axis != axis::none && w) {  // the normal of the plane in force: needs no name
+    const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+    if (plane && plane_axes(*plane).w == h.axis) {
+      h.axis = axis::none;
+      if (auto form = accepted(h)) return form;
+      if (straight || downward) {
+        h.approach_by_retract = !h.approach_by_retract;
+        if (auto form = accepted(h)) return form;
+        h.approach_by_retract = !h.approach_by_retract;
+      }
+    }
+  }
+  // Surface and distance given apart: the reference plane alone says the same.
+  if (h.surface.given && h.reference.given && h.reference.base == LevelBase::absolute && h.pecks.law == PeckLaw::none) {
+    h.surface = Level{};
+    if (auto form = accepted(h)) return form;
+    if (straight || downward) {
+      h.approach_by_retract = !h.approach_by_retract;
+      if (auto form = accepted(h)) return form;
+    }
+  }
+  return std::nullopt;
+}
+
+bool has_plane_word(const Block& b, AxisId tool_axis) {
+  if (!b.has_motion) return false;
+  for (const auto& c : b.motion.coords) {
+    if (c.axis != tool_axis && !is_rotary_letter(c.axis)) return true;
+  }
+  return b.motion.extra != nullptr;
+}
+
+namespace {
+
+Motion along(MotionKind kind, AxisId axis, double value) {
+  Motion m;
+  m.kind = kind;
+  m.explicit_code = true;
+  m.keeps_modal = false;
+  CoordWord c;
+  c.axis = axis;
+  c.mode = WordMode::absolute;
+  c.value = Value{value};
+  m.coords.push_back(c);
+  return m;
+}
+
+/// Steps of a hole as blocks.
+class Writer {
+ public:
+  Writer(const LineInfo& like, AxisId axis, double unit, std::optional<double> feed)
+      : like_(like), axis_(axis), unit_(unit), feed_(feed) {}
+
+  bool add(const cycles::CycleMove& m, std::string* error) {
+    switch (m.step) {
+      case cycles::CycleStep::rapid:
+      case cycles::CycleStep::feed: return move(m, error);
+      case cycles::CycleStep::dwell:
+        blocks.push_back(make_block(like_, action(Dwell{Value{m.amount}, 1, m.revolutions})));
+        return true;
+      case cycles::CycleStep::spindle_stop:
+        blocks.push_back(make_block(like_, action(SpindleRun{})));
+        return true;
+      case cycles::CycleStep::operator_stop:
+        blocks.push_back(make_block(like_, action(Stop{}, Order::after)));
+        return true;
+      default: *error = "the spindle moves of this cycle can't be written out"; return false;
+    }
+  }
+
+  Body blocks;
+  double last = 0;
+
+ private:
+  bool move(const cycles::CycleMove& m, std::string* error) {
+    if (m.du != 0 || m.dv != 0) {
+      *error = "the cycle moves sideways in the hole";
+      return false;
+    }
+    Block b;
+    b.has_motion = true;
+    b.motion = along(m.step == cycles::CycleStep::rapid ? MotionKind::rapid : MotionKind::linear, axis_, m.w / unit_);
+    const bool own_feed = m.has_feed || m.feed_factor != 1;
+    if (own_feed && !m.has_feed && !feed_) {
+      *error = "the feed of the first peck depends on a feed that is not known here";
+      return false;
+    }
+    if (own_feed) {
+      const double f = m.has_feed ? m.feed / unit_ : *feed_ * m.feed_factor;
+      b.actions.push_back(action(SetFeed{Value{f}, false}));
+      changed_ = true;
+    } else if (changed_ && m.step == cycles::CycleStep::feed) {
+      if (!feed_) {
+        *error = "the feed after the cycle's own one is not known here";
+        return false;
+      }
+      b.actions.push_back(action(SetFeed{Value{*feed_}, false}));
+      changed_ = false;
+    }
+    last = m.w;
+    blocks.push_back(made(like_, std::move(b)));
+    return true;
+  }
+
+  LineInfo like_;
+  AxisId axis_;
+  double unit_;
+  std::optional<double> feed_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts, double height,
+                                 double defined_at, std::string* error) {
+  const auto axis_id = cycle_axis(c, b, facts);
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+  if (!axis_id || !units || !distance) {
+    *error = "plane, units or absolute and incremental are not known here";
+    return std::nullopt;
+  }
+  const double unit = *units == Units::inch ? 25.4 : 1;
+  cycles::HoleContext context;
+  context.length_unit = context.level_unit = context.feed_unit = unit;
+  context.distance = *distance;
+  context.height = defined_at;
+  const auto literal = [](const Value& v) { return v.literal() ? std::optional<double>(v.number) : constant_value(v.expr); };
+  const auto numbers = cycles::resolve(c, context, literal, error);
+  if (!numbers) {
+    if (error->empty()) *error = "its words are computed when the program runs";
+    return std::nullopt;
+  }
+  const auto plane = setting_in<RetractPlane>(b, facts, Setting::retract_plane).value_or(RetractPlane::initial);
+  const auto moves = cycles::expand(*numbers, height, plane, error);
+  if (moves.empty()) {
+    if (error->empty()) *error = "it has no moves";
+    return std::nullopt;
+  }
+  LineInfo line;
+  line.span = like.span;
+  line.skip_mask = like.skip_mask;
+  Writer writer(line, *axis_id, unit, facts.feed);
+  writer.last = height;
+  for (const auto& m : moves) {
+    if (!writer.add(m, error)) return std::nullopt;
+  }
+  return Explosion{std::move(writer.blocks), writer.last};
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,78 @@
+// What a pass needs while it edits one routine: fresh labels, temporaries, and putting statements before another
+// without losing jumps and repeated ranges that lead to it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+/// Where a label of a routine is asked for.
+struct LabelUses {
+  std::set<std::pair<bool, std::string>> targets;  ///< jumps, starts of ranges
+  std::set<std::pair<bool, std::string>> ends;     ///< ends of ranges
+  bool computed = false;                           ///< some target is found at run time: any number may be one
+  [[nodiscard]] bool is_target(const LabelRef& l) const;
+  [[nodiscard]] bool is_end(const LabelRef& l) const { return ends.count({l.is_number, l.text}) != 0; }
+};
+/// Uses in `routine` itself, and of ranges of it that other routines run.
+LabelUses label_uses(const Program& program, const Routine& routine);
+/// Calls `visit` for every fixed or computed label reference of the statement.
+void each_label_ref(Statement& s, const std::function<void(LabelRef&, bool is_end)>& visit);
+
+/// Numbers of the target's variables that the program uses.
+class UsedVariables {
+ public:
+  explicit UsedVariables(const Program& program);
+  [[nodiscard]] bool has(std::string_view prefix, std::int64_t n) const;
+  [[nodiscard]] bool has_name(const std::string& name) const { return names_.count(name) != 0; }
+  void add(const std::string& prefix, std::int64_t n) { numbers_[prefix].insert(n); }
+  void add_name(const std::string& name) { names_.insert(name); }
+
+ private:
+  std::map<std::string, std::set<std::int64_t>, std::less<>> numbers_;
+  std::set<std::string> names_;
+};
+
+class Editor {
+ public:
+  Editor(Program& program, Routine& routine, const LegaliseContext& context);
+  ~Editor();  ///< declares named temporaries, renames range ends
+  Editor(const Editor&) = delete;
+  Editor& operator=(const Editor&) = delete;
+
+  Program& program;
+  Routine& routine;
+  const LegaliseContext& context;
+  [[nodiscard]] const Capabilities& target() const { return context.target; }
+
+  /// A label that the routine does not have: an identifier where the target has them, else a number.
+  LabelRef fresh_label();
+  /// A variable that nothing else uses until it is released; nullopt: the pool is empty (reported once).
+  std::optional<VarRef> take(const LineInfo& where);
+  void release(const VarRef& v);
+  /// Appends `pre` and then `s`; what leads to `s` leads to `pre` now, except the ends of ranges.
+  void put(Body& out, Body&& pre, Statement&& s);
+  /// Appends the pieces that a statement was split into; `main` carries its line.
+  void put_group(Body& out, Body&& pieces, std::size_t main);
+
+ private:
+  VarRef variable_number(const std::string& prefix, std::int64_t n);
+  LabelUses uses_;
+  UsedVariables& used();
+  std::optional<UsedVariables> used_;  ///< found when the first temporary is asked for
+  std::set<std::string> numbers_, identifiers_;
+  std::int64_t next_number_ = 0;
+  std::int64_t next_identifier_ = 0;
+  std::vector<VarRef> free_;
+  std::vector<std::string> declared_;
+  std::vector<std::pair<LabelRef, LabelRef>> renamed_ends_;
+  bool reported_ = false;
+};
+
+}  // namespace cnctrans::ir::passes

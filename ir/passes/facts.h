@@ -1,0 +1,46 @@
+// Facts for a pass: numbers the statements and runs the dataflow analysis once.
+#pragma once
+
+#include <set>
+
+#include "ir/dataflow.h"
+#include "ir/passes/legalise.h"
+
+namespace cnctrans::ir::passes {
+
+class FactsOf {
+ public:
+  FactsOf(Program& program, const LegaliseContext& context) {
+    number_statements(program);
+    table_ = analyse(program, context.source_machine.power_on);
+  }
+  /// What is known before the statement; a statement made by a pass after the analysis: nothing.
+  [[nodiscard]] const Facts& before(const Statement& s) const { return s.id == 0 ? nothing_ : table_.before(s.id); }
+
+ private:
+  FactTable table_;
+  Facts nothing_;
+};
+
+/// The setting when it is known.
+template <class Enum>
+std::optional<Enum> setting(const Facts& facts, Setting s) {
+  const auto value = facts.settings[static_cast<std::size_t>(s)];
+  if (!value) return std::nullopt;
+  return static_cast<Enum>(*value);
+}
+/// What the block itself sets, else what holds before it. Settings count for the whole block.
+template <class Enum>
+std::optional<Enum> setting_in(const Block& block, const Facts& facts, Setting s) {
+  std::optional<Enum> value = setting<Enum>(facts, s);
+  for (const auto& a : block.actions) {
+    if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == s) value = static_cast<Enum>(m->value);
+  }
+  return value;
+}
+/// The motion function of the block.
+inline std::optional<MotionKind> motion_in(const Block& block, const Facts& facts) {
+  return block.motion.kind == MotionKind::modal ? facts.motion : std::optional(block.motion.kind);
+}
+
+}  // namespace cnctrans::ir::passes

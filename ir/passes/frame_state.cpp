@@ -1,0 +1,178 @@
+#include "ir/passes/frame_state.h"
+
+#include <algorithm>
+
+#include "ir/passes/call_graph.h"
+
+namespace cnctrans::ir::passes {
+
+FrameState::FrameState() {
+  shift_.fill(Value{0.0});
+  angle_ = Value{0.0};
+}
+
+bool FrameState::known() const {
+  return !foreign_ && angle_ && std::all_of(shift_.begin(), shift_.end(), [](const auto& v) { return v.has_value(); });
+}
+
+FrameWord FrameState::word(std::size_t a) const {
+  FrameWord w;
+  w.axis = static_cast<AxisId>(a);
+  w.value = *shift_[a];
+  return w;
+}
+
+std::vector<FrameWord> FrameState::shift_words(bool drop_zero) const {
+  std::vector<FrameWord> words;
+  for (std::size_t a = 0; a < axes; ++a) {
+    if (shift_[a] && !(drop_zero && shift_[a]->is(0))) words.push_back(word(a));
+  }
+  return words;
+}
+
+void FrameState::forget() {
+  shift_.fill(std::nullopt);
+  angle_.reset();
+}
+
+void FrameState::forget(const VarRef& v) {
+  for (auto& s : shift_) {
+    if (s && s->expr && reads(s->expr, v)) s.reset();
+  }
+  if (angle_ && angle_->expr && reads(angle_->expr, v)) angle_.reset();
+}
+
+void FrameState::join(const FrameState& other) {
+  for (std::size_t a = 0; a < axes; ++a) {
+    if (shift_[a] && (!other.shift_[a] || !equal(*shift_[a], *other.shift_[a]))) shift_[a].reset();
+  }
+  if (angle_ && (!other.angle_ || !equal(*angle_, *other.angle_))) angle_.reset();
+  foreign_ = foreign_ || other.foreign_;
+}
+
+bool FrameState::operator==(const FrameState& o) const {
+  const auto same = [](const std::optional<Value>& a, const std::optional<Value>& b) {
+    return a.has_value() == b.has_value() && (!a || equal(*a, *b));
+  };
+  for (std::size_t a = 0; a < axes; ++a) {
+    if (!same(shift_[a], o.shift_[a])) return false;
+  }
+  return same(angle_, o.angle_) && foreign_ == o.foreign_;
+}
+
+void FrameState::clear(FrameSlot slot) {
+  if (slot == FrameSlot::shift || slot == FrameSlot::chain) shift_.fill(Value{0.0});
+  if (slot == FrameSlot::rotation || slot == FrameSlot::chain) angle_ = Value{0.0};
+  if (slot == FrameSlot::chain) foreign_ = false;
+}
+
+void FrameState::translate(const FrameChange& c, const Facts& facts, const Block& b) {
+  FrameCombine combine = c.combine;
+  if (c.by_distance_mode) {
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    if (!distance) return forget();
+    combine = *distance == Distance::incremental ? FrameCombine::add : FrameCombine::replace_named;
+  }
+  if (combine == FrameCombine::replace && c.slot == FrameSlot::chain) clear(FrameSlot::chain);
+  if (combine == FrameCombine::replace) shift_.fill(Value{0.0});
+  if (combine == FrameCombine::compose && !(angle_ && angle_->is(0))) {  // inside a rotation: by numbers only
+    foreign_ = true;
+    return;
+  }
+  for (const auto& w : c.words) {
+    if (w.axis >= axes) continue;
+    Value v = w.value;
+    v.text = {};
+    const bool adds = combine == FrameCombine::add || combine == FrameCombine::compose;
+    if (!adds) shift_[w.axis] = w.value;
+    else if (shift_[w.axis]) shift_[w.axis] = add(*shift_[w.axis], v);
+  }
+}
+
+void FrameState::rotate(const FrameChange& c) {
+  if (!c.words.empty() || c.rotation_axis != axis::none || !c.has_angle) {
+    foreign_ = true;
+    return;
+  }
+  if (c.combine == FrameCombine::replace) {
+    if (c.slot == FrameSlot::chain) clear(FrameSlot::chain);
+    angle_ = c.angle;
+  } else if (angle_) {
+    angle_ = add(*angle_, c.angle);
+  }
+}
+
+void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b) {
+  if (c.combine == FrameCombine::clear) return clear(c.slot);
+  if (c.combine == FrameCombine::preset || c.slot == FrameSlot::preset) {
+    foreign_ = true;
+    return;
+  }
+  switch (c.kind) {
+    case FrameKind::translate: return translate(c, facts, b);
+    case FrameKind::rotate: return rotate(c);
+    case FrameKind::scale:
+    case FrameKind::mirror: break;
+  }
+  if (c.combine == FrameCombine::replace && c.slot == FrameSlot::chain) clear(FrameSlot::chain);
+  foreign_ = true;
+}
+
+FrameStates::FrameStates(const Program& program, const Routine& routine, const FactsOf& facts, const LegaliseContext&) {
+  if (routine.body.empty()) return;
+  const ControlFlow flow = control_flow(program, routine);
+  FrameState start;
+  if (routine.kind == RoutineKind::sub) start.forget();
+  std::vector<std::uint32_t> open{routine.body.front().id};
+  states_[routine.body.front().id] = start;
+  while (!open.empty()) {
+    const auto id = open.back();
+    open.pop_back();
+    if (id == 0 || id >= flow.statements.size() || flow.statements[id] == nullptr) continue;
+    const Statement& s = *flow.statements[id];
+    FrameState state = states_[id];
+    if (const auto* b = std::get_if<Block>(&s.node)) {
+      for (const auto& a : b->actions) {
+        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) state.apply(*f->change, facts.before(s), *b);
+      }
+    } else if (std::holds_alternative<Assign>(s.node)) {
+      each_target(s, [&state](const VarRef& v) { state.forget(v); });
+    } else if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node) ||
+               std::holds_alternative<Repeat>(s.node)) {
+      bool changes = false;
+      for (const auto& r : program.routines) {
+        for_each_statement(r.body, [&changes, &r, &routine](const Statement& x) {
+          const auto* other = std::get_if<Block>(&x.node);
+          if (other == nullptr || &r == &routine) return;
+          for (const auto& a : other->actions) changes = changes || std::holds_alternative<FrameOp>(a.data);
+        });
+      }
+      if (changes || std::holds_alternative<Repeat>(s.node)) state.forget();
+    }
+    if (s.line.skip_mask != 0) state.join(states_[id]);
+    for (const auto next : flow.successors[id]) {
+      const auto it = states_.find(next);
+      if (it == states_.end()) {
+        states_[next] = state;
+        open.push_back(next);
+        continue;
+      }
+      FrameState joined = it->second;
+      joined.join(state);
+      if (!(joined == it->second)) {
+        it->second = joined;
+        open.push_back(next);
+      }
+    }
+  }
+}
+
+FrameState FrameStates::before(const Statement& s) const {
+  const auto it = states_.find(s.id);
+  if (it != states_.end()) return it->second;
+  FrameState none;
+  none.forget();
+  return none;
+}
+
+}  // namespace cnctrans::ir::passes

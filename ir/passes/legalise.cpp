@@ -1,0 +1,81 @@
+#include "ir/passes/legalise.h"
+
+#include <array>
+
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir {
+
+namespace {
+
+struct Pass {
+  std::string_view name;
+  void (*run)(Program&, const LegaliseContext&);
+  bool block_local;  ///< looks at one block and the modal state before it only
+};
+
+constexpr std::array pipeline{
+    Pass{"returns", passes::normalise_returns, false},
+    Pass{"modal_calls", passes::lower_modal_calls, false},
+    Pass{"calls", passes::lower_calls, false},
+    Pass{"variables", passes::map_variables, false},
+    Pass{"repeats", passes::lower_repeats, false},
+    Pass{"control", passes::lower_control, false},
+    Pass{"cycles", passes::lower_cycles, false},
+    Pass{"frames", passes::convert_frames, false},
+    Pass{"arcs", passes::convert_arcs, true},
+    Pass{"distance", passes::convert_distance, true},
+    Pass{"units", passes::convert_units, true},
+    Pass{"diameters", passes::convert_diameters, true},
+    Pass{"dwells", passes::convert_dwells, true},
+    Pass{"conditions", passes::lower_conditions, false},
+    Pass{"expressions", passes::lower_expressions, false},
+    Pass{"tools", passes::convert_tools, true},
+    Pass{"feed", passes::convert_feed, false},
+    Pass{"order", passes::split_blocks, true},
+    Pass{"skips", passes::check_skips, true},
+    Pass{"messages", passes::convert_messages, false},
+    Pass{"labels", passes::resolve_labels, false},
+    Pass{"routines", passes::name_routines, false},
+    Pass{"safe_start", passes::safe_start, false},
+    Pass{"tidy", passes::tidy, false},
+};
+
+bool run(const Pass& pass, Program& program, const LegaliseContext& context) {
+  const std::size_t before = context.diagnostics.error_count();
+  pass.run(program, context);
+  return context.diagnostics.error_count() == before;
+}
+
+}  // namespace
+
+bool legalise(Program& program, const LegaliseContext& context) {
+  bool good = true;
+  for (const auto& pass : pipeline) good = run(pass, program, context) && good;
+  number_statements(program);
+  return good;
+}
+
+std::vector<std::string_view> pass_names() {
+  std::vector<std::string_view> names;
+  for (const auto& pass : pipeline) names.push_back(pass.name);
+  return names;
+}
+
+std::vector<std::string_view> block_local_passes() {
+  std::vector<std::string_view> names;
+  for (const auto& pass : pipeline) {
+    if (pass.block_local) names.push_back(pass.name);
+  }
+  return names;
+}
+
+bool run_pass(std::string_view name, Program& program, const LegaliseContext& context) {
+  for (const auto& pass : pipeline) {
+    if (pass.name == name) return run(pass, program, context);
+  }
+  context.diagnostics.error("TRN-100", {}, "no pass is called '" + std::string(name) + "'");
+  return false;
+}
+
+}  // namespace cnctrans::ir

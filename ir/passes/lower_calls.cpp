@@ -1,0 +1,93 @@
+// Call frames (equivalences 21.1): what the source says with levels of local parameters, with formal parameters or with
+// shared variables is said in the target's way.
+#include "ir/passes/lower_calls.h"
+
+#include <algorithm>
+
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+bool has_numbered_levels(const std::vector<VariableSpace>& spaces) {
+  return std::any_of(spaces.begin(), spaces.end(), [](const VariableSpace& s) {
+    return std::any_of(s.segments.begin(), s.segments.end(), [](const SpaceSegment& g) { return g.scope == Scope::level; });
+  });
+}
+
+bool has_named_locals(const std::vector<VariableSpace>& spaces) {
+  return std::any_of(spaces.begin(), spaces.end(),
+                     [](const VariableSpace& s) { return s.named() && s.scope == Scope::routine; });
+}
+
+VarRef frame_variable(Program& program, const std::string& name, const Routine& owner) {
+  return VarRef{frame_space(program), name + "@" + routine_tag(owner), nullptr, {}};
+}
+
+Body assign_in_parallel(Program& program, const LineInfo& like, std::vector<std::pair<VarRef, ExprPtr>> items) {
+  Body out;
+  int copies = 0;
+  std::erase_if(items, [](const auto& i) {
+    const auto* v = as_variable(i.second);
+    return v != nullptr && same_variable(*v, i.first);
+  });
+  while (!items.empty()) {
+    const auto free = std::find_if(items.begin(), items.end(), [&](const auto& candidate) {
+      return std::none_of(items.begin(), items.end(), [&](const auto& other) {
+        return &other != &candidate && reads(other.second, candidate.first);
+      });
+    });
+    if (free != items.end()) {
+      out.push_back(make_assign(like, free->first, free->second));
+      items.erase(free);
+      continue;
+    }
+    VarRef copy{frame_space(program), "T" + std::to_string(++copies) + "@arguments", nullptr, {}};
+    out.push_back(make_assign(like, copy, items.front().second));
+    items.front().second = variable(copy);
+  }
+  return out;
+}
+
+void surround(Body& out, Body&& before, Statement&& call, Body&& behind) {
+  if (!before.empty()) move_head(call.line, before.front().line);
+  for (auto& s : before) out.push_back(std::move(s));
+  out.push_back(std::move(call));
+  for (auto& s : behind) out.push_back(std::move(s));
+}
+
+void declare_at_top(Routine& routine, Type type, SpaceId space, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  Declare d;
+  d.type = type;
+  d.space = space;
+  for (const auto& n : names) d.items.push_back({n, {}, {}});
+  Statement s;
+  s.node = std::move(d);
+  auto at = routine.body.begin();
+  while (at != routine.body.end() && std::holds_alternative<Declare>(at->node)) ++at;
+  routine.body.insert(at, std::move(s));
+}
+
+void lower_calls(Program& program, const LegaliseContext& context) {
+  number_statements(program);
+  const CallGraph calls(program);
+  const auto& spaces = context.target.spaces;
+  const bool levels = has_numbered_levels(program.spaces) && !has_numbered_levels(spaces);
+  const bool named = has_named_locals(program.spaces) && !has_named_locals(spaces);
+  if (!levels && !named) return;
+  if (const CallSite* ring = calls.recursion()) {
+    context.diagnostics.error("TRN-121", ring->statement->line.span,
+                              "this call leads back into the routine that it stands in; the local values of such calls can't "
+                              "be kept apart in the target",
+                              "write the repetition as a loop");
+    return;
+  }
+  if (levels) lower_levels(program, context, calls);
+  if (named) {
+    const CallGraph again(program);
+    lower_named_locals(program, context, again);
+  }
+}
+
+}  // namespace cnctrans::ir::passes

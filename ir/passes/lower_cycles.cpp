@@ -1,0 +1,451 @@
+// Canned cycles (equivalences 22): native where the target has exactly the moves, else written out move by move. Some
+// controls run the cycle where it is defined and at each later point, some only at later points by a modal call.
+#include "ir/passes/lower_cycles.h"
+
+#include <algorithm>
+
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+class CyclePass {
+ public:
+  CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
+      : program_(program), context_(context), facts_(facts), editor_(program, routine, context) {
+    by_call_ = context.target.modal_cycle_by_call;
+  }
+
+  void run() {
+    Body out;
+    walk(editor_.routine.body, out);
+    editor_.routine.body = std::move(out);
+  }
+
+ private:
+  struct Active {
+    CyclePtr source;
+    CyclePtr native;  ///< null: written out
+    CycleTrigger trigger = CycleTrigger::plane_axis_word;
+    bool on_target = false;  ///< the target's own cycle is in force
+    double defined_at = 0;
+    std::optional<double> height;  ///< of the tool over the holes, mm
+  };
+
+  void walk(Body& body, Body& out) {
+    out.reserve(body.size());
+    for (auto& s : body) {
+      each_body(s, [this](Body& inner) {
+        Body nested;
+        walk(inner, nested);
+        inner = std::move(nested);
+      });
+      one(std::move(s), out);
+    }
+  }
+
+  void one(Statement&& s, Body& out) {
+    if (auto* m = std::get_if<ModalCall>(&s.node)) {
+      if (m->off && active_) return cancel_statement(std::move(s), out);
+      if (!m->off && m->cycle) return modal_call(std::move(s), out);
+    }
+    if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
+    if (active_ && !active_->native && (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
+      context_.diagnostics.error("TRN-331", s.line.span,
+                                 "a call or a repeated part while a cycle is active that the target lacks: which holes it drills "
+                                 "can't be seen here",
+                                 "cancel the cycle before the call");
+    }
+    out.push_back(std::move(s));
+  }
+
+  // --- definitions ----------------------------------------------------------------------------------------------
+
+  std::optional<double> height_mm(const Block& b, const Facts& facts, AxisId w) const {
+    const auto units = setting_in<Units>(b, facts, Setting::units);
+    if (!facts.position[w] || !units) return std::nullopt;
+    return *facts.position[w] * (*units == Units::inch ? 25.4 : 1);
+  }
+
+  Active define(const CyclePtr& cycle, CycleTrigger trigger, const Block& b, const Facts& facts) const {
+    Active a;
+    a.source = cycle;
+    a.trigger = trigger;
+    if (auto native = native_form(cycle, b, facts, context_)) a.native = *native;
+    const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+    const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+    if (w) a.height = height_mm(b, facts, *w);
+    a.defined_at = a.height.value_or(0);
+    return a;
+  }
+
+  static std::optional<CycleDefine> take_definition(Block& b, WordPos& pos) {
+    for (auto it = b.actions.begin(); it != b.actions.end(); ++it) {
+      if (auto* d = std::get_if<CycleDefine>(&it->data)) {
+        CycleDefine out = *d;
+        pos = it->pos;
+        b.actions.erase(it);
+        return out;
+      }
+    }
+    return std::nullopt;
+  }
+  static bool take_cancel(Block& b) {
+    return std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<CycleCancel>(a.data); }) != 0;
+  }
+
+  /// Whatever the target's cycle is in force.
+  static Statement off_statement(const LineInfo& like, bool by_call) {
+    if (!by_call) return make_block(like, action(CycleCancel{}));
+    ModalCall m;
+    m.off = true;
+    return made(like, std::move(m));
+  }
+  static Statement on_statement(const LineInfo& like, const CyclePtr& cycle) {
+    ModalCall m;
+    m.cycle = cycle;
+    return made(like, std::move(m));
+  }
+  static Statement single_run(const LineInfo& like, const CyclePtr& cycle) {
+    return make_block(like, action(CycleDefine{cycle, false, true, CycleTrigger::plane_axis_word}));
+  }
+
+  void cancel_statement(Statement&& s, Body& out) {
+    const bool on = active_->on_target;
+    active_.reset();
+    if (on) {
+      if (!by_call_) {
+        Block b;
+        b.actions.push_back(action(CycleCancel{}));
+        s.node = std::move(b);
+      }
+      out.push_back(std::move(s));
+      return;
+    }
+    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+    s.node = Label{};
+    out.push_back(std::move(s));
+  }
+
+  /// `MCALL CYCLE..`: the cycle runs at later points.
+  void modal_call(Statement&& s, Body& out) {
+    const ModalCall m = std::get<ModalCall>(s.node);
+    active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
+    if (by_call_ && active_->native) {
+      std::get<ModalCall>(s.node).cycle = active_->native;
+      active_->on_target = true;
+      out.push_back(std::move(s));
+      return;
+    }
+    // The target defines and runs in one: each point gets its own.
+    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+    s.node = Label{};
+    out.push_back(std::move(s));
+  }
+
+  // --- blocks ---------------------------------------------------------------------------------------------------
+
+  void block(Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    WordPos pos;
+    const bool cancelled = take_cancel(b);
+    const auto definition = take_definition(b, pos);
+    Body pieces;
+    if (cancelled) cancel(s, b, definition.has_value(), pieces);
+    if (definition) {
+      define_in_block(std::move(s), *definition, std::move(pieces), out);
+      return;
+    }
+    if (active_) {
+      point(std::move(s), std::move(pieces), out);
+      return;
+    }
+    if (b.empty() && !pieces.empty()) {
+      pieces.back().line = s.line;
+      out.push_back(std::move(pieces.back()));
+      return;
+    }
+    editor_.put(out, std::move(pieces), std::move(s));
+  }
+
+  void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
+    const bool on = active_ ? active_->on_target : !defines_again && !written_out_;
+    active_.reset();
+    if (!on || defines_again) return;
+    if (by_call_) pieces.push_back(off_statement(s.line, true));
+    else b.actions.insert(b.actions.begin(), action(CycleCancel{}));
+  }
+
+  void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const Facts& facts = facts_.before(s);
+    const auto old_on = active_ && active_->on_target;
+    Active a = define(d.cycle, d.trigger, b, facts);
+    const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
+    const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+    const bool point_here = w && has_plane_word(b, *w);
+    if (!a.native) {
+      if (old_on) pieces.push_back(off_statement(s.line, by_call_));
+      written_out_ = true;
+      active_ = a;
+      if (d.here) write_out(std::move(s), std::move(pieces), out);
+      else editor_.put(out, std::move(pieces), std::move(s));
+      if (!d.modal) active_.reset();
+      return;
+    }
+    if (!by_call_) {
+      CycleDefine native = d;
+      native.cycle = a.native;
+      native.trigger = CycleTrigger::plane_axis_word;
+      if (!d.here) {  // the next point runs it
+        active_ = a;
+        editor_.put(out, std::move(pieces), std::move(s));
+        return;
+      }
+      b.actions.push_back(action(native, Order::after));
+      if (d.modal) {
+        a.on_target = true;
+        active_ = a;
+      }
+      editor_.put(out, std::move(pieces), std::move(s));
+      return;
+    }
+    define_by_call(std::move(s), d, std::move(a), point_here, std::move(pieces), out);
+  }
+
+  void define_by_call(Statement&& s, const CycleDefine& d, Active&& a, bool point_here, Body&& pieces, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    if (!d.modal) {
+      if (point_here || !b.empty()) {
+        pieces.push_back(std::move(s));
+        const LineInfo like = pieces.back().line;
+        const std::size_t main = pieces.size() - 1;
+        pieces.push_back(single_run(like, a.native));
+        editor_.put_group(out, std::move(pieces), main);
+      } else {
+        b.actions.push_back(action(CycleDefine{a.native, false, true, CycleTrigger::path_motion}));
+        editor_.put(out, std::move(pieces), std::move(s));
+      }
+      return;
+    }
+    a.on_target = true;
+    const LineInfo like = s.line;
+    if (!b.actions.empty()) {  // F and S first: the call takes them
+      Block first;
+      first.actions = std::move(b.actions);
+      b.actions.clear();
+      pieces.push_back(made(like, std::move(first)));
+    }
+    if (d.here && !point_here) {
+      if (b.has_motion && b.motion.moves()) {
+        Statement mover = made(like, Block{});
+        std::get<Block>(mover.node).has_motion = true;
+        std::get<Block>(mover.node).motion = std::move(b.motion);
+        pieces.push_back(std::move(mover));
+      }
+      pieces.push_back(single_run(like, a.native));
+      s.node = ModalCall{};
+      std::get<ModalCall>(s.node).cycle = a.native;
+      pieces.push_back(std::move(s));
+      active_ = a;
+      const std::size_t main = pieces.size() - 1;
+      editor_.put_group(out, std::move(pieces), main);
+      return;
+    }
+    pieces.push_back(on_statement(like, a.native));
+    if (point_here) {
+      position_kind(b);
+      pieces.push_back(std::move(s));
+    } else {
+      pieces.back().line = s.line;
+    }
+    active_ = a;
+    const std::size_t main = pieces.size() - 1;
+    editor_.put_group(out, std::move(pieces), main);
+  }
+
+  /// The way to a hole: rapid on controls that always position so.
+  void position_kind(Block& b) const {
+    const bool source_rapid = context_.source_machine.option("cycle.positioning") == "rapid";
+    const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid" && !by_call_;
+    if (!source_rapid || target_rapid || !b.has_motion) return;
+    if (b.motion.kind != MotionKind::modal) return;
+    b.motion.kind = MotionKind::rapid;
+    b.motion.explicit_code = true;
+    b.motion.keeps_modal = false;
+  }
+
+  bool triggers(const Block& b, const Facts& facts) const {
+    if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
+    if (active_->trigger == CycleTrigger::path_motion) return true;
+    const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+    const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+    return !w || has_plane_word(b, *w);
+  }
+
+  static bool disturbs_call(const Block& b) {
+    if (b.has_motion) return true;
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+    });
+  }
+
+  /// A block while a cycle is active.
+  void point(Statement&& s, Body&& pieces, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const Facts& facts = facts_.before(s);
+    follow_retract_plane(s, b, facts);
+    const bool hole_here = triggers(b, facts);
+    const LineInfo like = s.line;
+    if (!active_->native) {
+      if (hole_here) write_out(std::move(s), std::move(pieces), out);
+      else plain(std::move(s), std::move(pieces), out);
+      return;
+    }
+    if (by_call_) {
+      if (hole_here) position_kind(b);
+      const bool wrap = !hole_here && disturbs_call(b) && active_->on_target;
+      if (wrap) pieces.push_back(off_statement(like, true));
+      const std::size_t main = pieces.size();
+      pieces.push_back(std::move(s));
+      if (wrap) pieces.push_back(on_statement(like, active_->native));
+      editor_.put_group(out, std::move(pieces), main);
+      return;
+    }
+    if (!hole_here) return plain(std::move(s), std::move(pieces), out);
+    native_point(std::move(s), std::move(pieces), out);
+  }
+
+  /// A point on a target that defines the cycle in the block of its first point.
+  void native_point(Statement&& s, Body&& pieces, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const Facts& facts = facts_.before(s);
+    const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+    const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+    const auto kind = motion_in(b, facts);
+    const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
+    const bool moves_tool = w && std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [w](const CoordWord& c) { return c.axis == *w; });
+    const bool simple = w && has_plane_word(b, *w) && !moves_tool && (!target_rapid || kind == MotionKind::rapid) &&
+                        b.motion.centers.empty() && !b.motion.radius_given;
+    if (active_->trigger == CycleTrigger::plane_axis_word && active_->on_target) {
+      return editor_.put(out, std::move(pieces), std::move(s));
+    }
+    const LineInfo like = s.line;
+    if (simple && active_->on_target) return editor_.put(out, std::move(pieces), std::move(s));
+    if (simple) {
+      b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}, Order::after));
+      active_->on_target = true;
+      return editor_.put(out, std::move(pieces), std::move(s));
+    }
+    // Moved there in another way than the target's cycle does: the move, then one run of the cycle.
+    if (active_->on_target) pieces.push_back(off_statement(like, false));
+    active_->on_target = false;
+    const std::size_t main = pieces.size();
+    pieces.push_back(std::move(s));
+    pieces.push_back(single_run(like, active_->native));
+    editor_.put_group(out, std::move(pieces), main);
+  }
+
+  void plain(Statement&& s, Body&& pieces, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    if (b.has_motion && b.motion.moves()) {
+      const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+      const auto w = hole != nullptr ? cycle_axis(*hole, b, facts_.before(s)) : std::nullopt;
+      for (const auto& c : b.motion.coords) {
+        if (!w || c.axis != *w) continue;
+        const auto mode = c.mode == WordMode::modal ? setting_in<Distance>(b, facts_.before(s), Setting::distance)
+                          : c.mode == WordMode::absolute ? std::optional(Distance::absolute) : std::nullopt;
+        const auto units = setting_in<Units>(b, facts_.before(s), Setting::units);
+        active_->height.reset();
+        if (mode == Distance::absolute && units && c.value.literal()) active_->height = c.value.number * (*units == Units::inch ? 25.4 : 1);
+      }
+    }
+    editor_.put(out, std::move(pieces), std::move(s));
+  }
+
+  /// A new retract plane while the cycle is active is a new cycle.
+  void follow_retract_plane(const Statement& s, Block& b, const Facts& facts) {
+    const bool sets = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::retract_plane;
+    });
+    if (!sets || context_.target.retract_plane_switch || !active_->native) return;
+    const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+    if (hole == nullptr || hole->retract.given) return;
+    context_.diagnostics.warning("TRN-332", s.line.span,
+                                 "the retract plane changes while a cycle is active; the target's cycle keeps the one it was "
+                                 "defined with",
+                                 "define the cycle again after the change");
+    (void)facts;
+  }
+
+  // --- written out ----------------------------------------------------------------------------------------------
+
+  void write_out(Statement&& s, Body&& pieces, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const Facts& facts = facts_.before(s);
+    const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+    std::string error;
+    std::optional<Explosion> moves;
+    std::optional<double> height = active_->height;
+    const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+    if (w && !height) height = height_mm(b, facts, *w);
+    if (hole == nullptr) error = "cycles of this kind are not carried yet";
+    else if (!height) error = "the height of the tool before it is not known here";
+    else moves = explode(*hole, s.line, b, facts, *height, active_->defined_at, &error);
+    if (!moves) {
+      refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + error,
+             "give the cycle's words and the height before it as numbers");
+      out.push_back(std::move(s));
+      return;
+    }
+    position_rapid(b);
+    active_->height = moves->end_height;
+    const std::size_t main = pieces.size();
+    pieces.push_back(std::move(s));
+    for (auto& m : moves->blocks) pieces.push_back(std::move(m));
+    editor_.put_group(out, std::move(pieces), main);
+  }
+  void position_rapid(Block& b) const {
+    if (context_.source_machine.option("cycle.positioning") != "rapid" || !b.has_motion || b.motion.kind != MotionKind::modal) return;
+    b.motion.kind = MotionKind::rapid;
+    b.motion.explicit_code = true;
+    b.motion.keeps_modal = false;
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  Editor editor_;
+  bool by_call_ = false;
+  bool written_out_ = false;
+  std::optional<Active> active_;
+};
+
+bool uses_cycles(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) found = found || m->cycle != nullptr;
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        found = found || std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<CycleCancel>(a.data);
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void lower_cycles(Program& program, const LegaliseContext& context) {
+  if (!uses_cycles(program)) return;
+  if (program.dialect == context.target.dialect && !program.dialect.empty() && context.options.cycles == CycleWriting::native) return;
+  const FactsOf facts(program, context);
+  for (auto& r : program.routines) CyclePass(program, r, context, facts).run();
+}
+
+}  // namespace cnctrans::ir::passes

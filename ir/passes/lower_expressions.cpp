@@ -1,0 +1,151 @@
+// Expressions of every statement in the target's form (equivalences 19); words with a computed value through a temporary
+// just before their block.
+#include <algorithm>
+
+#include "ir/passes/expression_lowering.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+bool read_anywhere(const ExprPtr& e, const VarRef& v) {
+  return reads(e, v);
+}
+
+class ExpressionPass {
+ public:
+  explicit ExpressionPass(const LegaliseContext& context) : context_(context) {}
+
+  void one(Editor& editor, Statement&& s, Body& out) {
+    if (std::holds_alternative<Assign>(s.node)) return assign(editor, std::move(s), out);
+    if (std::holds_alternative<Block>(s.node)) return block(editor, std::move(s), out);
+    if (auto* j = std::get_if<Jump>(&s.node)) {
+      if (!j->condition && !j->target.computed) {
+        out.push_back(std::move(s));
+        return;
+      }
+    }
+    rest(editor, std::move(s), out);
+  }
+
+ private:
+  void block(Editor& editor, Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    if (!has_expression(b)) {
+      out.push_back(std::move(s));
+      return;
+    }
+    ExpressionLowering lowering(editor, s.line);
+    visit_values(b, [&lowering](Value& v, const Place&) {
+      if (!v.expr) return false;
+      v = lowering.word(v);
+      return true;
+    });
+    editor.put(out, std::move(lowering.pre), std::move(s));
+  }
+
+  /// Assignments stand one after the other: what an item needs comes right before it.
+  void assign(Editor& editor, Statement&& s, Body& out) {
+    Assign a = std::move(std::get<Assign>(s.node));
+    Body pieces;
+    std::size_t main = 0;
+    for (auto& item : a.items) {
+      ExpressionLowering lowering(editor, s.line);
+      if (usable_as_scratch(item)) lowering.set_scratch(item.target);
+      if (item.target.index && !constant_value(item.target.index)) item.target.index = lowering.lower(item.target.index);
+      for (auto& x : item.system.args) x = lowering.lower(x);
+      item.value = lowering.lower(item.value);
+      add(pieces, std::move(lowering.pre), std::move(item), s.line);
+    }
+    main = pieces.empty() ? 0 : pieces.size() - 1;
+    if (pieces.empty()) {
+      s.node = std::move(a);
+      out.push_back(std::move(s));
+      return;
+    }
+    s.node = std::move(pieces[main].node);
+    pieces[main] = std::move(s);
+    editor.put_group(out, std::move(pieces), main);
+  }
+
+  static bool usable_as_scratch(const Assign::Item& item) {
+    return !item.to_system && item.target.indices.empty() && (!item.target.index || constant_value(item.target.index)) &&
+           !read_anywhere(item.value, item.target);
+  }
+
+  void add(Body& pieces, Body&& pre, Assign::Item&& item, const LineInfo& like) const {
+    constexpr std::size_t most_in_a_line = 4;
+    for (auto& p : pre) {
+      auto* made_assign = std::get_if<Assign>(&p.node);
+      auto* last = pieces.empty() ? nullptr : std::get_if<Assign>(&pieces.back().node);
+      if (made_assign != nullptr && last != nullptr && context_.target.several_assignments &&
+          last->items.size() + made_assign->items.size() <= most_in_a_line) {
+        for (auto& i : made_assign->items) last->items.push_back(std::move(i));
+      } else {
+        pieces.push_back(std::move(p));
+      }
+    }
+    auto* last = pieces.empty() ? nullptr : std::get_if<Assign>(&pieces.back().node);
+    if (last != nullptr && context_.target.several_assignments && last->items.size() < most_in_a_line) {
+      last->items.push_back(std::move(item));
+      return;
+    }
+    Assign alone;
+    alone.items.push_back(std::move(item));
+    pieces.push_back(made(like, std::move(alone)));
+  }
+
+  void rest(Editor& editor, Statement&& s, Body& out) {
+    ExpressionLowering lowering(editor, s.line);
+    if (auto* j = std::get_if<Jump>(&s.node)) {
+      if (j->condition && context_.target.conditions == ConditionForm::expression) j->condition = lowering.condition(j->condition);
+      if (j->target.computed) j->target.computed = lowering.lower(j->target.computed);
+    } else if (auto* i = std::get_if<If>(&s.node)) {
+      i->condition = lowering.condition(i->condition);
+    } else if (auto* w = std::get_if<While>(&s.node)) {
+      w->condition = lowering.condition(w->condition);
+    } else if (auto* u = std::get_if<Until>(&s.node)) {
+      u->condition = lowering.condition(u->condition);
+    } else if (auto* r = std::get_if<Repeat>(&s.node)) {
+      r->count = count(lowering, r->count);
+    } else if (auto* m = std::get_if<Message>(&s.node)) {
+      for (auto& p : m->parts) {
+        if (p && !is_primary(p)) p = context_.target.word_expression ? lowering.lower(p) : lowering.primary(p);
+      }
+    } else {
+      StatementVisitor visit;
+      visit.expression = [&lowering](const ExprPtr& e) {
+        return e->type == Type::string || e->type == Type::axis ? e : lowering.lower(e);
+      };
+      if (auto* c = std::get_if<CallRoutine>(&s.node)) {
+        const ExprPtr n = c->count;
+        c->count = nullptr;
+        visit_statement(s, visit);
+        std::get<CallRoutine>(s.node).count = count(lowering, n);
+      } else {
+        visit_statement(s, visit);
+      }
+    }
+    editor.put(out, std::move(lowering.pre), std::move(s));
+  }
+
+  ExprPtr count(ExpressionLowering& lowering, const ExprPtr& e) const {
+    if (!e) return e;
+    return context_.target.repeat_count_expression ? lowering.lower(e) : lowering.primary(e);
+  }
+
+  const LegaliseContext& context_;
+};
+
+}  // namespace
+
+void lower_expressions(Program& program, const LegaliseContext& context) {
+  ExpressionPass pass(context);
+  for (auto& r : program.routines) {
+    Editor editor(program, r, context);
+    rewrite_body(r.body, [&](Statement&& s, Body& out) { pass.one(editor, std::move(s), out); });
+  }
+}
+
+}  // namespace cnctrans::ir::passes

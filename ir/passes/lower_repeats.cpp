@@ -1,0 +1,294 @@
+// Repetitions (equivalences 20.4): ranges in place, blocks with a count, counts of calls, modal calls that the target
+// runs in another way.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "ir/passes/editor.h"
+#include "ir/passes/expression_lowering.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+class RepeatPass {
+ public:
+  RepeatPass(Editor& editor) : editor_(editor), target_(editor.target()) {}
+
+  void run() {
+    order_ranges();
+    rewrite_body(editor_.routine.body, [this](Statement&& s, Body& out) {
+      if (std::holds_alternative<Repeat>(s.node)) return range(std::move(s), out);
+      if (std::holds_alternative<CallRoutine>(s.node)) return call(std::move(s), out);
+      if (const auto* b = std::get_if<Block>(&s.node); b != nullptr && b->repeat_given != 0 && !target_.block_repeat) {
+        return block(std::move(s), out);
+      }
+      out.push_back(std::move(s));
+    });
+  }
+
+ private:
+  void refused(Statement& s, std::string_view code, std::string text, std::string hint) {
+    refuse(s, editor_.program, editor_.context, code, std::move(text), std::move(hint));
+  }
+
+  /// Ranges whose labels may stand in either order: the first in the text goes first.
+  void order_ranges() {
+    std::map<std::pair<bool, std::string>, std::size_t> places;
+    std::size_t n = 0;
+    for_each_statement(editor_.routine.body, [&](const Statement& s) {
+      ++n;
+      for (const auto& l : labels_on(s.line)) places.emplace(std::make_pair(l.is_number, l.text), n);
+    });
+    for_each_statement(editor_.routine.body, [&](Statement& s) {
+      auto* r = std::get_if<Repeat>(&s.node);
+      if (r == nullptr || !r->order_free || r->has_program || r->first.computed || r->last.computed) return;
+      const auto a = places.find({r->first.is_number, r->first.text}), b = places.find({r->last.is_number, r->last.text});
+      if (a != places.end() && b != places.end() && a->second > b->second) std::swap(r->first, r->last);
+      r->order_free = false;
+    });
+  }
+
+  void range(Statement&& s, Body& out) {
+    auto& r = std::get<Repeat>(s.node);
+    if (r.has_program && !target_.repeat_other_program) {
+      if (target_.call_range) {
+        CallRoutine c;
+        c.routine = r.program;
+        c.has_range = true;
+        c.first = r.first;
+        c.last = r.last;
+        c.count = r.count;
+        s.node = std::move(c);
+      } else {
+        refused(s, "TRN-195", "a part of another program is repeated: the target can't", "make the part a subprogram");
+      }
+      out.push_back(std::move(s));
+      return;
+    }
+    if (!target_.repeat_range) {
+      refused(s, "TRN-196", "the target can't repeat a part of the program in place", "make the part a subprogram");
+      out.push_back(std::move(s));
+      return;
+    }
+    if (!r.has_program && r.last.text.empty() && !r.last.computed && !end_before(r, out)) {
+      refused(s, "TRN-197", "the repeated part has no last block that could get a label", "put a label on its last block");
+    }
+    if (auto* kept = std::get_if<Repeat>(&s.node)) check_count(s, kept->count);
+    out.push_back(std::move(s));
+  }
+
+  /// The part ends just before the statement: the block there gets a label.
+  bool end_before(Repeat& r, Body& out) {
+    if (out.empty()) return false;
+    Statement& last = out.back();
+    const auto have = labels_on(last.line);
+    const auto fitting = std::find_if(have.begin(), have.end(), [this](const LabelRef& l) {
+      return l.is_number ? !target_.repeat_needs_identifiers : target_.identifier_labels;
+    });
+    if (fitting != have.end()) {
+      r.last = *fitting;
+      return true;
+    }
+    const LabelRef fresh = editor_.fresh_label();
+    if (last.line.joined || !last.line.number.empty()) out.push_back(make_label(last.line, fresh, editor_.program));
+    else set_label(last.line, fresh, editor_.program);
+    r.last = fresh;
+    return true;
+  }
+
+  void check_count(const Statement& s, const ExprPtr& count) {
+    const auto n = constant_value(count);
+    if (count && n && *n > static_cast<double>(target_.repeat_max)) {
+      editor_.context.diagnostics.error("TRN-198", s.line.span,
+                                        "the target repeats at most " + std::to_string(target_.repeat_max) + " times",
+                                        "use a loop");
+    }
+  }
+
+  /// `count` calls: a label on the call and a repetition of it, or a counting loop.
+  void call(Statement&& s, Body& out) {
+    auto& c = std::get<CallRoutine>(s.node);
+    if (c.has_range && !target_.call_range) {
+      if (!target_.repeat_other_program) {
+        refused(s, "TRN-195", "a part of another program is called: the target can't", "make the part a subprogram");
+      } else {
+        Repeat r;
+        r.first = c.first;
+        r.last = c.last;
+        r.count = c.count;
+        r.has_program = true;
+        r.program = c.routine;
+        s.node = std::move(r);
+      }
+      out.push_back(std::move(s));
+      return;
+    }
+    if (!c.count || target_.call_count) {
+      check_count(s, c.count);
+      out.push_back(std::move(s));
+      return;
+    }
+    const ExprPtr count = std::exchange(c.count, nullptr);
+    const auto n = constant_value(count);
+    const LineInfo like = s.line;
+    if (n && *n <= 0) {
+      s.node = Label{};
+      out.push_back(std::move(s));
+      return;
+    }
+    if (n && target_.repeat_range && !s.line.joined) {
+      const LabelRef label = label_on(s);
+      out.push_back(std::move(s));
+      if (*n < 2) return;
+      Repeat r;
+      r.first = r.last = label;
+      r.count = number(*n - 1);
+      out.push_back(made(like, std::move(r)));
+      return;
+    }
+    counted(std::move(s), count, out);
+  }
+
+  LabelRef label_on(Statement& s) {
+    for (const auto& l : labels_on(s.line)) {
+      if (l.is_number ? !target_.repeat_needs_identifiers : target_.identifier_labels) return l;
+    }
+    const LabelRef fresh = editor_.fresh_label();
+    set_label(s.line, fresh, editor_.program);
+    return fresh;
+  }
+
+  /// t = n; again: IF t <= 0 GOTO end; statement; t = t - 1; GOTO again; end:
+  void counted(Statement&& s, const ExprPtr& count, Body& out) {
+    const auto t = editor_.take(s.line);  // stays taken: the loop runs over it
+    if (!t) {
+      out.push_back(std::move(s));
+      return;
+    }
+    const LineInfo like = s.line;
+    const LabelRef again = editor_.fresh_label(), end = editor_.fresh_label();
+    Body pieces;
+    pieces.push_back(make_assign(like, *t, count));
+    Statement test = make_jump(like, end, binary(BinaryOp::le, variable(*t), number(0)));
+    set_label(test.line, again, editor_.program);
+    pieces.push_back(std::move(test));
+    pieces.push_back(std::move(s));
+    pieces.push_back(make_assign(like, *t, binary(BinaryOp::subtract, variable(*t), number(1))));
+    pieces.push_back(make_jump(like, again));
+    pieces.push_back(make_label(like, end, editor_.program));
+    editor_.put_group(out, std::move(pieces), 2);
+  }
+
+  void block(Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const Value repeat = b.repeat;
+    b.repeat_given = 0;
+    b.repeat = Value{};
+    if (!repeat.literal()) return counted(std::move(s), repeat.expr, out);
+    const double n = repeat.number;
+    if (n == 0) {  // the move without the cycle that it would run
+      refused(s, "TRN-199", "a block that only positions and leaves the active cycle out: the target has none",
+              "cancel the cycle before the block");
+      out.push_back(std::move(s));
+      return;
+    }
+    constexpr double most_copies = 5;
+    if (n > most_copies) return counted(std::move(s), number(n), out);
+    const LineInfo like = s.line;
+    const Block copy = b;
+    Body pieces;
+    pieces.push_back(std::move(s));
+    for (double i = 1; i < n; ++i) pieces.push_back(made(like, copy));
+    editor_.put_group(out, std::move(pieces), 0);
+  }
+
+  Editor& editor_;
+  const Capabilities& target_;
+};
+
+/// Modal calls (a subprogram after every block with motion) for a target that has none, or runs them elsewhere.
+class ModalCalls {
+ public:
+  ModalCalls(const LegaliseContext& context) : context_(context) {}
+
+  void run(Body& body) {
+    Body out;
+    out.reserve(body.size());
+    for (auto& s : body) {
+      each_body(s, [this](Body& inner) { run(inner); });
+      one(std::move(s), out);
+    }
+    body = std::move(out);
+  }
+
+ private:
+  void one(Statement&& s, Body& out) {
+    auto* m = std::get_if<ModalCall>(&s.node);
+    if (m != nullptr && !m->cycle) return definition(std::move(s), out);
+    const auto* b = std::get_if<Block>(&s.node);
+    const bool runs = active_ && b != nullptr && b->has_motion && b->motion.moves();
+    const LineInfo like = s.line;
+    out.push_back(std::move(s));
+    if (runs) out.push_back(made(like, *active_));
+  }
+
+  void definition(Statement&& s, Body& out) {
+    ModalCall m = std::get<ModalCall>(s.node);
+    if (m.off) {
+      if (!active_) {
+        out.push_back(std::move(s));
+        return;
+      }
+      active_.reset();
+      leave_line(std::move(s), out);
+      return;
+    }
+    const bool as_it_is = context_.target.modal_call && context_.target.modal_call_here == m.here;
+    if (as_it_is) {
+      active_.reset();
+      out.push_back(std::move(s));
+      return;
+    }
+    if (context_.target.modal_call && m.here) {  // run once, then modal
+      const LineInfo like = s.line;
+      s.node = m.call;
+      out.push_back(std::move(s));
+      m.here = false;
+      active_.reset();
+      out.push_back(made(like, std::move(m)));
+      return;
+    }
+    active_ = m.call;
+    if (m.here) {
+      s.node = m.call;
+      out.push_back(std::move(s));
+    } else {
+      leave_line(std::move(s), out);
+    }
+  }
+  static void leave_line(Statement&& s, Body& out) {
+    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+    s.node = Label{};
+    out.push_back(std::move(s));
+  }
+
+  const LegaliseContext& context_;
+  std::optional<CallRoutine> active_;
+};
+
+}  // namespace
+
+void lower_modal_calls(Program& program, const LegaliseContext& context) {
+  for (auto& r : program.routines) ModalCalls(context).run(r.body);
+}
+
+void lower_repeats(Program& program, const LegaliseContext& context) {
+  for (auto& r : program.routines) {
+    Editor editor(program, r, context);
+    RepeatPass(editor).run();
+  }
+}
+
+}  // namespace cnctrans::ir::passes

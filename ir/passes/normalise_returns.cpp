@@ -1,0 +1,154 @@
+// Returns and program ends (equivalences 21.1): early returns become jumps to the last one, a program end inside a
+// subprogram is carried up to the main program where the target's end word only returns.
+#include <algorithm>
+#include <set>
+
+#include "ir/passes/call_graph.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+bool ends_all(const Statement& s) {
+  const auto* e = std::get_if<End>(&s.node);
+  return e != nullptr && !e->returns_from_sub;
+}
+
+/// Ends of the program in subprograms, for a target where they return only: a flag tells the callers.
+class EndInSub {
+ public:
+  EndInSub(Program& program, const LegaliseContext& context) : program_(program), context_(context), calls_(program) {}
+
+  void run() {
+    find_enders();
+    if (enders_.empty()) return;
+    flag_ = VarRef{frame_space(program_), "END@program", nullptr, {}};
+    for (std::size_t r = 0; r < program_.routines.size(); ++r) rewrite(r);
+    for (auto& r : program_.routines) {
+      if (r.kind != RoutineKind::main) continue;
+      r.body.insert(first_place(r.body), make_assign(LineInfo{}, flag_, number(0)));
+    }
+  }
+
+ private:
+  static Body::iterator first_place(Body& body) {
+    auto at = body.begin();
+    while (at != body.end() && std::holds_alternative<Declare>(at->node)) ++at;
+    return at;
+  }
+
+  void find_enders() {
+    for (std::size_t r = 0; r < program_.routines.size(); ++r) {
+      if (program_.routines[r].kind == RoutineKind::main) continue;
+      for_each_statement(program_.routines[r].body, [&](const Statement& s) {
+        if (ends_all(s)) enders_.insert(r);
+      });
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& site : calls_.sites()) {
+        if (site.callee && enders_.count(*site.callee) != 0 && program_.routines[site.caller].kind == RoutineKind::sub) {
+          changed = enders_.insert(site.caller).second || changed;
+        }
+      }
+    }
+  }
+
+  void rewrite(std::size_t r) {
+    Routine& routine = program_.routines[r];
+    const bool sub = routine.kind == RoutineKind::sub;
+    Editor editor(program_, routine, context_);
+    std::optional<LabelRef> end_label;
+    rewrite_body(routine.body, [&](Statement&& s, Body& out) {
+      if (sub && ends_all(s)) {
+        Body pieces;
+        pieces.push_back(make_assign(s.line, flag_, number(1)));
+        s.node = Return{};
+        pieces.push_back(std::move(s));
+        editor.put_group(out, std::move(pieces), 1);
+        return;
+      }
+      const auto* c = std::get_if<CallRoutine>(&s.node);
+      const auto callee = c != nullptr && !c->computed ? calls_.index_of(c->routine) : std::nullopt;
+      const LineInfo like = s.line;
+      out.push_back(std::move(s));
+      if (!callee || enders_.count(*callee) == 0) return;
+      if (!end_label) end_label = editor.fresh_label();
+      out.push_back(make_jump(like, *end_label, binary(BinaryOp::ne, variable(flag_), number(0))));
+    });
+    if (!end_label) return;
+    // Where the flag leads: the last End of the main program, the last Return of a subprogram.
+    auto& body = routine.body;
+    const auto last = std::find_if(body.rbegin(), body.rend(), [&](const Statement& s) {
+      return sub ? std::holds_alternative<Return>(s.node) : std::holds_alternative<End>(s.node);
+    });
+    if (last == body.rend()) {
+      body.push_back(make_label(LineInfo{}, *end_label, program_));
+      Statement s;
+      if (sub) s.node = Return{};
+      else s.node = End{};
+      body.push_back(std::move(s));
+    } else {
+      last->line.joined = false;
+      body.insert(last.base() - 1, make_label(last->line, *end_label, program_));
+    }
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  CallGraph calls_;
+  std::set<std::size_t> enders_;
+  VarRef flag_;
+};
+
+/// In a subprogram an end word that only returns there is a return.
+void ends_that_return(Program& program) {
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&r](Statement& s) {
+      auto* e = std::get_if<End>(&s.node);
+      if (e == nullptr || !e->returns_from_sub) return;
+      if (r.kind == RoutineKind::sub) s.node = Return{{}, e->text};
+      else e->returns_from_sub = false;
+    });
+  }
+}
+
+/// One return, at the end of the routine.
+void single_return(Program& program, Routine& routine, const LegaliseContext& context) {
+  if (routine.kind != RoutineKind::sub) return;
+  auto& body = routine.body;
+  std::size_t count = 0;
+  for_each_statement(body, [&count](const Statement& s) { count += std::holds_alternative<Return>(s.node) ? 1 : 0; });
+  const bool last_is_return = !body.empty() && std::holds_alternative<Return>(body.back().node);
+  if (count == 0 || (count == 1 && last_is_return && body.back().line.skip_mask == 0)) return;
+  Editor editor(program, routine, context);
+  if (!last_is_return || body.back().line.skip_mask != 0) {
+    Statement s;
+    s.node = Return{};
+    body.push_back(std::move(s));
+  }
+  body.back().line.joined = false;
+  const auto have = labels_on(body.back().line);
+  const LabelRef end = have.empty() ? editor.fresh_label() : have.front();
+  if (have.empty()) set_label(body.back().line, end, program);
+  std::size_t left = count + (last_is_return ? 0 : 1);
+  for_each_statement(body, [&](Statement& s) {
+    if (!std::holds_alternative<Return>(s.node) || --left == 0) return;
+    Jump j;
+    j.target = end;
+    s.node = std::move(j);
+  });
+}
+
+}  // namespace
+
+void normalise_returns(Program& program, const LegaliseContext& context) {
+  if (context.target.end_in_sub_ends_all) ends_that_return(program);
+  else EndInSub(program, context).run();
+  if (context.target.early_return) return;
+  for (auto& r : program.routines) single_return(program, r, context);
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,147 @@
+// Safe start (equivalences rule 2): nothing modal is inherited from the target's power-on state. What the source's machine
+// has at the start, and the program does not say before its first motion, is said in a block at the head.
+#include <algorithm>
+#include <array>
+
+#include "ir/passes/facts.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+class SafeStart {
+ public:
+  SafeStart(Program& program, Routine& main, const LegaliseContext& context) : program_(program), main_(main), context_(context) {}
+
+  void run() {
+    look();
+    Block head;
+    for (const Setting s : wanted()) {
+      if (said_[static_cast<std::size_t>(s)]) continue;
+      const auto value = context_.source_machine.power_on.get(s);
+      ModalSet set{s, value, true, {}};
+      if (s == Setting::units) set.feed_too = context_.target.units_with_feed;
+      if (s == Setting::feed_mode) set.feed_memory = context_.target.feed_memory;
+      head.actions.push_back(action(set));
+    }
+    if (needs_feed_ && context_.source_machine.power_on_feed > 0) {
+      head.actions.push_back(action(SetFeed{Value{context_.source_machine.power_on_feed}, false}));
+    }
+    Body blocks;
+    if (!head.actions.empty()) blocks.push_back(made(LineInfo{}, std::move(head)));
+    const auto offset = context_.source_machine.power_on.work_offset;
+    if (!offset_said_ && offset != context_.target_machine.power_on.work_offset && offset > 0 && offset <= context_.target.work_offset_rows) {
+      blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
+    }
+    if (clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
+    first_motion();
+    main_.body.insert(place(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+  }
+
+ private:
+  std::vector<Setting> wanted() const {
+    std::vector<Setting> list{Setting::plane, Setting::comp};
+    if (context_.target.exact_stop_modal) list.push_back(Setting::path_mode);
+    list.insert(list.end(), {Setting::units, Setting::distance, Setting::feed_mode});
+    const auto& axes = context_.target_machine.axes;
+    const bool diameter = std::any_of(axes.begin(), axes.end(), [](const machine::AxisSpec& a) { return a.diameter; });
+    if (diameter && context_.target.diameter_switch) list.push_back(Setting::diameter);
+    return list;
+  }
+
+  static bool is_remark(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    return b != nullptr && b->empty() && s.line.number.empty() && s.line.labels.empty();
+  }
+
+  /// Settings that stand before the first motion, call or branch.
+  void look() {
+    bool open = true;
+    bool feed_open = true;
+    for (const auto& s : main_.body) {
+      if (std::holds_alternative<Assign>(s.node) || std::holds_alternative<Declare>(s.node) ||
+          std::holds_alternative<Message>(s.node) || std::holds_alternative<Label>(s.node))
+        continue;
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) open = false;
+      if (b == nullptr && feed_open && !std::holds_alternative<End>(s.node)) return;  // what follows is not known
+      if (b == nullptr) break;
+      const bool moves = b->has_motion && b->motion.moves();
+      for (const auto& a : b->actions) {
+        if (std::holds_alternative<SetFeed>(a.data)) feed_open = false;
+        if (!open || s.line.skip_mask != 0) continue;
+        if (const auto* m = std::get_if<ModalSet>(&a.data)) said_[static_cast<std::size_t>(m->setting)] = true;
+        if (std::holds_alternative<WorkOffset>(a.data)) offset_said_ = true;
+      }
+      if (!moves) continue;
+      open = false;
+      const MotionKind kind = b->motion.kind;
+      if (kind != MotionKind::modal) last_kind_ = kind;
+      if (feed_open && last_kind_.value_or(context_.source_machine.power_on.motion) != MotionKind::rapid) needs_feed_ = true;
+      if (!feed_open || needs_feed_) return;
+    }
+  }
+
+  /// The first move says its function.
+  void first_motion() {
+    for (auto& s : main_.body) {
+      auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Declare>(s.node) &&
+          !std::holds_alternative<Message>(s.node) && !std::holds_alternative<Label>(s.node))
+        return;
+      if (b == nullptr || !b->has_motion) continue;
+      if (b->motion.kind != MotionKind::modal) return;
+      if (!b->motion.moves() || !b->motion.centers.empty()) continue;
+      b->motion.kind = context_.source_machine.power_on.motion;
+      b->motion.explicit_code = true;
+      return;
+    }
+  }
+
+  /// A programmed shift that outlives the program on the target is cleared where the source starts without one.
+  bool clears_shift() const {
+    const auto slot = context_.target.frames.find(FrameSlot::shift);
+    if (slot == context_.target.frames.end() || slot->second.count(FrameCombine::clear) == 0) return false;
+    bool uses = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&uses](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        for (const auto& a : b->actions) uses = uses || std::holds_alternative<FrameOp>(a.data);
+      });
+    }
+    return uses;
+  }
+  static Action clear_shift() {
+    auto change = std::make_shared<FrameChange>();
+    change->slot = FrameSlot::shift;
+    change->combine = FrameCombine::clear;
+    return action(FrameOp{std::move(change)});
+  }
+
+  Body::iterator place() {
+    auto at = main_.body.begin();
+    while (at != main_.body.end() && (std::holds_alternative<Declare>(at->node) || is_remark(*at))) ++at;
+    return at;
+  }
+
+  Program& program_;
+  Routine& main_;
+  const LegaliseContext& context_;
+  std::array<bool, setting_count> said_{};
+  bool offset_said_ = false, needs_feed_ = false;
+  std::optional<MotionKind> last_kind_;
+};
+
+}  // namespace
+
+void safe_start(Program& program, const LegaliseContext& context) {
+  if (program.dialect == context.target.dialect && !program.dialect.empty()) return;
+  for (auto& r : program.routines) {
+    if (r.kind == RoutineKind::main) SafeStart(program, r, context).run();
+  }
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,57 @@
+// Last looks: marks without a block join the next block, empty blocks that passes left over disappear.
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+bool shows_nothing(const LineInfo& line) {
+  return line.number.empty() && line.labels.empty() && line.comments.empty();
+}
+
+/// A mark whose label the next statement can carry.
+bool can_join(const Statement& mark, const Statement& next, const Capabilities& target) {
+  if (!std::holds_alternative<Label>(mark.node) || mark.line.span.known() == false) return false;
+  const LineInfo& a = mark.line;
+  const LineInfo& b = next.line;
+  if (!a.comments.empty() || a.joined || b.joined || b.skip_mask != 0 || a.skip_mask != 0 || a.blank_lines_before != 0) return false;
+  if (std::holds_alternative<Label>(next.node) || std::holds_alternative<Declare>(next.node) || std::holds_alternative<Opaque>(next.node))
+    return false;
+  if (!a.number.empty() && !b.number.empty()) return false;
+  if (!b.comments.empty() && b.comments.front().place == CommentPlace::own_line) return false;
+  if (const auto* block = std::get_if<Block>(&next.node); block != nullptr && block->empty()) return false;
+  return target.identifier_labels || a.labels.empty();
+}
+
+void tidy_body(Body& body, const Program& program, const Routine& routine, const LegaliseContext& context) {
+  const LabelUses uses = label_uses(program, routine);
+  Body out;
+  out.reserve(body.size());
+  for (auto& s : body) {
+    each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
+    if (!out.empty() && can_join(out.back(), s, context.target)) {
+      bool end = false;
+      for (const auto& l : labels_on(out.back().line)) end = end || uses.is_end(l);
+      if (!end) {
+        LineInfo& mark = out.back().line;
+        if (s.line.number.empty()) s.line.number = mark.number;
+        s.line.labels.insert(s.line.labels.begin(), mark.labels.begin(), mark.labels.end());
+        out.pop_back();
+      }
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    const bool left_over = b != nullptr && b->empty() && b->repeat_given == 0 && shows_nothing(s.line) &&
+                           s.line.blank_lines_before == 0 && s.id == 0;
+    if (!left_over) out.push_back(std::move(s));
+  }
+  body = std::move(out);
+}
+
+}  // namespace
+
+void tidy(Program& program, const LegaliseContext& context) {
+  for (auto& r : program.routines) tidy_body(r.body, program, r, context);
+}
+
+}  // namespace cnctrans::ir::passes
