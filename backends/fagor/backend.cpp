@@ -1,6 +1,7 @@
 #include "backends/fagor/backend.h"
 
 #include "backends/fagor/capabilities.h"
+#include "backends/fagor/file_labels.h"
 #include "backends/fagor/stream.h"
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
@@ -37,8 +38,11 @@ class FagorBackend : public Backend {
   }
   std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                 Diagnostics& diagnostics) const override {
-    const Style style = make_style(is_lathe(*options.profile), uses_inches(program), program.dialect != dialect_name);
-    return Writer(program, options, style, diagnostics).write();
+    const bool foreign = program.dialect != dialect_name;
+    const Style style = make_style(is_lathe(*options.profile), uses_inches(program), foreign);
+    std::optional<ir::Program> relabelled;
+    if (foreign) relabelled = with_file_labels(program, file_order(program, false), diagnostics);
+    return Writer(relabelled ? *relabelled : program, options, style, diagnostics).write();
   }
   std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override { return make_stream(options); }
 };

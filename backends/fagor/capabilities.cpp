@@ -21,7 +21,7 @@ void statements(ir::Capabilities& c) {  // ch. 12, 17, 18
   c.repeat_count_expression = false;
   c.repeat_max = facts::max_repeat;
   c.block_repeat = true;
-  c.modal_call = true;
+  c.modal_call = c.modal_call_here = true;
   c.modal_cycle_by_call = false;
   c.declares_variables = false;
   c.assignment_joins_words = false;
@@ -70,6 +70,7 @@ void expressions(ir::Capabilities& c) {  // 16.3, 16.4
   c.word_expression = false;
   c.word_variable = c.word_variable_sign = true;
   c.word_indirect = true;
+  c.word_indirect_value = false;
   c.relation_as_value = true;
   c.unary = {ir::UnaryOp::negate, ir::UnaryOp::logical_not, ir::UnaryOp::bit_not};
   for (const auto& o : facts::operators) c.binary.insert(o.op);
@@ -80,8 +81,7 @@ void expressions(ir::Capabilities& c) {  // 16.3, 16.4
   c.word_decimals_inch = facts::decimals_inch;
   c.spaces = spaces();
   // P294..P299 belong to the control's cycles; temporaries come from P200..P249 and the end of the user parameters.
-  c.pools = {ir::VariablePool{"P", 100, 199, ir::Scope::global, false},
-             ir::VariablePool{"P", 250, facts::first_cycle_parameter - 1, ir::Scope::global, false},
+  c.pools = {ir::VariablePool{"P", 100, facts::first_cycle_parameter - 1, ir::Scope::global, false},
              ir::VariablePool{"P", 1000, 1199, ir::Scope::global, false},
              ir::VariablePool{"P", 0, 25, ir::Scope::level, false},
              ir::VariablePool{"P", 200, 249, ir::Scope::global, true},
@@ -155,13 +155,10 @@ bool stands_alone(const ir::Action& a) {
       std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::Dwell>(a.data)) {
     return true;
   }
-  // A pole at the origin beside a plane, and the preset that a work offset ends, are said by those words themselves.
+  // A pole at the origin beside a plane is said by the plane itself.
   if (const auto* p = std::get_if<ir::PoleSet>(&a.data)) return !p->at || !at_origin(*p->at);
   const auto* f = std::get_if<ir::FrameOp>(&a.data);
-  if (f == nullptr || !f->change) return false;
-  if (f->change->slot == FrameSlot::mirror) return false;
-  return !(f->change->combine == FrameCombine::clear && a.text.empty() && f->change->slot != FrameSlot::rotation &&
-           f->change->slot != FrameSlot::scale);
+  return f != nullptr && f->change && f->change->slot != FrameSlot::mirror;
 }
 
 const ir::Capabilities& capabilities(bool lathe) {

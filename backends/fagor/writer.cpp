@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "backends/common/comments.h"
+#include "backends/fagor/file_labels.h"
 #include "backends/fagor/tables.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
@@ -33,14 +33,6 @@ bool leaves(const ir::Statement* s) {
   return std::holds_alternative<ir::End>(s->node) || (j != nullptr && !j->condition);
 }
 
-void collect_called(const ir::Body& body, std::vector<const ir::CallRoutine*>& out) {
-  ir::for_each_statement(body, [&](const ir::Statement& s) {
-    if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) out.push_back(c);
-    const auto* m = std::get_if<ir::ModalCall>(&s.node);
-    if (m != nullptr && !m->off && !m->cycle) out.push_back(&m->call);
-  });
-}
-
 }  // namespace
 
 Writer::Writer(const ir::Program& program, const WriteOptions& options, const Style& style, Diagnostics& diagnostics)
@@ -50,35 +42,12 @@ Writer::Writer(const ir::Program& program, const WriteOptions& options, const St
 
 // ---- file frame ----------------------------------------------------------------------------------------------------
 
-/// The source's order; of another language: subroutines in the order of their first call, then those nobody calls.
-std::vector<std::size_t> Writer::routine_order() const {
-  const auto& routines = program().routines;
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < routines.size(); ++i) order.push_back(i);
-  if (same_dialect() || routines.empty() || routines[0].kind != ir::RoutineKind::main) return order;
-  order = {0};
-  std::set<std::size_t> seen{0};
-  for (std::size_t at = 0; at < order.size(); ++at) {
-    std::vector<const ir::CallRoutine*> calls;
-    collect_called(routines[order[at]].body, calls);
-    for (const ir::CallRoutine* c : calls) {
-      for (std::size_t i = 0; i < routines.size(); ++i) {
-        if (routines[i].name == c->routine && seen.insert(i).second) order.push_back(i);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < routines.size(); ++i) {
-    if (seen.insert(i).second) order.push_back(i);
-  }
-  return order;
-}
-
 void Writer::write_program() {
   open_file(file_name(program(), options(), lathe_), true);
   if (program().routines.empty()) return;
   const ir::Routine& first = program().routines[0];
   const bool has_main = first.kind == ir::RoutineKind::main;
-  const std::vector<std::size_t> order = routine_order();
+  const std::vector<std::size_t> order = file_order(program(), same_dialect());
   const auto local = [&](std::size_t i) {
     return same_dialect() && program().routines[i].locality == ir::Locality::file_local;
   };
@@ -129,7 +98,7 @@ void Writer::write_routine(std::size_t index) {
   if (named) line.comments.push_back({name, ir::CommentPlace::end_of_line, {}});
   begin_line(line);
   if (r.name.number < 0) {
-    refuse("TRN-220", {}, "the subroutine '" + name + "' has no number",
+    refuse("TRN-241", {}, "the subroutine '" + name + "' has no number",
            "subroutines of the target have a number from 0 to 9999");
   }
   add((local ? "(LSUB " : "(SUB ") + std::to_string(r.name.number) + ')', Rank::head);

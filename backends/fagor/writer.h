@@ -67,7 +67,6 @@ class Writer : public ProgramWriter {
 
  private:
   // file frame
-  [[nodiscard]] std::vector<std::size_t> routine_order() const;
   void write_routine(std::size_t index);
   void write_main(std::size_t index);
   // statements
@@ -99,7 +98,7 @@ class Writer : public ProgramWriter {
     return v ? std::optional(static_cast<Enum>(*v)) : std::nullopt;
   }
   // cycles
-  void cycle_retract(const ir::Action& a, const CycleWords& w);
+  [[nodiscard]] std::string cycle_retract(const ir::Action& a, const CycleWords& w);
   void cycle_approach(const CycleWords& w);
   [[nodiscard]] bool absolute_center(const ir::CenterWord& c);
 

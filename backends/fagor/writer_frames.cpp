@@ -141,6 +141,7 @@ void Writer::rotation(const ir::Action& a, const ir::FrameChange& f) {
     }
   }
   if (f.combine == FrameCombine::replace || f.combine == FrameCombine::replace_named) {
+    if (f.angle.is(0)) return add(code, Rank::setting, a.pos);
     add(code, Rank::setting);
     further_line(a.pos);
   }

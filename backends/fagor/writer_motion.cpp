@@ -177,7 +177,7 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   }
   if (!e.has_lead) return;
   if (!same_dialect() && m.coords.size() > 1) {
-    diagnostics().warning("TRN-221", span_of(m.code_pos),
+    diagnostics().warning("TRN-242", span_of(m.code_pos),
                           "the manual of the target does not say along which axis the pitch of a taper thread is "
                           "measured; it is written as it is",
                           "check the first part");
@@ -208,22 +208,24 @@ void Writer::cycle_cancel(const ir::Action& a) {
   if (!code.empty()) add(std::string(code), Rank::setting, a.pos);  // the lathe model has no modal cycles
 }
 
-/// G98 or G99 as the cycle needs it; a program of this language says it itself.
-void Writer::cycle_retract(const ir::Action& a, const CycleWords& w) {
+/// " G98" or " G99" as the cycle needs it; a program of this language says it itself.
+std::string Writer::cycle_retract(const ir::Action& a, const CycleWords& w) {
   if (w.retract_given) {
     const auto plane = w.retract_is_reference ? ir::RetractPlane::reference : ir::RetractPlane::initial;
-    add(std::string(modal_code(style(), ir::Setting::retract_plane, code_value(plane))), Rank::motion_code);
-    return;
+    return ' ' + std::string(modal_code(style(), ir::Setting::retract_plane, code_value(plane)));
   }
-  if (same_dialect()) return;
+  if (same_dialect()) return {};
   const bool written = std::any_of(block_->actions.begin(), block_->actions.end(), [](const ir::Action& x) {
     const auto* m = std::get_if<ir::ModalSet>(&x.data);
     return m != nullptr && m->setting == ir::Setting::retract_plane;
   });
-  if (written) return;
+  if (written) return {};
   const auto plane = setting(ir::Setting::retract_plane);
-  if (!plane) return refuse(no_cycle, a.pos, "where this cycle retracts to depends on the path that leads here");
-  add(std::string(modal_code(style(), ir::Setting::retract_plane, *plane)), Rank::motion_code);
+  if (!plane) {
+    refuse(no_cycle, a.pos, "where this cycle retracts to depends on the path that leads here");
+    return {};
+  }
+  return ' ' + std::string(modal_code(style(), ir::Setting::retract_plane, *plane));
 }
 
 /// The control retracts to the height at which the cycle was defined (G98): the tool has to stand there before.
@@ -237,7 +239,7 @@ void Writer::cycle_approach(const CycleWords& w) {
   const bool surely_above = height && w.retract.literal() && *height > w.retract.number;
   if (!surely_above) {
     diagnostics().warning(
-        "TRN-222", current().line.span,
+        "TRN-243", current().line.span,
         "the height of the tool before this cycle is not known; a move to its retract plane is put before it",
         "the hole is the same; check the move to the retract plane");
   }
@@ -277,8 +279,8 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
     further_line(a.pos);
   cycle_approach(*words);
   const bool spelled = same_dialect() && !a.text.empty();
-  add(spelled ? std::string(a.text) : std::string(words->code), Rank::frame, a.pos);
-  cycle_retract(a, *words);
+  const std::string code(spelled ? a.text : words->code);
+  add(code + cycle_retract(a, *words), Rank::frame, a.pos);
   if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::coordinate);
   add(word("I", words->depth, a.pos), Rank::center);
   if (words->dwell) {

@@ -88,7 +88,7 @@ bool Writer::spelling_is_whole_word(const ir::Action& a) const {
 /// What another word of the block says already: a work offset ends a preset, a plane resets the pole (8.3, 7), going
 /// home ends the compensations (8.1).
 bool Writer::implied(const ir::Action& a) {
-  if (a.pos.column != 0 || !a.text.empty() || block_ == nullptr) return false;
+  if (a.pos.column != 0 || !a.text.empty() || block_ == nullptr) return false;  // the source wrote it
   bool offset = offset_before_;
   bool plane = false;
   for (const ir::Action& other : block_->actions) {

@@ -1,0 +1,21 @@
+// Block numbers of a file: the control searches a label from the start of the file, subroutines included (manual 2.6).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "ir/program.h"
+
+namespace cnctrans::backends::fagor {
+
+/// The source's order; of another language: subroutines in the order of their first call, then those nobody calls.
+/// Indices of routines, as they follow each other in the file.
+std::vector<std::size_t> file_order(const ir::Program& program, bool same_language);
+
+/// A copy in which no jump can find a block of an earlier routine that has the same number; nullopt: `program` is so.
+/// A number that can't be changed because jumps of its routine are computed is an error TRN-240.
+std::optional<ir::Program> with_file_labels(const ir::Program& program, const std::vector<std::size_t>& order,
+                                            Diagnostics& diagnostics);
+
+}  // namespace cnctrans::backends::fagor
