@@ -1,9 +1,10 @@
 // What a file's blocks owe to each other: done when all of it is known.
-#include <algorithm>
 #include <memory>
-#include <string>
+#include <optional>
+#include <unordered_map>
 
 #include "frontends/fagor/program_reader.h"
+#include "ir/dataflow.h"
 
 namespace cnctrans::fagor {
 
@@ -36,30 +37,48 @@ void complete_block(ir::Block& b, const FileFacts& facts, bool clear_preset) {
   }
 }
 
-/// A use of the plane is sure when no label that something jumps to stands between the plane function and the use.
-bool sure(const PlaneUse& use, const FileFacts& facts) {
-  if (use.from_caller) return false;
-  for (std::size_t i = use.first_label; i < use.last_label; ++i) {
-    if (facts.computed_jumps) return false;
-    if (std::find(facts.jump_targets.begin(), facts.jump_targets.end(), facts.labels[i]) != facts.jump_targets.end())
-      return false;
+/// The statements of the lines that depend on the plane.
+std::unordered_map<std::uint32_t, const ir::Statement*> statements_by_line(const ir::Program& program) {
+  std::unordered_map<std::uint32_t, const ir::Statement*> found;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) { found.emplace(s.line.span.line, &s); });
   }
-  return true;
+  return found;
 }
 
-void judge_planes(LowerState& state) {
+std::optional<ir::Plane> plane_in(const ir::Statement& s) {
+  const auto* b = std::get_if<ir::Block>(&s.node);
+  if (!b) return std::nullopt;
+  for (const auto& a : b->actions) {
+    const auto* set = std::get_if<ir::ModalSet>(&a.data);
+    if (set && set->setting == ir::Setting::plane) return static_cast<ir::Plane>(set->value);
+  }
+  return std::nullopt;
+}
+
+/// Were the planes that lowering took from the text right? The flow of the program decides.
+void judge_planes(ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
   const auto usual = static_cast<std::size_t>(state.profile().power_on.plane);
-  bool others = false;
+  bool others = false, from_caller = false;
   for (std::size_t p = 0; p < facts.planes.size(); ++p) others = others || (facts.planes[p] && p != usual);
+  for (const auto& use : facts.plane_uses) from_caller = from_caller || use.from_caller;
+  if (facts.plane_uses.empty() || (!others && !from_caller)) return;
+  ir::number_statements(program);
+  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
+  const auto lines = statements_by_line(program);
   for (const auto& use : facts.plane_uses) {
-    if (sure(use, facts)) continue;
+    const auto at = lines.find(use.span.line);
+    if (at == lines.end()) continue;
+    const ir::Facts& before = table.before(at->second->id);
+    const auto known = before.settings[static_cast<std::size_t>(ir::Setting::plane)];
+    const auto own = plane_in(*at->second);
+    if ((own && *own == use.assumed) || (known && *known == static_cast<std::uint8_t>(use.assumed))) continue;
     state.set_line(use.span);
-    if (others) {
-      state.error("FAG-026", {},
-                  "this block depends on the plane, and the program reaches it with more than one plane in its text",
+    if (others || known) {
+      state.error("FAG-026", {}, "this block depends on the plane, and the program reaches it with several planes",
                   "write the plane function (G17, G18, G19) before the block");
-    } else if (use.from_caller) {
+    } else {
       state.warning("FAG-026", {},
                     "this block depends on the plane that the calling program has set; the usual plane is assumed",
                     "write the plane function (G17, G18, G19) in the subroutine");
@@ -85,7 +104,7 @@ bool calls_outside(const ir::Program& program) {
 
 void finish_program(ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
-  judge_planes(state);
+  judge_planes(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
   if (clear_preset || facts.table_shift) {

@@ -205,10 +205,11 @@ void BlockLowerer::lower(const syntax::Block& in, ir::Block& out, BlockResult& r
 
 void BlockLowerer::technology() {
   if (const Word* f = take('F')) act(ir::SetFeed{value(*f), true}, f);
-  bool orients = false, live = false;
+  bool orients = false, changes = false, live = false;
   for (std::size_t i = 0; i < m_count_; ++i) {
     const machine::MCode* m = m_[i]->expr < 0 ? state_.m(static_cast<int>(m_[i]->number)) : nullptr;
     orients = orients || (m && m->meaning == machine::MMeaning::spindle_orient);
+    changes = changes || (m && m->meaning == machine::MMeaning::tool_change);
     live = live || (m_[i]->expr < 0 && m_[i]->number == 45);
   }
   if (live) {
@@ -225,6 +226,7 @@ void BlockLowerer::technology() {
     select.changes = !state_.tool_changer();
     act(std::move(select), t);
   }
+  if (changes) return;
   if (const Word* d = take('D')) act(ir::ToolOffset{value(*d)}, d);
 }
 
@@ -246,7 +248,10 @@ void BlockLowerer::machine_function(const Word& w) {
     case MMeaning::spindle_ccw: act(ir::SpindleRun{1, ir::SpindleState::ccw}, &w, order); return;
     case MMeaning::spindle_stop: act(ir::SpindleRun{1, ir::SpindleState::off}, &w, order); return;
     case MMeaning::spindle_orient: act(ir::SpindleOrient{1, value_of('S')}, &w, order); return;
-    case MMeaning::tool_change: act(ir::ToolChange{}, &w, order); return;
+    case MMeaning::tool_change:
+      act(ir::ToolChange{}, &w, order);
+      if (const Word* d = take('D')) act(ir::ToolOffset{value(*d)}, d, order);  // of the tool that comes in
+      return;
     case MMeaning::coolant_off: act(ir::Coolant{ir::CoolantState::off}, &w, order); return;
     case MMeaning::coolant_flood: act(ir::Coolant{ir::CoolantState::flood}, &w, order); return;
     case MMeaning::coolant_mist: act(ir::Coolant{ir::CoolantState::mist}, &w, order); return;

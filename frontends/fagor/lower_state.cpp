@@ -54,25 +54,18 @@ void LowerState::note(std::string_view code, WordPos pos, std::string message, s
 void LowerState::start_routine(bool subroutine) {
   plane_ = profile_->power_on.plane;
   plane_from_caller_ = in_subroutine_ = subroutine;
-  labels_at_plane_ = facts.labels.size();
   comp_by_text = ir::CompSide::off;
   motion_by_text = ir::MotionKind::modal;
-}
-
-void LowerState::pass_label(std::string_view digits) {
-  const std::size_t first = digits.find_first_not_of('0');
-  facts.labels.emplace_back(first == std::string_view::npos ? "0" : digits.substr(first));
 }
 
 void LowerState::plane_code(ir::Plane plane) {
   plane_ = plane;
   plane_from_caller_ = false;
-  labels_at_plane_ = facts.labels.size();
   facts.planes[static_cast<std::size_t>(plane)] = true;
 }
 
 ir::Plane LowerState::plane_by_text() {
-  facts.plane_uses.push_back({line_, plane_from_caller_, labels_at_plane_, facts.labels.size()});
+  facts.plane_uses.push_back({line_, plane_, plane_from_caller_});
   return plane_;
 }
 

@@ -20,13 +20,11 @@ inline constexpr ir::SpaceId parameter_space = 0;
 /// The spaces of a Fagor program: `P` with its ranges and scopes.
 std::vector<ir::VariableSpace> make_spaces();
 
-/// A block whose reading depends on the plane: decided by the last plane function in the text, judged at the file's
-/// end.
+/// A block whose reading depends on the plane: the last plane function in the text was taken; judged at the file's end.
 struct PlaneUse {
   Span span;
+  ir::Plane assumed = ir::Plane::xy;
   bool from_caller = false;  ///< in a subroutine before any plane function of its own
-  std::size_t first_label = 0,
-              last_label = 0;  ///< labels passed since the plane function: indices into LowerState::labels
 };
 
 /// Features of the file that change how other blocks are completed at its end.
@@ -35,14 +33,10 @@ struct FileFacts {
   bool preset = false;           ///< G92 with axes
   bool table_shift = false;      ///< G58 G59
   bool shift = false;            ///< G158
-  bool calls = false;            ///< routines that may stand in other files
-  bool computed_jumps = false;
-  bool rotary = false;          ///< an absolute word of a rotary axis was read as a plain coordinate
-  std::array<bool, 2> units{};  ///< programmed by G71 [0], G70 [1]
+  bool rotary = false;           ///< an absolute word of a rotary axis was read as a plain coordinate
+  std::array<bool, 2> units{};   ///< programmed by G71 [0], G70 [1]
   Span first_table_shift, first_machine_move;
-  std::vector<std::string> jump_targets;
   std::vector<PlaneUse> plane_uses;
-  std::vector<std::string> labels;  ///< in text order
 };
 
 class LowerState {
@@ -75,7 +69,6 @@ class LowerState {
   // what the text has said
   void start_routine(bool subroutine);
   [[nodiscard]] bool in_subroutine() const { return in_subroutine_; }
-  void pass_label(std::string_view digits);
   void plane_code(ir::Plane plane);
   [[nodiscard]] ir::Plane plane_now() const { return plane_; }
   /// The plane by the text; remembered as a use that the file's end has to confirm.
@@ -99,7 +92,6 @@ class LowerState {
   ir::Plane plane_ = ir::Plane::xy;
   bool plane_from_caller_ = false;
   bool in_subroutine_ = false;
-  std::size_t labels_at_plane_ = 0;
 };
 
 /// The word as written, and an ISO word's letter in capitals.

@@ -127,7 +127,6 @@ ir::LabelRef StatementLowerer::label(const Expr& e) {
   ir::LabelRef l;
   if (e.kind != ExprKind::number) {
     l.computed = lower_expr(e, state_);
-    state_.facts.computed_jumps = true;
     return l;
   }
   if (!whole(e.number, static_cast<double>(facts::max_label))) {
@@ -135,7 +134,6 @@ ir::LabelRef StatementLowerer::label(const Expr& e) {
   }
   l.text = without_zeros(e.text);
   l.is_number = true;
-  state_.facts.jump_targets.push_back(l.text);
   return l;
 }
 
@@ -166,7 +164,6 @@ Node StatementLowerer::repeat(const syntax::Statement& s) {
 }
 
 void StatementLowerer::routine(const Expr& e, ir::CallRoutine& call) {
-  state_.facts.calls = true;
   if (e.kind != ExprKind::number) {
     call.computed = lower_expr(e, state_);
     return;
@@ -290,7 +287,6 @@ void lower_statement(const syntax::Block& block, std::string_view text, LowerSta
 void lower_g_call(const syntax::Block& block, const syntax::Word& code, LowerState& state, ir::Statement& out) {
   ir::CallRoutine call;
   call.routine.number = static_cast<std::int64_t>(code.number);
-  state.facts.calls = true;
   for (const auto& w : block.words) {
     if (&w == &code) continue;
     const char c = word_letter(w);

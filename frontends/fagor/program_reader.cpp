@@ -149,7 +149,6 @@ void ProgramReader::block(std::string_view text) {
     if (block_.number.size() > 8 && block_.number.find_first_not_of('0') + 8 < block_.number.size()) {
       state_.error("FAG-015", block_.number_pos, "a block number has at most 8 digits");
     }
-    state_.pass_label(block_.number);
   } else if (!block_.words.empty() && block_.statements.empty() && word_letter(block_.words.front()) == 'N') {
     state_.error("FAG-015", block_.words.front().pos,
                  "a block number is a fixed number; a parameter can't stand for it");

@@ -14,7 +14,7 @@ TEST(FagorBlock, MotionAndTechnology) {
             "N10 block feed 150 zero_is_maximum as \"F150\", linear as \"G1\" X 10.500 Z -3");
   EXPECT_EQ(line("X5"), "block modal X 5");
   EXPECT_EQ(line("G00 Y"), "block rapid as \"G00\" Y #0");  // a bare word is 0 (ch. 2)
-  EXPECT_EQ(line("T1 D18 M6"), "block tool 1 as \"T1\", tool_offset 18 as \"D18\", tool_change as \"M6\"");
+  EXPECT_EQ(line("T1 D18 M6"), "block tool 1 as \"T1\", tool_change as \"M6\", tool_offset 18 as \"D18\"");
   EXPECT_EQ(line("T1 D1", "fagor-lathe"), "block tool 1 changes as \"T1\", tool_offset 1 as \"D1\"");
   EXPECT_EQ(line("S1200 M3"), "block spindle 1200 as \"S1200\", spindle_run cw as \"M3\"");
   EXPECT_EQ(line("M19 S30"), "block spindle_orient 30 as \"M19\"");

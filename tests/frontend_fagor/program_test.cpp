@@ -96,7 +96,10 @@ TEST(FagorProgram, Messages) {
 TEST(FagorProgram, PlaneOfABlockThatNeedsIt) {
   // one plane in the text: sure; two planes and a jump in between: not
   EXPECT_EQ(read("G18\nN10 G81 Z1 X2 Y3 I-5\n(GOTO N20)\nN20 G80").codes(), "");
-  EXPECT_EQ(read("G18\nN10 X1\nG81 Z1 X2 Y3 I-5\n(GOTO N10)\nG17").codes(), "FAG-026");
+  EXPECT_EQ(read("G18\nN10 X1\nG81 Z1 X2 Y3 I-5\nG17\n(IF P1 EQ 0 GOTO N10)").codes(), "FAG-026");
+  // a subroutine: from its calls; nobody calls it: assumed, with a warning
+  EXPECT_EQ(read("G17\n(CALL 1)\nG18\nM30\n(SUB 1)\nG81 X1 Y2 Z3 I-5\n(RET)").codes(), "");
+  EXPECT_EQ(read("G17\n(CALL 1)\nG18\n(CALL 1)\nM30\n(SUB 1)\nG81 X1 Y2 Z3 I-5\n(RET)").codes(), "FAG-026");
   EXPECT_EQ(read("M30\n(SUB 1)\nG81 X1 Y2 Z3 I-5\n(RET)").codes(), "FAG-026");
 }
 
