@@ -190,7 +190,10 @@ void ProgramWriter::finish_line() {
   std::string text = line_head(!words.empty());
   if (refused()) return emit_refusal();
   const bool only_head = words.empty() && remarks.empty();
-  if (only_head && trim(text).empty()) return;  // nothing was said
+  if (only_head && trim(text).empty()) {
+    if (is_blank_line() && style_.blank_lines) emit(style_.blank_line, info_->span);
+    return;
+  }
   text += words;
   while (!text.empty() && text.back() == ' ') text.pop_back();
   if (only_head) {
@@ -201,6 +204,12 @@ void ProgramWriter::finish_line() {
   }
   annotate();
   emit(text, info_->span);
+}
+
+/// An empty block is an empty line of the source; elsewhere nothing was said because nothing had to be.
+bool ProgramWriter::is_blank_line() const {
+  const auto* b = current_ != nullptr && info_ == &current_->line ? std::get_if<ir::Block>(&current_->node) : nullptr;
+  return b != nullptr && b->empty() && first_of_source_line_ && !info_->joined;
 }
 
 void ProgramWriter::annotate() {

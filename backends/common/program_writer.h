@@ -2,6 +2,7 @@
 // from it and overrides the statements and actions that its language has; what it does not override is refused.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -175,6 +176,7 @@ class ProgramWriter {
   [[nodiscard]] std::string line_comments();
   void emit_refusal();
   void annotate();
+  [[nodiscard]] bool is_blank_line() const;
   [[nodiscard]] bool is_join(const ir::LineInfo& info) const;
   void resolve_numbers();
   void note_rounding(double change, int decimals);

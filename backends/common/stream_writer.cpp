@@ -436,7 +436,10 @@ bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words,
     }
   }
   const bool has_comments = !info.comments.empty();
-  if (!has_comments && words.count == 0 && head_end == line) return true;  // nothing to say
+  if (!has_comments && words.count == 0 && head_end == line) {  // an empty line
+    if (style_.blank_lines) out += std::string(style_.blank_line) + '\n';
+    return true;
+  }
   const bool comment_before = has_comments && style_.comment.line_before && words.count != 0 && !same_dialect_;
   if (comment_before) {
     write_comments(info, out);

@@ -108,7 +108,7 @@ void ProgramWriter::motion(const ir::Motion& m) {
       if (const ir::Facts* f = facts()) kind = tracker_.needed(f->motion);
     }
     if (kind == ir::MotionKind::modal) {
-      return refuse("TRN-211", {}, "the motion code in force here is not known, and the target needs one",
+      return refuse("TRN-216", {}, "the motion code in force here is not known, and the target needs one",
                     "write G0, G1, G2 or G3 in this block");
     }
     if (kind) add(std::string(motion_code(style_, *kind)), Rank::motion_code);

@@ -55,7 +55,7 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
   if (!feed) feed = feed_before;
   if (!spindle) spindle = spindle_before;
   if (!feed || !spindle) {
-    return refuse("TRN-215", {}, "feed mode and spindle mode are one group here, and the one in force is not known",
+    return refuse("TRN-217", {}, "feed mode and spindle mode are one group here, and the one in force is not known",
                   "write feed mode and spindle mode in this block");
   }
   const auto feed_mode = static_cast<ir::FeedMode>(*feed);

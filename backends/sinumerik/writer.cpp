@@ -82,16 +82,24 @@ std::string Writer::main_name() {
   return name;
 }
 
+/// Files of their own; an archive (programs with transfer headers in one file) when one output is wanted or the source
+/// was one.
 void Writer::write_program() {
   const auto& routines = program().routines;
-  const bool archive = options().single_output && routines.size() > 1;
+  const bool was_archive = same_dialect() && !program().files.empty() && program().files.front().archive;
+  const bool archive = was_archive || (options().single_output && routines.size() > 1);
   bool first = true;
   for (std::size_t i = 0; i < routines.size(); ++i) {
-    const bool main = routines[i].kind == ir::RoutineKind::main;
-    const std::string name = main ? main_name() : sub_name(routines[i].name);
+    const ir::Routine& r = routines[i];
+    const bool main = r.kind == ir::RoutineKind::main;
+    const std::string name = main ? main_name() : sub_name(r.name);
     const std::string extension = main ? "MPF" : "SPF";
-    if (!archive || first) open_file(name + '.' + (archive ? "ARC" : extension), main || first);
-    if (archive) raw_line("%_N_" + name + '_' + extension);
+    const bool bundle = archive && routines.size() > 1;
+    if (!archive || first) open_file(name + '.' + (bundle ? "ARC" : extension), main || first);
+    if (archive) {
+      const bool own_header = same_dialect() && !r.attributes.empty();
+      raw_line('%' + (own_header ? r.attributes : "_N_" + name + '_' + extension), r.header.span);
+    }
     first = false;
     routine_text(i, name);
   }
