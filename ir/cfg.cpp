@@ -5,9 +5,11 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/text.h"
 #include "ir/dataflow.h"
 #include "ir/labels.h"
 #include "ir/nesting.h"
+#include "ir/value_set.h"
 
 namespace cnctrans::ir {
 namespace {
@@ -29,7 +31,7 @@ bool runs_at_least_once(const ExprPtr& count) {
 
 class Builder {
  public:
-  explicit Builder(const Routine& routine) : routine_(routine) {}
+  Builder(const Program& program, const Routine& routine) : program_(program), routine_(routine) {}
 
   ControlFlow build() {
     prepare(routine_.body);
@@ -177,7 +179,7 @@ class Builder {
     if (j.search == Search::to_start) {
       add_id(out, entry(routine_.body, 0));
     } else if (j.target.computed) {
-      computed(j.search);
+      computed(j.search, j.target.computed);
       if (j.quiet) add_ids(out, next);
     } else if (const auto site = labels().find(j.target, j.search, labels().order(from))) {
       jumps_.emplace_back(from, *site);
@@ -187,8 +189,15 @@ class Builder {
     if (j.condition) add_ids(out, next);
   }
 
-  void computed(Search search) {
+  /// To the labels that the program itself can make of the value; to every label when that is not known.
+  void computed(Search search, const ExprPtr& value) {
     const auto from = labels().order(current_);
+    if (const auto values = possible_values(program_, value)) {
+      for (const double v : *values) {
+        if (const auto site = labels().find(shortest(v), true, search, from)) jumps_.emplace_back(current_, *site);
+      }
+      return;
+    }
     for (const auto& site : labels().sites()) {
       if (search == Search::forward && site.order <= from) continue;
       if (search == Search::backward && site.order > from) continue;
@@ -207,7 +216,7 @@ class Builder {
       const auto first = r.last.text.empty() ? labels().find(r.first, r.search, from) : std::nullopt;
       if (first) jumps_.emplace_back(current_, *first);
     } else if (!r.has_program) {
-      computed(Search::whole_first);
+      computed(Search::whole_first, r.first.computed);
     }
     // Up to this statement: the range comes back here by itself, and goes on after the last time.
     const bool comes_back_here = known_range && r.last.text.empty();
@@ -220,6 +229,7 @@ class Builder {
     return continuation_[site.statement];
   }
 
+  const Program& program_;
   const Routine& routine_;
   std::optional<LabelTable> labels_;  ///< made when the first jump or range asks for it
   ControlFlow flow_;
@@ -236,8 +246,8 @@ class Builder {
 
 }  // namespace
 
-ControlFlow control_flow(const Program&, const Routine& routine) {
-  return Builder(routine).build();
+ControlFlow control_flow(const Program& program, const Routine& routine) {
+  return Builder(program, routine).build();
 }
 
 }  // namespace cnctrans::ir

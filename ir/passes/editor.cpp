@@ -4,6 +4,9 @@
 #include <charconv>
 #include <utility>
 
+#include "base/text.h"
+#include "ir/value_set.h"
+
 namespace cnctrans::ir::passes {
 
 bool LabelUses::is_target(const LabelRef& l) const {
@@ -25,9 +28,12 @@ void each_label_ref(Statement& s, const std::function<void(LabelRef&, bool)>& vi
 
 namespace {
 
-void note_use(LabelUses& uses, const LabelRef& l, bool is_end) {
+void note_use(const Program& program, LabelUses& uses, const LabelRef& l, bool is_end) {
   if (l.computed) {
-    uses.computed = true;
+    const auto values = possible_values(program, l.computed);
+    if (!values) uses.computed = true;
+    for (const double v : values.value_or(std::vector<double>{}))
+      (is_end ? uses.ends : uses.targets).insert({true, shortest(v)});
     return;
   }
   (is_end ? uses.ends : uses.targets).insert({l.is_number, l.text});
@@ -38,8 +44,8 @@ void note_use(LabelUses& uses, const LabelRef& l, bool is_end) {
 LabelUses label_uses(const Program& program, const Routine& routine) {
   LabelUses uses;
   auto& body = const_cast<Body&>(routine.body);  // NOLINT: read only
-  for_each_statement(body, [&uses](Statement& s) {
-    each_label_ref(s, [&uses](LabelRef& l, bool is_end) { note_use(uses, l, is_end); });
+  for_each_statement(body, [&](Statement& s) {
+    each_label_ref(s, [&](LabelRef& l, bool is_end) { note_use(program, uses, l, is_end); });
   });
   for (const auto& other : program.routines) {
     for_each_statement(other.body, [&](const Statement& s) {
@@ -56,8 +62,8 @@ LabelUses label_uses(const Program& program, const Routine& routine) {
         name = &r->program;
       }
       if (name == nullptr || program.find(*name) != &routine) return;
-      note_use(uses, *first, false);
-      note_use(uses, *last, true);
+      note_use(program, uses, *first, false);
+      note_use(program, uses, *last, true);
     });
   }
   return uses;

@@ -4,6 +4,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/passes.h"
+#include "ir/value_set.h"
 
 namespace cnctrans::ir::passes {
 
@@ -45,7 +46,9 @@ class ControlPass {
   }
   bool may_keep(const LineInfo& line) const { return line.skip_mask == 0 || target_.skip_on_structures; }
 
-  void label(Body& out, const LabelRef& l, const LineInfo& like) { out.push_back(make_label(like, l, editor_.program)); }
+  void label(Body& out, const LabelRef& l, const LineInfo& like) {
+    out.push_back(make_label(like, l, editor_.program));
+  }
   /// The closing line of a structure: its label and comments stay on a mark.
   void closing(Body& out, const LineInfo& line, const std::optional<LabelRef>& l) {
     const bool shows = !line.number.empty() || !line.labels.empty() || !line.comments.empty();
@@ -53,8 +56,10 @@ class ControlPass {
     Statement s = made(line, Label{});
     s.line = line;
     if (l) {
-      if (l->is_number && !line.number.empty()) label(out, *l, line);
-      else set_label(s.line, *l, editor_.program);
+      if (l->is_number && !line.number.empty())
+        label(out, *l, line);
+      else
+        set_label(s.line, *l, editor_.program);
     }
     out.push_back(std::move(s));
   }
@@ -115,7 +120,8 @@ class ControlPass {
       out.push_back(std::move(s));
       return;
     }
-    const bool one_action = single_assign(node.then_body) && (node.else_body.empty() || single_assign(node.else_body)) &&
+    const bool one_action = single_assign(node.then_body) &&
+                            (node.else_body.empty() || single_assign(node.else_body)) &&
                             std::get<Assign>(node.then_body[0].node).items.size() == 1;
     if (target_.one_line_if_action && plain_condition(node.condition) && one_action && node.end_line.comments.empty() &&
         all_fit(node)) {
@@ -193,7 +199,8 @@ class ControlPass {
 
   void while_loop(Statement&& s, Body& out) {
     While node = std::move(std::get<While>(s.node));
-    if (target_.while_loop && plain_condition(node.condition) && may_keep(s.line)) return keep_loop(std::move(s), std::move(node), out);
+    if (target_.while_loop && plain_condition(node.condition) && may_keep(s.line))
+      return keep_loop(std::move(s), std::move(node), out);
     loops_.emplace_back();
     const LineInfo like = s.line;
     Statement test = in_place(s, to(loop_end(), negated_condition(node.condition)));
@@ -206,14 +213,16 @@ class ControlPass {
 
   void until_loop(Statement&& s, Body& out) {
     Until node = std::move(std::get<Until>(s.node));
-    if (target_.until_loop && plain_condition(node.condition) && may_keep(s.line)) return keep_loop(std::move(s), std::move(node), out);
+    if (target_.until_loop && plain_condition(node.condition) && may_keep(s.line))
+      return keep_loop(std::move(s), std::move(node), out);
     loops_.emplace_back();
     const LineInfo like = s.line;
     Statement head = in_place(s, Label{});
     const LabelRef start = label_of_line(head);
     out.push_back(std::move(head));
     inner(node.body, out);
-    Statement back = made(node.end_line.span.known() ? node.end_line : like, to(start, negated_condition(node.condition)));
+    Statement back =
+        made(node.end_line.span.known() ? node.end_line : like, to(start, negated_condition(node.condition)));
     back.line.number = node.end_line.number;
     back.line.labels = node.end_line.labels;
     back.line.comments = node.end_line.comments;
@@ -306,7 +315,7 @@ class ControlPass {
   std::vector<LoopEnd> loops_;
 };
 
-/// A jump to a computed label becomes a switch over the labels of the routine.
+/// A jump to a computed label becomes a switch over the labels of the routine that the value may name.
 class ComputedJumps {
  public:
   ComputedJumps(Editor& editor) : editor_(editor) {}
@@ -329,9 +338,13 @@ class ComputedJumps {
   }
 
  private:
-  void rewrite(Statement&& s, const std::vector<LabelRef>& labels, Body& out) {
+  void rewrite(Statement&& s, const std::vector<LabelRef>& all, Body& out) {
     constexpr std::size_t most = 200;
     const Jump j = std::get<Jump>(s.node);
+    const ComputedLabel value(editor_.program, j.target);
+    std::vector<LabelRef> labels;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(labels),
+                 [&](const LabelRef& l) { return value.may_be(l.text, l.is_number); });
     if (labels.size() > most) {
       refuse(s, editor_.program, editor_.context, "TRN-191", "a jump to a computed label among more than 200 labels",
              "jump to fixed labels");
