@@ -82,7 +82,8 @@ bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
   bool ok = true;
   for (const Statement& s : block.statements) {
     const std::uint32_t before = c_.errors;
-    if (s.keyword != "DEF" && s.keyword != "PROC" && s.keyword != "EXTERN" && s.keyword != "DEFINE" && s.keyword != "REDEF") {
+    if (s.keyword != "DEF" && s.keyword != "PROC" && s.keyword != "EXTERN" && s.keyword != "DEFINE" && s.keyword != "REDEF" &&
+        s.keyword != "RIGHTS") {
       executable_seen_ = true;
     }
     if (statement(s, block, info) && c_.errors == before) continue;
@@ -115,8 +116,8 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
   if (k == "CALL" || k == "EXTCALL") return text_call(s, info);
   if (k == "PCALL") return path_call(s, info);
   if (k == "MCALL") return modal_call(s, info);
-  if (k == "REDEF") {
-    c_.note("SIN-009", s.pos, "REDEF is kept as text: it changes no value");
+  if (k == "REDEF" || k == "RIGHTS") {
+    c_.note("SIN-009", s.pos, k + " is kept as text: it changes no value");
     add_opaque(block, info, "language.statement", true);
     return true;
   }

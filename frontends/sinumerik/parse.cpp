@@ -243,6 +243,12 @@ bool BlockParser::parse_block(std::string_view line, syntax::Block& out, ParseEr
     return false;
   }
   s.load(line);
+  if (s.tokens.size() > max_block_tokens) {
+    error.column = static_cast<std::uint32_t>(s.tokens.get(max_block_tokens)->getStartIndex()) + 1;
+    error.message = "the block has more than " + std::to_string(max_block_tokens) + " parts; the control takes 512 characters";
+    s.salvage(out);
+    return false;
+  }
   if (const antlr4::Token* t = s.too_deep(); t != nullptr) {
     error.column = static_cast<std::uint32_t>(t->getStartIndex()) + 1;
     error.message = "brackets or signs are nested deeper than " + std::to_string(max_nesting);

@@ -36,6 +36,8 @@ class BlockParser {
 
 /// A block of more code bytes than this is refused (the control's limit is 512 characters).
 inline constexpr std::size_t max_block_bytes = 8192;
+/// A block of more words, operators and brackets is refused: its tree would need a deep stack.
+inline constexpr std::size_t max_block_tokens = 1500;
 /// Brackets and signs nested deeper than this are refused.
 inline constexpr int max_nesting = 100;
 

@@ -394,6 +394,12 @@ bool BlockBuilder::definitions(Grammar::ContentContext* tree) {
     out_.statements.push_back(std::move(s));
     return true;
   }
+  if (auto* t = dynamic_cast<Grammar::AccessRightsContext*>(tree)) {
+    Statement s = make(t, "RIGHTS");
+    s.text = e_.text(t);
+    out_.statements.push_back(std::move(s));
+    return true;
+  }
   if (auto* t = dynamic_cast<Grammar::ExternDeclarationContext*>(tree)) {
     Statement s = make(t, "EXTERN");
     s.text = e_.text(t->anyName());

@@ -21,6 +21,7 @@ content
   | CASE expr OF caseArm* (DEFAULT jump)?                          # caseJump
   | DEF defPart* TYPE stringLength? defPart* defVariable (COMMA? defVariable)* COMMA?  # definition
   | REDEF anyToken+                                                # redefinition
+  | (DEF_LIMIT number)+                                            # accessRights    // APR 7 APW 11, for the definitions that follow
   | DEFINE anyName AS anyToken*                                    # macroDefinition
   | EXTERN anyName (LPAREN (parameterType (COMMA parameterType)*)? RPAREN)?   # externDeclaration
   | PROC procName (LPAREN (parameter (COMMA parameter)*)? RPAREN)? name*      # procHead
