@@ -190,7 +190,7 @@ bool Runner::bind_one(const ir::Argument& a, std::size_t position, Flow& callee,
   out.given = true;
   if (a.by_reference && out.parameter != nullptr && out.parameter->by_reference && out.space == nullptr) {
     out.by_reference = true;
-    return evaluator_.place(a.reference, flow_->names, out.reference) || !failure_.set;
+    return evaluator_.place(a.reference, flow_->names, out.reference, true);
   }
   if (a.value) {
     const auto id = evaluator_.id_of(a.value);

@@ -185,7 +185,7 @@ bool Evaluator::node_place(const Node& n, Place& out) {
   return global_place(*const_cast<NamedVariable*>(static_cast<const NamedVariable*>(n.what)), list, out);
 }
 
-bool Evaluator::place(const ir::VarRef& ref, const NameScope& scope, Place& out) {
+bool Evaluator::place(const ir::VarRef& ref, const NameScope& scope, Place& out, bool whole) {
   auto* space = ref.space < scope.spaces->size() ? (*scope.spaces)[ref.space] : nullptr;
   if (space != nullptr && ref.name.empty()) {
     const auto* literal = ref.index ? std::get_if<ir::Number>(&ref.index->node) : nullptr;
@@ -202,9 +202,18 @@ bool Evaluator::place(const ir::VarRef& ref, const NameScope& scope, Place& out)
   for (std::size_t i = 0; i < count; ++i) indices[i] = number_of(ref.indices[i]);
   if (failure_.set) return false;
   const std::span<const double> list(indices.data(), count);
-  if (const auto it = scope.locals.find(ref.name); it != scope.locals.end()) {
-    return local_place(it->second.index, list, out);
+  const auto it = scope.locals.find(ref.name);
+  if (whole && list.empty()) {
+    out = Place{};
+    auto* local = it != scope.locals.end() ? &(*locals_)[it->second.index] : nullptr;
+    if (local != nullptr && local->reference) {
+      out = local->target;
+    } else {
+      out.named = local != nullptr ? &local->own : &global_of(ref, scope);
+    }
+    return true;
   }
+  if (it != scope.locals.end()) return local_place(it->second.index, list, out);
   return global_place(global_of(ref, scope), list, out);
 }
 

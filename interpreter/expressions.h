@@ -65,7 +65,8 @@ class Evaluator final : public ValueSource {
   /// Number or text as a message shows it.
   std::string shown(ExprId id);
   /// Where an assignment to `ref` goes. Fails when there is no such variable, or it must not be written.
-  bool place(const ir::VarRef& ref, const NameScope& scope, Place& out);
+  /// `whole`: an array without indices stands for itself (to hand it over by reference).
+  bool place(const ir::VarRef& ref, const NameScope& scope, Place& out, bool whole = false);
   bool assign(const Place& place, ExprId value);
   /// Values of a system datum's indices, valid until the next call.
   std::span<const double> arguments(const ir::SystemRef& ref);

@@ -10,7 +10,7 @@ namespace cnctrans::interpreter {
 
 namespace {
 /// A program that emits nothing for so many statements is in an endless loop.
-constexpr std::uint64_t most_silent_steps = 20'000'000;
+constexpr std::uint64_t most_silent_steps = 10'000'000;
 constexpr std::uint64_t check_every = 65'536;
 }  // namespace
 
