@@ -140,6 +140,26 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
   }
 }
 
+/// A program that simply ends with its text gets the end word.
+void end_main(ir::Program& program, Diagnostics& diagnostics) {
+  for (auto& r : program.routines) {
+    if (r.kind != ir::RoutineKind::main) continue;
+    const ir::Statement* last = r.body.empty() ? nullptr : &r.body.back();
+    const auto* jump = last != nullptr ? std::get_if<ir::Jump>(&last->node) : nullptr;
+    if (last == nullptr || std::holds_alternative<ir::End>(last->node) ||
+        std::holds_alternative<ir::Return>(last->node) || (jump != nullptr && !jump->condition)) {
+      return;
+    }
+    ir::Statement end;
+    end.line.span = last->line.span;
+    end.node = ir::End{};
+    diagnostics.note("TRN-092", last->line.span, "the program ends without an end word; one is written");
+    r.body.push_back(std::move(end));
+    ir::number_statements(program);
+    return;
+  }
+}
+
 /// Errors of reading may be written over only when the user asked for it.
 bool refused(const Diagnostics& d, const TranslateOptions& options) {
   return d.has_errors() && options.unsupported == backends::Unsupported::error;
@@ -182,10 +202,18 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   result.files = loader.files();
 
   ir::Program work = source_program;
-  const ir::LegaliseContext context{
-      to->backend->capabilities_for(*target_profile), *source_profile, *target_profile, {options.cycles},
-      result.diagnostics};
+  end_main(work, result.diagnostics);
+  const ir::LegaliseContext context{to->backend->capabilities_for(*target_profile),
+                                    *source_profile,
+                                    *target_profile,
+                                    {options.cycles},
+                                    result.diagnostics};
   ir::legalise(work, context);
+  if (refused(result.diagnostics, options)) {  // the writer would only say the same again
+    result.files = loader.files();
+    result.refused = true;
+    return result;
+  }
   backends::WriteOptions write;
   write.profile = &*target_profile;
   write.unsupported = options.unsupported;

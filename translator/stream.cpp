@@ -104,6 +104,10 @@ class StreamTranslation {
       if (encoding_ == Encoding::utf8 && !window.empty() && !valid_utf8(window)) return give_up();
     }
     if (!prefix_done_) return give_up();  // no motion at all: let the whole-program path look at it
+    if (!ended_) {
+      diagnostics_.note("TRN-092", statement_.line.span, "the program ends without an end word; one is written");
+      if (!put_end(false)) return;
+    }
     writer_->end(out_);
     result_.lines = number;
     if (!flush()) fail();
@@ -124,7 +128,9 @@ class StreamTranslation {
     if (kind == frontends::StreamLine::no_statement) return true;
     if (!prefix_done_) return take_prefix(kind);
     if (!put(statement_)) return false;
-    return kind != frontends::StreamLine::program_end || put_end();
+    if (kind != frontends::StreamLine::program_end) return true;
+    ended_ = true;
+    return put_end(true);
   }
 
   /// Until the first motion the statements are kept, so that the safe start can be put where it belongs.
@@ -159,9 +165,9 @@ class StreamTranslation {
     return program;
   }
 
-  bool put_end() {
+  bool put_end(bool joined) {
     ir::Statement end;
-    end.line.joined = true;
+    end.line.joined = joined;
     end.line.span = statement_.line.span;
     end.node = ir::End{};
     return put(end);
@@ -232,6 +238,7 @@ class StreamTranslation {
   ir::Statement statement_;
   ir::Body prefix_;
   bool prefix_done_ = false;
+  bool ended_ = false;
   std::string out_;
   Eol eol_ = Eol::lf;
   Encoding encoding_ = Encoding::utf8, source_encoding_ = Encoding::utf8;

@@ -195,8 +195,7 @@ void ProgramWriter::machine_function(const ir::Action& a, const ir::MachineFunct
     return refuse("TRN-202", a.pos, "this machine function has no counterpart here");
   }
   const machine::MCode* there = profile().m_code(m.code);
-  if (!same_dialect_ && there != nullptr && there->meaning != MMeaning::machine_function &&
-      there->meaning != MMeaning::none) {
+  if (!same_dialect_ && there != nullptr && there->meaning != MMeaning::machine_function) {
     return refuse("TRN-207", a.pos,
                   m_word(m.code) + " means something else on the target machine (" + there->text + ")",
                   "say in the machine profiles what the function does");

@@ -24,6 +24,13 @@ void Writer::block(const ir::Block& b) {
   cycle_here_ = false;
   for (const auto& a : b.actions) cycle_here_ = cycle_here_ || std::holds_alternative<ir::CycleDefine>(a.data);
   ProgramWriter::block(b);
+  // A cycle that runs once: here every cycle is modal and must be ended.
+  for (const auto& a : b.actions) {
+    const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+    if (d == nullptr || d->modal || refused()) continue;
+    next_line();
+    add("G80", Rank::setting);
+  }
 }
 
 // ---- settings and machine functions

@@ -79,24 +79,23 @@ std::string Writer::target_variable(const ir::VarRef& v) {
 }
 
 void Writer::assign(const ir::Assign& a) {
+  // One piece: the order of the assignments is their meaning.
+  std::string text;
   for (const auto& item : a.items) {
     std::string target;
-    ir::ExprPtr value = item.value;
     if (item.to_system) {
-      // The sum of PREF, DEC1 and DEC3, which the control makes itself.
-      if (same_dialect() && item.system.text.empty()) continue;
       if (!same_dialect() || item.system.text.empty()) {
         return refuse(no_statement, item.pos,
                       "'" + item.system.text + "' is data of the source machine and is not written here");
       }
       target = item.system.text;
-      const auto* scaled = std::get_if<ir::Binary>(&value->node);
-      if (scaled != nullptr && scaled->op == ir::BinaryOp::divide && system_units(scaled->right)) value = scaled->left;
     } else {
       target = target_variable(item.target);
     }
-    add(target + '=' + expression_text(value, item.pos), Rank::head, item.pos);
+    if (!text.empty()) text += ' ';
+    text += target + '=' + expression_text(item.value, item.pos);
   }
+  if (!text.empty()) add(text, Rank::head, a.items.front().pos);
 }
 
 void Writer::declare(const ir::Declare& d) {

@@ -311,7 +311,11 @@ void Writer::coordinate(const ir::Motion& /*m*/, const ir::CoordWord& w) {
   std::string attribute = rotary_attribute(w);
   const bool by_sign = !attribute.empty() && w.direction == ir::RotaryDirection::by_sign;
   const bool incremental = w.mode == ir::WordMode::incremental;
-  if (attribute.empty() && w.mode != ir::WordMode::modal) attribute = incremental ? "IC" : "AC";
+  if (attribute.empty() && w.mode != ir::WordMode::modal) {
+    const auto wanted = code_value(incremental ? ir::Distance::incremental : ir::Distance::absolute);
+    const bool said = w.scale == ir::WordScale::modal && !same_dialect() && setting(ir::Setting::distance) == wanted;
+    if (!said) attribute = incremental ? "IC" : "AC";
+  }
   if (w.scale != ir::WordScale::modal) {
     if (w.mode == ir::WordMode::modal) {
       return refuse("TRN-202", w.pos,

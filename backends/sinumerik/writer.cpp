@@ -123,6 +123,11 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
   }
   body(r.body);
   finish_line();
+  // A subprogram of another control may end with its text; here it needs its word.
+  const auto returns = [](const ir::Statement& s) {
+    return std::holds_alternative<ir::Return>(s.node) || std::holds_alternative<ir::End>(s.node);
+  };
+  if (r.kind == ir::RoutineKind::sub && !same_dialect() && (r.body.empty() || !returns(r.body.back()))) raw_line("M17");
 }
 
 std::string Writer::proc_line(const ir::Routine& r, const std::string& name) {

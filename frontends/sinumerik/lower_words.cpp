@@ -35,7 +35,16 @@ std::string_view missing_key(const GFunction& g) {
 bool WordLowering::is_motion_block(const syntax::Block& block) {
   for (const Word& w : block.words) {
     switch (w.address[0]) {
-      case 'L': case 'l': case 'P': case 'p': case 'R': case 'r': case 'N': case 'n': case 'O': case 'o': return false;
+      case 'L':
+      case 'l':
+      case 'P':
+      case 'p':
+      case 'R':
+      case 'r':
+      case 'N':
+      case 'n':
+      case 'O':
+      case 'o': return false;
       default: break;
     }
   }
@@ -113,7 +122,8 @@ void WordLowering::g_words(const syntax::Block& block) {
     }
     if (w.address[0] != 'G' && w.address[0] != 'g') continue;
     const GFunction* g = nullptr;
-    const bool whole = w.has_value && !w.is_expression && !w.equals && w.extension < 0 && w.number == std::floor(w.number);
+    const bool whole =
+        w.has_value && !w.is_expression && !w.equals && w.extension < 0 && w.number == std::floor(w.number);
     if (whole && w.number >= 0 && w.number < 1000) g = sinumerik::g_function(static_cast<std::int32_t>(w.number));
     if (g == nullptr) {
       failed_ = true;
@@ -128,7 +138,8 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
   const std::uint64_t bit = std::uint64_t{1} << g.group;
   if ((groups_ & bit) != 0) {
     failed_ = true;
-    c_.error("SIN-005", pos, "two G functions of group " + std::to_string(g.group) + " stand in one block (alarm 12070)",
+    c_.error("SIN-005", pos,
+             "two G functions of group " + std::to_string(g.group) + " stand in one block (alarm 12070)",
              "write them in two blocks");
   }
   groups_ |= bit;
@@ -152,15 +163,20 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       c_.motion = m.kind;
       break;
     case GUse::setting:
-      push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+      push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting,
+           ir::Order::before, pos);
       break;
     case GUse::units:
-      push(ir::ModalSet{ir::Setting::units, g.a, g.b != 0, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+      push(ir::ModalSet{ir::Setting::units, g.a, g.b != 0, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
+           pos);
       break;
     case GUse::feed: feed_mode(g, pos); break;
     case GUse::path:
-      push(ir::ModalSet{ir::Setting::path_mode, g.a, true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
-      if (g.b != 0) c_.note("SIN-019", pos, std::string(g.name) + " is carried as continuous path: how much it rounds the corners is not");
+      push(ir::ModalSet{ir::Setting::path_mode, g.a, true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
+           pos);
+      if (g.b != 0)
+        c_.note("SIN-019", pos,
+                std::string(g.name) + " is carried as continuous path: how much it rounds the corners is not");
       break;
     case GUse::dwell: special(Special::dwell); break;
     case GUse::exact_stop_block: push(ir::ExactStopBlock{}, Rank::setting, ir::Order::before, pos); break;
@@ -187,10 +203,13 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
 void WordLowering::feed_mode(const GFunction& g, WordPos pos) {
   if (g.b != 0) {
     const auto mode = g.b == 2 ? ir::SpindleMode::css : ir::SpindleMode::rpm;
-    push(ir::ModalSet{ir::Setting::spindle_mode, u(mode), true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
+    push(ir::ModalSet{ir::Setting::spindle_mode, u(mode), true, ir::FeedMemory::shared}, Rank::setting,
+         ir::Order::before, pos);
   }
-  // A change of the feed mode clears F; with G96 and G97 the mode is the word's second meaning and has no text of its own.
-  push(ir::ModalSet{ir::Setting::feed_mode, g.a, true, ir::FeedMemory::cleared}, Rank::setting, ir::Order::before, pos, g.b == 0);
+  // A change of the feed mode clears F; with G96 and G97 the mode is the word's second meaning and has no text of its
+  // own.
+  push(ir::ModalSet{ir::Setting::feed_mode, g.a, true, ir::FeedMemory::cleared}, Rank::setting, ir::Order::before, pos,
+       g.b == 0);
 }
 
 // --- words ------------------------------------------------------------------------------------------------------
@@ -210,6 +229,13 @@ void WordLowering::words(const syntax::Block& block) {
     }
     letter(block, w, address);
   }
+  // SUPA G0 Z0 D0: with the offset switched off in the block the tool length does not count.
+  auto& m = out_->motion;
+  if (m.frame != ir::FrameUse::machine_with_length) return;
+  for (const auto& a : out_->actions) {
+    const auto* d = std::get_if<ir::ToolOffset>(&a.data);
+    if (d != nullptr && d->number.is(0)) m.frame = ir::FrameUse::machine;
+  }
 }
 
 void WordLowering::letter(const syntax::Block& block, const Word& w, char address) {
@@ -218,7 +244,8 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   Attribute attribute = Attribute::none;
   ir::Value value = exprs_.value(block, w, attribute);
   const bool centre_letter = address == 'I' || address == 'J' || address == 'K';
-  const ir::AxisId axis = centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
+  const ir::AxisId axis =
+      centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
   if (centre_letter) return center(axis, w, std::move(value), attribute);
   if (axis != ir::axis::none && w.extension < 0) return coordinate(axis, w, std::move(value), attribute);
   if (attribute != Attribute::none) {
@@ -264,15 +291,36 @@ void WordLowering::coordinate(ir::AxisId axis, const Word& w, ir::Value value, A
   switch (attribute) {
     case Attribute::none:
     case Attribute::unsupported: break;
-    case Attribute::dac: coord.scale = ir::WordScale::diameter; coord.mode = ir::WordMode::absolute; break;
-    case Attribute::rac: coord.scale = ir::WordScale::radius; coord.mode = ir::WordMode::absolute; break;
-    case Attribute::dic: coord.scale = ir::WordScale::diameter; coord.mode = ir::WordMode::incremental; break;
-    case Attribute::ric: coord.scale = ir::WordScale::radius; coord.mode = ir::WordMode::incremental; break;
+    case Attribute::dac:
+      coord.scale = ir::WordScale::diameter;
+      coord.mode = ir::WordMode::absolute;
+      break;
+    case Attribute::rac:
+      coord.scale = ir::WordScale::radius;
+      coord.mode = ir::WordMode::absolute;
+      break;
+    case Attribute::dic:
+      coord.scale = ir::WordScale::diameter;
+      coord.mode = ir::WordMode::incremental;
+      break;
+    case Attribute::ric:
+      coord.scale = ir::WordScale::radius;
+      coord.mode = ir::WordMode::incremental;
+      break;
     case Attribute::ic: coord.mode = ir::WordMode::incremental; break;
     case Attribute::ac: coord.mode = ir::WordMode::absolute; break;
-    case Attribute::dc: coord.mode = ir::WordMode::absolute; coord.direction = ir::RotaryDirection::shortest; break;
-    case Attribute::acp: coord.mode = ir::WordMode::absolute; coord.direction = ir::RotaryDirection::positive; break;
-    case Attribute::acn: coord.mode = ir::WordMode::absolute; coord.direction = ir::RotaryDirection::negative; break;
+    case Attribute::dc:
+      coord.mode = ir::WordMode::absolute;
+      coord.direction = ir::RotaryDirection::shortest;
+      break;
+    case Attribute::acp:
+      coord.mode = ir::WordMode::absolute;
+      coord.direction = ir::RotaryDirection::positive;
+      break;
+    case Attribute::acn:
+      coord.mode = ir::WordMode::absolute;
+      coord.direction = ir::RotaryDirection::negative;
+      break;
   }
 }
 
@@ -396,9 +444,10 @@ void WordLowering::m_code(std::int32_t code, const Word& w) {
   }
   const machine::MCode* m = code < MachineFacts::m_limit ? c_.machine.m_codes[static_cast<std::size_t>(code)] : nullptr;
   const std::int32_t spindle = w.extension < 0 ? 1 : w.extension;
-  const bool spindle_code = m != nullptr && (m->meaning == machine::MMeaning::spindle_cw || m->meaning == machine::MMeaning::spindle_ccw ||
-                                             m->meaning == machine::MMeaning::spindle_stop ||
-                                             m->meaning == machine::MMeaning::spindle_orient || m->meaning == machine::MMeaning::gear);
+  const bool spindle_code =
+      m != nullptr && (m->meaning == machine::MMeaning::spindle_cw || m->meaning == machine::MMeaning::spindle_ccw ||
+                       m->meaning == machine::MMeaning::spindle_stop ||
+                       m->meaning == machine::MMeaning::spindle_orient || m->meaning == machine::MMeaning::gear);
   if (m != nullptr && spindle >= 1 && spindle <= 31 && (w.extension < 0 || spindle_code)) {
     return machine_meaning(*m, static_cast<std::uint8_t>(spindle), w);
   }
