@@ -17,7 +17,9 @@ namespace cnctrans::interpreter {
 
 struct Options {
   std::uint64_t max_events = 50'000'000;
-  std::uint64_t max_steps = 500'000'000;  ///< statements carried out; an endless loop without motion ends here
+  std::uint64_t max_steps = 500'000'000;  ///< statements carried out
+  /// Statements in a row without an event: an endless loop that does nothing ends here (as a step limit).
+  std::uint64_t max_silent_steps = 10'000'000;
   std::uint16_t skip_mask = 0;            ///< block-skip switches that are on
   std::vector<std::pair<std::string, std::string>> set;  ///< NAME=VALUE of --set
   bool optional_stops = false;

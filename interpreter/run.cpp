@@ -9,8 +9,6 @@
 namespace cnctrans::interpreter {
 
 namespace {
-/// A program that emits nothing for so many statements is in an endless loop.
-constexpr std::uint64_t most_silent_steps = 10'000'000;
 constexpr std::uint64_t check_every = 65'536;
 }  // namespace
 
@@ -157,11 +155,11 @@ bool Runner::over_limits() {
   if (emitter_.count() != seen_events_) {
     seen_events_ = emitter_.count();
     silent_since_ = steps_;
-  } else if (steps_ - silent_since_ > most_silent_steps) {
+  } else if (steps_ - silent_since_ > options_.max_silent_steps) {
     state_ = State::step_limit;
     return true;
   }
-  next_check_ = std::min(steps_ + check_every, options_.max_steps);
+  next_check_ = std::min({steps_ + check_every, silent_since_ + options_.max_silent_steps + 1, options_.max_steps});
   return false;
 }
 

@@ -97,11 +97,12 @@ TEST(Call, TooManyArguments) {
 }
 
 TEST(Call, ArraysByReference) {
-  EXPECT_THAT(run_text("routine main 1 {\ndeclare real in V \"LIST\"[3] = (1, 2, 3)\ncall \"S\" (ref V.LIST)\nblock rapid "
-                       "X (V.LIST[1])\n}\n"
-                       "routine sub \"S\" param \"V\" by_reference sets V.IT {\nset V.IT[1] = V.IT[2] + 10\n}")
-                  .lines,
-              ElementsAre("rapid X13"));
+  EXPECT_THAT(
+      run_text("routine main 1 {\ndeclare real in V \"LIST\"[3] = (1, 2, 3)\ncall \"S\" (ref V.LIST)\nblock rapid "
+               "X (V.LIST[1])\n}\n"
+               "routine sub \"S\" param \"V\" by_reference sets V.IT {\nset V.IT[1] = V.IT[2] + 10\n}")
+          .lines,
+      ElementsAre("rapid X13"));
 }
 
 TEST(Call, RangesOfARoutine) {

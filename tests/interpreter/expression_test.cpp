@@ -124,7 +124,8 @@ TEST(Variables, OnlyThoseThatWereSetAreReported) {
 
 TEST(Variables, TypesOfDeclaredOnes) {
   const auto r = run_lines(
-      "declare integer in V \"I\" = (2.5), \"J\"\ndeclare boolean in V \"B\" = (7)\ndeclare real in V \"A\"[2,3] = (1, 2, 3, 4)\n"
+      "declare integer in V \"I\" = (2.5), \"J\"\ndeclare boolean in V \"B\" = (7)\ndeclare real in V \"A\"[2,3] = (1, "
+      "2, 3, 4)\n"
       "set V.J = -2.5\nset V.A[1,2] = 9");
   EXPECT_THAT(r.variables, ElementsAre(::testing::Pair("A[0,0]", "1"), ::testing::Pair("A[0,1]", "2"),
                                        ::testing::Pair("A[0,2]", "3"), ::testing::Pair("A[1,0]", "4"),
@@ -161,7 +162,8 @@ TEST(Set, NumberedNamedArraysAndData) {
   o.set = {{"R12", "3.5"},   {"P0", "-2"},    {"COUNT", "4"}, {"A[1]", "8"},
            {"FLAG", "TRUE"}, {"NAME", "xyz"}, {"PLC7", "1"},  {"[SYM]", "6"}};
   const auto r = run_lines(
-      "declare real in V \"COUNT\" = (1), \"A\"[2] = (0, 0)\ndeclare boolean in V \"FLAG\"\ndeclare string in V \"NAME\"\n"
+      "declare real in V \"COUNT\" = (1), \"A\"[2] = (0, 0)\ndeclare boolean in V \"FLAG\"\ndeclare string in V "
+      "\"NAME\"\n"
       "block rapid X (R[12]) Y (P[0]) Z (V.COUNT)\nblock rapid X (V.A[1]) Y (V.FLAG) Z (sys(other, none, \"PLC7\"))\n"
       "block rapid X (G.SYM)\nmessage show (V.NAME)",
       mill(), o);

@@ -177,9 +177,12 @@ TEST(Limits, Steps) {
 }
 
 TEST(Limits, LoopThatDoesNothingEndsByItself) {
-  EXPECT_THAT(lines_of("block rapid X 1\nN1 jump N1"), ElementsAre("rapid X1", "end step_limit"));
-  EXPECT_THAT(lines_of("loop {\n}"), ElementsAre("end step_limit"));
-  EXPECT_THAT(lines_of("until {\n} until R[1] == 1"), ElementsAre("end step_limit"));
+  Options o;
+  o.max_silent_steps = 100'000;
+  const auto lines = [&](const std::string& text) { return run_lines(text, mill(), o).lines; };
+  EXPECT_THAT(lines("block rapid X 1\nN1 jump N1"), ElementsAre("rapid X1", "end step_limit"));
+  EXPECT_THAT(lines("loop {\n}"), ElementsAre("end step_limit"));
+  EXPECT_THAT(lines("until {\n} until R[1] == 1"), ElementsAre("end step_limit"));
 }
 
 // --- static faults ---------------------------------------------------------------------------------------------------
