@@ -327,6 +327,11 @@ class ComputedJumps {
         if (l.is_number) labels.push_back(l);
       }
     });
+    // The values are looked up now: while the body is rewritten the program is not whole.
+    for_each_statement(editor_.routine.body, [&](const Statement& s) {
+      const auto* j = std::get_if<Jump>(&s.node);
+      if (j != nullptr && j->target.computed) values_.try_emplace(j->target.computed.get(), editor_.program, j->target);
+    });
     rewrite_body(editor_.routine.body, [&](Statement&& s, Body& out) {
       auto* j = std::get_if<Jump>(&s.node);
       if (j == nullptr || !j->target.computed || editor_.target().computed_jump) {
@@ -341,7 +346,7 @@ class ComputedJumps {
   void rewrite(Statement&& s, const std::vector<LabelRef>& all, Body& out) {
     constexpr std::size_t most = 200;
     const Jump j = std::get<Jump>(s.node);
-    const ComputedLabel value(editor_.program, j.target);
+    const ComputedLabel& value = values_.at(j.target.computed.get());
     std::vector<LabelRef> labels;
     std::copy_if(all.begin(), all.end(), std::back_inserter(labels),
                  [&](const LabelRef& l) { return value.may_be(l.text, l.is_number); });
@@ -376,6 +381,7 @@ class ComputedJumps {
   }
 
   Editor& editor_;
+  std::map<const Expr*, ComputedLabel> values_;
 };
 
 }  // namespace
