@@ -144,7 +144,12 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
 void end_main(ir::Program& program, Diagnostics& diagnostics) {
   for (auto& r : program.routines) {
     if (r.kind != ir::RoutineKind::main) continue;
-    const ir::Statement* last = r.body.empty() ? nullptr : &r.body.back();
+    const auto only_text = [](const ir::Statement& s) {
+      const auto* block = std::get_if<ir::Block>(&s.node);
+      return block != nullptr && block->empty() && s.line.number.empty();
+    };
+    const auto it = std::find_if_not(r.body.rbegin(), r.body.rend(), only_text);
+    const ir::Statement* last = it == r.body.rend() ? nullptr : &*it;
     const auto* jump = last != nullptr ? std::get_if<ir::Jump>(&last->node) : nullptr;
     if (last == nullptr || std::holds_alternative<ir::End>(last->node) ||
         std::holds_alternative<ir::Return>(last->node) || (jump != nullptr && !jump->condition)) {

@@ -21,7 +21,8 @@ bool zero(const ir::Value& v) {
 }  // namespace
 
 void Writer::block(const ir::Block& b) {
-  cycle_here_ = false;
+  cycle_here_ = cancelled_ = false;
+  for (const auto& a : b.actions) cancelled_ = cancelled_ || std::holds_alternative<ir::CycleCancel>(a.data);
   for (const auto& a : b.actions) cycle_here_ = cycle_here_ || std::holds_alternative<ir::CycleDefine>(a.data);
   ProgramWriter::block(b);
   // A cycle that runs once: here every cycle is modal and must be ended.
@@ -153,8 +154,14 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
 // --------------------------------------------------------------------------------------------------------------
 
 void Writer::motion(const ir::Motion& m) {
-  const bool silent = cycle_here_ && m.kind == ir::MotionKind::rapid && (!m.explicit_code || !same_dialect()) &&
-                      (motion_tracker().text() == ir::MotionKind::rapid || same_dialect());
+  // Positions of a cycle are reached in rapid without a code; one beside the cycle is an error of the control.
+  bool in_cycle = cycle_here_;
+  if (!in_cycle && !same_dialect()) {
+    const ir::Facts* f = facts();
+    in_cycle = f != nullptr && f->cycle_active_known && f->cycle_active && !cancelled_;
+  }
+  const bool rapid = m.kind == ir::MotionKind::rapid || (m.kind == ir::MotionKind::modal && !same_dialect());
+  const bool silent = in_cycle && rapid && (!same_dialect() || !m.explicit_code);
   if (!silent) return ProgramWriter::motion(m);
   frame_use(m);
   for (const auto& w : m.coords) coordinate(m, w);

@@ -62,6 +62,7 @@ class Writer final : public ProgramWriter {
 
   ChainPrinter printer_;
   bool cycle_here_ = false;  ///< the block being written defines a cycle
+  bool cancelled_ = false;   ///< ... or ends one
 };
 
 }  // namespace cnctrans::backends::num

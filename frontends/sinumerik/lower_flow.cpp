@@ -26,7 +26,8 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
 void StatementLowering::end_routine() {
   if (!structure_) return;
   for (const Span& place : structure_->finish()) {
-    c_.diagnostics.error("SIN-010", place, "this structure has no end in its program", "write its ENDIF, ENDWHILE, ENDFOR, ENDLOOP or UNTIL");
+    c_.diagnostics.error("SIN-010", place, "this structure has no end in its program",
+                         "write its ENDIF, ENDWHILE, ENDFOR, ENDLOOP or UNTIL");
   }
   structure_.reset();
   routine_ = nullptr;
@@ -82,8 +83,8 @@ bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
   bool ok = true;
   for (const Statement& s : block.statements) {
     const std::uint32_t before = c_.errors;
-    if (s.keyword != "DEF" && s.keyword != "PROC" && s.keyword != "EXTERN" && s.keyword != "DEFINE" && s.keyword != "REDEF" &&
-        s.keyword != "RIGHTS") {
+    if (s.keyword != "DEF" && s.keyword != "PROC" && s.keyword != "EXTERN" && s.keyword != "DEFINE" &&
+        s.keyword != "REDEF" && s.keyword != "RIGHTS") {
       executable_seen_ = true;
     }
     if (statement(s, block, info) && c_.errors == before) continue;
@@ -99,7 +100,8 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
   const std::string& k = s.keyword;
   if (k == "IF") return if_statement(s, info);
   if (k == "FOR") return for_statement(s, info);
-  if (k == "ELSE" || k == "ENDIF" || k == "LOOP" || k == "ENDLOOP" || k == "ENDFOR" || k == "WHILE" || k == "ENDWHILE" || k == "UNTIL") {
+  if (k == "ELSE" || k == "ENDIF" || k == "LOOP" || k == "ENDLOOP" || k == "ENDFOR" || k == "WHILE" ||
+      k == "ENDWHILE" || k == "UNTIL") {
     return structure(s, info);
   }
   if (k == "REPEAT" || k == "REPEATB") return s.args.empty() ? structure(s, info) : repeat(s, info);
@@ -121,7 +123,9 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
     add_opaque(block, info, "language.statement", true);
     return true;
   }
-  if (k == "SYNC") return refuse("language.synchronised", s.pos, "synchronised actions are not carried yet: this one could move the machine or change its state");
+  if (k == "SYNC")
+    return refuse("language.synchronised", s.pos,
+                  "synchronised actions are not carried yet: this one could move the machine or change its state");
   if (k == "DEFINE") return refuse("language.macro", s.pos, "macros are not expanded yet");
   if (k == "ISOCALL") return refuse("language.statement", s.pos, "calling a program in ISO mode is not carried yet");
   return false;
@@ -153,6 +157,15 @@ bool StatementLowering::label(const Expr& e, ir::LabelRef& out) {
   if (e.kind == ExprKind::string) return name(to_upper_ascii(e.text));
   const Symbol* symbol = e.kind == ExprKind::name ? c_.symbol(e.text) : nullptr;
   if (e.kind == ExprKind::name && symbol == nullptr) return name(e.text);
+  // "N"<<R1: the block number is computed.
+  if (e.kind == ExprKind::binary && e.text == "<<" && e.args[0].kind == ExprKind::string &&
+      to_upper_ascii(e.args[0].text) == "N" && e.args[1].kind != ExprKind::string) {
+    out.computed = exprs_.lower(e.args[1]);
+    if (out.computed && out.computed->type != ir::Type::string) {
+      out.is_number = true;
+      return true;
+    }
+  }
   out.computed = exprs_.lower(e);
   if (out.computed && out.computed->type != ir::Type::string) {
     c_.error("SIN-012", e.pos, "a jump target is a label, a block number or a text");

@@ -73,7 +73,8 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
   return out;
 }
 
-std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts, const LegaliseContext& context) {
+std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
+                                    const LegaliseContext& context) {
   const auto& native = context.target.native_cycle;
   if (!native || context.options.cycles == CycleWriting::explode) return std::nullopt;
   const auto* hole = std::get_if<HoleCycle>(&cycle->node);
@@ -85,6 +86,9 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     return CyclePtr(std::move(made));
   };
   HoleCycle h = with_absolute_levels(*hole, b, facts);
+  if (h.retract.given && h.retract.base == h.reference.base && equal(h.retract.value, h.reference.value)) {
+    h.approach_by_retract = false;  // both are one plane
+  }
   // An approach over the retract level is no detour when the tool stands there, or higher levels follow one line.
   const auto w = cycle_axis(h, b, facts);
   const bool literal = h.retract.given && h.retract.base == LevelBase::absolute && h.retract.value.literal();
@@ -158,9 +162,7 @@ class Writer {
       case cycles::CycleStep::dwell:
         blocks.push_back(make_block(like_, action(Dwell{Value{m.amount}, 1, m.revolutions})));
         return true;
-      case cycles::CycleStep::spindle_stop:
-        blocks.push_back(make_block(like_, action(SpindleRun{})));
-        return true;
+      case cycles::CycleStep::spindle_stop: blocks.push_back(make_block(like_, action(SpindleRun{}))); return true;
       case cycles::CycleStep::operator_stop:
         blocks.push_back(make_block(like_, action(Stop{}, Order::after)));
         return true;
@@ -211,8 +213,8 @@ class Writer {
 
 }  // namespace
 
-std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts, double height,
-                                 double defined_at, std::string* error) {
+std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
+                                 double height, double defined_at, std::string* error) {
   const auto axis_id = cycle_axis(c, b, facts);
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
@@ -225,7 +227,9 @@ std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const
   context.length_unit = context.level_unit = context.feed_unit = unit;
   context.distance = *distance;
   context.height = defined_at;
-  const auto literal = [](const Value& v) { return v.literal() ? std::optional<double>(v.number) : constant_value(v.expr); };
+  const auto literal = [](const Value& v) {
+    return v.literal() ? std::optional<double>(v.number) : constant_value(v.expr);
+  };
   const auto numbers = cycles::resolve(c, context, literal, error);
   if (!numbers) {
     if (error->empty()) *error = "its words are computed when the program runs";
