@@ -435,7 +435,7 @@ void BlockLowerer::motion() {
                             : ir::MotionKind::arc_through_point;
     m.keeps_modal = false;
   }
-  if (cycle_ && !motion_code_) {
+  if (cycle_ && !motion_code_ && state_.motion_by_text != ir::MotionKind::rapid) {  // to the hole in rapid (25.3)
     m.kind = ir::MotionKind::rapid;
     m.keeps_modal = false;
   }

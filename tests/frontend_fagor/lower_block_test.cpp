@@ -96,6 +96,7 @@ TEST(FagorBlock, DrillingCycles) {  // 25.2, 25.3: Z reference plane, I bottom, 
       line("G81 G99 X10 Y5 Z2 I-5"),
       "block cycle hole drill reference distance_mode 2 bottom distance_mode otherwise from_reference -5 as \"G81\", "
       "retract_plane reference as \"G99\", rapid once X 10 Y 5");
+  EXPECT_NE(line("G0 X1\nG81 X10 Z2 I-5").find(", modal X 10"), std::string::npos) << line("G0 X1\nG81 X10 Z2 I-5");
   EXPECT_EQ(line("G83 Z2 I-4 J3"),
             "block cycle hole peck_full reference distance_mode 2 bottom from_reference #-12 pecks count first #4 "
             "count 3 reapproach #1 as \"G83\"");
