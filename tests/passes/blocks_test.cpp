@@ -1,0 +1,177 @@
+// Word blocks: arcs, modes, order of actions, dwells, frames, cycles, safe start.
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace cnctrans::test {
+namespace {
+
+std::string main_program(const std::string& body) {
+  return "space L \"L\" starts_at_zero segment 0 19 forgotten\nroutine main 1 {\n" + body + "  end_program\n}\n";
+}
+
+TEST(Arcs, OffsetCentreBecomesAbsolute) {
+  const std::string text = main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 0 Y 10 centre X -10 centre Y 0\n");
+  const auto p = run_pass("arcs", text, chain_target());
+  EXPECT_NE(p.text.find("centre X follows_distance"), std::string::npos) << p.text;
+  EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
+}
+
+TEST(Arcs, UnknownStartFromVariablesBecomesAnExpression) {
+  const std::string text = main_program("  set L[1] = 10\n  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y (L[1]) centre X (-L[1])\n");
+  EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
+}
+
+TEST(Arcs, LargeArcByRadiusTakesItsCentre) {
+  // 270 degrees about (10, 10) from (10, 0): centre left of the chord's other side.
+  const std::string text = main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 0 Y 10 radius -10\n");
+  const auto p = run_pass("arcs", text, chain_target());
+  EXPECT_EQ(p.text.find("radius"), std::string::npos) << p.text;
+  EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
+}
+
+TEST(Arcs, FullCircleNamesItsEnd) {
+  const std::string text = main_program("  block feed 100, rapid X 30 Y 5\n  block arc_cw centre X -12\n");
+  EXPECT_EQ(difference(text, letters_target(), "sinumerik-mill", "fagor-mill"), "");
+  EXPECT_EQ(difference(text, chain_target(), "sinumerik-mill", "num-mill"), "");
+}
+
+TEST(Arcs, AbsoluteCentreNeedsNoStart) {
+  const std::string text = main_program("  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y 0 centre X follows_distance modal 0 centre Y follows_distance modal 0\n");
+  const auto p = run_pass("arcs", text, structured_target(), "num-mill", "sinumerik-mill");
+  EXPECT_TRUE(p.good) << all(p.diagnostics);
+  EXPECT_NE(p.text.find("centre X absolute"), std::string::npos) << p.text;
+}
+
+TEST(Arcs, PitchBecomesTurns) {
+  // 10 mm down at 4 mm a turn: 2.5 turns, half of one is the partial arc.
+  const std::string text = main_program("  block feed 100, rapid X 10 Y 0 Z 0\n  block arc_ccw X -10 Y 0 Z -10 centre X -10 centre Y 0 extra pitch 4\n");
+  const auto p = run_pass("arcs", text, structured_target());
+  EXPECT_NE(p.text.find("turns #2"), std::string::npos) << p.text;
+  EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
+}
+
+TEST(Distance, IncrementalWordTakesTheKnownPosition) {
+  const std::string text = main_program("  block rapid X 10 Y 4\n  block rapid X incremental 5 Y absolute 3\n");
+  const auto p = run_pass("distance", text, letters_target());
+  EXPECT_NE(p.text.find("X #15 Y 3"), std::string::npos) << p.text;
+}
+
+TEST(Distance, UnknownPositionSwitchesTheBlock) {
+  const std::string text = main_program("  block rapid X (L[1])\n  block rapid X incremental 5\n  block rapid X 1\n");
+  const auto p = run_pass("distance", text, letters_target());
+  EXPECT_NE(p.text.find("block distance incremental, rapid X 5"), std::string::npos) << p.text;
+  EXPECT_NE(p.text.find("block distance absolute\n"), std::string::npos) << p.text;
+}
+
+TEST(Diameters, RadiusProgrammingOnAFixedDiameterLathe) {
+  const std::string text = main_program("  block diameter radius, rapid X 10 Z 2\n  block diameter diameter, rapid X 30\n");
+  const auto p = run_pass("diameters", text, chain_target(), "fagor-lathe", "num-lathe");
+  EXPECT_NE(p.text.find("X #20 Z 2"), std::string::npos) << p.text;
+  EXPECT_NE(p.text.find("X 30"), std::string::npos) << p.text;
+  EXPECT_EQ(p.text.find("diameter"), std::string::npos) << p.text;
+}
+
+TEST(Order, StopBeforeTheMotionGetsABlock) {
+  // M9 acts before the motion on the source, after it on the target.
+  const std::string text = main_program("  block feed 100, rapid X 1\n  N10 block linear X 5, coolant off as \"M9\" ; \"cut\"\n  jump N10 if L[1] > 0\n");
+  const auto p = run_pass("order", text, chain_target(), "fagor-mill", "num-mill");
+  EXPECT_NE(p.text.find("N10 block coolant off"), std::string::npos) << p.text;
+  EXPECT_NE(p.text.find("block linear X 5 ; \"cut\""), std::string::npos) << p.text;
+  EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
+}
+
+TEST(Order, StopAfterTheMotionGetsABlockBehind) {
+  const std::string text = main_program("  block spindle 500, spindle_run cw\n  block feed 100, linear X 5, spindle_run off after as \"M5\"\n");
+  EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
+}
+
+TEST(Dwell, UnitsOfTheTarget) {
+  const auto p = run_pass("dwells", main_program("  block dwell 2.5\n"), letters_target());
+  EXPECT_NE(p.text.find("dwell #250 scale 0.01"), std::string::npos) << p.text;
+  const auto q = run_pass("dwells", main_program("  block dwell 30 scale 0.01\n"), chain_target());
+  EXPECT_NE(q.text.find("dwell #0.3"), std::string::npos) << q.text;  // never 30 s
+}
+
+TEST(Frames, ShiftOfAllAxesInTheChain) {
+  // A named shift keeps the other axes; the chain's statement deletes them, so it names all.
+  const std::string text = main_program("  block frame shift translate replace_named X 100 Y 20\n  block rapid X 0 Y 0\n"
+                                        "  block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n"
+                                        "  block frame shift translate clear\n  block rapid X 1 Y 1\n");
+  EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
+  const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
+  EXPECT_NE(p.text.find("frame chain translate replace X 100 Y 60"), std::string::npos) << p.text;
+}
+
+TEST(Frames, ChainInSlots) {
+  const std::string text = main_program("  block frame chain translate replace X 100 Y 60\n  block frame chain rotate compose angle 30\n"
+                                        "  block rapid X 10 Y 0\n  block frame chain translate clear\n  block rapid X 10 Y 0\n");
+  EXPECT_EQ(difference(text, letters_target(), "sinumerik-mill", "fagor-mill"), "");
+  EXPECT_EQ(difference(text, chain_target(), "sinumerik-mill", "num-mill"), "");
+}
+
+TEST(Frames, UnknownRestIsRefused) {
+  const std::string text = main_program("  jump N10 if L[1] > 0\n  block frame shift translate replace_named X 100\n"
+                                        "  N10 block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n");
+  const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
+  EXPECT_TRUE(has_code(p.diagnostics, "TRN-325")) << p.text;
+}
+
+const char* const drilling =
+    "  block feed 100, rapid X 0 Y 0 Z 20\n"
+    "  block X 10 Y 10, cycle hole drill reference 2 bottom -15 after\n"
+    "  block X 30\n  block Y 25\n  block cycle_cancel\n  block rapid Z 50\n";
+
+TEST(Cycles, WrittenOutMoveByMove) {
+  auto target = chain_target();
+  const auto text = main_program(drilling);
+  EXPECT_EQ(difference(text, target, "fagor-mill", "fagor-mill"), "");
+}
+
+TEST(Cycles, ModalDefinitionBecomesAModalCall) {
+  const auto p = run_pass("cycles", main_program(drilling), structured_target(), "fagor-mill", "sinumerik-mill");
+  ASSERT_TRUE(p.good) << all(p.diagnostics);
+  const auto call = p.text.find("modal_call cycle"), first = p.text.find("X 10 Y 10"), off = p.text.find("modal_call off");
+  EXPECT_LT(call, first) << p.text;
+  EXPECT_LT(first, off) << p.text;
+  EXPECT_EQ(difference(main_program(drilling), structured_target(), "fagor-mill", "sinumerik-mill"), "");
+}
+
+TEST(Cycles, ModalCallBecomesADefinitionAtTheFirstPoint) {
+  auto target = letters_target();
+  target.native_cycle = [](const ir::Cycle&) { return true; };
+  const std::string text = main_program("  block feed 100, rapid X 0 Y 0 Z 20\n"
+                                        "  modal_call cycle hole drill reference 2 bottom -15 retract 20\n"
+                                        "  block rapid X 10 Y 10\n  block X 30\n  modal_call off\n  block rapid Z 50\n");
+  EXPECT_EQ(difference(text, target, "sinumerik-mill", "fagor-mill"), "");
+}
+
+TEST(SafeStart, SaysThePowerOnStateOfTheSource) {
+  const auto p = run_pass("safe_start", main_program("  block plane zx\n  block rapid X 0\n"), structured_target(), "fagor-mill", "sinumerik-mill");
+  EXPECT_NE(p.text.find("comp off, path_mode continuous, units metric, distance absolute, feed_mode per_minute"), std::string::npos) << p.text;
+  EXPECT_EQ(p.text.find("plane xy"), std::string::npos) << p.text;  // the program says its plane itself
+}
+
+TEST(SafeStart, PowerOnFeedIsWritten) {
+  const auto p = run_pass("safe_start", main_program("  block linear X 10\n"), structured_target(), "num-mill", "sinumerik-mill");
+  EXPECT_NE(p.text.find("feed #1000"), std::string::npos) << p.text;
+}
+
+TEST(Plain, OnlyWhatNoPassTouches) {
+  const auto block = [](const std::string& text) {
+    const auto p = read("space L \"L\" segment 0 19\nroutine main 1 {\n  " + text + "\n}\n");
+    return std::get<ir::Block>(p.routines.at(0).body.at(0).node);
+  };
+  const auto target = letters_target();
+  EXPECT_TRUE(ir::plain_legal(block("block distance absolute, feed 200, linear X 10 Y -3.5"), target));
+  EXPECT_TRUE(ir::plain_legal(block("block arc_cw X 1 Y 2 centre X 3 centre Y 4"), target));
+  EXPECT_FALSE(ir::plain_legal(block("block linear X incremental 10"), target));
+  EXPECT_FALSE(ir::plain_legal(block("block linear X (L[1])"), target));
+  EXPECT_FALSE(ir::plain_legal(block("block linear X 1, coolant off"), target));
+  const auto machine = profile("fagor-mill");
+  EXPECT_TRUE(ir::plain_legal(block("block coolant flood, linear X 1"), target, &machine));
+  EXPECT_FALSE(ir::plain_legal(block("block linear X 1, coolant off after"), target, &machine));
+}
+
+}  // namespace
+}  // namespace cnctrans::test
