@@ -223,7 +223,7 @@ bool StatementLowering::if_statement(const Statement& s, ir::LineInfo& info) {
   node.condition = condition ? condition : ir::number(0);  // opened all the same, so that its ENDIF is not lost
   out.node = std::move(node);
   structure_->open(std::move(out));
-  if (info.skip_mask != 0) c_.error("SIN-011", s.pos, "a structured statement can't be skipped with `/`");
+  if (info.skip_mask != 0) c_.error("SIN-016", s.pos, "a structured statement can't be skipped with `/`");
   return true;
 }
 
@@ -240,7 +240,7 @@ bool StatementLowering::for_statement(const Statement& s, ir::LineInfo& info) {
   if (!node.to) node.to = ir::number(0);
   out.node = std::move(node);
   structure_->open(std::move(out));
-  if (info.skip_mask != 0) c_.error("SIN-011", s.pos, "a structured statement can't be skipped with `/`");
+  if (info.skip_mask != 0) c_.error("SIN-016", s.pos, "a structured statement can't be skipped with `/`");
   return true;
 }
 
@@ -254,7 +254,7 @@ bool StatementLowering::structure(const Statement& s, ir::LineInfo& info) {
     structure_->open(std::move(out));
     return true;
   };
-  if (info.skip_mask != 0) c_.error("SIN-011", s.pos, "a structured statement can't be skipped with `/`");
+  if (info.skip_mask != 0) c_.error("SIN-016", s.pos, "a structured statement can't be skipped with `/`");
   if (k == "ELSE") return structure_->else_branch(info) || unmatched(s, "structure");
   if (k == "ENDIF") return structure_->close(Kind::if_, info) || unmatched(s, "structure");
   if (k == "ENDLOOP") return structure_->close(Kind::loop, info) || unmatched(s, "structure");

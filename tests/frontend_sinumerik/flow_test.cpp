@@ -60,7 +60,7 @@ TEST(SinumerikFlow, BadNestingIsReported) {
   EXPECT_EQ(read("ENDIF\n").errors(), "SIN-010");
   EXPECT_EQ(read("WHILE R1<5\nENDFOR\nENDWHILE\n").errors(), "SIN-010");
   EXPECT_EQ(read("IF R1<5\n").errors(), "SIN-010");
-  EXPECT_EQ(read("/IF R1<5\nENDIF\n").errors(), "SIN-011");  // 1.4: structures can't be skipped
+  EXPECT_EQ(read("/IF R1<5\nENDIF\n").errors(), "SIN-016");  // 1.4: structures can't be skipped
   EXPECT_EQ(read("UNTIL R1<5\n").errors(), "SIN-010");
 }
 
