@@ -49,14 +49,31 @@ class CyclePass {
   void one(Statement&& s, Body& out) {
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
       if (m->off && active_) return cancel_statement(std::move(s), out);
+      if (m->off && !by_call_ && !context_.target.modal_call && facts_.before(s).modal_call == 0) {
+        // Only a cycle can be meant, or nothing.
+        const bool nothing = facts_.before(s).cycle_active_known && !facts_.before(s).cycle_active;
+        const bool bare = s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
+        if (nothing && bare) return;
+        if (nothing) {
+          s.node = Label{};
+        } else {
+          Block b;
+          b.actions.push_back(action(CycleCancel{}));
+          s.node = std::move(b);
+        }
+        out.push_back(std::move(s));
+        return;
+      }
       if (!m->off && m->cycle) return modal_call(std::move(s), out);
     }
     if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
-    if (active_ && !active_->native && (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
-      context_.diagnostics.error("TRN-331", s.line.span,
-                                 "a call or a repeated part while a cycle is active that the target lacks: which holes it drills "
-                                 "can't be seen here",
-                                 "cancel the cycle before the call");
+    if (active_ && !active_->native &&
+        (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
+      context_.diagnostics.error(
+          "TRN-331", s.line.span,
+          "a call or a repeated part while a cycle is active that the target lacks: which holes it drills "
+          "can't be seen here",
+          "cancel the cycle before the call");
     }
     out.push_back(std::move(s));
   }
@@ -171,11 +188,16 @@ class CyclePass {
   }
 
   void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
-    const bool on = active_ ? active_->on_target : !defines_again && !written_out_;
+    // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
+    const Facts& facts = facts_.before(s);
+    const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
+    const bool on = active_ ? active_->on_target : !defines_again && !written_out_ && !none;
     active_.reset();
     if (!on || defines_again) return;
-    if (by_call_) pieces.push_back(off_statement(s.line, true));
-    else b.actions.insert(b.actions.begin(), action(CycleCancel{}));
+    if (by_call_)
+      pieces.push_back(off_statement(s.line, true));
+    else
+      b.actions.insert(b.actions.begin(), action(CycleCancel{}));
   }
 
   void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
@@ -190,8 +212,10 @@ class CyclePass {
       if (old_on) pieces.push_back(off_statement(s.line, by_call_));
       written_out_ = true;
       active_ = a;
-      if (d.here) write_out(std::move(s), std::move(pieces), out);
-      else editor_.put(out, std::move(pieces), std::move(s));
+      if (d.here)
+        write_out(std::move(s), std::move(pieces), out);
+      else
+        editor_.put(out, std::move(pieces), std::move(s));
       if (!d.modal) active_.reset();
       return;
     }
@@ -300,8 +324,10 @@ class CyclePass {
     const bool hole_here = triggers(b, facts);
     const LineInfo like = s.line;
     if (!active_->native) {
-      if (hole_here) write_out(std::move(s), std::move(pieces), out);
-      else plain(std::move(s), std::move(pieces), out);
+      if (hole_here)
+        write_out(std::move(s), std::move(pieces), out);
+      else
+        plain(std::move(s), std::move(pieces), out);
       return;
     }
     if (by_call_) {
@@ -326,7 +352,8 @@ class CyclePass {
     const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
     const auto kind = motion_in(b, facts);
     const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
-    const bool moves_tool = w && std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [w](const CoordWord& c) { return c.axis == *w; });
+    const bool moves_tool = w && std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                                             [w](const CoordWord& c) { return c.axis == *w; });
     const bool simple = w && has_plane_word(b, *w) && !moves_tool && (!target_rapid || kind == MotionKind::rapid) &&
                         b.motion.centers.empty() && !b.motion.radius_given;
     if (active_->trigger == CycleTrigger::plane_axis_word && active_->on_target) {
@@ -335,7 +362,8 @@ class CyclePass {
     const LineInfo like = s.line;
     if (simple && active_->on_target) return editor_.put(out, std::move(pieces), std::move(s));
     if (simple) {
-      b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}, Order::after));
+      b.actions.push_back(
+          action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}, Order::after));
       active_->on_target = true;
       return editor_.put(out, std::move(pieces), std::move(s));
     }
@@ -355,11 +383,13 @@ class CyclePass {
       const auto w = hole != nullptr ? cycle_axis(*hole, b, facts_.before(s)) : std::nullopt;
       for (const auto& c : b.motion.coords) {
         if (!w || c.axis != *w) continue;
-        const auto mode = c.mode == WordMode::modal ? setting_in<Distance>(b, facts_.before(s), Setting::distance)
-                          : c.mode == WordMode::absolute ? std::optional(Distance::absolute) : std::nullopt;
+        const auto mode = c.mode == WordMode::modal      ? setting_in<Distance>(b, facts_.before(s), Setting::distance)
+                          : c.mode == WordMode::absolute ? std::optional(Distance::absolute)
+                                                         : std::nullopt;
         const auto units = setting_in<Units>(b, facts_.before(s), Setting::units);
         active_->height.reset();
-        if (mode == Distance::absolute && units && c.value.literal()) active_->height = c.value.number * (*units == Units::inch ? 25.4 : 1);
+        if (mode == Distance::absolute && units && c.value.literal())
+          active_->height = c.value.number * (*units == Units::inch ? 25.4 : 1);
       }
     }
     editor_.put(out, std::move(pieces), std::move(s));
@@ -374,10 +404,11 @@ class CyclePass {
     if (!sets || context_.target.retract_plane_switch || !active_->native) return;
     const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
     if (hole == nullptr || hole->retract.given) return;
-    context_.diagnostics.warning("TRN-332", s.line.span,
-                                 "the retract plane changes while a cycle is active; the target's cycle keeps the one it was "
-                                 "defined with",
-                                 "define the cycle again after the change");
+    context_.diagnostics.warning(
+        "TRN-332", s.line.span,
+        "the retract plane changes while a cycle is active; the target's cycle keeps the one it was "
+        "defined with",
+        "define the cycle again after the change");
     (void)facts;
   }
 
@@ -392,9 +423,12 @@ class CyclePass {
     std::optional<double> height = active_->height;
     const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
     if (w && !height) height = height_mm(b, facts, *w);
-    if (hole == nullptr) error = "cycles of this kind are not carried yet";
-    else if (!height) error = "the height of the tool before it is not known here";
-    else moves = explode(*hole, s.line, b, facts, *height, active_->defined_at, &error);
+    if (hole == nullptr)
+      error = "cycles of this kind are not carried yet";
+    else if (!height)
+      error = "the height of the tool before it is not known here";
+    else
+      moves = explode(*hole, s.line, b, facts, *height, active_->defined_at, &error);
     if (!moves) {
       refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + error,
              "give the cycle's words and the height before it as numbers");
@@ -409,7 +443,9 @@ class CyclePass {
     editor_.put_group(out, std::move(pieces), main);
   }
   void position_rapid(Block& b) const {
-    if (context_.source_machine.option("cycle.positioning") != "rapid" || !b.has_motion || b.motion.kind != MotionKind::modal) return;
+    if (context_.source_machine.option("cycle.positioning") != "rapid" || !b.has_motion ||
+        b.motion.kind != MotionKind::modal)
+      return;
     b.motion.kind = MotionKind::rapid;
     b.motion.explicit_code = true;
     b.motion.keeps_modal = false;
@@ -443,7 +479,9 @@ bool uses_cycles(const Program& program) {
 
 void lower_cycles(Program& program, const LegaliseContext& context) {
   if (!uses_cycles(program)) return;
-  if (program.dialect == context.target.dialect && !program.dialect.empty() && context.options.cycles == CycleWriting::native) return;
+  if (program.dialect == context.target.dialect && !program.dialect.empty() &&
+      context.options.cycles == CycleWriting::native)
+    return;
   const FactsOf facts(program, context);
   for (auto& r : program.routines) CyclePass(program, r, context, facts).run();
 }
