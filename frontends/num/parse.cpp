@@ -164,6 +164,10 @@ BlockParser::~BlockParser() = default;
 
 bool BlockParser::parse(std::string_view line, syntax::Block& out, ParseError& error) {
   out.clear();
+  if (line.size() > longest_block) {
+    error = {{longest_block + 1, 1}, "the block is far longer than the 118 characters that the control takes"};
+    return false;
+  }
   State& s = *state_;
   s.first_error.start(line);
   try {

@@ -17,6 +17,7 @@
 // as the last character of number_text. `GO` has number 0 and number_text "O".
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ struct ParseError {
 
 /// True when the block begins with a keyword of the structured statements (`IF L1`, `VAR`; not `IF100`).
 bool begins_with_keyword(std::string_view line);
+
+/// Longer lines are refused by the grammar: the control takes 118 characters, and nesting must stay within bounds.
+inline constexpr std::size_t longest_block = 1024;
 
 /// Reads blocks one after another; lexer, token stream and parser are made once. Not for several threads at once.
 class BlockParser {

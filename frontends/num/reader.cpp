@@ -25,7 +25,7 @@ bool BlockReader::read(std::string_view line, syntax::Block& out, ParseError& er
   difference_.clear();
   scanned_ = reader_ != Reader::antlr && scan(line, out);
   if (scanned_) {
-    if (reader_ == Reader::both) compare(line, out);
+    if (reader_ == Reader::both && line.size() <= longest_block) compare(line, out);
     return true;
   }
   return parser_.parse(line, out, error);

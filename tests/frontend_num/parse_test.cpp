@@ -211,7 +211,11 @@ TEST(NumParse, GarbageIsReportedAndTheParserGoesOn) {
   EXPECT_TRUE(p.parse("G1 X5", b, e));
   EXPECT_EQ(b.words.size(), 2U);
   EXPECT_FALSE(p.parse(std::string(300000, '('), b, e));
-  EXPECT_TRUE(p.parse("(" + std::string(300000, 'x') + ")", b, e));
+  EXPECT_EQ(e.pos.column, 1025U);
+  std::string nested = "L1=";
+  for (int i = 0; i < 500; ++i) nested += "S ";
+  EXPECT_TRUE(p.parse(nested + "1", b, e)) << e.message;
+  EXPECT_FALSE(p.parse(std::string(1000, '['), b, e));
 }
 
 TEST(NumParse, CorpusLines) {
