@@ -44,6 +44,23 @@ bool names_subprogram(std::string_view name) {
   return upper.size() > 4 && (upper.ends_with("_SPF") || upper.ends_with(".SPF"));
 }
 
+/// The unit that the program sets first.
+void set_unit_hint(ir::Program& program) {
+  bool found = false;
+  for (const auto& routine : program.routines) {
+    ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
+      const auto* block = std::get_if<ir::Block>(&s.node);
+      if (block == nullptr || found) return;
+      for (const auto& a : block->actions) {
+        const auto* set = std::get_if<ir::ModalSet>(&a.data);
+        if (set == nullptr || set->setting != ir::Setting::units) continue;
+        program.unit_hint = static_cast<ir::Units>(set->value);
+        found = true;
+      }
+    });
+  }
+}
+
 class FileReading {
  public:
   FileReading(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics, ReadStats& stats)
@@ -69,6 +86,7 @@ class FileReading {
     end_routine();
     if (!source_->lines().empty()) look_.final_eol = source_->lines().back().has_eol;
     program_.files.push_back(std::move(look_));
+    set_unit_hint(program_);
     return std::move(program_);
   }
 

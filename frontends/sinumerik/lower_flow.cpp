@@ -34,6 +34,8 @@ void StatementLowering::end_routine() {
 }
 
 void StatementLowering::add(ir::Statement statement) {
+  const auto* block = std::get_if<ir::Block>(&statement.node);
+  if (block == nullptr || !block->empty()) executable_seen_ = true;
   for (const auto& l : statement.line.labels) labels_.push_back(to_upper_ascii(l));
   structure_->add(std::move(statement));
 }

@@ -195,6 +195,7 @@ struct BlockParser::State {
     parser.setErrorHandler(report);
     listener.reset();
     parser.addErrorListener(&listener);
+    tokens.seek(0);  // setTokenStream does not rewind
     parser.setTokenStream(&tokens);
     SinumerikParser::BlockContext* tree = nullptr;
     try {

@@ -116,7 +116,7 @@ TEST(SinumerikGrammar, Structures) {  // 7
 }
 
 TEST(SinumerikGrammar, Definitions) {  // 3.3, 8.2
-  EXPECT_EQ(parse("DEF REAL A1X=2.5, LIST[3,2]"), "DEF<REAL VAR<_, 2.5'A1X'> VAR<(3,2), _'LIST'>>");
+  EXPECT_EQ(parse("DEF REAL DEPTH=2.5, LIST[3,2]"), "DEF<REAL VAR<_, 2.5'DEPTH'> VAR<(3,2), _'LIST'>>");
   EXPECT_EQ(parse("DEF STRING [30] _A, _B"), "DEF<STRING[30] VAR<_, _'_A'> VAR<_, _'_B'>>");
   EXPECT_EQ(parse("DEF INT VAR1 VAR2"), "DEF<INT VAR<_, _'VAR1'> VAR<_, _'VAR2'>>");
   EXPECT_EQ(parse("DEF NCK APWP 3 STRING[5] NAME=\"x\""), "DEF<STRING[5] ATTR<'NCK'> ATTR<3'APWP'> VAR<_, \"x\"'NAME'>>");

@@ -97,7 +97,7 @@ TEST(SinumerikWords, ActionsStandInTheOrderTheyAreCarriedOut) {
   EXPECT_TRUE(std::holds_alternative<ir::Coolant>(a[7].data));
   EXPECT_TRUE(std::holds_alternative<ir::Stop>(a[8].data));
   EXPECT_EQ(a[8].order, ir::Order::after);
-  EXPECT_EQ(a[0].pos.column, 28U);  // the place in the line stays
+  EXPECT_EQ(a[0].pos.column, 23U);  // the place in the line stays
 }
 
 TEST(SinumerikWords, DwellTakesItsOwnFAndS) {  // 14.3
@@ -137,7 +137,8 @@ TEST(SinumerikWords, WorkOffsetsAndSuppression) {  // 14.5, motion 7.6
   EXPECT_EQ(only<ir::WorkOffset>(block_of(r.program, 0)).index.number, 1);
   EXPECT_EQ(only<ir::WorkOffset>(block_of(r.program, 1)).index.number, 99);
   EXPECT_TRUE(only<ir::WorkOffset>(block_of(r.program, 2)).off);
-  EXPECT_EQ(block_of(r.program, 3).motion.frame, ir::FrameUse::machine_with_length);  // the length goes off by D0 only
+  EXPECT_EQ(block_of(r.program, 3).motion.frame, ir::FrameUse::machine);  // D0 takes the tool length off
+  EXPECT_EQ(block_of(read("G0 G53 Z0\n").program).motion.frame, ir::FrameUse::machine_with_length);
   EXPECT_EQ(only<ir::WorkOffset>(block_of(r.program, 4)).index.number, 1);  // group 8, second member: G54
 }
 
