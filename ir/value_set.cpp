@@ -8,10 +8,16 @@ namespace cnctrans::ir {
 
 namespace {
 
+using Values = std::optional<std::vector<double>>;
+constexpr std::size_t most_values = 64;
+constexpr int deepest = 8;  ///< variables set from variables; also what ends a circle
+
+Values values_of(const Program& program, const ExprPtr& e, int depth);
+
 /// Looks through a program for everything that can set one variable.
 class Writers {
  public:
-  Writers(const Program& program, const VarRef& v) : program_(program), wanted_(v) {}
+  Writers(const Program& program, const VarRef& v, int depth) : program_(program), wanted_(v), depth_(depth) {}
 
   std::optional<std::vector<double>> values() {
     if (!wanted_.indices.empty()) return std::nullopt;
@@ -28,7 +34,7 @@ class Writers {
       }
       for_each_statement(r.body, [this](const Statement& s) { look_at(s); });
     }
-    if (open_ || values_.empty()) return std::nullopt;
+    if (open_ || values_.empty() || values_.size() > most_values) return std::nullopt;
     std::sort(values_.begin(), values_.end());
     values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
     return values_;
@@ -44,9 +50,9 @@ class Writers {
     return n && *n == number_;
   }
   void set(const ExprPtr& value) {
-    const auto v = constant_value(value);
+    const Values v = open_ ? std::nullopt : values_of(program_, value, depth_ + 1);
     if (v) {
-      values_.push_back(*v);
+      values_.insert(values_.end(), v->begin(), v->end());
     } else {
       open_ = true;
     }
@@ -84,19 +90,40 @@ class Writers {
 
   const Program& program_;
   const VarRef& wanted_;
+  int depth_;
   bool named_ = false;
   double number_ = 0;
   bool open_ = false;
   std::vector<double> values_;
 };
 
+Values combined(const Program& program, const Binary& b, int depth) {
+  const Values left = values_of(program, b.left, depth);
+  const Values right = left ? values_of(program, b.right, depth) : std::nullopt;
+  if (!left || !right || left->size() * right->size() > most_values) return std::nullopt;
+  std::vector<double> out;
+  for (const double l : *left) {
+    for (const double r : *right) {
+      const auto v = constant_value(binary(b.op, number(l), number(r), b.compare));
+      if (!v) return std::nullopt;
+      out.push_back(*v);
+    }
+  }
+  return out;
+}
+
+Values values_of(const Program& program, const ExprPtr& e, int depth) {
+  if (!e || depth > deepest) return std::nullopt;
+  if (const auto n = constant_value(e)) return std::vector<double>{*n};
+  if (const auto* v = std::get_if<VarRef>(&e->node)) return Writers(program, *v, depth).values();
+  if (const auto* b = std::get_if<Binary>(&e->node)) return combined(program, *b, depth);
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> possible_values(const Program& program, const ExprPtr& e) {
-  if (!e) return std::nullopt;
-  if (const auto n = constant_value(e)) return std::vector<double>{*n};
-  if (const auto* v = std::get_if<VarRef>(&e->node)) return Writers(program, *v).values();
-  return std::nullopt;
+  return values_of(program, e, 0);
 }
 
 ComputedLabel::ComputedLabel(const Program& program, const LabelRef& l)

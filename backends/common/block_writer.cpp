@@ -72,7 +72,8 @@ bool ProgramWriter::spelling_is_whole_word(const ir::Action& a) const {
 
 void ProgramWriter::action(const ir::Action& a) {
   if (const auto* m = std::get_if<ir::ModalSet>(&a.data)) note_setting(m->setting, m->value);
-  if (line_.has_column(a.pos.column)) return;  // a word that means several things is written once
+  // A word that means several things is written once in its own language; another one needs a word for each.
+  if (same_dialect_ && line_.has_column(a.pos.column)) return;
   if (same_dialect_ && !a.text.empty() && spelling_is_whole_word(a)) {
     const Rank rank = std::holds_alternative<ir::ModalSet>(a.data) ? Rank::setting : Rank::machine;
     add(std::string(a.text), rank, a.pos);

@@ -84,8 +84,10 @@ void FrameState::translate(const FrameChange& c, const Facts& facts, const Block
     Value v = w.value;
     v.text = {};
     const bool adds = combine == FrameCombine::add || combine == FrameCombine::compose;
-    if (!adds) shift_[w.axis] = w.value;
-    else if (shift_[w.axis]) shift_[w.axis] = add(*shift_[w.axis], v);
+    if (!adds)
+      shift_[w.axis] = w.value;
+    else if (shift_[w.axis])
+      shift_[w.axis] = add(*shift_[w.axis], v);
   }
 }
 
@@ -118,6 +120,17 @@ void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b)
   foreign_ = true;
 }
 
+namespace {
+
+/// A range repeated in place is followed through the graph; calls and ranges of other routines are not.
+bool leaves_routine(const Statement& s) {
+  const auto* r = std::get_if<Repeat>(&s.node);
+  if (r != nullptr) return r->has_program || r->first.computed || r->last.computed;
+  return std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
+}
+
+}  // namespace
+
 FrameStates::FrameStates(const Program& program, const Routine& routine, const FactsOf& facts, const LegaliseContext&) {
   if (routine.body.empty()) return;
   const ControlFlow flow = control_flow(program, routine);
@@ -133,12 +146,12 @@ FrameStates::FrameStates(const Program& program, const Routine& routine, const F
     FrameState state = states_[id];
     if (const auto* b = std::get_if<Block>(&s.node)) {
       for (const auto& a : b->actions) {
-        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) state.apply(*f->change, facts.before(s), *b);
+        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
+          state.apply(*f->change, facts.before(s), *b);
       }
     } else if (std::holds_alternative<Assign>(s.node)) {
       each_target(s, [&state](const VarRef& v) { state.forget(v); });
-    } else if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node) ||
-               std::holds_alternative<Repeat>(s.node)) {
+    } else if (leaves_routine(s)) {
       bool changes = false;
       for (const auto& r : program.routines) {
         for_each_statement(r.body, [&changes, &r, &routine](const Statement& x) {
@@ -147,7 +160,7 @@ FrameStates::FrameStates(const Program& program, const Routine& routine, const F
           for (const auto& a : other->actions) changes = changes || std::holds_alternative<FrameOp>(a.data);
         });
       }
-      if (changes || std::holds_alternative<Repeat>(s.node)) state.forget();
+      if (changes) state.forget();
     }
     if (s.line.skip_mask != 0) state.join(states_[id]);
     for (const auto next : flow.successors[id]) {
