@@ -99,8 +99,17 @@ class FirstError final : public antlr4::BaseErrorListener {
       case SinumerikLexer::PLUS:
         error_.message = quoted(text) + " is not expected here; a value that is an expression needs `=` after its address";
         return;
-      default: error_.message = quoted(text) + " is not expected here";
+      default:
+        error_.message = quoted(text) + " is not expected here";
+        if (after_sign(t)) error_.message += "; a value that is an expression needs `=` after its address";
     }
+  }
+
+  /// `X-R1`: the sign was taken for that of a number.
+  [[nodiscard]] bool after_sign(const antlr4::Token& t) const {
+    std::size_t i = t.getStartIndex();
+    while (i > 0 && (line_[i - 1] == ' ' || line_[i - 1] == '\t')) --i;
+    return i > 0 && (line_[i - 1] == '-' || line_[i - 1] == '+');
   }
 
   std::string_view& line_;

@@ -196,7 +196,7 @@ TEST(SinumerikFiles, AFaultyBlockDoesNotStopTheReading) {
   EXPECT_EQ(b[1].line.number, "20");
   EXPECT_EQ(b[1].line.comments.at(0).text, " oops");
   EXPECT_EQ(r.diagnostics.all()[0].span.line, 2U);
-  EXPECT_EQ(r.diagnostics.all()[0].span.column, 9U);
+  EXPECT_EQ(r.diagnostics.all()[0].span.column, 10U);
 }
 
 TEST(SinumerikStreams, PlainBlocksFlowAndTheRestAsksForTheProgram) {

@@ -149,7 +149,7 @@ TEST(SinumerikGrammar, SynchronisedActionsAreOneText) {  // 12
 }
 
 TEST(SinumerikGrammar, FaultsAreFoundWhereTheyAre) {
-  EXPECT_EQ(parse("G1 X-R1").substr(0, 3), "!5 ");  // an expression needs `=`
+  EXPECT_EQ(parse("G1 X-R1"), "!6 `R` is not expected here; a value that is an expression needs `=` after its address");
   EXPECT_EQ(parse("X=(R1+2").substr(0, 3), "!8 ");
   EXPECT_EQ(parse("MSG(\"open)").substr(0, 3), "!5 ");
   EXPECT_EQ(parse("G1 # X1").substr(0, 3), "!4 ");
