@@ -274,8 +274,10 @@ class NamedLocals {
     std::vector<Argument> letters;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
       const Parameter& p = info.parameters[i];
-      const Argument* a = i < call.arguments.size() && call.arguments[i].value ? &call.arguments[i] : nullptr;
-      ExprPtr value = a != nullptr ? a->value : p.default_value;
+      const Argument* a = i < call.arguments.size() && (call.arguments[i].value || call.arguments[i].by_reference)
+                              ? &call.arguments[i]
+                              : nullptr;
+      ExprPtr value = a == nullptr ? p.default_value : a->value ? a->value : variable(a->reference);
       const VarRef& place = info.places.at(p.variable.name);
       if (place.space == program_.space(level_prefix)) {
         Argument letter;
@@ -285,7 +287,7 @@ class NamedLocals {
         continue;
       }
       before.emplace_back(place, value ? value : number(0));
-      const auto* v = a != nullptr ? as_variable(a->value) : nullptr;
+      const auto* v = as_variable(a != nullptr ? value : nullptr);
       if (p.by_reference && v != nullptr) behind.push_back(make_assign(s.line, *v, variable(place)));
     }
     call.arguments = std::move(letters);

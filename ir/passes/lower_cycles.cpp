@@ -228,7 +228,7 @@ class CyclePass {
         editor_.put(out, std::move(pieces), std::move(s));
         return;
       }
-      b.actions.push_back(action(native, Order::after));
+      b.actions.push_back(action(native));
       if (d.modal) {
         a.on_target = true;
         active_ = a;
@@ -302,8 +302,14 @@ class CyclePass {
   }
 
   bool triggers(const Block& b, const Facts& facts) const {
+    if (active_->trigger == CycleTrigger::path_motion) {
+      if (b.has_motion && b.motion.frame != FrameUse::normal) return false;
+      if (b.has_motion && b.motion.moves()) return true;
+      const auto kind = motion_in(b, facts);  // a bare G0 or G1, and F or S under one of them, run it as well
+      if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return false;
+      return disturbs_call(b);
+    }
     if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
-    if (active_->trigger == CycleTrigger::path_motion) return true;
     const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
     const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
     return !w || has_plane_word(b, *w);
@@ -363,7 +369,7 @@ class CyclePass {
     if (simple && active_->on_target) return editor_.put(out, std::move(pieces), std::move(s));
     if (simple) {
       b.actions.push_back(
-          action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}, Order::after));
+          action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
       active_->on_target = true;
       return editor_.put(out, std::move(pieces), std::move(s));
     }

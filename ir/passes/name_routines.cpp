@@ -24,11 +24,11 @@ class RoutineNames {
   RoutineNames(Program& program, const LegaliseContext& context) : program_(program), context_(context) {}
 
   void run() {
-    const auto& t = context_.target;
-    for (auto& r : program_.routines) {
-      if (r.kind == RoutineKind::sub && good(r.name.number)) used_.insert(r.name.number);
-    }
     std::set<std::int64_t> seen;
+    for (auto& r : program_.routines) {
+      if (good(r.name.number)) used_.insert(r.name.number);
+      if (r.kind == RoutineKind::main && good(r.name.number)) seen.insert(r.name.number);
+    }
     for (auto& r : program_.routines) {
       if (r.kind != RoutineKind::sub) continue;
       const bool by_number = good(r.name.number) && r.name.text.empty() && seen.insert(r.name.number).second;
@@ -44,7 +44,6 @@ class RoutineNames {
       seen.insert(n);
       rename(r, n);
     }
-    (void)t;
     references();
   }
 

@@ -119,8 +119,8 @@ TEST(Frames, UnknownRestIsRefused) {
 
 const char* const drilling =
     "  block feed 100, rapid X 0 Y 0 Z 20\n"
-    "  block X 10 Y 10, cycle hole drill reference 2 bottom -15 after\n"
-    "  block X 30\n  block Y 25\n  block cycle_cancel\n  block rapid Z 50\n";
+    "  block modal X 10 Y 10, cycle hole drill reference 2 bottom -15\n"
+    "  block modal X 30\n  block modal Y 25\n  block cycle_cancel\n  block rapid Z 50\n";
 
 TEST(Cycles, WrittenOutMoveByMove) {
   auto target = chain_target();
@@ -142,7 +142,7 @@ TEST(Cycles, ModalCallBecomesADefinitionAtTheFirstPoint) {
   target.native_cycle = [](const ir::Cycle&) { return true; };
   const std::string text = main_program("  block feed 100, rapid X 0 Y 0 Z 20\n"
                                         "  modal_call cycle hole drill reference 2 bottom -15 retract 20\n"
-                                        "  block rapid X 10 Y 10\n  block X 30\n  modal_call off\n  block rapid Z 50\n");
+                                        "  block rapid X 10 Y 10\n  block modal X 30\n  modal_call off\n  block rapid Z 50\n");
   EXPECT_EQ(difference(text, target, "sinumerik-mill", "fagor-mill"), "");
 }
 
