@@ -1,4 +1,5 @@
-// Addresses of more than one letter, position attributes, procedures without effect on the path (reference-language 1.5, 14; motion 5).
+// Addresses of more than one letter, position attributes, procedures without effect on the path
+// (reference-language 1.5, 14; motion 5).
 #pragma once
 
 #include <cstdint>
@@ -8,10 +9,23 @@
 namespace cnctrans::sinumerik {
 
 enum class NamedWord : std::uint8_t {
-  arc_radius, opening_angle, turns, polar_radius, polar_angle, line_angle, round, round_modal, chamfer_leg, chamfer_chord,
-  corner_feed, thread_start, spindle_limit, spindle_position, rotation_in_plane,
-  timing,       ///< tolerances, overrides, accelerations: the nominal path is the same
-  compensation, ///< acts only on the compensated path
+  arc_radius,
+  opening_angle,
+  turns,
+  polar_radius,
+  polar_angle,
+  line_angle,
+  round,
+  round_modal,
+  chamfer_leg,
+  chamfer_chord,
+  corner_feed,
+  thread_start,
+  spindle_limit,
+  spindle_position,
+  rotation_in_plane,
+  timing,        ///< tolerances, overrides, accelerations: the nominal path is the same
+  compensation,  ///< acts only on the compensated path
   unsupported
 };
 struct NamedWordRow {
@@ -29,11 +43,15 @@ Attribute attribute(std::string_view name);
 
 /// What a predefined procedure (`NAME(...)` or `NAME`) is to a translation.
 enum class Procedure : std::uint8_t {
-  none,         ///< not predefined: a subprogram
-  message, set_alarm, stop_preparation, repeat_return, program_start,
-  screen,       ///< operator screens, blanks, groups: no effect on machining
-  timing,       ///< dynamics, feed groups, single-block and display switches
-  unsupported   ///< acts on the machine and is not carried
+  none,  ///< not predefined: a subprogram
+  message,
+  set_alarm,
+  stop_preparation,
+  repeat_return,
+  program_start,
+  screen,      ///< operator screens, blanks, groups: no effect on machining
+  timing,      ///< dynamics, feed groups, single-block and display switches
+  unsupported  ///< acts on the machine and is not carried
 };
 struct ProcedureRow {
   std::string_view name;

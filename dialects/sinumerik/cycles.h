@@ -1,4 +1,5 @@
-// Standard cycles: parameter names in call order (reference-language 18). Names are those printed there, without leading underscores.
+// Standard cycles: parameter names in call order (reference-language 18). Names are those printed there, without
+// leading underscores.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace cnctrans::sinumerik {
 enum class CycleFamily : std::uint8_t { drilling, pattern, milling, turning, swivel, measuring };
 
 struct CycleRow {
-  std::string_view name;        ///< "CYCLE81"
+  std::string_view name;  ///< "CYCLE81"
   CycleFamily family;
   bool carried;                 ///< has a node in the IR
   std::string_view parameters;  ///< separated by one comma each

@@ -9,29 +9,30 @@ namespace cnctrans::sinumerik {
 
 /// What a G function is for.
 enum class GUse : std::uint8_t {
-  motion,       ///< a = ir::MotionKind
-  setting,      ///< a = ir::Setting, b = value
-  units,        ///< a = ir::Units, b = 1: F too (G700, G710)
-  feed,         ///< a = ir::FeedMode, b = 0: spindle mode untouched, 1: rpm, 2: constant cutting speed
-  path,         ///< a = ir::PathMode, b = 1: with smoothing whose tolerance is not carried
-  dwell, exact_stop_block,
-  frame,        ///< a = FrameVerb
-  work_offset,  ///< a = row (0: G500)
-  suppress,     ///< G53, G153, SUPA
-  pole,         ///< a = 0 G110, 1 G111, 2 G112
-  limit,        ///< a = 0 lower (G25), 1 upper (G26)
-  approach,     ///< reference point, fixed point: a = ir::MotionKind
-  timing,       ///< timing, dynamics, smoothing: the nominal path is the same
-  compensation, ///< how radius compensation goes round corners and starts: the programmed path is the same
-  unsupported   ///< could move the machine differently and is not carried
+  motion,   ///< a = ir::MotionKind
+  setting,  ///< a = ir::Setting, b = value
+  units,    ///< a = ir::Units, b = 1: F too (G700, G710)
+  feed,     ///< a = ir::FeedMode, b = 0: spindle mode untouched, 1: rpm, 2: constant cutting speed
+  path,     ///< a = ir::PathMode, b = 1: with smoothing whose tolerance is not carried
+  dwell,
+  exact_stop_block,
+  frame,         ///< a = FrameVerb
+  work_offset,   ///< a = row (0: G500)
+  suppress,      ///< G53, G153, SUPA
+  pole,          ///< a = 0 G110, 1 G111, 2 G112
+  limit,         ///< a = 0 lower (G25), 1 upper (G26)
+  approach,      ///< reference point, fixed point: a = ir::MotionKind
+  timing,        ///< timing, dynamics, smoothing: the nominal path is the same
+  compensation,  ///< how radius compensation goes round corners and starts: the programmed path is the same
+  unsupported    ///< could move the machine differently and is not carried
 };
 enum class FrameVerb : std::uint8_t { trans, atrans, rot, arot, scale, ascale, mirror, amirror, rots, arots, g58, g59 };
 
 struct GFunction {
-  std::string_view name;   ///< "G1", "TRANS", capitals
-  std::int16_t number;     ///< 1 for G1; -1: named only
+  std::string_view name;  ///< "G1", "TRANS", capitals
+  std::int16_t number;    ///< 1 for G1; -1: named only
   std::uint8_t group;
-  std::uint8_t index;      ///< place in the group: G[group]=index; 0: none
+  std::uint8_t index;  ///< place in the group: G[group]=index; 0: none
   bool modal;
   GUse use;
   std::uint8_t a = 0;

@@ -16,15 +16,15 @@ struct OperatorRow {
 };
 /// `NOT`, `B_NOT` and signs bind tighter than everything here (priority 1). Comparisons bind weakest.
 inline constexpr std::array operators{
-    OperatorRow{"*", ir::BinaryOp::multiply, 2},     OperatorRow{"/", ir::BinaryOp::divide, 2},
-    OperatorRow{"DIV", ir::BinaryOp::int_divide, 2}, OperatorRow{"MOD", ir::BinaryOp::modulo, 2},
-    OperatorRow{"+", ir::BinaryOp::add, 3},          OperatorRow{"-", ir::BinaryOp::subtract, 3},
-    OperatorRow{"B_AND", ir::BinaryOp::bit_and, 4},  OperatorRow{"B_XOR", ir::BinaryOp::bit_xor, 5},
-    OperatorRow{"B_OR", ir::BinaryOp::bit_or, 6},    OperatorRow{"AND", ir::BinaryOp::logical_and, 7},
+    OperatorRow{"*", ir::BinaryOp::multiply, 2},      OperatorRow{"/", ir::BinaryOp::divide, 2},
+    OperatorRow{"DIV", ir::BinaryOp::int_divide, 2},  OperatorRow{"MOD", ir::BinaryOp::modulo, 2},
+    OperatorRow{"+", ir::BinaryOp::add, 3},           OperatorRow{"-", ir::BinaryOp::subtract, 3},
+    OperatorRow{"B_AND", ir::BinaryOp::bit_and, 4},   OperatorRow{"B_XOR", ir::BinaryOp::bit_xor, 5},
+    OperatorRow{"B_OR", ir::BinaryOp::bit_or, 6},     OperatorRow{"AND", ir::BinaryOp::logical_and, 7},
     OperatorRow{"XOR", ir::BinaryOp::logical_xor, 8}, OperatorRow{"OR", ir::BinaryOp::logical_or, 9},
-    OperatorRow{"<<", ir::BinaryOp::concat, 10},     OperatorRow{"==", ir::BinaryOp::eq, 11},
-    OperatorRow{"<>", ir::BinaryOp::ne, 11},         OperatorRow{">", ir::BinaryOp::gt, 11},
-    OperatorRow{"<", ir::BinaryOp::lt, 11},          OperatorRow{">=", ir::BinaryOp::ge, 11},
+    OperatorRow{"<<", ir::BinaryOp::concat, 10},      OperatorRow{"==", ir::BinaryOp::eq, 11},
+    OperatorRow{"<>", ir::BinaryOp::ne, 11},          OperatorRow{">", ir::BinaryOp::gt, 11},
+    OperatorRow{"<", ir::BinaryOp::lt, 11},           OperatorRow{">=", ir::BinaryOp::ge, 11},
     OperatorRow{"<=", ir::BinaryOp::le, 11}};
 inline constexpr std::uint8_t prefix_priority = 1;
 

@@ -5,7 +5,8 @@ namespace cnctrans::sinumerik {
 MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p) {
   axis_of.fill(ir::axis::none);
   for (const auto& a : p.axes) {
-    if (a.name.size() == 1 && a.name[0] >= 'A' && a.name[0] <= 'Z') axis_of[static_cast<std::size_t>(a.name[0] - 'A')] = a.id;
+    if (a.name.size() == 1 && a.name[0] >= 'A' && a.name[0] <= 'Z')
+      axis_of[static_cast<std::size_t>(a.name[0] - 'A')] = a.id;
   }
   for (const auto& m : p.m_codes) {
     if (m.code >= 0 && m.code < m_limit) m_codes[static_cast<std::size_t>(m.code)] = &m;

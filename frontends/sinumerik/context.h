@@ -1,4 +1,5 @@
-// What the parts of the lowering share while one file is read: the machine, the program being built, names, diagnostics.
+// What the parts of the lowering share while one file is read: the machine, the program being built, names,
+// diagnostics.
 #pragma once
 
 #include <array>
@@ -20,12 +21,12 @@ struct MachineFacts {
 
   static constexpr std::int32_t m_limit = 1000;
   const machine::Profile* profile;
-  std::array<ir::AxisId, 26> axis_of{};                 ///< letter -> axis; none: the machine has no such axis
-  std::array<const machine::MCode*, m_limit> m_codes{}; ///< null: no meaning known
-  bool tool_word_changes = false;                       ///< T carries out the change (MD22550 = 0)
-  bool undefined_names_are_global = false;              ///< undeclared names are global user variables
+  std::array<ir::AxisId, 26> axis_of{};                  ///< letter -> axis; none: the machine has no such axis
+  std::array<const machine::MCode*, m_limit> m_codes{};  ///< null: no meaning known
+  bool tool_word_changes = false;                        ///< T carries out the change (MD22550 = 0)
+  bool undefined_names_are_global = false;               ///< undeclared names are global user variables
 
-  [[nodiscard]] ir::AxisId axis(char letter) const;     ///< any case; none when it is no letter or no axis
+  [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis
   [[nodiscard]] ir::AxisId axis(std::string_view name) const;  ///< by name in capitals, also "X1" of the profile
 };
 

@@ -63,7 +63,8 @@ void set_unit_hint(ir::Program& program) {
 
 class FileReading {
  public:
-  FileReading(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics, ReadStats& stats)
+  FileReading(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+              ReadStats& stats)
       : source_(source),
         machine_(*options.profile),
         context_{machine_, file, program_, diagnostics, {}, ir::MotionKind::linear, {}, {}, 0},
@@ -217,8 +218,8 @@ void FileReading::take(const SourceLine& line) {
   if (!reader_.difference().empty()) {
     context_.diagnostics.error("CNC-READERS", context_.line, "the two readers differ:\n" + reader_.difference());
   }
-  const bool empty = block_.words.empty() && block_.statements.empty() && block_.number.empty() && block_.labels.empty() &&
-                     block_.skip_mask == 0 && result != LineReader::Result::unread;
+  const bool empty = block_.words.empty() && block_.statements.empty() && block_.number.empty() &&
+                     block_.labels.empty() && block_.skip_mask == 0 && result != LineReader::Result::unread;
   if (empty && block_.comments.empty()) {
     ++blank_;
     return;
@@ -266,7 +267,8 @@ class LineStream final : public StreamReader {
     if (reader_.read(line.text, block_) == LineReader::Result::unread || !reader_.difference().empty()) {
       return StreamLine::needs_program;
     }
-    if (!block_.statements.empty() || !block_.labels.empty() || !WordLowering::is_motion_block(block_) || !only_addresses()) {
+    if (!block_.statements.empty() || !block_.labels.empty() || !WordLowering::is_motion_block(block_) ||
+        !only_addresses()) {
       return StreamLine::needs_program;
     }
     auto* node = std::get_if<ir::Block>(&out.node);
@@ -285,7 +287,8 @@ class LineStream final : public StreamReader {
   [[nodiscard]] bool only_addresses() const {
     for (const auto& w : block_.words) {
       if (w.is_expression) return false;
-      if (w.address.size() > 1 && (w.has_value ? named_word(w.address) == nullptr : g_function(w.address) == nullptr)) return false;
+      if (w.address.size() > 1 && (w.has_value ? named_word(w.address) == nullptr : g_function(w.address) == nullptr))
+        return false;
     }
     return true;
   }
@@ -308,7 +311,8 @@ class SinumerikFrontend final : public Frontend {
     ReadStats unused;
     return FileReading(source, file, options, diagnostics, stats != nullptr ? *stats : unused).run();
   }
-  std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options, std::string_view file_name) const override {
+  std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
+                                       std::string_view file_name) const override {
     return std::make_unique<LineStream>(file, options, file_name);
   }
 };

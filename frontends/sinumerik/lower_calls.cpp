@@ -44,7 +44,8 @@ std::size_t element_count(const Expr& dimensions) {
 
 }  // namespace
 
-bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t elements, std::vector<ir::ExprPtr>& out) {
+bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t elements,
+                                       std::vector<ir::ExprPtr>& out) {
   const bool list = e.kind == ExprKind::call && (e.text.empty() || e.text == "SET");
   const bool repeat = e.kind == ExprKind::call && e.text == "REP";
   if (!list && !repeat) {
@@ -58,12 +59,14 @@ bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t
     }
     return true;
   }
-  if (e.args.empty() || elements == 0) return refuse("language.statement", e.pos, "REP() needs a value and an array of known size");
+  if (e.args.empty() || elements == 0)
+    return refuse("language.statement", e.pos, "REP() needs a value and an array of known size");
   const ir::ExprPtr value = exprs_.lower_as(e.args[0], type);
   if (!value) return false;
   std::size_t count = elements;
   if (e.args.size() > 1) {
-    if (e.args[1].kind != ExprKind::number) return refuse("language.statement", e.pos, "REP() with a computed count is not carried yet");
+    if (e.args[1].kind != ExprKind::number)
+      return refuse("language.statement", e.pos, "REP() with a computed count is not carried yet");
     count = std::min(elements, static_cast<std::size_t>(std::max(e.args[1].number, 0.0)));
   }
   out.assign(count, value);
@@ -72,11 +75,13 @@ bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t
 
 bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
   if (executable_seen_) {
-    c_.warning("SIN-018", s.pos, "DEF stands after the first executable block (alarm 14500): it is taken as if it stood before");
+    c_.warning("SIN-018", s.pos,
+               "DEF stands after the first executable block (alarm 14500): it is taken as if it stood before");
   }
   const auto type = type_of(s.args[0]);
-  const bool global = std::any_of(s.children.begin(), s.children.end(),
-                                  [](const Statement& x) { return x.keyword == "ATTR" && (x.text == "NCK" || x.text == "CHAN"); });
+  const bool global = std::any_of(s.children.begin(), s.children.end(), [](const Statement& x) {
+    return x.keyword == "ATTR" && (x.text == "NCK" || x.text == "CHAN");
+  });
   const auto place = type ? space_of(*type, global) : std::nullopt;
   ir::Declare out;
   bool ok = true;
@@ -107,7 +112,8 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
     }
     out.items.push_back(std::move(item));
   }
-  if (!place) return refuse("language.statement", s.args[0].pos, "variables of type " + s.args[0].text + " are not carried yet");
+  if (!place)
+    return refuse("language.statement", s.args[0].pos, "variables of type " + s.args[0].text + " are not carried yet");
   if (!ok) return false;
   out.type = *type;
   out.space = *place;
@@ -186,7 +192,8 @@ bool StatementLowering::program_name(const Expr& e, ir::CallRoutine& call) {
     c_.error("SIN-017", e.pos, "this is no name of a program");
     return false;
   }
-  const bool numbered = e.kind == ExprKind::binary && e.text == "<<" && e.args[0].kind == ExprKind::string && iequals_ascii(e.args[0].text, "L");
+  const bool numbered = e.kind == ExprKind::binary && e.text == "<<" && e.args[0].kind == ExprKind::string &&
+                        iequals_ascii(e.args[0].text, "L");
   if (numbered) {
     call.computed = exprs_.lower_as(e.args[1], ir::Type::integer);
     return call.computed != nullptr;
@@ -222,7 +229,8 @@ bool StatementLowering::text_call(const Statement& s, ir::LineInfo& info) {
 bool StatementLowering::path_call(const Statement& s, ir::LineInfo& info) {
   ir::CallRoutine call;
   const std::size_t slash = s.text.find_last_of('/');
-  if (slash != std::string::npos) c_.note("SIN-023", s.pos, "the folder of the called program is not looked at: it is searched by its name");
+  if (slash != std::string::npos)
+    c_.note("SIN-023", s.pos, "the folder of the called program is not looked at: it is searched by its name");
   call.routine = routine_name(trim(slash == std::string::npos ? s.text : std::string_view(s.text).substr(slash + 1)));
   if (!call_arguments(call.routine.text, s.args, call)) return false;
   emit(info, std::move(call));

@@ -67,7 +67,8 @@ void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
   double down = -1;
   if (rtp.literal() && rfp.literal()) {
     if (rtp.number < rfp.number) down = 1;
-    if (rtp.number == rfp.number) c.warning("SIN-021", pos, "retract plane and reference plane are the same (alarm 61101 with a relative depth)");
+    if (rtp.number == rfp.number)
+      c.warning("SIN-021", pos, "retract plane and reference plane are the same (alarm 61101 with a relative depth)");
   } else {
     c.note("SIN-021", pos, "the retract plane is taken to lie above the reference plane");
   }
@@ -76,7 +77,9 @@ void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
   const ir::Value distance = absolute_value(a.get("SDIS"));
   hole.reference = level(down < 0 ? distance : ir::negate(distance), ir::LevelBase::from_surface);
   if (a.says("DPR")) {
-    if (a.says("DP")) c.warning("SIN-021", pos, "DP and DPR are both given: the depth is DPR below the reference plane, as on the control");
+    if (a.says("DP"))
+      c.warning("SIN-021", pos,
+                "DP and DPR are both given: the depth is DPR below the reference plane, as on the control");
     const ir::Value depth = absolute_value(a.get("DPR"));
     hole.bottom = level(down < 0 ? ir::negate(depth) : depth, ir::LevelBase::from_surface);
   } else {
@@ -132,7 +135,8 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     p.law = ir::PeckLaw::geometric;
     p.degression = ir::negate(dam);
   }
-  if (!dam.literal()) c.note("SIN-021", pos, "DAM is taken as an amount, not as a factor: its sign is known only when the program runs");
+  if (!dam.literal())
+    c.note("SIN-021", pos, "DAM is taken as an amount, not as a factor: its sign is known only when the program runs");
   p.minimum = a.get("MDEP");
   p.dwell = a.get("DTB");
   hole.dwell_top = a.get("DTS");
@@ -194,7 +198,8 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
     Attribute attribute = Attribute::none;
     given.push_back(e.kind != ExprKind::missing);
     values.push_back(given.back() ? exprs_.value_of(e, attribute) : ir::Value(0));
-    if (attribute != Attribute::none) c_.error("SIN-012", e.pos, "AC() and IC() have no meaning in the call of a cycle");
+    if (attribute != Attribute::none)
+      c_.error("SIN-012", e.pos, "AC() and IC() have no meaning in the call of a cycle");
   }
   if (c_.errors != before) return nullptr;
   const Arguments a(row, std::move(values), std::move(given));

@@ -72,7 +72,8 @@ ir::ExprPtr ExprLowering::lower(const Expr& e) {
       n.text = e.text;
       const bool based = !e.text.empty() && e.text.front() == '\'';
       n.integer = based || e.text.find_first_of(".Xx") == std::string::npos;
-      if (based || e.text.find_first_of("Xx") != std::string::npos) n.text.clear();  // only plain decimals travel as text
+      if (based || e.text.find_first_of("Xx") != std::string::npos)
+        n.text.clear();  // only plain decimals travel as text
       const ir::Type type = n.integer ? ir::Type::integer : ir::Type::real;
       return make(std::move(n), type, e.pos);
     }
@@ -146,7 +147,8 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
       undefined(e);
       return std::nullopt;
     }
-    c_.warning("SIN-006", e.pos, e.text + " is not defined in this program: taken as a global user variable that starts at 0");
+    c_.warning("SIN-006", e.pos,
+               e.text + " is not defined in this program: taken as a global user variable that starts at 0");
   }
   if (symbol != nullptr && symbol->frame) {
     c_.error("SIN-008", e.pos, "frame variables are not carried yet");
@@ -156,15 +158,16 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
   ref.space = symbol != nullptr ? symbol->space : space::global_real;
   ref.name = e.text;
   if (symbol != nullptr) type = symbol->type;
-  const bool character = symbol != nullptr && symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U;
+  const bool character =
+      symbol != nullptr && symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U;
   if (character) {
     c_.error("SIN-007", e.pos, "access to one character of a text is not carried yet", "use SUBSTR()");
     return std::nullopt;
   }
   if (symbol != nullptr && e.args.size() != symbol->dimensions) {
     c_.error("SIN-017", e.pos,
-             e.text + " has " + std::to_string(symbol->dimensions) + " dimensions, but " + std::to_string(e.args.size()) +
-                 " indices are written");
+             e.text + " has " + std::to_string(symbol->dimensions) + " dimensions, but " +
+                 std::to_string(e.args.size()) + " indices are written");
     return std::nullopt;
   }
   for (const Expr& index : e.args) {
@@ -205,12 +208,18 @@ struct DatumRow {
 };
 // What has a neutral meaning (motion reference 24.1); everything else is known by its name only.
 constexpr DatumRow data[] = {
-    {"$P_EP", ir::Datum::programmed_position, true},   {"$AA_IW", ir::Datum::work_position, true},
-    {"$AA_IM", ir::Datum::machine_position, true},     {"$P_TOOLNO", ir::Datum::tool_number, false},
-    {"$P_TOOLP", ir::Datum::next_tool, false},         {"$P_TOOL", ir::Datum::offset_number, false},
-    {"$P_TOOLR", ir::Datum::tool_radius, false},       {"$AC_ACTUAL_PARTS", ir::Datum::part_count, false},
-    {"$AC_CYCLE_TIME", ir::Datum::cycle_time, false},  {"$P_SUBPAR", ir::Datum::call_has_argument, false},
-    {"$P_F", ir::Datum::feed, false},                  {"$P_S", ir::Datum::spindle_speed, false},
+    {"$P_EP", ir::Datum::programmed_position, true},
+    {"$AA_IW", ir::Datum::work_position, true},
+    {"$AA_IM", ir::Datum::machine_position, true},
+    {"$P_TOOLNO", ir::Datum::tool_number, false},
+    {"$P_TOOLP", ir::Datum::next_tool, false},
+    {"$P_TOOL", ir::Datum::offset_number, false},
+    {"$P_TOOLR", ir::Datum::tool_radius, false},
+    {"$AC_ACTUAL_PARTS", ir::Datum::part_count, false},
+    {"$AC_CYCLE_TIME", ir::Datum::cycle_time, false},
+    {"$P_SUBPAR", ir::Datum::call_has_argument, false},
+    {"$P_F", ir::Datum::feed, false},
+    {"$P_S", ir::Datum::spindle_speed, false},
 };
 // FALSE in a plain run (reference-language 13).
 constexpr std::string_view false_in_a_run[] = {"$P_SEARCH", "$P_SIM", "$P_ISTEST", "$P_DRYRUN", "$P_SEARCHL"};
@@ -308,7 +317,8 @@ ir::ExprPtr ExprLowering::unary(const Expr& e) {
 void ExprLowering::warn_priority(const Expr& e) {
   if (!is_relation(e.text)) return;
   for (const Expr& a : e.args) {
-    const bool loose = (a.kind == ExprKind::binary && is_logical(a.text)) || (a.kind == ExprKind::unary && a.text == "NOT");
+    const bool loose =
+        (a.kind == ExprKind::binary && is_logical(a.text)) || (a.kind == ExprKind::unary && a.text == "NOT");
     if (!loose || a.pos.column == 0) continue;
     std::size_t before = a.pos.column - 1;
     while (before > 0 && (c_.text[before - 1] == ' ' || c_.text[before - 1] == '\t')) --before;
@@ -316,7 +326,8 @@ void ExprLowering::warn_priority(const Expr& e) {
     const std::size_t after = c_.text.find_first_not_of(" \t", a.pos.column - 1 + a.pos.length);
     if (&a == &e.args[0] && after != std::string_view::npos && c_.text[after] == ')') continue;
     c_.warning("SIN-014", e.pos,
-               "comparisons bind weaker than " + a.text + ": this compares the result of `" + std::string(c_.slice(a.pos)) + "`",
+               "comparisons bind weaker than " + a.text + ": this compares the result of `" +
+                   std::string(c_.slice(a.pos)) + "`",
                "put the comparisons in parentheses");
     return;
   }
@@ -348,7 +359,8 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
   }
   warn_priority(e);
   const bool single_equals = e.text == "=";
-  if (single_equals) c_.warning("SIN-013", e.pos, "a single `=` in a condition is read as the comparison `==`", "write `==`");
+  if (single_equals)
+    c_.warning("SIN-013", e.pos, "a single `=` in a condition is read as the comparison `==`", "write `==`");
   const OperatorRow* row = binary_operator(single_equals ? std::string_view("==") : std::string_view(e.text));
   ir::ExprPtr left = lower(e.args[0]);
   ir::ExprPtr right = lower(e.args[1]);
@@ -357,9 +369,11 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
   const bool texts = left->type == ir::Type::string || right->type == ir::Type::string;
   const bool axes = left->type == ir::Type::axis || right->type == ir::Type::axis;
   const bool unknown = is_unknown_datum(left) || is_unknown_datum(right);
-  if (!unknown && (texts || axes) && (left->type != right->type || (row->op != ir::BinaryOp::eq && row->op != ir::BinaryOp::ne))) {
+  if (!unknown && (texts || axes) &&
+      (left->type != right->type || (row->op != ir::BinaryOp::eq && row->op != ir::BinaryOp::ne))) {
     c_.error("SIN-012", e.pos,
-             "`" + e.text + "` can't join " + std::string(ir::name(left->type)) + " and " + std::string(ir::name(right->type)));
+             "`" + e.text + "` can't join " + std::string(ir::name(left->type)) + " and " +
+                 std::string(ir::name(right->type)));
     return nullptr;
   }
   const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
@@ -372,11 +386,15 @@ ir::ExprPtr ExprLowering::call(const Expr& e) {
   const FunctionRow* row = expression_function(e.text);
   if (row == nullptr) {
     const bool attribute_word = attribute(e.text) != Attribute::none;
-    c_.error("SIN-007", e.pos, attribute_word ? e.text + "() may stand only right of an address" : "the function " + e.text + "() is not carried yet");
+    c_.error("SIN-007", e.pos,
+             attribute_word ? e.text + "() may stand only right of an address"
+                            : "the function " + e.text + "() is not carried yet");
     return nullptr;
   }
   if (e.args.size() < row->arguments_min || e.args.size() > row->arguments_max) {
-    c_.error("SIN-012", e.pos, e.text + "() takes " + std::to_string(row->arguments_min) + " values, not " + std::to_string(e.args.size()));
+    c_.error(
+        "SIN-012", e.pos,
+        e.text + "() takes " + std::to_string(row->arguments_min) + " values, not " + std::to_string(e.args.size()));
     return nullptr;
   }
   std::vector<ir::ExprPtr> args;
@@ -410,7 +428,8 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
   if (e.kind == ExprKind::call) {
     out = attribute(e.text);
     if (out == Attribute::unsupported || e.text.empty()) {
-      c_.error("SIN-008", e.pos, "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
+      c_.error("SIN-008", e.pos,
+               "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
       return ir::Value{};
     }
     if (out != Attribute::none) {
@@ -423,7 +442,8 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
   }
   if (inner->kind == ExprKind::number) return ir::Value(inner->number, c_.slice(inner->pos));
   if (inner->kind == ExprKind::unary && inner->text == "-" && inner->args[0].kind == ExprKind::number &&
-      inner->pos.length == inner->args[0].pos.length + 1 && inner->args[0].text.find_first_of("XxHB'") == std::string::npos) {
+      inner->pos.length == inner->args[0].pos.length + 1 &&
+      inner->args[0].text.find_first_of("XxHB'") == std::string::npos) {
     return ir::Value(-inner->args[0].number, c_.slice(inner->pos));
   }
   ir::ExprPtr expr = lower(*inner);

@@ -1,5 +1,5 @@
-// Expressions: syntax::Expr -> ir::Expr. Every habit of the control becomes explicit here: comparison tolerance, rounding when a real is
-// put into an INT, strings made of numbers by `<<`.
+// Expressions: syntax::Expr -> ir::Expr. Every habit of the control becomes explicit here: comparison tolerance,
+// rounding when a real is put into an INT, strings made of numbers by `<<`.
 #pragma once
 
 #include "dialects/sinumerik/addresses.h"
@@ -43,6 +43,5 @@ class ExprLowering {
 
   FileContext& c_;
 };
-
 
 }  // namespace cnctrans::sinumerik

@@ -10,7 +10,8 @@ namespace cnctrans::sinumerik {
 using syntax::Word;
 
 void WordLowering::spindle_position(const Word& w, ir::Value value, Attribute attribute) {
-  if (attribute == Attribute::ic) return refuse("language.statement", w.pos, "turning the spindle by an increment is not carried yet");
+  if (attribute == Attribute::ic)
+    return refuse("language.statement", w.pos, "turning the spindle by an increment is not carried yet");
   push(ir::SpindleOrient{1, std::move(value)}, Rank::orient, ir::Order::before, w.pos);
 }
 
@@ -30,7 +31,8 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       return coordinate(axis, w, std::move(value), attribute);
     }
     failed_ = true;
-    c_.error("SIN-003", w.pos, "`" + name + "` is no address of this control and no axis of the machine " + c_.machine.profile->name,
+    c_.error("SIN-003", w.pos,
+             "`" + name + "` is no address of this control and no axis of the machine " + c_.machine.profile->name,
              "a variable must be set in a block of its own");
     return;
   }
@@ -52,21 +54,45 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       out_->motion.radius = std::move(value);
       out_->motion.radius_pos = w.pos;
       return;
-    case NamedWord::opening_angle: extra().has_angle = true; extra_.opening_angle = std::move(value); return;
-    case NamedWord::turns: extra().has_turns = true; extra_.turns = std::move(value); return;
-    case NamedWord::polar_radius: extra().has_polar_radius = true; extra_.polar_radius = std::move(value); return polar();
-    case NamedWord::polar_angle: extra().has_polar_angle = true; extra_.polar_angle = std::move(value); return polar();
-    case NamedWord::line_angle: extra().has_line_angle = true; extra_.line_angle = std::move(value); return;
+    case NamedWord::opening_angle:
+      extra().has_angle = true;
+      extra_.opening_angle = std::move(value);
+      return;
+    case NamedWord::turns:
+      extra().has_turns = true;
+      extra_.turns = std::move(value);
+      return;
+    case NamedWord::polar_radius:
+      extra().has_polar_radius = true;
+      extra_.polar_radius = std::move(value);
+      return polar();
+    case NamedWord::polar_angle:
+      extra().has_polar_angle = true;
+      extra_.polar_angle = std::move(value);
+      return polar();
+    case NamedWord::line_angle:
+      extra().has_line_angle = true;
+      extra_.line_angle = std::move(value);
+      return;
     case NamedWord::round: return corner(ir::CornerKind::round, false);
     case NamedWord::round_modal: return corner(ir::CornerKind::round, true);
     case NamedWord::chamfer_leg: return corner(ir::CornerKind::chamfer_leg, false);
     case NamedWord::chamfer_chord: return corner(ir::CornerKind::chamfer_chord, false);
-    case NamedWord::corner_feed: has_corner_feed_ = true; corner_feed_ = std::move(value); return;
-    case NamedWord::thread_start: extra().has_start_angle = true; extra_.start_angle = std::move(value); return;
+    case NamedWord::corner_feed:
+      has_corner_feed_ = true;
+      corner_feed_ = std::move(value);
+      return;
+    case NamedWord::thread_start:
+      extra().has_start_angle = true;
+      extra_.start_angle = std::move(value);
+      return;
     case NamedWord::spindle_limit:
       return push(ir::SpindleLimit{1, std::move(value), false}, Rank::limit, ir::Order::before, w.pos);
     case NamedWord::spindle_position: return spindle_position(w, std::move(value), attribute);
-    case NamedWord::rotation_in_plane: has_rpl_ = true; rpl_ = std::move(value); return;
+    case NamedWord::rotation_in_plane:
+      has_rpl_ = true;
+      rpl_ = std::move(value);
+      return;
     case NamedWord::timing:
     case NamedWord::compensation:
       push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::before, w.pos);
@@ -89,7 +115,8 @@ bool WordLowering::finish() {
     case Special::frame: finish_frame(); break;
     case Special::pole: finish_pole(); break;
     case Special::limit:
-      if (!out_->motion.coords.empty()) refuse("work_zone", special_pos_, "limits of the working area are not carried yet");
+      if (!out_->motion.coords.empty())
+        refuse("work_zone", special_pos_, "limits of the working area are not carried yet");
       break;
     case Special::approach:
       out_->motion.kind = static_cast<ir::MotionKind>(special_g_->a);
@@ -137,7 +164,8 @@ void WordLowering::finish_pole() {
     return true;
   }();
   if (has_extra_ || (!absolute && (special_g_->a == 2 || !literal_zero))) {
-    refuse("motion.geometry", special_pos_, "a pole given relative to another point or in polar words is not carried yet",
+    refuse("motion.geometry", special_pos_,
+           "a pole given relative to another point or in polar words is not carried yet",
            "give it with G111 and Cartesian words");
     coords.clear();
     return;
@@ -166,7 +194,8 @@ void WordLowering::finish_rotation(ir::FrameChange& change) {
   change.has_angle = true;
   if (has_rpl_) {
     change.angle = std::move(rpl_);
-    if (!coords.empty()) refuse("motion.transformation", special_pos_, "RPL= together with axis angles is not carried yet");
+    if (!coords.empty())
+      refuse("motion.transformation", special_pos_, "RPL= together with axis angles is not carried yet");
     return;
   }
   if (coords.size() != 1 || !is_geometry_axis(coords.front().axis)) {
@@ -188,7 +217,8 @@ void WordLowering::finish_frame() {
   }
   auto change = std::make_shared<ir::FrameChange>();
   change->slot = ir::FrameSlot::chain;
-  const bool additive = verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale || verb == FrameVerb::amirror;
+  const bool additive =
+      verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale || verb == FrameVerb::amirror;
   const bool empty = coords.empty() && !has_rpl_;
   change->combine = additive ? ir::FrameCombine::compose : empty ? ir::FrameCombine::clear : ir::FrameCombine::replace;
   switch (verb) {

@@ -62,7 +62,8 @@ void StatementLowering::emit(ir::LineInfo& info, decltype(ir::Statement::node) n
 
 // --- assignments ------------------------------------------------------------------------------------------------
 
-bool StatementLowering::assign_set(const ir::VarRef& target, ir::Type type, const Expr& value, WordPos pos, Parts& parts) {
+bool StatementLowering::assign_set(const ir::VarRef& target, ir::Type type, const Expr& value, WordPos pos,
+                                   Parts& parts) {
   const bool numbered = target.space == space::r;
   if (!numbered && target.indices.size() != 1) {
     return refuse("language.statement", pos, "SET() over an array of several dimensions is not carried yet");
@@ -94,7 +95,8 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   item.pos = pos;
   if (c_.errors != before) return false;
   if (item.system.datum != ir::Datum::work_offset) {
-    return refuse("language.system_variable", pos, "writing " + target.text + " is not carried yet: it could change what the machine does");
+    return refuse("language.system_variable", pos,
+                  "writing " + target.text + " is not carried yet: it could change what the machine does");
   }
   item.value = exprs_.lower_as(value, ir::Type::real);
   if (!item.value) return false;
@@ -123,7 +125,8 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
   if (!ref) return false;
   if (value.kind == ExprKind::call && value.text == "SET") return assign_set(*ref, type, value, pos, parts);
   if (value.kind == ExprKind::call && (value.text == "REP" || value.text.empty())) {
-    return refuse("language.statement", pos, "filling an array in one statement is not carried yet", "use SET() or a loop");
+    return refuse("language.statement", pos, "filling an array in one statement is not carried yet",
+                  "use SET() or a loop");
   }
   ir::Assign::Item item;
   item.target = std::move(*ref);
@@ -138,13 +141,16 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
   const Expr& target = s.args[0];
   const Expr& value = s.args[1];
   const bool one_index = target.args.size() == 1;
-  if (target.text == "R" || target.text[0] == '$' || c_.symbol(target.text) != nullptr) return assign(target, value, s.pos, parts);
+  if (target.text == "R" || target.text[0] == '$' || c_.symbol(target.text) != nullptr)
+    return assign(target, value, s.pos, parts);
   if (target.text == "G" && one_index) {
     const auto* group = &target.args[0];
-    const GFunction* g = group->kind == ExprKind::number && value.kind == ExprKind::number
-                             ? g_function(static_cast<std::int32_t>(group->number), static_cast<std::int32_t>(value.number))
-                             : nullptr;
-    if (g == nullptr) return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
+    const GFunction* g =
+        group->kind == ExprKind::number && value.kind == ExprKind::number
+            ? g_function(static_cast<std::int32_t>(group->number), static_cast<std::int32_t>(value.number))
+            : nullptr;
+    if (g == nullptr)
+      return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
     parts.indirect.emplace_back(g, s.pos);
     return true;
   }
@@ -201,7 +207,9 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
     target.args.push_back(std::move(index));
     return assign(target, expression(), w.pos, parts);
   }
-  if (w.equals && w.extension < 0 && (c_.symbol(name) != nullptr || (name.size() > 1 && !is_reserved(name) && c_.machine.axis(name) == ir::axis::none))) {
+  if (w.equals && w.extension < 0 &&
+      (c_.symbol(name) != nullptr ||
+       (name.size() > 1 && !is_reserved(name) && c_.machine.axis(name) == ir::axis::none))) {
     target.kind = ExprKind::name;
     return assign(target, expression(), w.pos, parts);
   }
@@ -211,7 +219,8 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
     parts.count_pos = w.pos;
     return parts.count != nullptr;
   }
-  if (name == "L" && w.has_value && !w.equals && w.number_text.find_first_not_of("0123456789") == std::string_view::npos) {
+  if (name == "L" && w.has_value && !w.equals &&
+      w.number_text.find_first_not_of("0123456789") == std::string_view::npos) {
     name += w.number_text;
     return sort_call(std::move(name), {}, w.pos, parts);
   }
@@ -265,7 +274,8 @@ bool StatementLowering::alarm(const std::vector<Expr>& args, WordPos pos, Parts&
   return c_.errors == before;
 }
 
-bool StatementLowering::predefined(Procedure use, const std::string& name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+bool StatementLowering::predefined(Procedure use, const std::string& name, const std::vector<Expr>& args, WordPos pos,
+                                   Parts& parts) {
   switch (use) {
     case Procedure::message: return message(args, pos, parts);
     case Procedure::set_alarm: return alarm(args, pos, parts);
@@ -285,7 +295,8 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     case Procedure::program_start: {
       ir::Jump j;
       j.search = ir::Search::to_start;
-      c_.warning("SIN-020", pos, "GOTOS jumps to the program start only when the PLC asks for it; here it always jumps");
+      c_.warning("SIN-020", pos,
+                 "GOTOS jumps to the program start only when the PLC asks for it; here it always jumps");
       parts.calls.emplace_back(std::move(j));
       return true;
     }
@@ -304,7 +315,10 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
   }
   const bool file = name == "WRITE" || name == "READ" || name == "DELETE" || name == "ISFILE";
   const bool transformation = name.rfind("TRA", 0) == 0 && name.rfind("TRAIL", 0) != 0;
-  return refuse(file ? "language.files" : transformation ? "motion.transformation" : "language.statement", pos, name + " is not carried yet");
+  return refuse(file             ? "language.files"
+                : transformation ? "motion.transformation"
+                                 : "language.statement",
+                pos, name + " is not carried yet");
 }
 
 bool StatementLowering::call_arguments(const std::string& name, const std::vector<Expr>& args, ir::CallRoutine& call) {
@@ -379,7 +393,8 @@ bool StatementLowering::items(const Block& block, ir::LineInfo info) {
   }
   const Tail tail = has_words ? words_.tail() : Tail::none;
   if (ok && !parts.assign.items.empty() && !words.motion.coords.empty()) {
-    c_.error("SIN-011", words.motion.coords.front().pos, "an assignment can't share a block with axis words (alarm 12080)",
+    c_.error("SIN-011", words.motion.coords.front().pos,
+             "an assignment can't share a block with axis words (alarm 12080)",
              "write the assignment in the block before");
     ok = false;
   }

@@ -44,7 +44,8 @@ class StatementLowering {
   bool assign_set(const ir::VarRef& target, ir::Type type, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
-  bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos,
+                  Parts& parts);
   bool message(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool alarm(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   void message_parts(const syntax::Expr& e, std::vector<ir::ExprPtr>& out);
@@ -84,10 +85,10 @@ class StatementLowering {
   ExprLowering exprs_;
   ir::Routine* routine_ = nullptr;
   std::optional<frontends::StructureBuilder> structure_;
-  std::vector<std::string> labels_;  ///< of the routine so far, in text order, capitals
+  std::vector<std::string> labels_;                                ///< of the routine so far, in text order, capitals
   std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
   bool executable_seen_ = false;
-  std::string_view feature_;         ///< why the block in work could not be carried
+  std::string_view feature_;  ///< why the block in work could not be carried
 };
 
 }  // namespace cnctrans::sinumerik

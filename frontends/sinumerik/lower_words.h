@@ -1,5 +1,5 @@
-// Word blocks: addresses and G functions -> one ir::Block. The plain path (numbers only) is the hot path of the reader: no allocation a
-// block, one look-up a word.
+// Word blocks: addresses and G functions -> one ir::Block. The plain path (numbers only) is the hot path of the reader:
+// no allocation a block, one look-up a word.
 #pragma once
 
 #include <array>
@@ -22,11 +22,12 @@ class WordLowering {
   /// True when every word is one of the hot path's letters: no L, P, R, N, O (calls, counts, variables, labels).
   [[nodiscard]] static bool is_motion_block(const syntax::Block& block);
 
-  /// Lowers all words of `block` into `out` (cleared first). False: an error was reported, or the block does something that is not carried;
-  /// `feature` then names the missing feature and `out` must not be used.
+  /// Lowers all words of `block` into `out` (cleared first). False: an error was reported, or the block does something
+  /// that is not carried; `feature` then names the missing feature and `out` must not be used.
   bool lower(const syntax::Block& block, ir::Block& out);
   /// As above, with G functions programmed indirectly (`G[8]=2`).
-  bool lower(const syntax::Block& block, const std::vector<std::pair<const GFunction*, WordPos>>& indirect, ir::Block& out);
+  bool lower(const syntax::Block& block, const std::vector<std::pair<const GFunction*, WordPos>>& indirect,
+             ir::Block& out);
 
   [[nodiscard]] Tail tail() const { return tail_; }
   [[nodiscard]] WordPos tail_pos() const { return tail_pos_; }
@@ -36,7 +37,20 @@ class WordLowering {
   enum class Special : std::uint8_t { none, dwell, frame, pole, limit, approach };
   // Order in which actions are carried out, whatever their place in the block.
   enum class Rank : std::uint8_t {
-    setting, corner, feed, limit, speed, tool, change, offset, orient, before, with, dwell, after, stop
+    setting,
+    corner,
+    feed,
+    limit,
+    speed,
+    tool,
+    change,
+    offset,
+    orient,
+    before,
+    with,
+    dwell,
+    after,
+    stop
   };
 
   void begin(ir::Block& out);

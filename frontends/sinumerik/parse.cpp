@@ -87,17 +87,21 @@ class FirstError final : public antlr4::BaseErrorListener {
       case antlr4::Token::EOF:
       case SinumerikLexer::COMMENT:
         error_.length = 1;
-        error_.message = "the block ends here, but something is still missing (a value, an operand or a closing bracket)";
+        error_.message =
+            "the block ends here, but something is still missing (a value, an operand or a closing bracket)";
         return;
       case SinumerikLexer::OPEN_STRING: error_.message = "the text has no closing quotation mark"; return;
-      case SinumerikLexer::OTHER: error_.message = "the character " + quoted(text) + " has no meaning in a block"; return;
+      case SinumerikLexer::OTHER:
+        error_.message = "the character " + quoted(text) + " has no meaning in a block";
+        return;
       case SinumerikLexer::LPAREN:
       case SinumerikLexer::LBRACK:
         error_.message = quoted(text) + " can't open here; a value that is an expression needs `=` after its address";
         return;
       case SinumerikLexer::MINUS:
       case SinumerikLexer::PLUS:
-        error_.message = quoted(text) + " is not expected here; a value that is an expression needs `=` after its address";
+        error_.message =
+            quoted(text) + " is not expected here; a value that is an expression needs `=` after its address";
         return;
       default:
         error_.message = quoted(text) + " is not expected here";
@@ -223,13 +227,14 @@ struct BlockParser::State {
     for (const antlr4::Token* t : list) {
       if (t->getType() != SinumerikLexer::COMMENT) continue;
       const std::string_view text = token_text(*t, line);
-      out.comments.push_back(syntax::Comment{
-          text.substr(1), WordPos{static_cast<std::uint32_t>(t->getStartIndex()) + 1, static_cast<std::uint32_t>(text.size())}});
+      out.comments.push_back(syntax::Comment{text.substr(1), WordPos{static_cast<std::uint32_t>(t->getStartIndex()) + 1,
+                                                                     static_cast<std::uint32_t>(text.size())}});
     }
     std::size_t at = 0;
     const auto type = [&](std::size_t i) { return i < list.size() ? list[i]->getType() : antlr4::Token::EOF; };
     if (type(at) == SinumerikLexer::SLASH) at += type(at + 1) == SinumerikLexer::INTEGER ? 2 : 1;
-    if ((type(at) == SinumerikLexer::LETTER_N || type(at) == SinumerikLexer::COLON) && type(at + 1) == SinumerikLexer::INTEGER) {
+    if ((type(at) == SinumerikLexer::LETTER_N || type(at) == SinumerikLexer::COLON) &&
+        type(at + 1) == SinumerikLexer::INTEGER) {
       out.number = token_text(*list[at + 1], line);
       out.number_mark = type(at) == SinumerikLexer::COLON ? ':' : 'N';
       const auto first = static_cast<std::uint32_t>(list[at]->getStartIndex());
@@ -249,13 +254,15 @@ bool BlockParser::parse_block(std::string_view line, syntax::Block& out, ParseEr
   State& s = *state_;
   if (code_length(line) > max_block_bytes) {
     error.column = static_cast<std::uint32_t>(max_block_bytes) + 1;
-    error.message = "the block is longer than " + std::to_string(max_block_bytes) + " bytes; the control takes 512 characters";
+    error.message =
+        "the block is longer than " + std::to_string(max_block_bytes) + " bytes; the control takes 512 characters";
     return false;
   }
   s.load(line);
   if (s.tokens.size() > max_block_tokens) {
     error.column = static_cast<std::uint32_t>(s.tokens.get(max_block_tokens)->getStartIndex()) + 1;
-    error.message = "the block has more than " + std::to_string(max_block_tokens) + " parts; the control takes 512 characters";
+    error.message =
+        "the block has more than " + std::to_string(max_block_tokens) + " parts; the control takes 512 characters";
     s.salvage(out);
     return false;
   }

@@ -10,14 +10,16 @@
 
 namespace cnctrans::sinumerik {
 
-/// Why a block can't be read: 1-based column in bytes, length of the offending part (at least 1), and a text for people.
+/// Why a block can't be read: 1-based column in bytes, length of the offending part (at least 1), and a text for
+/// people.
 struct ParseError {
   std::uint32_t column = 1;
   std::uint32_t length = 1;
   std::string message;
 };
 
-/// Reads blocks by the ANTLR grammar. One object reads many lines; the lexer, the parser and their tables are reused. Not thread safe.
+/// Reads blocks by the ANTLR grammar. One object reads many lines; the lexer, the parser and their tables are reused.
+/// Not thread safe.
 class BlockParser {
  public:
   BlockParser();
@@ -25,8 +27,8 @@ class BlockParser {
   BlockParser(BlockParser&&) noexcept;
   BlockParser& operator=(BlockParser&&) noexcept;
 
-  /// Reads one line (without its line end). `out` is cleared first; its views point into `line`. False: `error` says why,
-  /// and `out` holds only what stands before the block (skip mark, number, comment) as far as it could be seen.
+  /// Reads one line (without its line end). `out` is cleared first; its views point into `line`. False: `error` says
+  /// why, and `out` holds only what stands before the block (skip mark, number, comment) as far as it could be seen.
   [[nodiscard]] bool parse_block(std::string_view line, syntax::Block& out, ParseError& error);
 
  private:

@@ -5,7 +5,8 @@
 
 namespace cnctrans::sinumerik {
 
-/// One letter and a number is a plain word. Names have two letters, `=` needs the grammar. Blanks are tolerated between address and value.
+/// One letter and a number is a plain word. Names have two letters, `=` needs the grammar. Blanks are tolerated between
+/// address and value.
 constexpr frontends::ScanTable make_scan_table() {
   frontends::ScanTable t;
   for (unsigned c = 'A'; c <= 'Z'; ++c) {

@@ -1,4 +1,5 @@
-// From the parse tree of one block to the syntax model. Internal: includes the generated parser, so only .cpp files here use it.
+// From the parse tree of one block to the syntax model. Internal: includes the generated parser, so only .cpp files
+// here use it.
 #pragma once
 
 #include <string_view>
@@ -11,7 +12,8 @@ namespace cnctrans::sinumerik {
 
 using Grammar = cnc_sinumerik::SinumerikParser;
 
-/// Fills `out` from `tree`. False when the tree means nothing (a list of values inside an expression ...): `error` says what.
+/// Fills `out` from `tree`. False when the tree means nothing (a list of values inside an expression ...): `error` says
+/// what.
 bool build_block(Grammar::BlockContext& tree, std::string_view line, syntax::Block& out, ParseError& error);
 
 /// Turns trees of expressions into syntax::Expr. Names are folded to capitals, texts keep their bytes.

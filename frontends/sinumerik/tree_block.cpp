@@ -193,7 +193,8 @@ void BlockBuilder::item(Grammar::ItemContext* tree) {
     name += e_.text(*t->INTEGER()->getSymbol());
     return call(t, std::move(name), t->arguments());
   }
-  if (auto* t = dynamic_cast<Grammar::IndexedValueContext*>(tree)) return assign(t, e_.indexed(t->indexed()), t->expr());
+  if (auto* t = dynamic_cast<Grammar::IndexedValueContext*>(tree))
+    return assign(t, e_.indexed(t->indexed()), t->expr());
   if (auto* t = dynamic_cast<Grammar::SystemValueContext*>(tree)) return assign(t, e_.system(t->SYSVAR()), t->expr());
   Word w;
   w.pos = e_.pos(tree);
@@ -255,7 +256,8 @@ bool BlockBuilder::flow(Grammar::ContentContext* tree) {
       Statement s = make(part, "IF");
       s.args.push_back(e_.condition(part->condition()));
       if (part->jump() != nullptr) s.children.push_back(jump(part->jump()));
-      if (part->jump() == nullptr && parts.size() > 1) e_.fail(part, "a second IF on a line needs a jump (GOTOF, GOTOB ...) before it");
+      if (part->jump() == nullptr && parts.size() > 1)
+        e_.fail(part, "a second IF on a line needs a jump (GOTOF, GOTOB ...) before it");
       out_.statements.push_back(std::move(s));
     }
     return true;

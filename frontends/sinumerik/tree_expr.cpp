@@ -37,7 +37,8 @@ bool plain_number(Grammar::ExprContext* tree, std::string_view line, PlainNumber
   const std::size_t first = sign != nullptr ? sign->getStartIndex() : digits.getStartIndex();
   out.text = line.substr(first, digits.getStopIndex() + 1 - first);
   if (out.text.find_first_of("Xx") != std::string_view::npos) return false;  // exponents stay expressions
-  const double v = number_value(line.substr(digits.getStartIndex(), digits.getStopIndex() + 1 - digits.getStartIndex()));
+  const double v =
+      number_value(line.substr(digits.getStartIndex(), digits.getStopIndex() + 1 - digits.getStartIndex()));
   out.value = sign != nullptr && sign->getType() == Grammar::MINUS ? -v : v;
   return true;
 }
@@ -47,7 +48,9 @@ WordPos ExprBuilder::pos(const antlr4::Token& first, const antlr4::Token& last) 
   const auto stop = static_cast<std::uint32_t>(last.getStopIndex()) + 1;
   return WordPos{start + 1, stop > start ? stop - start : 0};
 }
-WordPos ExprBuilder::pos(antlr4::ParserRuleContext* tree) const { return pos(*tree->getStart(), *tree->getStop()); }
+WordPos ExprBuilder::pos(antlr4::ParserRuleContext* tree) const {
+  return pos(*tree->getStart(), *tree->getStop());
+}
 
 std::string_view ExprBuilder::text(antlr4::ParserRuleContext* tree) const {
   const WordPos p = pos(tree);
@@ -97,8 +100,8 @@ Expr ExprBuilder::indexed(Grammar::IndexedContext* tree) {
   if (tree->SYSVAR() != nullptr) {
     out.text = to_upper_ascii(text(*tree->SYSVAR()->getSymbol()));
   } else {
-    out.text = to_upper_ascii(
-        tree->name() != nullptr ? text(tree->name()) : text(static_cast<antlr4::ParserRuleContext*>(tree->letter())));
+    out.text = to_upper_ascii(tree->name() != nullptr ? text(tree->name())
+                                                      : text(static_cast<antlr4::ParserRuleContext*>(tree->letter())));
   }
   arguments(tree->argumentList(), out.args);
   out.pos = pos(tree);
@@ -169,7 +172,8 @@ Expr ExprBuilder::parenthesised(Grammar::ParenthesisedContext* tree, bool list_a
   out.kind = ExprKind::call;
   out.pos = pos(tree);
   out.args.push_back(condition(tree->condition()));
-  for (auto* argument : tree->argument()) out.args.push_back(argument->expr() != nullptr ? expr(argument->expr()) : Expr{});
+  for (auto* argument : tree->argument())
+    out.args.push_back(argument->expr() != nullptr ? expr(argument->expr()) : Expr{});
   return out;
 }
 

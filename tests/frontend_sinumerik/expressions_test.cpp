@@ -23,7 +23,9 @@ TEST(SinumerikExpressions, ComparisonsAreRelative) {  // 4.3: reals are compared
 TEST(SinumerikExpressions, RealIntoIntRounds) {  // 4.4
   auto r = read("DEF INT I=2.5\nDEF BOOL B\nI=R1/2\nI=3\nB=R1\nI=7 DIV 2\n");
   EXPECT_EQ(r.errors(), "");
-  const auto value = [&](std::size_t i) { return std::get<ir::Assign>(r.program.routines[0].body[i].node).items[0].value; };
+  const auto value = [&](std::size_t i) {
+    return std::get<ir::Assign>(r.program.routines[0].body[i].node).items[0].value;
+  };
   const auto* rounded = std::get_if<ir::Call>(&value(2)->node);
   ASSERT_NE(rounded, nullptr);
   EXPECT_EQ(rounded->function, ir::Function::to_integer);
@@ -81,7 +83,8 @@ TEST(SinumerikExpressions, RParameters) {  // 3.2: R01 is R1, R[R2] is indirect,
 TEST(SinumerikExpressions, NamesMustBeDefined) {  // 1.8, 3.3
   EXPECT_EQ(read("_SAFE=5\n").errors(), "SIN-006");
   EXPECT_EQ(read("G0 Z=_SAFE\n").errors(), "SIN-006");
-  const auto global = read("_SAFE=5\nG0 Z=_SAFE\n", "sinumerik-mill", "T.MPF", {{"sinumerik.undefined_names", "global"}});
+  const auto global =
+      read("_SAFE=5\nG0 Z=_SAFE\n", "sinumerik-mill", "T.MPF", {{"sinumerik.undefined_names", "global"}});
   EXPECT_EQ(global.errors(), "");
   EXPECT_EQ(global.warnings(), "SIN-006 SIN-006");
   EXPECT_EQ(read("DEF INT A_B\nDEF REAL A_B\n").errors(), "SIN-022");

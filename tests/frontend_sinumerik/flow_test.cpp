@@ -45,7 +45,8 @@ TEST(SinumerikFlow, Case) {  // 6
 
 TEST(SinumerikFlow, StructuresNest) {  // 7
   auto r = read(
-      "WHILE R1<5\n IF R1==2\n  R2=1\n ELSE\n  R2=2\n ENDIF\nENDWHILE\nFOR R3=1 TO 4\nX1\nENDFOR\nREPEAT\nR1=R1-1\nUNTIL R1==0\n"
+      "WHILE R1<5\n IF R1==2\n  R2=1\n ELSE\n  R2=2\n ENDIF\nENDWHILE\nFOR R3=1 TO "
+      "4\nX1\nENDFOR\nREPEAT\nR1=R1-1\nUNTIL R1==0\n"
       "LOOP\nGOTOF OUT\nENDLOOP\nOUT: M30\n");
   EXPECT_EQ(r.errors(), "");
   const auto& inner = std::get<ir::If>(at<ir::While>(r.program, 0).body.at(0).node);
@@ -76,7 +77,9 @@ TEST(SinumerikFlow, RepeatedParts) {  // 7.3
 }
 
 TEST(SinumerikFlow, Calls) {  // 8.4
-  auto r = read("L0123 P2\nSUB(1,,R2)\nTOOL_X\nCALL \"/_N_WKS_DIR/_N_PART_SPF\"\nCALL \"L\"<<R10\nEXTCALL(\"OUTER.MPF\")\nMCALL SUB(5)\nMCALL\nR1=2 L5\n");
+  auto r = read(
+      "L0123 P2\nSUB(1,,R2)\nTOOL_X\nCALL \"/_N_WKS_DIR/_N_PART_SPF\"\nCALL \"L\"<<R10\nEXTCALL(\"OUTER.MPF\")\nMCALL "
+      "SUB(5)\nMCALL\nR1=2 L5\n");
   EXPECT_EQ(r.errors(), "");
   EXPECT_EQ(at<ir::CallRoutine>(r.program, 0).routine.text, "L0123");  // leading zeros make another program
   EXPECT_EQ(at<ir::CallRoutine>(r.program, 0).routine.number, 123);
@@ -94,7 +97,8 @@ TEST(SinumerikFlow, Calls) {  // 8.4
 }
 
 TEST(SinumerikFlow, Procedures) {  // 8.2
-  auto r = read("PROC SUB(INT N_R, VAR REAL RES, REAL K_F=1.5) SAVE DISPLOF\nRES=N_R*K_F\nM17\n", "sinumerik-mill", "SUB.SPF");
+  auto r = read("PROC SUB(INT N_R, VAR REAL RES, REAL K_F=1.5) SAVE DISPLOF\nRES=N_R*K_F\nM17\n", "sinumerik-mill",
+                "SUB.SPF");
   EXPECT_EQ(r.errors(), "");
   const auto& routine = r.program.routines.at(0);
   EXPECT_EQ(routine.kind, ir::RoutineKind::sub);
@@ -122,7 +126,9 @@ const ir::HoleCycle& hole(const ir::Program& p, std::size_t i) {
 }
 
 TEST(SinumerikCycles, Levels) {  // 18, 18.1
-  auto r = read("CYCLE81(50,0,2,-20)\nCYCLE82(50,5,2,,15,1.5)\nCYCLE81(-50,0,2,20)\nCYCLE82(50,0,2,-20,,-3)\nCYCLE81(50,0,2,-20,15)\n");
+  auto r = read(
+      "CYCLE81(50,0,2,-20)\nCYCLE82(50,5,2,,15,1.5)\nCYCLE81(-50,0,2,20)\nCYCLE82(50,0,2,-20,,-3)\nCYCLE81(50,0,2,-20,"
+      "15)\n");
   EXPECT_EQ(r.errors(), "");
   EXPECT_EQ(hole(r.program, 0).retract.value.number, 50);
   EXPECT_EQ(hole(r.program, 0).surface.value.number, 0);
@@ -135,12 +141,14 @@ TEST(SinumerikCycles, Levels) {  // 18, 18.1
   EXPECT_EQ(hole(r.program, 2).reference.value.number, -2);  // retract plane below: everything the other way round
   EXPECT_TRUE(hole(r.program, 3).dwell_in_revolutions);      // a negative dwell is revolutions
   EXPECT_EQ(hole(r.program, 3).dwell_bottom.number, 3);
-  EXPECT_EQ(hole(r.program, 4).bottom.value.number, -15);    // both given: DPR wins, with a warning
+  EXPECT_EQ(hole(r.program, 4).bottom.value.number, -15);  // both given: DPR wins, with a warning
   EXPECT_EQ(r.warnings(), "SIN-021");
 }
 
 TEST(SinumerikCycles, Pecks) {  // 18.1.1
-  auto r = read("CYCLE83(50,0,2,-30,,-10,,2,0.5,0.2,0.8,1)\nCYCLE83(50,0,2,-30,,,8,0,0,0,1,0,3,,0.5)\nCYCLE83(50,0,2,-30,,,8,-0.8,0,0,1,0)\n");
+  auto r = read(
+      "CYCLE83(50,0,2,-30,,-10,,2,0.5,0.2,0.8,1)\nCYCLE83(50,0,2,-30,,,8,0,0,0,1,0,3,,0.5)\nCYCLE83(50,0,2,-30,,,8,-0."
+      "8,0,0,1,0)\n");
   EXPECT_EQ(r.errors(), "");
   const auto& full = hole(r.program, 0);
   EXPECT_EQ(full.kind, ir::HoleKind::peck_full);

@@ -1,4 +1,5 @@
-// The grammar of one Sinumerik block: lexical traps, expression trees, statements. Sections are those of the language reference.
+// The grammar of one Sinumerik block: lexical traps, expression trees, statements. Sections are those of the language
+// reference.
 #include <gtest/gtest.h>
 
 #include "tests/frontend_sinumerik/show.h"
@@ -119,7 +120,8 @@ TEST(SinumerikGrammar, Definitions) {  // 3.3, 8.2
   EXPECT_EQ(parse("DEF REAL DEPTH=2.5, LIST[3,2]"), "DEF<REAL VAR<_, 2.5'DEPTH'> VAR<(3,2), _'LIST'>>");
   EXPECT_EQ(parse("DEF STRING [30] _A, _B"), "DEF<STRING[30] VAR<_, _'_A'> VAR<_, _'_B'>>");
   EXPECT_EQ(parse("DEF INT VAR1 VAR2"), "DEF<INT VAR<_, _'VAR1'> VAR<_, _'VAR2'>>");
-  EXPECT_EQ(parse("DEF NCK APWP 3 STRING[5] NAME=\"x\""), "DEF<STRING[5] ATTR<'NCK'> ATTR<3'APWP'> VAR<_, \"x\"'NAME'>>");
+  EXPECT_EQ(parse("DEF NCK APWP 3 STRING[5] NAME=\"x\""),
+            "DEF<STRING[5] ATTR<'NCK'> ATTR<3'APWP'> VAR<_, \"x\"'NAME'>>");
   EXPECT_EQ(parse("PROC SUB(INT I, VAR REAL V[ ,5], STRING[10] S=\"a\") SAVE DISPLOF"),
             "PROC<SAVE, DISPLOF'SUB' PARAM<INT, _, _, _'I'> PARAM<REAL, VAR, (_,5), _'V'> "
             "PARAM<STRING[10], _, _, \"a\"'S'>>");
@@ -144,7 +146,8 @@ TEST(SinumerikGrammar, Calls) {  // 8.4
 
 TEST(SinumerikGrammar, SynchronisedActionsAreOneText) {  // 12
   EXPECT_EQ(parse("LBL: WHEN ($A_IN[1]==1) DO DELDTG"), "LBL: SYNC<'WHEN ($A_IN[1]==1) DO DELDTG'>");
-  EXPECT_EQ(parse("IDS=59 EVERY $AC_TIMER[1]>2 DO M3 S100 R1=R1+1"), "SYNC<'IDS=59 EVERY $AC_TIMER[1]>2 DO M3 S100 R1=R1+1'>");
+  EXPECT_EQ(parse("IDS=59 EVERY $AC_TIMER[1]>2 DO M3 S100 R1=R1+1"),
+            "SYNC<'IDS=59 EVERY $AC_TIMER[1]>2 DO M3 S100 R1=R1+1'>");
   EXPECT_EQ(parse("ID=1 DO $AA_OVR[X]=0"), "SYNC<'ID=1 DO $AA_OVR[X]=0'>");
 }
 

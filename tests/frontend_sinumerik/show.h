@@ -96,7 +96,8 @@ inline Read read(std::string text, const std::string& machine = "sinumerik-mill"
   return out;
 }
 
-/// The body of the only routine as textual IR, one line a statement, without numbers, comments and the writing of words.
+/// The body of the only routine as textual IR, one line a statement, without numbers, comments and the writing of
+/// words.
 inline std::string body(std::string text, const std::string& machine = "sinumerik-mill") {
   const Read r = read(std::move(text), machine);
   std::string out;

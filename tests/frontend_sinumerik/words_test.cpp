@@ -125,7 +125,7 @@ TEST(SinumerikWords, ProgrammableFrames) {  // 14.5
   EXPECT_EQ(change(3)->rotation_axis, ir::axis::z);
   EXPECT_EQ(change(4)->kind, ir::FrameKind::scale);
   EXPECT_EQ(change(4)->words.at(0).scale, ir::WordScale::radius);  // a factor is never a diameter
-  EXPECT_EQ(change(5)->words.at(0).value.number, 1);  // the value of MIRROR does not count
+  EXPECT_EQ(change(5)->words.at(0).value.number, 1);               // the value of MIRROR does not count
   EXPECT_EQ(change(6)->combine, ir::FrameCombine::clear);
   EXPECT_FALSE(block_of(r.program, 0).has_motion);
   EXPECT_EQ(read("ROT X10 Y20\n").errors(), "SIN-008");  // RPY of several axes: not carried
@@ -152,7 +152,7 @@ TEST(SinumerikWords, CornersAndThreads) {  // 14.3, 14.4
   EXPECT_EQ(block_of(r.program, 3).motion.extra->lead.number, 1.5);
   EXPECT_EQ(block_of(r.program, 3).motion.extra->lead_axis, ir::axis::z);
   EXPECT_EQ(block_of(r.program, 3).motion.extra->start_angle.number, 90);
-  EXPECT_EQ(block_of(r.program, 4).motion.extra->lead.number, 2);  // G33 is modal
+  EXPECT_EQ(block_of(r.program, 4).motion.extra->lead.number, 2);            // G33 is modal
   EXPECT_EQ(block_of(r.program, 5).motion.extra->lead_change.number, -0.1);  // G35 decreases
 }
 
