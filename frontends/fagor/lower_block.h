@@ -81,6 +81,7 @@ class BlockLowerer {
   void technology();
   void machine_functions();
   void machine_function(const Word& w);
+  void after_motion_last();
   void repeat();
   void leftovers();
   ir::MotionExtra& extra();
@@ -109,7 +110,7 @@ class BlockLowerer {
   const Word* machine_coords_ = nullptr;
   const Word* home_ = nullptr;
   bool cycle_ = false;
-  bool stop_dwell_ = false;
+  bool has_after_ = false;  ///< an action after the motion was made
   bool has_extra_ = false;
   ir::MotionExtra extra_;
 };
@@ -119,6 +120,7 @@ ir::Action& BlockLowerer::act(Data data, const syntax::Word* word, ir::Order ord
   ir::Action& a = out_->actions.emplace_back();
   a.data = std::move(data);
   a.order = order;
+  has_after_ = has_after_ || order == ir::Order::after;
   if (word) {
     a.pos = word->pos;
     a.text = word_text(*word);

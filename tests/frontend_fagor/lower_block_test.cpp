@@ -139,6 +139,8 @@ TEST(FagorBlock, Refusals) {
   EXPECT_EQ(test::read("X100000").codes(), "FAG-013");
   EXPECT_EQ(test::read("G28 YA").codes(), "FAG-007");
   EXPECT_EQ(test::read("G36 X5").codes(), "FAG-014");
+  EXPECT_EQ(test::read("G6 G2 X5").codes(), "FAG-014");
+  EXPECT_EQ(test::read("G33 Z-5").codes(), "FAG-014");
   EXPECT_EQ(test::read("X1 #").codes(), "FAG-002");
   const auto r = test::read("X1 #");
   ASSERT_EQ(r.diagnostics.all().size(), 1U);
