@@ -224,5 +224,61 @@ TEST(FagorReaders, ScannerEqualsGrammarOnRandomLines) {
   EXPECT_GT(scanned, 3000);
 }
 
+/// Damaged programs: whatever the text, the reader comes back, and no block disappears.
+TEST(FagorReaders, DamagedFilesAreReportedNotDropped) {
+  const std::vector<std::string> good = {"%A,MX,",
+                                         "(LSUB 5)",
+                                         "(RET)",
+                                         "%MAIN",
+                                         "N10 G17 G90",
+                                         "G2 X1 Y2 I3 J4 K5",
+                                         "G81 G98 X1 Y2 Z3 I-4 K5",
+                                         "N20 XP100 YP(3)",
+                                         "(IF P1 EQ 2 GOTO N20 ELSE P3=4)",
+                                         "(RPT N10,N20) N3",
+                                         "(PCALL 7, A1, B=P2)",
+                                         "(MSG \"A?P1\")",
+                                         "M30",
+                                         "(SUB 7)",
+                                         "G93 I1 J2",
+                                         "G73 Q30",
+                                         "G36 R5 X1",
+                                         "G158 X1",
+                                         "G92 X1 S5",
+                                         "G180 A1 P2=3",
+                                         "/2 M19 S30",
+                                         "G41 N20 X1",
+                                         "T1 D2 M6",
+                                         "(WRITE G1 (A))",
+                                         "G8 X1 Y2",
+                                         "(A13.7)",
+                                         "(SK1=\"A\",SK2=\"B\")",
+                                         "G16 XY",
+                                         "G33 Z1 L2 Q3",
+                                         "G4",
+                                         "G159 N3",
+                                         ";c"};
+  std::mt19937 random(1055);
+  for (int file = 0; file < 150; ++file) {
+    std::string text;
+    std::size_t lines = 0;
+    for (; lines < 40; ++lines) {
+      std::string one = good[random() % good.size()];
+      for (std::size_t edits = random() % 3; edits > 0 && !one.empty(); --edits) {
+        const std::size_t at = random() % one.size();
+        if (random() % 2 == 0)
+          one.erase(at, 1 + random() % 3);
+        else
+          one.insert(at, 1, static_cast<char>(random() % 96 + 32));
+      }
+      text += one + "\n";
+    }
+    const auto r = read(text, file % 2 == 0 ? "fagor-mill" : "fagor-lathe");
+    EXPECT_EQ(r.stats.lines, lines);
+    EXPECT_TRUE(r.stats.blocks_read == r.stats.blocks || r.diagnostics.has_errors());
+    for (const auto& d : r.diagnostics.all()) EXPECT_NE(d.code, "CNC-READERS") << d.hint;
+  }
+}
+
 }  // namespace
 }  // namespace cnctrans::fagor
