@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include "tests/language/markdown.h"
 #include "translator/pipeline.h"
@@ -17,26 +18,23 @@ namespace fs = std::filesystem;
 const std::string root = CNCTRANS_SOURCE_DIR "/tests/pairs/";
 constexpr const char* mark = "PAIR STARTS HERE";
 
-/// The frame around a snippet: a header and a full safe start, so that nothing is inserted, and a mark.
+/// The frame around a snippet: a header and a full safe start, so that nothing is inserted, and a mark. Definitions of
+/// variables at the start of a snippet stand between the title and the safe start.
 struct Frame {
-  std::string extension, open, close;
+  std::string extension, title, open, close;
 };
 Frame frame(const std::string& dialect, bool lathe) {
   const std::string m = mark;
   if (dialect == "fagor") {
-    return {lathe ? "pit" : "pim",
-            "%PAIR ,MX,\n" + std::string(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97" : "G17 G40 G05 G71 G90 G94") +
-                "\n;" + m + "\n",
+    return {lathe ? "pit" : "pim", "%PAIR ,MX,\n",
+            std::string(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97" : "G17 G40 G05 G71 G90 G94") + "\n;" + m + "\n",
             "M30\n"};
   }
   if (dialect == "num")
-    return {"xpi",
-            "%100 (PAIR)\n" + std::string(lathe ? "G18 G40 G71 G90 G95 G97" : "G17 G40 G71 G80 G90 G94") + "\n(" + m +
-                ")\n",
-            "M02\n"};
-  return {"mpf",
-          "; PAIR\n" + std::string(lathe ? "G18 G40 G64 G710 G90 G95 DIAMON G97" : "G17 G40 G64 G710 G90 G94") +
-              "\n; " + m + "\n",
+    return {"xpi", "%100 (PAIR)\n",
+            std::string(lathe ? "G18 G40 G71 G90 G95 G97" : "G17 G40 G71 G80 G90 G94") + "\n(" + m + ")\n", "M02\n"};
+  return {"mpf", "; PAIR\n",
+          std::string(lathe ? "G18 G40 G64 G710 G90 G95 DIAMON" : "G17 G40 G64 G710 G90 G94") + "\n; " + m + "\n",
           "M30\n"};
 }
 
@@ -74,11 +72,32 @@ Pair read_pair(const std::string& path) {
   return pair;
 }
 
+bool is_definition(const std::string& line) {
+  return line.rfind("DEF ", 0) == 0;
+}
+
+/// The definitions among the lines of a text, each with its line end.
+std::string definitions(const std::string& text) {
+  std::istringstream lines(text);
+  std::string out;
+  for (std::string line; std::getline(lines, line);) {
+    if (is_definition(line)) out += line + "\n";
+  }
+  return out;
+}
+
 /// Text of a whole program: the part before `---`, the end word, the part after it.
 std::string program_text(const Form& form, const Frame& f) {
   const auto split = form.text.find("---\n");
-  if (split == std::string::npos) return f.open + form.text + f.close;
-  return f.open + form.text.substr(0, split) + f.close + form.text.substr(split + 4);
+  std::string main = form.text.substr(0, split);
+  std::string defined;
+  while (is_definition(main)) {
+    const auto end = main.find('\n') + 1;
+    defined += main.substr(0, end);
+    main.erase(0, end);
+  }
+  const std::string rest = split == std::string::npos ? std::string() : form.text.substr(split + 4);
+  return f.title + defined + f.open + main + f.close + rest;
 }
 
 /// What the translation says after the mark, in the notation of the snippets.
@@ -87,13 +106,14 @@ std::string snippet_of(const std::vector<translator::OutputText>& outputs, const
   for (const auto& o : outputs) text += o.bytes;
   const auto at = text.find(mark);
   if (at == std::string::npos) return "(no mark in the output)\n" + text;
+  const std::string defined = definitions(text.substr(0, at));
   text.erase(0, text.find('\n', at) + 1);
   const auto end = text.find(f.close);
   if (end != std::string::npos) {
     const bool more = end + f.close.size() < text.size();
     text.replace(end, f.close.size(), more ? "---\n" : "");
   }
-  return text;
+  return defined + text;
 }
 
 class Pairs : public ::testing::TestWithParam<std::string> {};
