@@ -68,17 +68,6 @@ void WordLowering::begin(ir::Block& out) {
   corner_ = -1;
 }
 
-template <class Data>
-void WordLowering::push(Data data, Rank rank, ir::Order order, WordPos pos, bool with_text) {
-  auto& a = out_->actions.emplace_back();
-  a.data = std::move(data);
-  a.order = order;
-  a.pos = pos;
-  if (with_text) a.text = c_.slice(pos);
-  sorted_ = sorted_ && (ranks_.empty() || ranks_.back() <= u(rank));
-  ranks_.push_back(u(rank));
-}
-
 void WordLowering::sort_actions() {
   if (sorted_) return;
   auto& actions = out_->actions;
@@ -411,90 +400,5 @@ void WordLowering::t_word(const syntax::Block& block, const Word& w) {
   }
   push(std::move(tool), Rank::tool, ir::Order::before, w.pos);
 }
-
-// --- M functions ------------------------------------------------------------------------------------------------
-
-void WordLowering::m_word(const syntax::Block& block, const Word& w) {
-  Attribute attribute = Attribute::none;
-  ir::Value value = exprs_.value(block, w, attribute);
-  if (!value.literal()) {
-    ir::MachineFunction m;
-    m.computed = true;
-    m.extension = w.extension;
-    m.value = std::move(value);
-    return push(std::move(m), Rank::before, ir::Order::before, w.pos);
-  }
-  if (value.number != std::floor(value.number) || value.number < 0 || value.number > 99999999) {
-    failed_ = true;
-    c_.error("SIN-017", w.pos, std::string(c_.slice(w.pos)) + " is no M function");
-    return;
-  }
-  m_code(static_cast<std::int32_t>(value.number), w);
-}
-
-void WordLowering::m_code(std::int32_t code, const Word& w) {
-  if (w.extension < 0 && (code == 2 || code == 30 || code == 17)) {
-    if (tail_ != Tail::none) {
-      failed_ = true;
-      c_.error("SIN-005", w.pos, "two M functions end the program in one block");
-    }
-    tail_ = code == 17 ? Tail::subprogram_end : Tail::program_end;
-    tail_pos_ = w.pos;
-    return;
-  }
-  const machine::MCode* m = code < MachineFacts::m_limit ? c_.machine.m_codes[static_cast<std::size_t>(code)] : nullptr;
-  const std::int32_t spindle = w.extension < 0 ? 1 : w.extension;
-  const bool spindle_code =
-      m != nullptr && (m->meaning == machine::MMeaning::spindle_cw || m->meaning == machine::MMeaning::spindle_ccw ||
-                       m->meaning == machine::MMeaning::spindle_stop ||
-                       m->meaning == machine::MMeaning::spindle_orient || m->meaning == machine::MMeaning::gear);
-  if (m != nullptr && spindle >= 1 && spindle <= 31 && (w.extension < 0 || spindle_code)) {
-    return machine_meaning(*m, static_cast<std::uint8_t>(spindle), w);
-  }
-  ir::MachineFunction f;
-  f.code = code;
-  f.extension = w.extension;
-  push(std::move(f), Rank::before, m != nullptr ? m->order : ir::Order::before, w.pos);
-}
-
-void WordLowering::machine_meaning(const machine::MCode& m, std::uint8_t spindle, const Word& w) {
-  using machine::MMeaning;
-  const Rank rank = m.order == ir::Order::after ? Rank::after : m.order == ir::Order::with ? Rank::with : Rank::before;
-  const auto coolant = [&](ir::CoolantState s) { push(ir::Coolant{s}, rank, m.order, w.pos); };
-  switch (m.meaning) {
-    case MMeaning::stop: return push(ir::Stop{false}, Rank::stop, ir::Order::after, w.pos);
-    case MMeaning::optional_stop: return push(ir::Stop{true}, Rank::stop, ir::Order::after, w.pos);
-    case MMeaning::spindle_cw: return push(ir::SpindleRun{spindle, ir::SpindleState::cw}, rank, m.order, w.pos);
-    case MMeaning::spindle_ccw: return push(ir::SpindleRun{spindle, ir::SpindleState::ccw}, rank, m.order, w.pos);
-    case MMeaning::spindle_stop: return push(ir::SpindleRun{spindle, ir::SpindleState::off}, rank, m.order, w.pos);
-    case MMeaning::spindle_orient:
-      return push(ir::SpindleOrient{spindle, ir::Value(static_cast<double>(m.argument))}, Rank::orient, m.order, w.pos);
-    case MMeaning::tool_change: return push(ir::ToolChange{}, Rank::change, ir::Order::before, w.pos);
-    case MMeaning::coolant_off: return coolant(ir::CoolantState::off);
-    case MMeaning::coolant_flood: return coolant(ir::CoolantState::flood);
-    case MMeaning::coolant_mist: return coolant(ir::CoolantState::mist);
-    case MMeaning::coolant_second: return coolant(ir::CoolantState::second);
-    case MMeaning::gear: return push(ir::SpindleGear{spindle, m.argument, m.argument == 0}, rank, m.order, w.pos);
-    case MMeaning::program_end:
-    case MMeaning::subprogram_end:
-      tail_ = m.meaning == MMeaning::program_end ? Tail::program_end : Tail::subprogram_end;
-      tail_pos_ = w.pos;
-      return;
-    case MMeaning::machine_function:
-    case MMeaning::none: break;
-  }
-  ir::MachineFunction f;
-  f.code = m.code;
-  push(std::move(f), rank, m.order, w.pos);
-}
-
-// Instances for lower_finish.cpp.
-template void WordLowering::push(ir::FrameOp, Rank, ir::Order, WordPos, bool);
-template void WordLowering::push(ir::PoleSet, Rank, ir::Order, WordPos, bool);
-template void WordLowering::push(ir::Dwell, Rank, ir::Order, WordPos, bool);
-template void WordLowering::push(ir::Corner, Rank, ir::Order, WordPos, bool);
-template void WordLowering::push(ir::SpindleLimit, Rank, ir::Order, WordPos, bool);
-template void WordLowering::push(ir::SpindleOrient, Rank, ir::Order, WordPos, bool);
-template void WordLowering::push(ir::OpaqueWord, Rank, ir::Order, WordPos, bool);
 
 }  // namespace cnctrans::sinumerik

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "dialects/sinumerik/g_functions.h"
 #include "frontends/common/syntax.h"
@@ -117,5 +119,16 @@ class WordLowering {
   bool has_corner_feed_ = false;
   ir::Value corner_feed_;
 };
+
+template <class Data>
+void WordLowering::push(Data data, Rank rank, ir::Order order, WordPos pos, bool with_text) {
+  auto& a = out_->actions.emplace_back();
+  a.data = std::move(data);
+  a.order = order;
+  a.pos = pos;
+  if (with_text) a.text = c_.slice(pos);
+  sorted_ = sorted_ && (ranks_.empty() || ranks_.back() <= static_cast<std::uint8_t>(rank));
+  ranks_.push_back(static_cast<std::uint8_t>(rank));
+}
 
 }  // namespace cnctrans::sinumerik
