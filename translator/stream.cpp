@@ -151,10 +151,33 @@ class StreamTranslation {
     program.routines.front().body = std::move(prefix_);
     ir::number_statements(program);
     const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, diagnostics_};
+    for (const auto& s : program.routines.front().body) {
+      if (const auto* b = std::get_if<ir::Block>(&s.node)) tracker_.follow(*b);
+    }
+    if (!run_local_passes(program, context)) return false;
     ir::run_pass("safe_start", program, context);
     writer_->begin(program, out_);
-    for (auto& s : program.routines.front().body) {
-      if (!put(s)) return false;
+    return write_pieces(program);
+  }
+
+  bool run_local_passes(ir::Program& program, const ir::LegaliseContext& context) {
+    for (const std::string_view pass : ir::block_local_passes()) {
+      if (!ir::run_pass(pass, program, context)) {
+        give_up();
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool write_pieces(const ir::Program& program) {
+    for (const auto& piece : program.routines.front().body) {
+      const auto* block = std::get_if<ir::Block>(&piece.node);
+      if (block == nullptr || diagnostics_.has_errors() || diagnostics_.warning_count() != 0 ||
+          !writer_->write(piece, out_, diagnostics_)) {
+        give_up();
+        return false;
+      }
     }
     return true;
   }
@@ -175,7 +198,7 @@ class StreamTranslation {
 
   bool put(const ir::Statement& s) {
     const auto* block = std::get_if<ir::Block>(&s.node);
-    if (block != nullptr && !ir::plain_legal(*block, legal_)) return put_legalised(s);
+    if (block != nullptr && !ir::plain_legal(*block, legal_, &target_)) return put_legalised(s);
     if (block != nullptr) tracker_.follow(*block);
     if (!writer_->write(s, out_, diagnostics_) || diagnostics_.has_errors()) {
       give_up();
@@ -192,20 +215,7 @@ class StreamTranslation {
     machine::Profile source = source_;
     source.power_on = tracker_.state();
     const ir::LegaliseContext context{legal_, source, target_, {options_.cycles}, diagnostics_};
-    for (const std::string_view pass : ir::block_local_passes()) {
-      if (!ir::run_pass(pass, program, context)) {
-        give_up();
-        return false;
-      }
-    }
-    for (const auto& piece : program.routines.front().body) {
-      const auto* block = std::get_if<ir::Block>(&piece.node);
-      if (block == nullptr || !ir::plain_legal(*block, legal_) || diagnostics_.has_errors() ||
-          diagnostics_.warning_count() != 0 || !writer_->write(piece, out_, diagnostics_)) {
-        give_up();
-        return false;
-      }
-    }
+    if (!run_local_passes(program, context) || !write_pieces(program)) return false;
     tracker_.follow(std::get<ir::Block>(s.node));
     return true;
   }
