@@ -243,6 +243,15 @@ const NamedWordRow* named_word(std::string_view name) {
   return nullptr;
 }
 
+bool is_timing_of_axis(std::string_view capitals) {
+  constexpr std::string_view names[] = {"ACC",     "ACCLIMA",  "OVRA",   "VELOLIM", "VELOLIMA",
+                                        "JERKLIM", "JERKLIMA", "SCPARA", "ATOL",    "FGREF"};
+  for (const auto& n : names) {
+    if (n == capitals) return true;
+  }
+  return false;
+}
+
 Attribute attribute(std::string_view name) {
   struct Row {
     std::string_view name;

@@ -36,6 +36,9 @@ std::span<const NamedWordRow> named_words();
 /// Any case; null when it is no address of the control.
 const NamedWordRow* named_word(std::string_view name);
 
+/// `ACC[X]=50`: a limit or tolerance of one axis that leaves the nominal path alone (capitals).
+bool is_timing_of_axis(std::string_view capitals);
+
 /// `X=AC(10)`: how a position is meant.
 enum class Attribute : std::uint8_t { none, ac, ic, dc, acp, acn, dac, dic, rac, ric, unsupported };
 /// Capitals; `none` when the function is no position attribute.

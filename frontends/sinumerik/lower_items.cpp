@@ -176,6 +176,15 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
     parts.actions.push_back(std::move(a));
     return true;
   }
+  if (is_timing_of_axis(target.text)) {
+    ir::Action a;
+    a.pos = s.pos;
+    a.text = c_.slice(s.pos);
+    a.data = ir::OpaqueWord{a.text};
+    parts.actions.push_back(std::move(a));
+    c_.note("SIN-009", s.pos, target.text + "[] is kept as text: it does not change the programmed path");
+    return true;
+  }
   if (is_reserved(target.text)) return refuse("block.word", s.pos, target.text + "[...]= is not carried yet");
   return assign(target, value, s.pos, parts);
 }

@@ -221,6 +221,8 @@ TEST(SinumerikWords, WordsWithoutEffectOnThePathAreNoted) {
   EXPECT_EQ(r.errors(), "");
   EXPECT_EQ(r.codes(Severity::note), "SIN-009 SIN-009 SIN-009 SIN-009");
   EXPECT_EQ(block_of(r.program).motion.coords.size(), 1U);
+  EXPECT_EQ(read("ACC[X]=50 OVRA[Y]=90\n").codes(Severity::note), "SIN-009 SIN-009");
+  EXPECT_EQ(read("POS[X]=50\n").errors(), "SIN-008");
 }
 
 }  // namespace
