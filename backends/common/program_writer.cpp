@@ -26,6 +26,23 @@ bool has_ids(const ir::Program& program) {
   return true;
 }
 
+const ir::Opaque* opaque_at(const ir::Statement* s, const Span& line) {
+  if (s == nullptr || !line.known() || s->line.span.line != line.line) return nullptr;
+  return std::get_if<ir::Opaque>(&s->node);
+}
+
+/// A reader that can't read the condition of a structure keeps its text beside it: as the first statement of the body,
+/// or behind the structure when the condition closes it.
+const ir::Opaque* unread_part(const ir::Statement& s, const ir::Statement* after) {
+  const ir::Body* body = nullptr;
+  if (const auto* i = std::get_if<ir::If>(&s.node)) body = &i->then_body;
+  if (const auto* w = std::get_if<ir::While>(&s.node)) body = &w->body;
+  if (const auto* f = std::get_if<ir::For>(&s.node)) body = &f->body;
+  if (body != nullptr) return body->empty() ? nullptr : opaque_at(&body->front(), s.line.span);
+  const auto* u = std::get_if<ir::Until>(&s.node);
+  return u != nullptr ? opaque_at(after, u->end_line.span) : nullptr;
+}
+
 }  // namespace
 
 ProgramWriter::ProgramWriter(const ir::Program& program, const WriteOptions& options, const Style& style,
@@ -225,10 +242,10 @@ void ProgramWriter::annotate() {
 // ---- bodies --------------------------------------------------------------------------------------------------------
 
 void ProgramWriter::body(const ir::Body& statements) {
-  const ir::Statement* before = nullptr;
-  for (const ir::Statement& s : statements) {
-    statement(s, before);
-    before = &s;
+  for (std::size_t i = 0; i < statements.size(); ++i) {
+    const ir::Statement* before = i == 0 ? nullptr : &statements[i - 1];
+    const ir::Statement* after = i + 1 == statements.size() ? nullptr : &statements[i + 1];
+    statement(statements[i], before, after);
   }
 }
 
@@ -244,13 +261,14 @@ void ProgramWriter::nested_body(const ir::Body& statements) {
   --depth_;
 }
 
-void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* before) {
+void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* before, const ir::Statement* after) {
   current_ = &s;
   if (s.line.joined && before != nullptr && line_open_ && !refused()) {
     if (!joins(*before, s)) next_line();
   } else if (!(s.line.joined && line_open_ && refused())) {
     begin_line(s.line);
   }
+  if (const ir::Opaque* text = unread_part(s, after)) return unread_structure(s, *text);
   dispatch(s);
 }
 

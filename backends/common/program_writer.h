@@ -57,6 +57,8 @@ class ProgramWriter {
   virtual void declare(const ir::Declare& d);
   virtual void label();                      ///< default: the line with its number or labels only
   virtual void opaque(const ir::Opaque& o);  ///< default: own text as it is, else the remark of a refusal
+  /// A structure whose condition or end could not be read; `text` is what stands there. Default: refused with its body.
+  virtual void unread_structure(const ir::Statement& s, const ir::Opaque& text);
 
   // ---- actions of a block: each adds pieces to line() -----------------------------------------------------------
   virtual void action(const ir::Action& a);  ///< default: source spelling when it is the target's own, else the hooks
@@ -151,6 +153,8 @@ class ProgramWriter {
   [[nodiscard]] bool refused() const { return !refusal_code_.empty(); }
   /// The statements of a refused structure: each line becomes a remark.
   void remark_body(const ir::Body& statements);
+  void remark_line(const ir::LineInfo& info);
+  void refuse_structure(std::string what);
   [[nodiscard]] Span span_of(WordPos pos) const;
   [[nodiscard]] std::string source_line(const Span& span) const;
   Diagnostics& diagnostics() { return diagnostics_; }
@@ -168,7 +172,7 @@ class ProgramWriter {
   virtual std::string label_text(const ir::LineInfo& info);
 
  private:
-  void statement(const ir::Statement& s, const ir::Statement* before);
+  void statement(const ir::Statement& s, const ir::Statement* before, const ir::Statement* after);
   void dispatch(const ir::Statement& s);
   void emit(std::string_view text, const Span& span);
   void emit_comments_before();

@@ -54,14 +54,42 @@ void ProgramWriter::emit_refusal() {
   }
 }
 
+void ProgramWriter::remark_line(const ir::LineInfo& info) {
+  if (info.joined || !info.span.known()) return;
+  CommentStyle remark = style_.comment;
+  remark.blank_after_open = false;
+  const std::string source(trim(source_line(info.span)));
+  raw_line(comment("!! " + source, remark, false, nullptr), info.span);
+}
+
 void ProgramWriter::remark_body(const ir::Body& statements) {
   for (const ir::Statement& s : statements) {
-    if (s.line.joined) continue;
-    const std::string source(trim(source_line(s.line.span)));
-    CommentStyle remark = style_.comment;
-    remark.blank_after_open = false;
-    raw_line(comment("!! " + source, remark, false, nullptr), s.line.span);
+    remark_line(s.line);
+    if (const auto* i = std::get_if<ir::If>(&s.node)) {
+      remark_body(i->then_body);
+      remark_line(i->else_line);
+      remark_body(i->else_body);
+      remark_line(i->end_line);
+    } else if (const auto* w = std::get_if<ir::While>(&s.node)) {
+      remark_body(w->body);
+      remark_line(w->end_line);
+    } else if (const auto* u = std::get_if<ir::Until>(&s.node)) {
+      remark_body(u->body);
+      remark_line(u->end_line);
+    } else if (const auto* f = std::get_if<ir::For>(&s.node)) {
+      remark_body(f->body);
+      remark_line(f->end_line);
+    } else if (const auto* l = std::get_if<ir::Loop>(&s.node)) {
+      remark_body(l->body);
+      remark_line(l->end_line);
+    }
   }
+}
+
+void ProgramWriter::unread_structure(const ir::Statement& s, const ir::Opaque& text) {
+  refuse("TRN-205", {}, "'" + text.text + "' is not translated, and nothing of what it encloses");
+  current_ = &s;
+  refuse_structure({});
 }
 
 void ProgramWriter::opaque(const ir::Opaque& o) {
@@ -79,6 +107,16 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
   refuse("TRN-205", {}, "'" + o.text + "' is not translated");
 }
 
+/// The structured statement being written, with all that it encloses. Without a text it is refused already.
+void ProgramWriter::refuse_structure(std::string what) {
+  const ir::Statement& whole = *current_;
+  if (!what.empty()) refuse("TRN-201", {}, std::move(what));
+  finish_line();
+  ir::Body remarks{whole};
+  remarks.front().line.joined = true;
+  remark_body(remarks);
+}
+
 void ProgramWriter::label() {}
 
 namespace {
@@ -88,31 +126,20 @@ constexpr std::string_view no_statement = "TRN-201";
 void ProgramWriter::assign(const ir::Assign& /*a*/) {
   refuse(no_statement, {}, "an assignment has no counterpart here");
 }
-void ProgramWriter::if_else(const ir::If& i) {
-  refuse(no_statement, {}, "IF has no counterpart here");
-  finish_line();
-  remark_body(i.then_body);
-  remark_body(i.else_body);
+void ProgramWriter::if_else(const ir::If& /*i*/) {
+  refuse_structure("IF has no counterpart here");
 }
-void ProgramWriter::while_loop(const ir::While& w) {
-  refuse(no_statement, {}, "a WHILE loop has no counterpart here");
-  finish_line();
-  remark_body(w.body);
+void ProgramWriter::while_loop(const ir::While& /*w*/) {
+  refuse_structure("a WHILE loop has no counterpart here");
 }
-void ProgramWriter::until_loop(const ir::Until& u) {
-  refuse(no_statement, {}, "an UNTIL loop has no counterpart here");
-  finish_line();
-  remark_body(u.body);
+void ProgramWriter::until_loop(const ir::Until& /*u*/) {
+  refuse_structure("an UNTIL loop has no counterpart here");
 }
-void ProgramWriter::for_loop(const ir::For& f) {
-  refuse(no_statement, {}, "a FOR loop has no counterpart here");
-  finish_line();
-  remark_body(f.body);
+void ProgramWriter::for_loop(const ir::For& /*f*/) {
+  refuse_structure("a FOR loop has no counterpart here");
 }
-void ProgramWriter::endless_loop(const ir::Loop& l) {
-  refuse(no_statement, {}, "an endless loop has no counterpart here");
-  finish_line();
-  remark_body(l.body);
+void ProgramWriter::endless_loop(const ir::Loop& /*l*/) {
+  refuse_structure("an endless loop has no counterpart here");
 }
 void ProgramWriter::exit_loop() {
   refuse(no_statement, {}, "leaving a loop has no counterpart here");

@@ -42,15 +42,15 @@ struct MotionCode {
 
 struct CommentStyle {
   std::string_view open = ";";
-  std::string_view close = {};         ///< empty: the comment runs to the end of the line
-  bool blank_after_open = false;  ///< texts of other languages get a blank after the mark when they have none
-  bool trim = false;              ///< texts of other languages lose blanks at both ends
-  bool ascii = false;             ///< letters are transliterated, other characters become '?'
-  bool upper = false;             ///< capitals only
-  std::string_view forbidden = {};     ///< characters that can't stand in a comment ...
-  std::string_view instead = {};       ///< ... and what is written for each of them
-  std::size_t gap = 1;            ///< blanks between the last word and the comment
-  bool line_before = false;       ///< a comment at the end of a block goes to a line of its own before it
+  std::string_view close = {};      ///< empty: the comment runs to the end of the line
+  bool blank_after_open = false;    ///< texts of other languages get a blank after the mark when they have none
+  bool trim = false;                ///< texts of other languages lose blanks at both ends
+  bool ascii = false;               ///< letters are transliterated, other characters become '?'
+  bool upper = false;               ///< capitals only
+  std::string_view forbidden = {};  ///< characters that can't stand in a comment ...
+  std::string_view instead = {};    ///< ... and what is written for each of them
+  std::size_t gap = 1;              ///< blanks between the last word and the comment
+  bool line_before = false;         ///< a comment at the end of a block goes to a line of its own before it
 };
 
 struct Style {
@@ -58,12 +58,12 @@ struct Style {
   CommentStyle comment = {};
   std::span<const ModalCode> modal_codes = {};
   std::span<const MotionCode> motion_codes = {};
-  int kept_decimals = 4;              ///< a number text of the source with more places is rounded
-  int made_decimals = 4;              ///< places of numbers that passes made
-  bool two_digit_m = false;           ///< M03
-  bool order_by_rank = false;         ///< words always in rank order, also when the source had another one
-  std::size_t indent = 0;             ///< blanks a nesting level of structured statements
-  bool blank_lines = true;            ///< blank lines of the source are kept
+  int kept_decimals = 4;                   ///< a number text of the source with more places is rounded
+  int made_decimals = 4;                   ///< places of numbers that passes made
+  bool two_digit_m = false;                ///< M03
+  bool order_by_rank = false;              ///< words always in rank order, also when the source had another one
+  std::size_t indent = 0;                  ///< blanks a nesting level of structured statements
+  bool blank_lines = true;                 ///< blank lines of the source are kept
   std::string_view blank_line = {};        ///< what stands in a blank line (";" where it can't be empty)
   std::string_view only_label = {};        ///< what must follow a block number that stands alone (";")
   std::string_view exact_stop_block = {};  ///< "G9"; empty: the target has none

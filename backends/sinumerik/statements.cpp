@@ -34,11 +34,7 @@ bool Writer::condition(const ir::ExprPtr& e, std::string& text) {
 
 void Writer::if_else(const ir::If& i) {
   std::string text;
-  if (!condition(i.condition, text)) {
-    finish_line();
-    remark_body(i.then_body);
-    return remark_body(i.else_body);
-  }
+  if (!condition(i.condition, text)) return refuse_structure({});
   next_line();
   add("IF " + text, Rank::head);
   nested_body(i.then_body);
@@ -51,10 +47,7 @@ void Writer::if_else(const ir::If& i) {
 
 void Writer::while_loop(const ir::While& w) {
   std::string text;
-  if (!condition(w.condition, text)) {
-    finish_line();
-    return remark_body(w.body);
-  }
+  if (!condition(w.condition, text)) return refuse_structure({});
   next_line();
   add("WHILE " + text, Rank::head);
   nested_body(w.body);
@@ -63,10 +56,7 @@ void Writer::while_loop(const ir::While& w) {
 
 void Writer::until_loop(const ir::Until& u) {
   std::string text;
-  if (!condition(u.condition, text)) {
-    finish_line();
-    return remark_body(u.body);
-  }
+  if (!condition(u.condition, text)) return refuse_structure({});
   next_line();
   add("REPEAT", Rank::head);
   nested_body(u.body);
@@ -81,10 +71,7 @@ void Writer::for_loop(const ir::For& f) {
   std::string text = "FOR " + expressions_.name(f.counter) + '=';
   text += expressions_.assigned(f.from, ir::Type::integer);
   text += " TO " + expressions_.assigned(f.to, ir::Type::integer);
-  if (refused_problem()) {
-    finish_line();
-    return remark_body(f.body);
-  }
+  if (refused_problem()) return refuse_structure({});
   next_line();
   add(std::move(text), Rank::head);
   nested_body(f.body);
@@ -96,6 +83,32 @@ void Writer::endless_loop(const ir::Loop& l) {
   add("LOOP", Rank::head);
   nested_body(l.body);
   keyword_line(l.end_line, "ENDLOOP");
+}
+
+/// In the control's own language the text is written where it stood.
+void Writer::unread_structure(const ir::Statement& s, const ir::Opaque& text) {
+  if (!same_dialect()) return ProgramWriter::unread_structure(s, text);
+  const auto rest = [](const ir::Body& body) { return ir::Body(body.begin() + 1, body.end()); };
+  next_line();
+  if (const auto* u = std::get_if<ir::Until>(&s.node)) {  // the text follows as a statement of its own
+    add("REPEAT", Rank::head);
+    return nested_body(u->body);
+  }
+  add(text.text, Rank::head);
+  if (const auto* i = std::get_if<ir::If>(&s.node)) {
+    nested_body(rest(i->then_body));
+    if (i->has_else || !i->else_body.empty()) {
+      keyword_line(i->else_line, "ELSE");
+      nested_body(i->else_body);
+    }
+    keyword_line(i->end_line, "ENDIF");
+  } else if (const auto* w = std::get_if<ir::While>(&s.node)) {
+    nested_body(rest(w->body));
+    keyword_line(w->end_line, "ENDWHILE");
+  } else if (const auto* f = std::get_if<ir::For>(&s.node)) {
+    nested_body(rest(f->body));
+    keyword_line(f->end_line, "ENDFOR");
+  }
 }
 
 // ---- jumps ---------------------------------------------------------------------------------------------------------

@@ -34,6 +34,7 @@ class Writer final : public ProgramWriter {
   void until_loop(const ir::Until& u) override;
   void for_loop(const ir::For& f) override;
   void endless_loop(const ir::Loop& l) override;
+  void unread_structure(const ir::Statement& s, const ir::Opaque& text) override;
   void jump(const ir::Jump& j) override;
   void switch_jump(const ir::Switch& s) override;
   void repeat(const ir::Repeat& r) override;

@@ -87,6 +87,8 @@ std::vector<Span> StructureBuilder::finish() {
   while (!open_.empty()) {
     ir::Statement done = std::move(open_.back().statement);
     open_.pop_back();
+    auto* until = std::get_if<ir::Until>(&done.node);
+    if (until != nullptr && !until->condition) until->condition = ir::number(0);  // its end was never read
     add(std::move(done));
   }
   return places;

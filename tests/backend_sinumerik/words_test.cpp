@@ -43,12 +43,18 @@ TEST(SinumerikWords, WordsKeepTheOrderOfTheirColumns) {
   EXPECT_EQ(line_of(b), "Z5 X1 G1\n");
 }
 
+// A word says absolute or incremental only where the mode in force does not say it already.
 TEST(SinumerikWords, AbsoluteAndIncrementalPerWord) {
+  Build b;
   auto x = coord(axis::x, Value(10));
   x.mode = ir::WordMode::absolute;
   auto y = coord(axis::y, Value(R(3)));
   y.mode = ir::WordMode::incremental;
-  EXPECT_EQ(line_of(move(MotionKind::linear, {x, y})), "G1 X=AC(10) Y=IC(R3)\n");
+  b.add(actions({set(ir::Setting::distance, ir::Distance::absolute)}));
+  b.add(move(MotionKind::linear, {x, y}));
+  b.add(actions({set(ir::Setting::distance, ir::Distance::incremental)}));
+  b.add(move(MotionKind::linear, {x, y}));
+  EXPECT_EQ(b.text(), "G90\nG1 X10 Y=IC(R3)\nG91\nG1 X=AC(10) Y=R3\n");
 }
 
 TEST(SinumerikWords, DiameterPerWordOnALathe) {
