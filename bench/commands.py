@@ -27,19 +27,22 @@ def generate(path: pathlib.Path, size: int) -> int:
         written = out.write("%CAM PART ,MX,\nN5 G17 G40 G71 G90 G94\nN10 G54\nN15 T3 D3\nN20 M6\nN25 S5000 M3\nN30 G43 G0 X0 Y0 Z15\n")
         lines = 7
         number = 35
+        px, py = 0.0, 0.0
         while written < size:
             chunk = []
             for i in range(20000):
                 a = 0.013 * (lines + i)
                 x, y, z = 80 * math.cos(a), 60 * math.sin(0.7 * a), -5 * abs(math.sin(0.01 * a))
                 if i % 40 == 39:
-                    chunk.append(f"N{number} G03 X{x:.3f} Y{y + 10:.3f} I0 J5\n")
+                    x, y = px, py + 10  # half a circle over the last point
+                    chunk.append(f"N{number} G03 X{x:.3f} Y{y:.3f} I0 J5\n")
                 elif i % 40 == 0:
                     chunk.append(f"N{number} G1 X{x:.3f} Y{y:.3f} Z{z:.3f} F{1000 + i % 7 * 50}\n")
                 elif i % 3 == 0:
                     chunk.append(f"N{number} X{x:.3f} Y{y:.3f}\n")
                 else:
                     chunk.append(f"N{number} X{x:.3f} Y{y:.3f} Z{z:.3f}\n")
+                px, py = round(x, 3), round(y, 3)
                 number = number + 5 if number < 99999990 else 5
             text = "".join(chunk)
             written += out.write(text)
@@ -53,7 +56,7 @@ def timed(command, output):
     """Wall seconds, peak resident memory in MB, exit status of one process."""
     with open(output, "wb") as out:
         start = time.monotonic()
-        process = subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE)
+        process = subprocess.Popen(["timeout", "120", *command], stdout=out, stderr=subprocess.PIPE)
         err = process.stderr.read()
         _, status, usage = os.wait4(process.pid, 0)
         seconds = time.monotonic() - start

@@ -188,9 +188,14 @@ bool Runner::bind_one(const ir::Argument& a, std::size_t position, Flow& callee,
     out.position = out.number;
   }
   out.given = true;
-  if (a.by_reference && out.parameter != nullptr && out.parameter->by_reference && out.space == nullptr) {
-    out.by_reference = true;
-    return evaluator_.place(a.reference, flow_->names, out.reference, true);
+  if (out.parameter != nullptr && out.parameter->by_reference && out.space == nullptr) {
+    // The caller may not know the signature (another file): a plain variable is handed over as such.
+    const auto* variable = a.value ? std::get_if<ir::VarRef>(&a.value->node) : nullptr;
+    if (a.by_reference) variable = &a.reference;
+    if (variable != nullptr) {
+      out.by_reference = true;
+      return evaluator_.place(*variable, flow_->names, out.reference, true);
+    }
   }
   if (a.value) {
     const auto id = evaluator_.id_of(a.value);

@@ -51,9 +51,17 @@ double Evaluator::number(ExprId id) {
     case Kind::system: {
       std::array<double, 8> args{};
       const std::size_t count = std::min<std::size_t>(n.b, args.size());
-      for (std::size_t i = 0; i < count; ++i) args[i] = number(children_[n.a + i]);
-      double value = 0;
       const auto& ref = *static_cast<const ir::SystemRef*>(n.what);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto child = children_[n.a + i];
+        if (nodes_[child].is_text) {
+          failure_.fail(code::no_datum,
+                        "the value of " + ref.text + "[" + text(child) + "] is known to the machine only");
+          return 0;
+        }
+        args[i] = number(child);
+      }
+      double value = 0;
       if (!failure_.set) system_->read(ref, std::span<const double>(args.data(), count), value);
       return value;
     }

@@ -127,10 +127,11 @@ class StreamTranslation {
     }
     if (kind == frontends::StreamLine::no_statement) return true;
     if (!prefix_done_) return take_prefix(kind);
-    if (!put(statement_)) return false;
-    if (kind != frontends::StreamLine::program_end) return true;
+    if (kind != frontends::StreamLine::program_end) return put(statement_);
     ended_ = true;
-    return put_end(true);
+    const auto* block = std::get_if<ir::Block>(&statement_.node);
+    const bool alone = block != nullptr && block->empty();
+    return (alone || put(statement_)) && put_end(!alone);
   }
 
   /// Until the first motion the statements are kept, so that the safe start can be put where it belongs.
@@ -190,8 +191,12 @@ class StreamTranslation {
 
   bool put_end(bool joined) {
     ir::Statement end;
-    end.line.joined = joined;
-    end.line.span = statement_.line.span;
+    if (joined || !ended_) {
+      end.line.joined = joined;
+      end.line.span = statement_.line.span;
+    } else {
+      end.line = statement_.line;  // the end word stands alone in its line
+    }
     end.node = ir::End{};
     return put(end);
   }

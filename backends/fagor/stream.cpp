@@ -61,6 +61,10 @@ class Stream : public StreamWriter {
     writer_->begin(frame, out);
   }
   bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) override {
+    if (is_empty_line(statement)) {
+      out += ";\n";
+      return true;
+    }
     return writer_ != nullptr && writer_->write(statement, out, diagnostics);
   }
   void end(std::string& out) override {

@@ -232,6 +232,7 @@ std::string Writer::range_text(const ir::Repeat& r) {
   if (!r.first.is_number || !r.last.is_number) text_problem("the ends of a repeated range must be block numbers here");
   std::string text = "RPT ";
   if (r.has_program) {
+    if (!same_dialect()) text_problem("repeating blocks of another program has no counterpart here");
     if (r.program.number < 0) text_problem("the program of the repeated range has no number");
     text += 'N' + r.first.text + ",N" + r.last.text + ",P" + std::to_string(r.program.number);
   } else {

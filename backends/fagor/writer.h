@@ -18,6 +18,9 @@ std::string file_name(const ir::Program& program, const WriteOptions& options, b
 /// `%TITLE ,MX,`; empty when a program of this language has no header.
 std::string header_line(const ir::Program& program, const WriteOptions& options);
 
+/// An empty line of the source. The control takes no empty block: a remark without text stands for it.
+bool is_empty_line(const ir::Statement& s);
+
 class Writer : public ProgramWriter {
  public:
   Writer(const ir::Program& program, const WriteOptions& options, const Style& style, Diagnostics& diagnostics);

@@ -48,9 +48,16 @@ std::string Writer::word(std::string_view address, const ir::Value& value, WordP
   return text + parameter;
 }
 
+bool is_empty_line(const ir::Statement& s) {
+  const auto* b = std::get_if<ir::Block>(&s.node);
+  return b != nullptr && b->empty() && s.line.span.known() && !s.line.joined && s.line.comments.empty() &&
+         s.line.number.empty() && s.line.labels.empty() && s.line.skip_mask == 0;
+}
+
 // ---- decisions -----------------------------------------------------------------------------------------------------
 
 void Writer::block(const ir::Block& b) {
+  if (is_empty_line(current())) return add(std::string(style().blank_line), Rank::head);
   offset_before_ = after_offset_;
   if (!b.empty()) after_offset_ = false;
   if (b.repeat_given == 0) {

@@ -9,8 +9,8 @@ struct Point {
   double u = 0, v = 0;
 };
 
-/// Centre of the arc of radius |r| from `from` to `to`; r < 0: the arc over 180 degrees. nullopt: the points are too far
-/// apart, or the same.
+/// Centre of the arc of radius |r| from `from` to `to`; r < 0: the arc over 180 degrees. nullopt: the points are too
+/// far apart, or the same.
 std::optional<Point> center_by_radius(Point from, Point to, double r, bool ccw);
 /// Angle swept from `from` to `to` about `center` in the arc's direction: (0, 360]; same points: 360.
 double swept(Point from, Point to, Point center, bool ccw);

@@ -51,8 +51,10 @@ const CallSite* CallGraph::recursion() const {
     marks[r] = Mark::open;
     for (const auto& s : sites_) {
       if (s.caller != r || !s.callee || found != nullptr) continue;
-      if (marks[*s.callee] == Mark::open) found = &s;
-      else if (marks[*s.callee] == Mark::fresh) visit(*s.callee);
+      if (marks[*s.callee] == Mark::open)
+        found = &s;
+      else if (marks[*s.callee] == Mark::fresh)
+        visit(*s.callee);
     }
     marks[r] = Mark::done;
   };

@@ -22,63 +22,64 @@ enum class ConditionForm : std::uint8_t {
   single_relation  ///< operand relation expression, one relation, no AND/OR
 };
 enum class ArgumentForm : std::uint8_t {
-  none,        ///< no arguments: variables are shared
-  letters,     ///< A..Z set local parameters
-  positional   ///< formal parameters in order
+  none,       ///< no arguments: variables are shared
+  letters,    ///< A..Z set local parameters
+  positional  ///< formal parameters in order
 };
 enum class OutputForm : std::uint8_t {
-  one_file_with_subs,      ///< subprograms follow the main program in its file
-  one_file_per_program,    ///< each subprogram is a file
-  programs_in_one_file     ///< whole programs one after the other in a file
+  one_file_with_subs,    ///< subprograms follow the main program in its file
+  one_file_per_program,  ///< each subprogram is a file
+  programs_in_one_file   ///< whole programs one after the other in a file
 };
 
 /// A pool of numbers of a target variable space that a pass may hand out.
 struct VariablePool {
-  std::string prefix;       ///< space prefix
+  std::string prefix;  ///< space prefix
   std::int64_t lo = 0, hi = 0;
   Scope scope = Scope::global;
-  bool temporaries = false; ///< preferred for temporaries
+  bool temporaries = false;  ///< preferred for temporaries
 };
 
 struct Capabilities {
   std::string dialect;
 
   // statements
-  bool structured_if = false;      ///< IF ... ELSE ... ENDIF
-  bool one_line_if_action = false; ///< IF c assignment [ELSE assignment]
+  bool structured_if = false;       ///< IF ... ELSE ... ENDIF
+  bool one_line_if_action = false;  ///< IF c assignment [ELSE assignment]
   bool while_loop = false, until_loop = false, for_loop = false, endless_loop = false;
-  bool for_step = false;           ///< a FOR with a step other than 1
-  bool switch_jump = false;        ///< Switch node
-  bool computed_jump = false;      ///< label number from an expression
-  bool repeat_range = false;       ///< Repeat in place
+  bool for_step = false;       ///< a FOR with a step other than 1
+  bool switch_jump = false;    ///< Switch node
+  bool computed_jump = false;  ///< label number from an expression
+  bool repeat_range = false;   ///< Repeat in place
   bool repeat_other_program = false;
-  bool repeat_count_expression = false;  ///< else a number or a variable
+  bool repeat_count_expression = false;   ///< else a number or a variable
   bool repeat_needs_identifiers = false;  ///< the labels of a Repeat must be identifiers
   std::int64_t repeat_max = 9999;         ///< largest count of a Repeat or a call
-  bool block_repeat = false;       ///< Block::repeat
+  bool block_repeat = false;              ///< Block::repeat
   bool modal_call = false;
-  bool modal_call_here = false;    ///< a modal call also runs where it stands
-  bool modal_cycle_by_call = false;  ///< a modal cycle is written as a modal call (definition does not run by itself)
-  bool declares_variables = false; ///< Declare, named variables
+  bool modal_call_here = false;        ///< a modal call also runs where it stands
+  bool modal_cycle_by_call = false;    ///< a modal cycle is written as a modal call (definition does not run by itself)
+  bool declares_variables = false;     ///< Declare, named variables
   bool assignment_joins_words = true;  ///< an assignment may share a line with words
   bool several_assignments = true;
   bool statement_joins_words = false;  ///< a jump, call or end may share a line with words
   ConditionForm conditions = ConditionForm::expression;
-  std::set<Search> searches;       ///< how jumps may search
+  std::set<Search> searches;  ///< how jumps may search
   bool identifier_labels = false;
   bool number_labels = true;
   std::int64_t label_max = 99999999;
-  std::string label_prefix = "LAB";      ///< identifier labels that a pass makes: LAB1, LAB20
+  std::string label_prefix = "LAB";  ///< identifier labels that a pass makes: LAB1, LAB20
   bool duplicate_labels = false;
 
   // expressions
   ExpressionForm expressions = ExpressionForm::full;
-  bool word_expression = false;      ///< X=R1*2
-  bool word_variable = true;         ///< XP100, X L1
-  bool word_variable_sign = true;    ///< X-P100
-  bool word_indirect = false;        ///< a variable with a computed index in a word or an expression
-  bool word_indirect_value = true;    ///< with word_indirect: as the value of a word too (X=R[R1]), not only in expressions
-  bool relation_as_value = false;    ///< stores 1/0
+  bool word_expression = false;    ///< X=R1*2
+  bool word_variable = true;       ///< XP100, X L1
+  bool word_variable_sign = true;  ///< X-P100
+  bool word_indirect = false;      ///< a variable with a computed index in a word or an expression
+  bool word_indirect_value =
+      true;  ///< with word_indirect: as the value of a word too (X=R[R1]), not only in expressions
+  bool relation_as_value = false;  ///< stores 1/0
   std::set<UnaryOp> unary;
   std::set<BinaryOp> binary;
   std::set<Function> functions;
@@ -87,22 +88,22 @@ struct Capabilities {
   double constant_max = 1e300;          ///< largest constant inside an expression
   bool condition_right_chain = false;   ///< single_relation: the right side may be a chain, else a number or variable
   std::function<bool(const SystemRef&)> system_data;  ///< machine data that the backend can name; empty: none
-  std::int32_t word_decimals = 4;       ///< places of a metric length word
+  std::int32_t word_decimals = 4;                     ///< places of a metric length word
   std::int32_t word_decimals_inch = 5;
 
   // calls
   ArgumentForm arguments = ArgumentForm::none;
-  bool local_levels = false;         ///< CallLevel::new_level exists
-  bool shared_level_calls = true;    ///< CallLevel::shared exists (callee sees the caller's locals)
+  bool local_levels = false;       ///< CallLevel::new_level exists
+  bool shared_level_calls = true;  ///< CallLevel::shared exists (callee sees the caller's locals)
   bool call_count = true;
-  bool call_range = false;           ///< CallRoutine::has_range
+  bool call_range = false;  ///< CallRoutine::has_range
   bool computed_call = false;
   bool named_routines = false;
   bool early_return = false;
   bool end_in_sub_ends_all = true;
   std::int64_t routine_number_min = 1, routine_number_max = 9999;
   OutputForm output = OutputForm::one_file_per_program;
-  std::vector<VariableSpace> spaces; ///< the target's spaces, in the order its Program::spaces shall have
+  std::vector<VariableSpace> spaces;  ///< the target's spaces, in the order its Program::spaces shall have
   std::vector<VariablePool> pools;
 
   // words
@@ -114,9 +115,9 @@ struct Capabilities {
   std::set<FrameUse> frame_uses = {FrameUse::normal};
   std::set<CornerKind> corners;
   bool polar = false, line_angle = false;
-  bool distance_per_word = false;    ///< X=IC(..)
+  bool distance_per_word = false;      ///< X=IC(..)
   bool distance_inside_block = false;  ///< G90/G91 act from their place in the block on
-  std::set<CenterMode> centers;      ///< arc centre forms
+  std::set<CenterMode> centers;        ///< arc centre forms
   bool radius_minor = true, radius_major = true;
   bool arc_through_point = false, arc_tangent = false;
   bool arc_angle = false;
@@ -124,32 +125,32 @@ struct Capabilities {
   bool full_circle_needs_end = false;  ///< both end coordinates must be written
   /// What a centre word of each form means on a diameter axis; modal: as the end point. Not named: radius.
   std::map<CenterMode, WordScale> center_scales;
-  bool diameter_switch = true;       ///< Setting::diameter can be written
+  bool diameter_switch = true;  ///< Setting::diameter can be written
   bool diameter_absolute_only = false;
   DiameterMode fixed_diameter = DiameterMode::radius;  ///< lathe mode of a control without a switch
   bool exact_stop_modal = true, exact_stop_block = false;
-  double dwell_unit = 1;             ///< seconds of one unit of the dwell word
+  double dwell_unit = 1;  ///< seconds of one unit of the dwell word
   double dwell_min = 0, dwell_max = 99999;
   bool dwell_revolutions = false;
   bool inverse_time = true;
-  bool length_comp_switch = false;   ///< Setting::length_comp can be written
+  bool length_comp_switch = false;  ///< Setting::length_comp can be written
   bool frame_rotation = true;
   /// Programmable frame: which slot takes which operations. Empty slot: the target has none.
   std::map<FrameSlot, std::set<FrameCombine>> frames;
   std::int32_t work_offset_rows = 99;  ///< settable offsets that a program can select
   bool work_offset_off = true;
-  bool units_with_feed = true;         ///< a unit switch that holds for F as well
-  bool units_geometry_only = false;    ///< a unit switch that leaves F alone
-  bool retract_plane_switch = false;   ///< Setting::retract_plane can be written
+  bool units_with_feed = true;        ///< a unit switch that holds for F as well
+  bool units_geometry_only = false;   ///< a unit switch that leaves F alone
+  bool retract_plane_switch = false;  ///< Setting::retract_plane can be written
   bool feed_point_switch = false, feed_override_switch = false;
-  bool gear_needed = false;            ///< a gear range must be programmed (profile option "default_gear")
+  bool gear_needed = false;  ///< a gear range must be programmed (profile option "default_gear")
   FeedMemory feed_memory = FeedMemory::shared;
-  bool frame_chain = false;          ///< FrameSlot::chain (else shift/rotation/scale/mirror slots)
+  bool frame_chain = false;  ///< FrameSlot::chain (else shift/rotation/scale/mirror slots)
   bool spindle_limit = true;
   std::int32_t skip_levels = 1;
-  bool skip_several = false;         ///< several levels on one block
+  bool skip_several = false;  ///< several levels on one block
   bool skip_on_structures = true;
-  bool message_values = false;       ///< values inside messages
+  bool message_values = false;  ///< values inside messages
   std::size_t message_length = 200;
   std::size_t block_length = 512;
   /// A cycle the backend writes natively with exactly the moves of its expansion. Default: none.

@@ -69,7 +69,8 @@ bool IntegerVariables::whole(const ExprPtr& e) const {
   if (const auto* n = as_number(e)) return std::nearbyint(n->value) == n->value;
   if (const auto* v = as_variable(e)) {
     const std::string k = key(*v);
-    return assigned_.count(k) != 0 && not_whole_.count(k) == 0 && not_whole_.count(std::to_string(v->space) + ":?") == 0;
+    return assigned_.count(k) != 0 && not_whole_.count(k) == 0 &&
+           not_whole_.count(std::to_string(v->space) + ":?") == 0;
   }
   if (const auto* u = std::get_if<Unary>(&e->node)) return whole(u->operand);
   if (const auto* b = std::get_if<Binary>(&e->node)) {
@@ -116,7 +117,8 @@ ExprPtr ExpressionLowering::condition(const ExprPtr& e) {
     }
     if (!is_condition(e) && e->type != Type::boolean) return binary(BinaryOp::ne, node(e), number(0));
     if (const auto* u = std::get_if<Unary>(&e->node); u != nullptr && u->op == UnaryOp::logical_not) {
-      return editor_.target().unary.count(u->op) != 0 ? unary(u->op, condition(u->operand)) : condition(negated_condition(u->operand));
+      return editor_.target().unary.count(u->op) != 0 ? unary(u->op, condition(u->operand))
+                                                      : condition(negated_condition(u->operand));
     }
     return node(e);
   }
@@ -124,6 +126,7 @@ ExprPtr ExpressionLowering::condition(const ExprPtr& e) {
 }
 
 void ExpressionLowering::jump_if(const ExprPtr& e, const LabelRef& target) {
+  if (!e) return;
   bool always = false;
   if (is_truth_literal(e, always)) {
     if (always) pre.push_back(make_jump(like_, target));
@@ -193,8 +196,8 @@ class ConditionPass {
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       tolerance(s);
       auto* j = std::get_if<Jump>(&s.node);
-      if (j == nullptr || !j->condition || context_.target.conditions == ConditionForm::expression || j->target.computed ||
-          s.line.skip_mask != 0) {
+      if (j == nullptr || !j->condition || context_.target.conditions == ConditionForm::expression ||
+          j->target.computed || s.line.skip_mask != 0) {
         out.push_back(std::move(s));
         return;
       }
@@ -241,9 +244,11 @@ class ConditionPass {
         warn(s);
         const ExprPtr difference = binary(BinaryOp::subtract, b->left, b->right);
         if (context_.target.functions.count(Function::abs) != 0) {
-          return binary(b->op == BinaryOp::eq ? BinaryOp::le : BinaryOp::gt, call(Function::abs, {difference}), number(band));
+          return binary(b->op == BinaryOp::eq ? BinaryOp::le : BinaryOp::gt, call(Function::abs, {difference}),
+                        number(band));
         }
-        const ExprPtr above = binary(BinaryOp::le, difference, number(band)), below = binary(BinaryOp::ge, difference, number(-band));
+        const ExprPtr above = binary(BinaryOp::le, difference, number(band)),
+                      below = binary(BinaryOp::ge, difference, number(-band));
         const ExprPtr inside = binary(BinaryOp::logical_and, above, below);
         return b->op == BinaryOp::eq ? inside : negated_condition(inside);
       });
@@ -251,10 +256,11 @@ class ConditionPass {
     visit_statement(s, visit);
   }
   void warn(const Statement& s) {
-    context_.diagnostics.warning("TRN-115", s.line.span,
-                                 "the source takes values that differ by less than 1e-12 of their size for equal, the target "
-                                 "compares exactly: written as a difference of at most 0.000001",
-                                 "count with whole numbers where you can");
+    context_.diagnostics.warning(
+        "TRN-115", s.line.span,
+        "the source takes values that differ by less than 1e-12 of their size for equal, the target "
+        "compares exactly: written as a difference of at most 0.000001",
+        "count with whole numbers where you can");
   }
 
   const LegaliseContext& context_;

@@ -1,5 +1,5 @@
-// Arcs (equivalences 9): the centre in a form that the target has, the radius form, helix turns and pitch. Positions come
-// from the dataflow, or from the words before in straight text (then the new value is an expression).
+// Arcs (equivalences 9): the centre in a form that the target has, the radius form, helix turns and pitch. Positions
+// come from the dataflow, or from the words before in straight text (then the new value is an expression).
 #include <algorithm>
 #include <cmath>
 
@@ -79,7 +79,15 @@ class ArcPass {
     const Facts& facts = facts_.before(s);
     const auto plane = setting_in<Plane>(b, facts, Setting::plane);
     const PlaneAxes axes = plane_axes(plane.value_or(context_.source_machine.power_on.plane));
-    Arc arc{s, b, facts, axes, std::nullopt, setting_in<Distance>(b, facts, Setting::distance), {}, {}, {axes.u, axes.v, axes.w}};
+    Arc arc{s,
+            b,
+            facts,
+            axes,
+            std::nullopt,
+            setting_in<Distance>(b, facts, Setting::distance),
+            {},
+            {},
+            {axes.u, axes.v, axes.w}};
     plane_known_ = plane.has_value();
     const auto kind = motion_in(b, facts);
     if (kind == MotionKind::arc_cw) arc.ccw = false;
@@ -154,9 +162,10 @@ class ArcPass {
     if (!r.literal()) {
       if (t.radius_minor && t.radius_major) return true;
       if (t.radius_minor) {
-        context_.diagnostics.warning("TRN-302", word_span(arc.s.line.span, arc.b.motion.radius_pos),
-                                     "the radius is computed; the target takes positive ones only (arcs up to 180 degrees)",
-                                     "make sure that the value is never negative");
+        context_.diagnostics.warning(
+            "TRN-302", word_span(arc.s.line.span, arc.b.motion.radius_pos),
+            "the radius is computed; the target takes positive ones only (arcs up to 180 degrees)",
+            "make sure that the value is never negative");
         return true;
       }
     } else if (r.number < 0 ? t.radius_major : t.radius_minor) {
@@ -169,7 +178,8 @@ class ArcPass {
     }
     const auto c = center_by_radius(point(arc.start), point(arc.end), r.number, *arc.ccw);
     if (!c) {
-      fail(arc, "TRN-304", "no arc of radius " + shortest(std::fabs(r.number)) + " joins these points", "check the radius");
+      fail(arc, "TRN-304", "no arc of radius " + shortest(std::fabs(r.number)) + " joins these points",
+           "check the radius");
       return false;
     }
     set_center(arc, *c);
@@ -185,14 +195,16 @@ class ArcPass {
           if (w.axis != arc.axis[i] || !w.value.literal()) continue;
           const bool relative = w.mode == CenterMode::from_start ||
                                 (w.mode == CenterMode::follows_distance && arc.distance != Distance::absolute);
-          const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b, arc.facts,
-                                   context_.source_machine);
-          mid[i] = f ? std::optional(w.value.number * *f + (relative && arc.start[i] ? *arc.start[i] : 0)) : std::nullopt;
+          const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b,
+                                   arc.facts, context_.source_machine);
+          mid[i] =
+              f ? std::optional(w.value.number * *f + (relative && arc.start[i] ? *arc.start[i] : 0)) : std::nullopt;
         }
       }
     }
     if (!known(arc.start) || !known(arc.end) || !known(mid)) {
-      fail(arc, "TRN-305", "an arc through a point, and its points are not all known here", "program the arc by its centre");
+      fail(arc, "TRN-305", "an arc through a point, and its points are not all known here",
+           "program the arc by its centre");
       return false;
     }
     const auto c = circumcentre(point(arc.start), point(mid), point(arc.end));
@@ -214,8 +226,8 @@ class ArcPass {
 
   static void drop_empty_extra(Motion& m) {
     const MotionExtra& e = *m.extra;
-    if (!e.has_turns && !e.has_pitch && !e.has_angle && e.through.empty() && !e.has_polar_radius && !e.has_polar_angle &&
-        !e.has_line_angle && !e.has_lead && !e.has_start_angle)
+    if (!e.has_turns && !e.has_pitch && !e.has_angle && e.through.empty() && !e.has_polar_radius &&
+        !e.has_polar_angle && !e.has_line_angle && !e.has_lead && !e.has_start_angle)
       m.extra.reset();
   }
 
@@ -238,7 +250,8 @@ class ArcPass {
     const auto center = center_point(arc);
     const Value angle = m.extra->opening_angle;
     if (!angle.literal() || !known(arc.start) || !arc.ccw || (!center && !known(arc.end))) {
-      fail(arc, "TRN-308", "an arc by its angle, and its start is not known here", "program the arc by its centre and end");
+      fail(arc, "TRN-308", "an arc by its angle, and its start is not known here",
+           "program the arc by its centre and end");
       return false;
     }
     auto extra = std::make_shared<MotionExtra>(*m.extra);
@@ -263,7 +276,8 @@ class ArcPass {
 
   /// Both end words of the plane, absolute or incremental as the block is.
   void set_end(Arc& arc) {
-    std::erase_if(arc.b.motion.coords, [&](const CoordWord& c) { return c.axis == arc.axis[0] || c.axis == arc.axis[1]; });
+    std::erase_if(arc.b.motion.coords,
+                  [&](const CoordWord& c) { return c.axis == arc.axis[0] || c.axis == arc.axis[1]; });
     for (std::size_t i = 0; i < 2; ++i) {
       CoordWord w;
       w.axis = arc.axis[i];
@@ -282,8 +296,8 @@ class ArcPass {
       for (std::size_t i = 0; i < 2; ++i) {
         if (w.axis != arc.axis[i]) continue;
         const bool relative = is_relative(w.mode, arc.distance);
-        const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b, arc.facts,
-                                 context_.source_machine);
+        const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b,
+                                 arc.facts, context_.source_machine);
         if (!w.value.literal() || !f) return std::nullopt;
         c[i] = w.value.number * *f + (relative ? *arc.start[i] : 0);
       }
@@ -291,7 +305,8 @@ class ArcPass {
     return Point{c[0], c[1]};
   }
   static bool is_relative(CenterMode mode, std::optional<Distance> distance) {
-    return mode == CenterMode::from_start || (mode == CenterMode::follows_distance && distance == Distance::incremental);
+    return mode == CenterMode::from_start ||
+           (mode == CenterMode::follows_distance && distance == Distance::incremental);
   }
 
   std::optional<double> partial_angle(const Arc& arc) const {
@@ -342,7 +357,8 @@ class ArcPass {
     const auto angle = partial_angle(arc);
     if (!turns.literal() || !angle || !arc.start[2] || !arc.end[2] || *arc.start[2] == *arc.end[2] ||
         !context_.target.helix_pitch) {
-      fail(arc, "TRN-311", "a helix by its number of turns, and its start or end is not known here; the target wants the pitch",
+      fail(arc, "TRN-311",
+           "a helix by its number of turns, and its start or end is not known here; the target wants the pitch",
            "program start, end and turns as numbers");
       return false;
     }
@@ -409,8 +425,8 @@ class ArcPass {
     for (auto& w : words) {
       w.mode = to;
       if (was_relative == relative) continue;
-      const auto f = to_radius(w.axis, w.scale, was_relative ? Distance::incremental : Distance::absolute, arc.b, arc.facts,
-                               context_.source_machine);
+      const auto f = to_radius(w.axis, w.scale, was_relative ? Distance::incremental : Distance::absolute, arc.b,
+                               arc.facts, context_.source_machine);
       const auto start = start_of(arc, w.axis);
       if (!f || !start) return false;
       const Value radius = scale(w.value, *f);
@@ -441,7 +457,8 @@ class ArcPass {
     if (!context_.target.full_circle_needs_end) return;
     auto& coords = arc.b.motion.coords;
     for (std::size_t i = 0; i < 2; ++i) {
-      if (std::any_of(coords.begin(), coords.end(), [&](const CoordWord& c) { return c.axis == arc.axis[i]; })) continue;
+      if (std::any_of(coords.begin(), coords.end(), [&](const CoordWord& c) { return c.axis == arc.axis[i]; }))
+        continue;
       CoordWord w;
       w.axis = arc.axis[i];
       w.scale = radius_scale(w.axis);
@@ -450,7 +467,8 @@ class ArcPass {
       } else {
         const auto start = start_of(arc, w.axis);
         if (!start || !arc.distance) {
-          return fail(arc, "TRN-314", "the target wants both end coordinates of an arc, and the point before is not known here",
+          return fail(arc, "TRN-314",
+                      "the target wants both end coordinates of an arc, and the point before is not known here",
                       "write both end coordinates");
         }
         w.value = *start;

@@ -13,7 +13,8 @@ namespace {
 class DistancePass {
  public:
   DistancePass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {
-    keeps_differ_ = context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
+    keeps_differ_ =
+        context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
   }
 
   void block(Editor& editor, Statement&& s, Body& out) {
@@ -29,8 +30,10 @@ class DistancePass {
     for (auto& c : b.motion.coords) {
       const auto d = explicit_mode(c);
       if (d && mode && d == mode) c.mode = WordMode::modal;
-      if (explicit_mode(c)) ++foreign;
-      else ++own;
+      if (explicit_mode(c))
+        ++foreign;
+      else
+        ++own;
     }
     if (foreign == 0 || to_block_mode(b, mode, facts)) {
       out.push_back(std::move(s));
@@ -89,7 +92,8 @@ class DistancePass {
     auto& b = std::get<Block>(s.node);
     const Distance other = mode == Distance::absolute ? Distance::incremental : Distance::absolute;
     for (auto& c : b.motion.coords) c.mode = WordMode::modal;
-    b.actions.insert(b.actions.begin(), action(ModalSet{Setting::distance, static_cast<std::uint8_t>(other), true, {}}));
+    b.actions.insert(b.actions.begin(),
+                     action(ModalSet{Setting::distance, static_cast<std::uint8_t>(other), true, {}}));
     Body pieces;
     const LineInfo like = s.line;
     pieces.push_back(std::move(s));
@@ -109,10 +113,11 @@ class DistancePass {
       if ((dirty_ & bit) == 0) continue;
       dirty_ &= ~bit;
       if (distance_of(c, b, facts_.before(s)) == Distance::absolute) continue;
-      context_.diagnostics.warning("TRN-182", word_span(s.line.span, c.pos),
-                                   "an incremental move of this axis right after a change of the offsets: the source and "
-                                   "the target control differ in the point that it starts from",
-                                   "make the first move of the axis after the change absolute");
+      context_.diagnostics.warning(
+          "TRN-182", word_span(s.line.span, c.pos),
+          "an incremental move of this axis right after a change of the offsets: the source and "
+          "the target control differ in the point that it starts from",
+          "make the first move of the axis after the change absolute");
     }
   }
 
@@ -131,8 +136,10 @@ void convert_distance(Program& program, const LegaliseContext& context) {
     Editor editor(program, routine, context);
     pass.new_routine();
     rewrite_body(routine.body, [&](Statement&& s, Body& out) {
-      if (std::holds_alternative<Block>(s.node)) pass.block(editor, std::move(s), out);
-      else out.push_back(std::move(s));
+      if (std::holds_alternative<Block>(s.node))
+        pass.block(editor, std::move(s), out);
+      else
+        out.push_back(std::move(s));
     });
   }
 }

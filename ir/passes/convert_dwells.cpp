@@ -45,9 +45,8 @@ class DwellPass {
   /// Exact stop of one block where the target has the modal one only.
   bool exact_stop(const Statement& s, Block& b, Body& pieces) {
     if (context_.target.exact_stop_block) return false;
-    const bool wanted = std::erase_if(b.actions, [](const Action& a) {
-                          return std::holds_alternative<ExactStopBlock>(a.data);
-                        }) != 0;
+    const bool wanted =
+        std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<ExactStopBlock>(a.data); }) != 0;
     if (!wanted) return false;
     if (!context_.target.exact_stop_modal) {
       context_.diagnostics.note("TRN-152", s.line.span, "the target has no exact stop: left out; the path is the same");
@@ -73,7 +72,8 @@ class DwellPass {
         case Setting::retract_plane: return !t.retract_plane_switch;
         case Setting::feed_point:
           if (t.feed_point_switch) return false;
-          note_once(Setting::feed_point, s, a, "the target can't choose the point F holds for: left out; the path is the same");
+          note_once(Setting::feed_point, s, a,
+                    "the target can't choose the point F holds for: left out; the path is the same");
           return true;
         case Setting::feed_override:
           if (t.feed_override_switch) return false;
@@ -85,7 +85,8 @@ class DwellPass {
     if (t.inverse_time) return;
     for (const auto& a : b.actions) {
       const auto* m = std::get_if<ModalSet>(&a.data);
-      if (m != nullptr && m->setting == Setting::feed_mode && m->value == static_cast<std::uint8_t>(FeedMode::inverse_time)) {
+      if (m != nullptr && m->setting == Setting::feed_mode &&
+          m->value == static_cast<std::uint8_t>(FeedMode::inverse_time)) {
         context_.diagnostics.error("TRN-153", word_span(s.line.span, a.pos), "the target has no inverse-time feed",
                                    "program the feed in mm/min");
       }
@@ -93,7 +94,8 @@ class DwellPass {
   }
 
   void note_once(Setting setting, const Statement& s, const Action& a, std::string text) {
-    if (noted_.insert(setting).second) context_.diagnostics.note("TRN-151", word_span(s.line.span, a.pos), std::move(text));
+    if (noted_.insert(setting).second)
+      context_.diagnostics.note("TRN-151", word_span(s.line.span, a.pos), std::move(text));
   }
 
   /// Seconds of a dwell in revolutions under a known speed; nullopt (reported) otherwise.
@@ -137,9 +139,9 @@ class DwellPass {
       return false;  // no dwell at all: nothing is written
     }
     if (seconds < t.dwell_min) {
-      context_.diagnostics.warning("TRN-156", word_span(s.line.span, a.pos),
-                                   "a dwell of " + shortest(seconds) + " s is raised to the target's shortest, " +
-                                       shortest(t.dwell_min) + " s");
+      context_.diagnostics.warning(
+          "TRN-156", word_span(s.line.span, a.pos),
+          "a dwell of " + shortest(seconds) + " s is raised to the target's shortest, " + shortest(t.dwell_min) + " s");
       seconds = t.dwell_min;
     }
     seconds = spread(s, seconds, pieces);
@@ -171,7 +173,8 @@ class DwellPass {
     const double n = std::ceil(seconds / context_.target.dwell_max);
     const double each = seconds / n;
     for (double i = 1; i < n; ++i) {
-      pieces.push_back(make_block(s.line, action(Dwell{Value{each / context_.target.dwell_unit}, context_.target.dwell_unit, false})));
+      pieces.push_back(make_block(
+          s.line, action(Dwell{Value{each / context_.target.dwell_unit}, context_.target.dwell_unit, false})));
     }
     return each;
   }

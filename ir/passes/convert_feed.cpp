@@ -1,5 +1,5 @@
-// The feed after a change of feed mode (equivalences 14.1): controls keep F, keep one F for each mode, or forget it. The
-// target gets an explicit F before the next move at feed whenever its rule differs from the source's.
+// The feed after a change of feed mode (equivalences 14.1): controls keep F, keep one F for each mode, or forget it.
+// The target gets an explicit F before the next move at feed whenever its rule differs from the source's.
 #include <algorithm>
 
 #include "base/text.h"
@@ -28,8 +28,9 @@ const SetFeed* feed_set(const Block& b) {
 }
 
 bool needs_feed(MotionKind k) {
-  return k == MotionKind::linear || k == MotionKind::arc_cw || k == MotionKind::arc_ccw || k == MotionKind::arc_through_point ||
-         k == MotionKind::arc_tangent || k == MotionKind::spline || k == MotionKind::polynomial;
+  return k == MotionKind::linear || k == MotionKind::arc_cw || k == MotionKind::arc_ccw ||
+         k == MotionKind::arc_through_point || k == MotionKind::arc_tangent || k == MotionKind::spline ||
+         k == MotionKind::polynomial;
 }
 
 class FeedPass {
@@ -84,7 +85,9 @@ class FeedPass {
     give(s, b);
   }
 
-  [[nodiscard]] bool differs(FeedMemory source) const { return source != context_.target.feed_memory && source != FeedMemory::cleared; }
+  [[nodiscard]] bool differs(FeedMemory source) const {
+    return source != context_.target.feed_memory && source != FeedMemory::cleared;
+  }
 
   void give(Statement& s, Block& b) {
     waiting_ = false;
@@ -96,10 +99,11 @@ class FeedPass {
       b.actions.insert(b.actions.begin(), action(SetFeed{*value, false}));
       return;
     }
-    context_.diagnostics.warning("TRN-158", s.line.span,
-                                 "the feed mode changed before this move and no F follows: the source goes on with a feed it "
-                                 "remembers, which is not known here; the target has none",
-                                 "write F in this block");
+    context_.diagnostics.warning(
+        "TRN-158", s.line.span,
+        "the feed mode changed before this move and no F follows: the source goes on with a feed it "
+        "remembers, which is not known here; the target has none",
+        "write F in this block");
   }
 
   const LegaliseContext& context_;

@@ -33,9 +33,11 @@ class FramePass {
 
  private:
   static bool concerns(const Block& b) {
-    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-      return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data);
-    }) || (b.has_motion && b.motion.frame != FrameUse::normal);
+    return std::any_of(b.actions.begin(), b.actions.end(),
+                       [](const Action& a) {
+                         return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data);
+                       }) ||
+           (b.has_motion && b.motion.frame != FrameUse::normal);
   }
 
   void block(Editor& editor, Statement&& s, FrameState state, Body& out) {
@@ -52,7 +54,8 @@ class FramePass {
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
         const FrameState before = state;
         state.apply(*f->change, facts_.before(s), b);
-        if (legal(*f->change)) actions.push_back(std::move(a));
+        if (legal(*f->change))
+          actions.push_back(std::move(a));
         else if (!rebuild(s, a, *f->change, before, state, actions)) {
           out.push_back(std::move(s));
           return;
@@ -69,14 +72,16 @@ class FramePass {
     const auto& uses = context_.target.frame_uses;
     if (uses.count(b.motion.frame) != 0) return true;
     if (b.motion.frame == FrameUse::machine_with_length && uses.count(FrameUse::machine) != 0) {
-      context_.diagnostics.warning("TRN-321", word_span(s.line.span, b.motion.frame_pos),
-                                   "a move in machine coordinates that keeps the tool length: the target leaves the length out, so "
-                                   "the slide stands off by the tool length",
-                                   "check the height of this move");
+      context_.diagnostics.warning(
+          "TRN-321", word_span(s.line.span, b.motion.frame_pos),
+          "a move in machine coordinates that keeps the tool length: the target leaves the length out, so "
+          "the slide stands off by the tool length",
+          "check the height of this move");
       b.motion.frame = FrameUse::machine;
       return true;
     }
-    refuse(s, program_, context_, "TRN-322", "a move in machine coordinates of a kind that the target lacks", {}, b.motion.frame_pos);
+    refuse(s, program_, context_, "TRN-322", "a move in machine coordinates of a kind that the target lacks", {},
+           b.motion.frame_pos);
     return false;
   }
 
@@ -84,7 +89,8 @@ class FramePass {
     const Span where = word_span(s.line.span, a.pos);
     if (w.off) {
       if (!context_.target.work_offset_off) {
-        context_.diagnostics.error("TRN-323", where, "the target can't switch the work offsets off", "select an offset of zero");
+        context_.diagnostics.error("TRN-323", where, "the target can't switch the work offsets off",
+                                   "select an offset of zero");
       }
       return;
     }
@@ -99,7 +105,8 @@ class FramePass {
   bool legal(const FrameChange& c) const {
     const auto slot = context_.target.frames.find(c.slot);
     if (slot == context_.target.frames.end() || slot->second.count(c.combine) == 0) return false;
-    if (c.by_distance_mode && context_.target.dialect != program_.dialect) return slot->second.count(FrameCombine::add) != 0;
+    if (c.by_distance_mode && context_.target.dialect != program_.dialect)
+      return slot->second.count(FrameCombine::add) != 0;
     return true;
   }
 
@@ -130,8 +137,9 @@ class FramePass {
   bool rebuild(Statement& s, const Action& a, const FrameChange& c, const FrameState& before, const FrameState& after,
                std::vector<Action>& out) {
     if (!after.known()) {
-      const std::string what = after.foreign() ? "a mirror, a scale or a rotation that the passes do not carry over yet"
-                                               : "what the programmable frame holds here depends on the path that leads here";
+      const std::string what = after.foreign()
+                                   ? "a mirror, a scale or a rotation that the passes do not carry over yet"
+                                   : "what the programmable frame holds here depends on the path that leads here";
       refuse(s, program_, context_, "TRN-325", "frame: " + what, "set the whole frame in one place", a.pos);
       return false;
     }
@@ -139,7 +147,8 @@ class FramePass {
     const std::size_t first = out.size();
     const bool done = chain ? to_chain(after, out) : to_slots(c, before, after, out);
     if (!done) {
-      refuse(s, program_, context_, "TRN-326", "the target can't hold this frame", "transform the coordinates of the part", a.pos);
+      refuse(s, program_, context_, "TRN-326", "the target can't hold this frame",
+             "transform the coordinates of the part", a.pos);
       return false;
     }
     for (std::size_t i = first; i < out.size(); ++i) out[i].pos = {};
@@ -148,8 +157,10 @@ class FramePass {
 
   bool to_chain(const FrameState& f, std::vector<Action>& out) const {
     const auto words = f.shift_words(true);
-    if (words.empty()) out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::clear));
-    else out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::replace, words));
+    if (words.empty())
+      out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::clear));
+    else
+      out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::replace, words));
     if (!f.angle()->is(0)) {
       if (!can(FrameSlot::chain, FrameCombine::compose)) return false;
       out.push_back(rotation(FrameSlot::chain, FrameCombine::compose, *f.angle()));
@@ -157,13 +168,15 @@ class FramePass {
     return true;
   }
 
-  bool to_slots(const FrameChange& c, const FrameState& before, const FrameState& after, std::vector<Action>& out) const {
+  bool to_slots(const FrameChange& c, const FrameState& before, const FrameState& after,
+                std::vector<Action>& out) const {
     if (!same_shift(before, after) || c.kind == FrameKind::translate || c.combine == FrameCombine::clear) {
       const auto words = after.shift_words(true);
       if (words.empty() && can(FrameSlot::shift, FrameCombine::clear)) {
         out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::clear));
       } else if (can(FrameSlot::shift, FrameCombine::replace_named)) {
-        out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::replace_named, named_words(before, after)));
+        out.push_back(
+            make(FrameSlot::shift, FrameKind::translate, FrameCombine::replace_named, named_words(before, after)));
       } else if (can(FrameSlot::shift, FrameCombine::replace)) {
         out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::replace, words));
       } else {

@@ -46,8 +46,8 @@ class MessagePass {
       const auto* str = p ? std::get_if<String>(&p->node) : nullptr;
       if (str == nullptr) continue;
       if (used + str->text.size() > limit) {
-        context_.diagnostics.warning("TRN-166", s.line.span,
-                                     "the message is cut to the " + std::to_string(limit) + " characters of the target");
+        context_.diagnostics.warning(
+            "TRN-166", s.line.span, "the message is cut to the " + std::to_string(limit) + " characters of the target");
         p = string_literal(str->text.substr(0, limit > used ? limit - used : 0));
         used = limit;
       } else {

@@ -13,7 +13,8 @@ namespace {
 
 template <class T>
 bool has(const Block& b) {
-  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) { return std::holds_alternative<T>(a.data); });
+  return std::any_of(b.actions.begin(), b.actions.end(),
+                     [](const Action& a) { return std::holds_alternative<T>(a.data); });
 }
 
 template <class T>
@@ -67,8 +68,10 @@ class ToolChanges {
     }
     t.changes = at_once_;
     if (at_once_) {  // the source changes at M6
-      if (change_follows) out.push_back(std::move(a));
-      else pending_ = std::move(a);
+      if (change_follows)
+        out.push_back(std::move(a));
+      else
+        pending_ = std::move(a);
       return;
     }
     out.push_back(std::move(a));
@@ -86,10 +89,11 @@ class ToolChanges {
       return;
     }
     if (!selected_) {
-      context_.diagnostics.warning("TRN-141", word_span(s.line.span, a.pos),
-                                   "a tool change without a tool number before it in this program: left out, because the "
-                                   "target changes tools at T",
-                                   "write the T word before the change");
+      context_.diagnostics.warning(
+          "TRN-141", word_span(s.line.span, a.pos),
+          "a tool change without a tool number before it in this program: left out, because the "
+          "target changes tools at T",
+          "write the T word before the change");
     }
   }
 
@@ -142,18 +146,20 @@ class LengthCompensation {
     }
   }
   void warn_off(const Statement& s, const Action& a) {
-    context_.diagnostics.warning("TRN-142", word_span(s.line.span, a.pos),
-                                 "tool length compensation is switched off here; the target has it on whenever an offset is "
-                                 "active: the programmed positions are the same, the machine stands off by the tool length",
-                                 "check the moves up to the next tool change, or select offset 0 here");
+    context_.diagnostics.warning(
+        "TRN-142", word_span(s.line.span, a.pos),
+        "tool length compensation is switched off here; the target has it on whenever an offset is "
+        "active: the programmed positions are the same, the machine stands off by the tool length",
+        "check the moves up to the next tool change, or select offset 0 here");
   }
   void warn_never_on() {
     if (!program_has<ToolOffset>(program_) && !program_has<ToolSelect>(program_)) return;
     const Routine* main = program_.main();
-    context_.diagnostics.warning("TRN-143", main != nullptr ? main->header.span : Span{},
-                                 "the program never switches tool length compensation on; the target always applies the "
-                                 "length of the active offset",
-                                 "use offsets with length 0 on the target, or switch the compensation on in the source");
+    context_.diagnostics.warning(
+        "TRN-143", main != nullptr ? main->header.span : Span{},
+        "the program never switches tool length compensation on; the target always applies the "
+        "length of the active offset",
+        "use offsets with length 0 on the target, or switch the compensation on in the source");
   }
 
   void add() {

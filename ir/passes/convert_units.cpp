@@ -1,5 +1,5 @@
-// Inch and metric (equivalences 5.1). Where the target has the switch it stays; a switch that leaves F alone becomes one
-// that holds for F too, with F converted, and the other way round.
+// Inch and metric (equivalences 5.1). Where the target has the switch it stays; a switch that leaves F alone becomes
+// one that holds for F too, with F converted, and the other way round.
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/facts.h"
@@ -39,9 +39,10 @@ class UnitPass {
       auto* f = std::get_if<SetFeed>(&a.data);
       if (f == nullptr) continue;
       if (!units) {
-        context_.diagnostics.error("TRN-171", word_span(s.line.span, a.pos),
-                                   "the unit in force is not known here, and the unit of F differs between the controls",
-                                   "write the unit (inch or metric) before this block on every path");
+        context_.diagnostics.error(
+            "TRN-171", word_span(s.line.span, a.pos),
+            "the unit in force is not known here, and the unit of F differs between the controls",
+            "write the unit (inch or metric) before this block on every path");
         return;
       }
       const auto mode = setting_in<FeedMode>(b, facts_.before(s), Setting::feed_mode);

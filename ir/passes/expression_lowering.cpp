@@ -21,7 +21,8 @@ bool is_logical(BinaryOp op) {
 /// What may stand behind an operator of a chain: no sign in front.
 bool is_simple(const ExprPtr& e) {
   if (const auto* n = as_number(e)) return n->value >= 0;
-  if (const auto* c = std::get_if<Call>(&e->node)) return c->args.size() == 1 && is_primary(c->args[0]) && is_simple(c->args[0]);
+  if (const auto* c = std::get_if<Call>(&e->node))
+    return c->args.size() == 1 && is_primary(c->args[0]) && is_simple(c->args[0]);
   return is_primary(e);
 }
 
@@ -49,11 +50,14 @@ bool expression_fits(const ExprPtr& e, const Capabilities& target) {
 }
 
 ExprPtr negated_condition(const ExprPtr& e) {
+  if (!e) return e;
   if (const auto* u = std::get_if<Unary>(&e->node); u != nullptr && u->op == UnaryOp::logical_not) return u->operand;
   if (const auto* b = std::get_if<Binary>(&e->node)) {
     if (is_comparison(b->op)) return binary(negated(b->op), b->left, b->right, b->compare);
-    if (b->op == BinaryOp::logical_and) return binary(BinaryOp::logical_or, negated_condition(b->left), negated_condition(b->right));
-    if (b->op == BinaryOp::logical_or) return binary(BinaryOp::logical_and, negated_condition(b->left), negated_condition(b->right));
+    if (b->op == BinaryOp::logical_and)
+      return binary(BinaryOp::logical_or, negated_condition(b->left), negated_condition(b->right));
+    if (b->op == BinaryOp::logical_or)
+      return binary(BinaryOp::logical_and, negated_condition(b->left), negated_condition(b->right));
   }
   if (e->type == Type::boolean) return unary(UnaryOp::logical_not, e);
   return binary(BinaryOp::eq, e, number(0));
@@ -111,6 +115,7 @@ ExprPtr ExpressionLowering::into_temporary(const ExprPtr& e) {
 }
 
 ExprPtr ExpressionLowering::primary(const ExprPtr& e) {
+  if (!e) return e;
   const ExprPtr low = lower(e);
   return is_primary(low) ? low : into_temporary(low);
 }
@@ -122,6 +127,7 @@ ExprPtr ExpressionLowering::lower(const ExprPtr& e) {
 }
 
 ExprPtr ExpressionLowering::node(const ExprPtr& e) {
+  if (!e) return e;
   if (++depth_ > 400) {
     --depth_;
     return fail(e, "the expression is too deep");
@@ -215,7 +221,8 @@ Value ExpressionLowering::word(const Value& v) {
   if (const auto c = constant_value(v.expr); c && std::fabs(*c) < 1e12) return Value{*c};
   const auto plain_variable = [&](const ExprPtr& e) {
     const auto* ref = as_variable(e);
-    return ref != nullptr && t.word_variable && (!ref->index || constant_value(ref->index) || (t.word_indirect && t.word_indirect_value));
+    return ref != nullptr && t.word_variable &&
+           (!ref->index || constant_value(ref->index) || (t.word_indirect && t.word_indirect_value));
   };
   if (t.word_expression) return Value{lower(v.expr)};
   if (plain_variable(v.expr)) return Value{lower(v.expr)};

@@ -1,4 +1,5 @@
-// What becomes of an operator or function that the target lacks (equivalences 19.3). Each rule is exact unless it reports.
+// What becomes of an operator or function that the target lacks (equivalences 19.3). Each rule is exact unless it
+// reports.
 #include <cmath>
 
 #include "base/text.h"
@@ -8,18 +9,31 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-ExprPtr add(const ExprPtr& a, const ExprPtr& b) { return binary(BinaryOp::add, a, b); }
-ExprPtr sub(const ExprPtr& a, const ExprPtr& b) { return binary(BinaryOp::subtract, a, b); }
-ExprPtr mul(const ExprPtr& a, const ExprPtr& b) { return binary(BinaryOp::multiply, a, b); }
-ExprPtr div(const ExprPtr& a, const ExprPtr& b) { return binary(BinaryOp::divide, a, b); }
-ExprPtr rel(BinaryOp op, const ExprPtr& a, double b) { return binary(op, a, number(b)); }
-ExprPtr f1(Function f, const ExprPtr& a) { return call(f, {a}); }
+ExprPtr add(const ExprPtr& a, const ExprPtr& b) {
+  return binary(BinaryOp::add, a, b);
+}
+ExprPtr sub(const ExprPtr& a, const ExprPtr& b) {
+  return binary(BinaryOp::subtract, a, b);
+}
+ExprPtr mul(const ExprPtr& a, const ExprPtr& b) {
+  return binary(BinaryOp::multiply, a, b);
+}
+ExprPtr div(const ExprPtr& a, const ExprPtr& b) {
+  return binary(BinaryOp::divide, a, b);
+}
+ExprPtr rel(BinaryOp op, const ExprPtr& a, double b) {
+  return binary(op, a, number(b));
+}
+ExprPtr f1(Function f, const ExprPtr& a) {
+  return call(f, {a});
+}
 
 }  // namespace
 
 ExprPtr ExpressionLowering::binary_rule(const Binary& b, const ExprPtr& e) {
   const auto& t = editor_.target();
-  if ((is_comparison(b.op) || b.op == BinaryOp::logical_and || b.op == BinaryOp::logical_or || b.op == BinaryOp::logical_xor) &&
+  if ((is_comparison(b.op) || b.op == BinaryOp::logical_and || b.op == BinaryOp::logical_or ||
+       b.op == BinaryOp::logical_xor) &&
       !t.relation_as_value)
     return truth_value(e);
   if (has(b.op)) {
@@ -48,9 +62,10 @@ ExprPtr ExpressionLowering::power(const Binary& b, const ExprPtr& e) {
     return *exponent > 0 ? node(product) : node(div(number(1), product));
   }
   if (has(Function::exp) && has(Function::ln)) {
-    editor_.context.diagnostics.warning("TRN-112", word_span(like_.span, e->pos),
-                                        "a power with a computed exponent is written with EXP and LN: right for a base above 0, "
-                                        "with a relative error up to 1e-12");
+    editor_.context.diagnostics.warning(
+        "TRN-112", word_span(like_.span, e->pos),
+        "a power with a computed exponent is written with EXP and LN: right for a base above 0, "
+        "with a relative error up to 1e-12");
     return node(f1(Function::exp, mul(b.right, f1(Function::ln, b.left))));
   }
   return fail(e, "the target has no power with this exponent");
@@ -165,8 +180,10 @@ ExprPtr ExpressionLowering::full_angle(const Call& c, const ExprPtr& e) {
   const auto v = temporary();
   if (!v) return e;
   assign(*v, low);
-  if (positive) assign_if(rel(BinaryOp::lt, variable(*v), 0), *v, add(variable(*v), number(360)));
-  else assign_if(rel(BinaryOp::gt, variable(*v), 180), *v, sub(variable(*v), number(360)));
+  if (positive)
+    assign_if(rel(BinaryOp::lt, variable(*v), 0), *v, add(variable(*v), number(360)));
+  else
+    assign_if(rel(BinaryOp::gt, variable(*v), 180), *v, sub(variable(*v), number(360)));
   return variable(*v);
 }
 
@@ -236,7 +253,8 @@ ExprPtr ExpressionLowering::rounding(const Call& c, const ExprPtr& e) {
 }
 
 ExprPtr ExpressionLowering::selection(const Call& c, const ExprPtr& e) {
-  if (c.function == Function::bound) return node(call(Function::min, {c.args[1], call(Function::max, {c.args[0], c.args[2]})}));
+  if (c.function == Function::bound)
+    return node(call(Function::min, {c.args[1], call(Function::max, {c.args[0], c.args[2]})}));
   const ExprPtr x = primary(c.args[0]);
   const ExprPtr y = c.args.size() > 1 ? primary(c.args[1]) : nullptr;
   const auto v = temporary();
@@ -262,11 +280,14 @@ ExprPtr ExpressionLowering::selection(const Call& c, const ExprPtr& e) {
 
 ExprPtr ExpressionLowering::logarithm(const Call& c, const ExprPtr& e) {
   const double log10_e = 0.43429448190325182765, euler = 2.71828182845904523536;
-  if (c.function == Function::ln && has(Function::log10)) return node(div(f1(Function::log10, c.args[0]), number(log10_e)));
-  if (c.function == Function::log10 && has(Function::ln)) return node(div(f1(Function::ln, c.args[0]), number(1 / log10_e)));
+  if (c.function == Function::ln && has(Function::log10))
+    return node(div(f1(Function::log10, c.args[0]), number(log10_e)));
+  if (c.function == Function::log10 && has(Function::ln))
+    return node(div(f1(Function::ln, c.args[0]), number(1 / log10_e)));
   if (c.function == Function::exp && has(BinaryOp::power)) {
-    editor_.context.diagnostics.warning("TRN-113", word_span(like_.span, e->pos),
-                                        "the exponential is written as a power of 2.71828182846: relative error up to 1e-10");
+    editor_.context.diagnostics.warning(
+        "TRN-113", word_span(like_.span, e->pos),
+        "the exponential is written as a power of 2.71828182846: relative error up to 1e-10");
     return binary(BinaryOp::power, node(number(euler)), node(c.args[0]));
   }
   return fail(e, "the target has no function " + std::string(name(c.function)));

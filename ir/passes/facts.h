@@ -34,7 +34,8 @@ template <class Enum>
 std::optional<Enum> setting_in(const Block& block, const Facts& facts, Setting s) {
   std::optional<Enum> value = setting<Enum>(facts, s);
   for (const auto& a : block.actions) {
-    if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == s) value = static_cast<Enum>(m->value);
+    if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == s)
+      value = static_cast<Enum>(m->value);
   }
   return value;
 }

@@ -11,7 +11,8 @@ namespace cnctrans::ir::passes {
 
 bool has_numbered_levels(const std::vector<VariableSpace>& spaces) {
   return std::any_of(spaces.begin(), spaces.end(), [](const VariableSpace& s) {
-    return std::any_of(s.segments.begin(), s.segments.end(), [](const SpaceSegment& g) { return g.scope == Scope::level; });
+    return std::any_of(s.segments.begin(), s.segments.end(),
+                       [](const SpaceSegment& g) { return g.scope == Scope::level; });
   });
 }
 
@@ -77,10 +78,11 @@ void lower_calls(Program& program, const LegaliseContext& context) {
   const bool named = has_named_locals(program.spaces) && !has_named_locals(spaces);
   if (!levels && !named) return;
   if (const CallSite* ring = calls.recursion()) {
-    context.diagnostics.error("TRN-121", ring->statement->line.span,
-                              "this call leads back into the routine that it stands in; the local values of such calls can't "
-                              "be kept apart in the target",
-                              "write the repetition as a loop");
+    context.diagnostics.error(
+        "TRN-121", ring->statement->line.span,
+        "this call leads back into the routine that it stands in; the local values of such calls can't "
+        "be kept apart in the target",
+        "write the repetition as a loop");
     return;
   }
   if (levels) lower_levels(program, context, calls);

@@ -1,5 +1,6 @@
 // Levels of local parameters (P0-P25 and the like): a call either shares the caller's set or opens one of its own. A
-// variable that only one routine uses becomes its own; one that a shared call passes on becomes one variable of the program.
+// variable that only one routine uses becomes its own; one that a shared call passes on becomes one variable of the
+// program.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -69,7 +70,8 @@ class Levels {
     return v < count_ ? std::optional(v) : std::nullopt;
   }
   bool is_root(std::size_t r) const {
-    return program_.routines[r].kind == RoutineKind::main || calls_.called_with(r, CallLevel::new_level) || !calls_.called(r);
+    return program_.routines[r].kind == RoutineKind::main || calls_.called_with(r, CallLevel::new_level) ||
+           !calls_.called(r);
   }
   std::string name_of(std::size_t v) const {
     return program_.spaces[space_].prefix + std::to_string(lo_ + static_cast<std::int64_t>(v));
@@ -242,22 +244,25 @@ class Levels {
         behind.push_back(make_assign(s.line, target, variable(saved)));
       }
       const auto it = given.find(v);
-      if (it != given.end()) values.emplace_back(target, it->second);
-      else if (starts_at_zero_[callee].count(v) != 0) values.emplace_back(target, number(0));
+      if (it != given.end())
+        values.emplace_back(target, it->second);
+      else if (starts_at_zero_[callee].count(v) != 0)
+        values.emplace_back(target, number(0));
     }
     call.arguments.clear();
     if (named_target_) positional(call, given, callee);
     call.level = named_target_ ? CallLevel::new_level : CallLevel::shared;
     if (modal && !(values.empty() && behind.empty())) {
       refuse(s, program_, context_, "TRN-124",
-             "a modal call whose parameters the target would have to set before each of its calls", "call after each block");
+             "a modal call whose parameters the target would have to set before each of its calls",
+             "call after each block");
       out.push_back(std::move(s));
       return;
     }
     if (call.count && !values.empty()) {
-      context_.diagnostics.warning("TRN-126", s.line.span,
-                                   "the arguments are set once before all repetitions; the source sets them before each",
-                                   "make sure that the subprogram does not change its parameters");
+      context_.diagnostics.warning(
+          "TRN-126", s.line.span, "the arguments are set once before all repetitions; the source sets them before each",
+          "make sure that the subprogram does not change its parameters");
     }
     const LineInfo like = s.line;
     surround(out, assign_in_parallel(program_, like, std::move(values)), std::move(s), std::move(behind));

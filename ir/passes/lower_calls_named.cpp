@@ -33,13 +33,13 @@ class NamedLocals {
 
  private:
   struct Info {
-    std::vector<std::string> names;            ///< in order of appearance, parameters first
+    std::vector<std::string> names;  ///< in order of appearance, parameters first
     std::map<std::string, SpaceId> spaces;
-    std::map<std::string, VarRef> places;      ///< where each goes (without array indices)
+    std::map<std::string, VarRef> places;              ///< where each goes (without array indices)
     std::set<std::string> arrays, by_reference, zero;  ///< zero: must be set to 0 where it is defined
     std::set<std::string> declared;
-    std::vector<Parameter> parameters;         ///< as the source had them
-    bool has_levels = false;                   ///< some go to the target's levels
+    std::vector<Parameter> parameters;  ///< as the source had them
+    bool has_levels = false;            ///< some go to the target's levels
   };
 
   bool is_local_space(SpaceId s) const {
@@ -94,8 +94,8 @@ class NamedLocals {
         infos_[0].places[n] = info.places[n];
         continue;
       }
-      const bool own_level = levels_ && info.arrays.count(n) == 0 && info.by_reference.count(n) == 0 && used < level_size_ &&
-                             infos_[r].places.count(n) == 0;
+      const bool own_level = levels_ && info.arrays.count(n) == 0 && info.by_reference.count(n) == 0 &&
+                             used < level_size_ && infos_[r].places.count(n) == 0;
       if (own_level) {
         info.places[n] = VarRef{level_space(program_), n, nullptr, {}};
         info.has_levels = true;
@@ -149,7 +149,8 @@ class NamedLocals {
   void declare(std::size_t r, Statement&& s, const Declare& d, Body& out) {
     const Info& info = infos_[r];
     if (d.type == Type::string || d.type == Type::axis || d.type == Type::frame) {
-      refuse(s, program_, context_, "TRN-125", "variables of type " + std::string(name(d.type)) + ": the target has numbers only",
+      refuse(s, program_, context_, "TRN-125",
+             "variables of type " + std::string(name(d.type)) + ": the target has numbers only",
              "write the text where it is used");
       out.push_back(std::move(s));
       return;
@@ -167,8 +168,10 @@ class NamedLocals {
       if (i.dimensions.empty()) {
         const bool new_level = place->second.space == program_.space(level_prefix) &&
                                program_.routines[r].kind == RoutineKind::sub;  // starts at 0 by itself
-        if (!i.initial.empty()) set(place->second, i.initial.front());
-        else if (info.zero.count(i.name) != 0 && !new_level) set(place->second, number(0));
+        if (!i.initial.empty())
+          set(place->second, i.initial.front());
+        else if (info.zero.count(i.name) != 0 && !new_level)
+          set(place->second, number(0));
         continue;
       }
       array(s, i, place->second, set);
@@ -192,7 +195,8 @@ class NamedLocals {
     pieces.back().line.comments = s.line.comments;
     move_head(s.line, pieces.front().line);
     const bool empty_line = pieces.size() == 1 && std::holds_alternative<Block>(pieces[0].node) &&
-                            pieces[0].line.number.empty() && pieces[0].line.labels.empty() && pieces[0].line.comments.empty();
+                            pieces[0].line.number.empty() && pieces[0].line.labels.empty() &&
+                            pieces[0].line.comments.empty();
     if (empty_line) return;
     for (auto& p : pieces) out.push_back(std::move(p));
   }
@@ -214,9 +218,10 @@ class NamedLocals {
     const auto dims = dimensions(item);
     for (const auto d : dims) count *= d;
     if (count <= 0 || count > most) {
-      context_.diagnostics.error("TRN-127", s.line.span,
-                                 "array " + item.name + ": the target keeps arrays of up to 64 elements in numbered variables",
-                                 "use a smaller array");
+      context_.diagnostics.error(
+          "TRN-127", s.line.span,
+          "array " + item.name + ": the target keeps arrays of up to 64 elements in numbered variables",
+          "use a smaller array");
       return;
     }
     for (std::int64_t k = 0; k < count; ++k) {
@@ -238,7 +243,9 @@ class NamedLocals {
     Body before;
     const LineInfo nowhere;
     for (const auto& n : info.names) {
-      if (info.declared.count(n) != 0 || info.zero.count(n) == 0 || info.places.at(n).space != program_.space(frame_prefix)) continue;
+      if (info.declared.count(n) != 0 || info.zero.count(n) == 0 ||
+          info.places.at(n).space != program_.space(frame_prefix))
+        continue;
       if (program_.routines[r].kind == RoutineKind::sub && infos_[0].declared.count(n) != 0) continue;
       before.push_back(make_assign(nowhere, info.places.at(n), number(0)));
     }
@@ -294,14 +301,15 @@ class NamedLocals {
     call.level = info.has_levels ? CallLevel::new_level : CallLevel::shared;
     if (modal && !(before.empty() && behind.empty())) {
       refuse(s, program_, context_, "TRN-124",
-             "a modal call whose parameters the target would have to set before each of its calls", "call after each block");
+             "a modal call whose parameters the target would have to set before each of its calls",
+             "call after each block");
       out.push_back(std::move(s));
       return;
     }
     if (call.count && !before.empty()) {
-      context_.diagnostics.warning("TRN-126", s.line.span,
-                                   "the arguments are set once before all repetitions; the source sets them before each",
-                                   "make sure that the subprogram does not change its parameters");
+      context_.diagnostics.warning(
+          "TRN-126", s.line.span, "the arguments are set once before all repetitions; the source sets them before each",
+          "make sure that the subprogram does not change its parameters");
     }
     const LineInfo like = s.line;
     surround(out, assign_in_parallel(program_, like, std::move(before)), std::move(s), std::move(behind));
@@ -320,7 +328,8 @@ class NamedLocals {
   void finish_signature(std::size_t r) {
     Routine& routine = program_.routines[r];
     if (!levels_) routine.parameters.clear();
-    std::erase_if(routine.parameters, [this](const Parameter& p) { return p.variable.space != program_.space(level_prefix); });
+    std::erase_if(routine.parameters,
+                  [this](const Parameter& p) { return p.variable.space != program_.space(level_prefix); });
     routine.has_signature = false;
   }
 

@@ -368,8 +368,7 @@ class CyclePass {
     const LineInfo like = s.line;
     if (simple && active_->on_target) return editor_.put(out, std::move(pieces), std::move(s));
     if (simple) {
-      b.actions.push_back(
-          action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
+      b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
       active_->on_target = true;
       return editor_.put(out, std::move(pieces), std::move(s));
     }

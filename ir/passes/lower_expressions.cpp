@@ -1,5 +1,5 @@
-// Expressions of every statement in the target's form (equivalences 19); words with a computed value through a temporary
-// just before their block.
+// Expressions of every statement in the target's form (equivalences 19); words with a computed value through a
+// temporary just before their block.
 #include <algorithm>
 
 #include "ir/passes/expression_lowering.h"
@@ -53,7 +53,8 @@ class ExpressionPass {
     for (auto& item : a.items) {
       ExpressionLowering lowering(editor, s.line);
       if (usable_as_scratch(item)) lowering.set_scratch(item.target);
-      if (item.target.index && !constant_value(item.target.index)) item.target.index = lowering.lower(item.target.index);
+      if (item.target.index && !constant_value(item.target.index))
+        item.target.index = lowering.lower(item.target.index);
       for (auto& x : item.system.args) x = lowering.lower(x);
       item.value = lowering.lower(item.value);
       add(pieces, std::move(lowering.pre), std::move(item), s.line);
@@ -70,8 +71,8 @@ class ExpressionPass {
   }
 
   static bool usable_as_scratch(const Assign::Item& item) {
-    return !item.to_system && item.target.indices.empty() && (!item.target.index || constant_value(item.target.index)) &&
-           !read_anywhere(item.value, item.target);
+    return !item.to_system && item.target.indices.empty() &&
+           (!item.target.index || constant_value(item.target.index)) && !read_anywhere(item.value, item.target);
   }
 
   void add(Body& pieces, Body&& pre, Assign::Item&& item, const LineInfo& like) const {
@@ -99,7 +100,8 @@ class ExpressionPass {
   void rest(Editor& editor, Statement&& s, Body& out) {
     ExpressionLowering lowering(editor, s.line);
     if (auto* j = std::get_if<Jump>(&s.node)) {
-      if (j->condition && context_.target.conditions == ConditionForm::expression) j->condition = lowering.condition(j->condition);
+      if (j->condition && context_.target.conditions == ConditionForm::expression)
+        j->condition = lowering.condition(j->condition);
       if (j->target.computed) j->target.computed = lowering.lower(j->target.computed);
     } else if (auto* i = std::get_if<If>(&s.node)) {
       i->condition = lowering.condition(i->condition);

@@ -44,7 +44,8 @@ class RepeatPass {
     for_each_statement(editor_.routine.body, [&](Statement& s) {
       auto* r = std::get_if<Repeat>(&s.node);
       if (r == nullptr || !r->order_free || r->has_program || r->first.computed || r->last.computed) return;
-      const auto a = places.find({r->first.is_number, r->first.text}), b = places.find({r->last.is_number, r->last.text});
+      const auto a = places.find({r->first.is_number, r->first.text}),
+                 b = places.find({r->last.is_number, r->last.text});
       if (a != places.end() && b != places.end() && a->second > b->second) std::swap(r->first, r->last);
       r->order_free = false;
     });
@@ -73,7 +74,8 @@ class RepeatPass {
       return;
     }
     if (!r.has_program && r.last.text.empty() && !r.last.computed && !end_before(r, out)) {
-      refused(s, "TRN-197", "the repeated part has no last block that could get a label", "put a label on its last block");
+      refused(s, "TRN-197", "the repeated part has no last block that could get a label",
+              "put a label on its last block");
     }
     if (auto* kept = std::get_if<Repeat>(&s.node)) check_count(s, kept->count);
     out.push_back(std::move(s));
@@ -92,8 +94,10 @@ class RepeatPass {
       return true;
     }
     const LabelRef fresh = editor_.fresh_label();
-    if (last.line.joined || !last.line.number.empty()) out.push_back(make_label(last.line, fresh, editor_.program));
-    else set_label(last.line, fresh, editor_.program);
+    if (last.line.joined || !last.line.number.empty())
+      out.push_back(make_label(last.line, fresh, editor_.program));
+    else
+      set_label(last.line, fresh, editor_.program);
     r.last = fresh;
     return true;
   }

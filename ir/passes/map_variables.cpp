@@ -1,6 +1,7 @@
-// Variables (equivalences 18): spaces and numbers of the source become those of the target. Numbers stay where the target
-// has them, else whole ranges are shifted, else the used ones are packed in ascending order. Variables without a number
-// take a free one. The table goes to the report, and to a comment at the head when a name changed beyond its letter.
+// Variables (equivalences 18): spaces and numbers of the source become those of the target. Numbers stay where the
+// target has them, else whole ranges are shifted, else the used ones are packed in ascending order. Variables without a
+// number take a free one. The table goes to the report, and to a comment at the head when a name changed beyond its
+// letter.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -10,20 +11,32 @@
 #include "ir/passes/lower_calls.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/variable_pools.h"
+#include "ir/passes/variable_use.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
 
+/// The program speaks of the target's variables already.
+bool same_spaces(const Program& program, const LegaliseContext& context) {
+  const auto& t = context.target.spaces;
+  if (t.empty() || program.spaces.size() < t.size()) return t.empty() && program.spaces.empty();
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (program.spaces[i].prefix != t[i].prefix || program.spaces[i].named() != t[i].named() ||
+        program.spaces[i].scope != t[i].scope)
+      return false;
+  }
+  return true;
+}
+
 class VariableMap {
  public:
-  VariableMap(Program& program, const LegaliseContext& context) : program_(program), context_(context), pools_(context) {}
+  VariableMap(Program& program, const LegaliseContext& context)
+      : program_(program), context_(context), use_(program, context), pools_(context) {}
 
   void run() {
-    if (same_spaces()) return;
     number_statements(program_);
-    collect();
-    pools_.level_is_global = !uses_levels_;
+    pools_.level_is_global = !use_.levels;
     place_numbered();
     place_levels();
     place_named();
@@ -33,91 +46,12 @@ class VariableMap {
   }
 
  private:
-  struct Named {
-    std::set<std::size_t> routines;
-    std::vector<std::int64_t> dimensions;
-  };
-  struct Numbered {
-    std::set<std::int64_t> used;
-    bool computed = false;
-    LineInfo computed_at;
-  };
   using NamedKey = std::pair<SpaceId, std::string>;
-
-  bool same_spaces() const {
-    const auto& t = context_.target.spaces;
-    if (t.empty() || program_.spaces.size() < t.size()) return t.empty() && program_.spaces.empty();
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      if (program_.spaces[i].prefix != t[i].prefix || program_.spaces[i].named() != t[i].named() ||
-          program_.spaces[i].scope != t[i].scope)
-        return false;
-    }
-    return true;
-  }
-
-  // --- what is used ---------------------------------------------------------------------------------------------
-
-  void note(const VarRef& v, std::size_t routine, const LineInfo& line) {
-    if (v.space >= program_.spaces.size()) return;
-    const auto& space = program_.spaces[v.space];
-    if (space.named()) {
-      named_[{v.space, v.name}].routines.insert(routine);
-      if (space.prefix == level_prefix) uses_levels_ = true;
-      return;
-    }
-    const auto n = constant_index(v);
-    auto& numbered = numbered_[v.space];
-    if (n) {
-      numbered.used.insert(*n);
-    } else if (!numbered.computed) {
-      numbered.computed = true;
-      numbered.computed_at = line;
-    }
-  }
-
-  void collect() {
-    for (std::size_t r = 0; r < program_.routines.size(); ++r) {
-      for (const auto& p : program_.routines[r].parameters) note(p.variable, r, program_.routines[r].header);
-      for_each_statement(program_.routines[r].body, [&](const Statement& s) {
-        each_expression(s, [&](const ExprPtr& e) {
-          walk(e, [&](const ExprPtr& x) {
-            if (const auto* v = as_variable(x)) note(*v, r, s.line);
-            if (const auto* sys = std::get_if<SystemRef>(&x->node)) system(*sys, s);
-          });
-        });
-        each_target(s, [&](const VarRef& v) { note(v, r, s.line); });
-        if (const auto* d = std::get_if<Declare>(&s.node)) dimensions(*d, r);
-        if (const auto* a = std::get_if<Assign>(&s.node)) {
-          for (const auto& i : a->items) {
-            if (i.to_system) system(i.system, s);
-          }
-        }
-        const auto* c = std::get_if<CallRoutine>(&s.node);
-        if (c != nullptr && c->level == CallLevel::new_level) uses_levels_ = true;
-      });
-    }
-  }
-  void dimensions(const Declare& d, std::size_t routine) {
-    if (d.space >= program_.spaces.size() || !program_.spaces[d.space].named()) return;
-    for (const auto& i : d.items) {
-      auto& n = named_[{d.space, i.name}];
-      n.routines.insert(routine);
-      for (const auto& x : i.dimensions) {
-        n.dimensions.push_back(static_cast<std::int64_t>(constant_value(x).value_or(1)));
-      }
-    }
-  }
-  void system(const SystemRef& ref, const Statement& s) {
-    if (context_.target.system_data && context_.target.system_data(ref)) return;
-    context_.diagnostics.error("TRN-122", s.line.span,
-                               "the target has no counterpart of " + quoted(ref.text.empty() ? name(ref.datum) : ref.text),
-                               "replace it by a variable or a fixed value");
-  }
 
   // --- numbered spaces ------------------------------------------------------------------------------------------
 
   void place_numbered() {
-    for (const auto& [space, numbered] : numbered_) {
+    for (const auto& [space, numbered] : use_.numbered) {
       const auto& segments = program_.spaces[space].segments;
       std::set<std::int64_t> shifts;
       for (const auto& segment : segments) {
@@ -132,12 +66,12 @@ class VariableMap {
     }
   }
   static const SpaceSegment& widest(const std::vector<SpaceSegment>& segments) {
-    return *std::max_element(segments.begin(), segments.end(), [](const SpaceSegment& a, const SpaceSegment& b) {
-      return a.hi - a.lo < b.hi - b.lo;
-    });
+    return *std::max_element(segments.begin(), segments.end(),
+                             [](const SpaceSegment& a, const SpaceSegment& b) { return a.hi - a.lo < b.hi - b.lo; });
   }
 
-  void place_segment(SpaceId space, const SpaceSegment& segment, std::vector<std::int64_t> used, std::set<std::int64_t>& shifts) {
+  void place_segment(SpaceId space, const SpaceSegment& segment, std::vector<std::int64_t> used,
+                     std::set<std::int64_t>& shifts) {
     std::int64_t from = segment.lo;
     if (const auto* pool = pools_.holding(segment.lo, segment)) {  // the numbers stay
       shifts.insert(0);
@@ -153,8 +87,10 @@ class VariableMap {
     for (const auto n : used) {
       shifts.insert(n == 0 ? 1 : n * 1000003);  // packed: no common shift
       const auto free = pools_.any_free(segment);
-      if (free) take(space, n, *free->first, free->second);
-      else none_left(variable_name(space, n));
+      if (free)
+        take(space, n, *free->first, free->second);
+      else
+        none_left(variable_name(space, n));
     }
   }
   bool take(SpaceId space, std::int64_t n, const VariablePool& pool, std::int64_t to) {
@@ -162,14 +98,16 @@ class VariableMap {
     places_[{space, n}] = VarRef{pools_.space(pool.prefix), {}, number(static_cast<double>(to)), {}};
     return true;
   }
-  std::string variable_name(SpaceId space, std::int64_t n) const { return program_.spaces[space].prefix + std::to_string(n); }
+  std::string variable_name(SpaceId space, std::int64_t n) const {
+    return program_.spaces[space].prefix + std::to_string(n);
+  }
   void none_left(const std::string& name) {
     context_.diagnostics.error("TRN-120", {}, "no variable of the target is left for " + name,
                                "use fewer variables, or name a larger range in the target's machine profile");
   }
 
   /// A variable whose number is computed: every number it may reach must have moved by the same amount.
-  void computed_index(SpaceId space, const Numbered& numbered, const std::set<std::int64_t>& shifts) {
+  void computed_index(SpaceId space, const VariableUse::Numbered& numbered, const std::set<std::int64_t>& shifts) {
     const Span& where = numbered.computed_at.span;
     if (!context_.target.word_indirect) {
       context_.diagnostics.error("TRN-128", where, "the target has no variables with a computed number",
@@ -177,10 +115,11 @@ class VariableMap {
       return;
     }
     if (shifts.size() != 1) {
-      context_.diagnostics.error("TRN-129", where,
-                                 "a variable with a computed number, and the variables of the program don't keep one distance "
-                                 "to those of the target",
-                                 "use one contiguous range of variables");
+      context_.diagnostics.error(
+          "TRN-129", where,
+          "a variable with a computed number, and the variables of the program don't keep one distance "
+          "to those of the target",
+          "use one contiguous range of variables");
       return;
     }
     shift_[space] = *shifts.begin();
@@ -189,10 +128,11 @@ class VariableMap {
     }
     const auto any = places_.lower_bound({space, 0});
     if (any != places_.end() && any->first.first == space) shifted_space_[space] = any->second.space;
-    context_.diagnostics.warning("TRN-130", where,
-                                 "a variable with a computed number: right as long as the number stays in the range that the "
-                                 "program uses",
-                                 "check the smallest and the largest number");
+    context_.diagnostics.warning(
+        "TRN-130", where,
+        "a variable with a computed number: right as long as the number stays in the range that the "
+        "program uses",
+        "check the smallest and the largest number");
   }
 
   // --- local parameters of the target ---------------------------------------------------------------------------
@@ -225,7 +165,7 @@ class VariableMap {
 
   void place_named() {
     std::vector<NamedKey> rest;
-    for (const auto& [key, info] : named_) {
+    for (const auto& [key, info] : use_.named) {
       const auto& space = program_.spaces[key.first];
       if (space.prefix == level_prefix) continue;
       if (space.scope == Scope::routine && has_named_locals(context_.target.spaces)) continue;  // stays a name
@@ -240,7 +180,7 @@ class VariableMap {
     }
     for (const auto& key : rest) {
       std::int64_t size = 1;
-      for (const auto d : named_[key].dimensions) size *= std::max<std::int64_t>(d, 1);
+      for (const auto d : use_.named[key].dimensions) size *= std::max<std::int64_t>(d, 1);
       const auto free = pools_.run_of_free(size);
       if (!free) {
         none_left(key.second.substr(0, key.second.find('@')));
@@ -252,7 +192,7 @@ class VariableMap {
   }
 
   /// A name of the whole program that one routine alone uses can stay where the target has names for its routines.
-  bool keeps_name(const NamedKey& key, const Named& info) {
+  bool keeps_name(const NamedKey& key, const VariableUse::Named& info) {
     if (!has_named_locals(context_.target.spaces) || info.routines.size() != 1) return false;
     std::string plain = key.second.substr(0, key.second.find('@'));
     if (plain.size() < 2 || !std::all_of(plain.begin(), plain.end(), [](char c) {
@@ -262,7 +202,8 @@ class VariableMap {
     if (plain[0] >= '0' && plain[0] <= '9') return false;
     if (plain.size() < 3 || !(plain[1] >= 'A' && plain[1] <= 'Z')) plain = "_" + plain;  // X1, R5: addresses
     SpaceId locals = 0;
-    while (!(context_.target.spaces[locals].named() && context_.target.spaces[locals].scope == Scope::routine)) ++locals;
+    while (!(context_.target.spaces[locals].named() && context_.target.spaces[locals].scope == Scope::routine))
+      ++locals;
     named_places_[key] = VarRef{locals, plain, nullptr, {}};
     declared_[*info.routines.begin()].push_back(plain);
     return true;
@@ -273,7 +214,8 @@ class VariableMap {
     const auto at = name.find('@');
     std::string_view digits = std::string_view(name).substr(0, at);
     while (!digits.empty() && (digits.front() < '0' || digits.front() > '9')) digits.remove_prefix(1);
-    if (at == std::string::npos || digits.empty() || digits.size() > 6 || name.size() < 2 || name[1] < '0' || name[1] > '9')
+    if (at == std::string::npos || digits.empty() || digits.size() > 6 || name.size() < 2 || name[1] < '0' ||
+        name[1] > '9')
       return std::nullopt;
     return static_cast<std::int64_t>(parse_decimal(digits).value_or(-1));
   }
@@ -323,7 +265,7 @@ class VariableMap {
 
   /// An element of an array: its number from the indices.
   std::optional<VarRef> element(const VarRef& v, const VarRef& base) const {
-    const auto& dims = named_.at({v.space, v.name}).dimensions;
+    const auto& dims = use_.named.at({v.space, v.name}).dimensions;
     if (dims.size() != v.indices.size()) return std::nullopt;
     ExprPtr offset;
     for (std::size_t i = 0; i < dims.size(); ++i) {
@@ -335,7 +277,8 @@ class VariableMap {
     if (const auto n = constant_value(to.index)) {
       to.index = number(*n);
     } else if (!context_.target.word_indirect) {
-      context_.diagnostics.error("TRN-128", {}, "array " + v.name + " with a computed index: the target has no such variables",
+      context_.diagnostics.error("TRN-128", {},
+                                 "array " + v.name + " with a computed index: the target has no such variables",
                                  "use fixed indices");
     }
     return to;
@@ -380,9 +323,7 @@ class VariableMap {
     std::size_t main = 0;
     while (main < program_.routines.size() && program_.routines[main].kind != RoutineKind::main) ++main;
     if (main == program_.routines.size()) return list;
-    const auto starts_old = [&](const VarRef& to) {
-      return to.name.empty() && !pools_.starts_at_zero(to);
-    };
+    const auto starts_old = [&](const VarRef& to) { return to.name.empty() && !pools_.starts_at_zero(to); };
     for (const auto& [key, to] : places_) {
       if (!program_.spaces[key.first].starts_at_zero || !starts_old(to)) continue;
       if (reads(main, VarRef{key.first, {}, number(static_cast<double>(key.second)), {}})) list.push_back(to);
@@ -399,7 +340,8 @@ class VariableMap {
       const VarRef from{key.first, {}, number(static_cast<double>(key.second)), {}};
       const auto* segment = segment_of(program_, from);
       if (segment == nullptr || !segment->persistent || pools_.persistent(to)) continue;
-      if (!program_.routines.empty() && reads(0, from)) names += (names.empty() ? "" : ", ") + variable_name(key.first, key.second);
+      if (!program_.routines.empty() && reads(0, from))
+        names += (names.empty() ? "" : ", ") + variable_name(key.first, key.second);
     }
     if (names.empty()) return;
     context_.diagnostics.warning("TRN-131", {},
@@ -420,6 +362,7 @@ class VariableMap {
       const std::string plain = key.second.substr(0, at), name = target_name(to);
       const std::string owner = at == std::string::npos ? "" : key.second.substr(at + 1);
       report(plain, name, owner);
+      if (preferred_number(key.second) == constant_index(to)) continue;
       if (owner == "arguments" || plain.find("_OF_CALLER") != std::string::npos || !to.name.empty()) continue;
       head.push_back(owner.empty() || owner == "0" ? plain + "=" + name : plain + "(" + owner + ")=" + name);
     }
@@ -427,7 +370,8 @@ class VariableMap {
       const Routine& r = program_.routines[key.first];
       const std::string name = target_name(to);
       report(key.second, name, routine_tag(r));
-      head.push_back(r.kind == RoutineKind::main ? key.second + "=" + name : key.second + "(" + routine_tag(r) + ")=" + name);
+      head.push_back(r.kind == RoutineKind::main ? key.second + "=" + name
+                                                 : key.second + "(" + routine_tag(r) + ")=" + name);
     }
     std::vector<VariableSpace> spaces = context_.target.spaces;
     program_.spaces = std::move(spaces);
@@ -473,16 +417,14 @@ class VariableMap {
     const LineInfo nowhere;
     for (const auto& v : zero_first_) head.push_back(make_assign(nowhere, v, number(0)));
     auto at = main->body.begin();
-    while (at != main->body.end() && std::holds_alternative<Declare>(at->node)) ++at;
+    while (at != main->body.end() && (std::holds_alternative<Declare>(at->node) || is_remark(*at))) ++at;
     main->body.insert(at, std::make_move_iterator(head.begin()), std::make_move_iterator(head.end()));
   }
 
   Program& program_;
   const LegaliseContext& context_;
+  VariableUse use_;
   VariablePools pools_;
-  std::map<NamedKey, Named> named_;
-  std::map<SpaceId, Numbered> numbered_;
-  bool uses_levels_ = false;
   std::map<std::pair<SpaceId, std::int64_t>, VarRef> places_;
   std::map<SpaceId, std::int64_t> shift_;
   std::map<SpaceId, SpaceId> shifted_space_;
@@ -495,7 +437,7 @@ class VariableMap {
 }  // namespace
 
 void map_variables(Program& program, const LegaliseContext& context) {
-  VariableMap(program, context).run();
+  if (!same_spaces(program, context)) VariableMap(program, context).run();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -33,9 +33,11 @@ class RoutineNames {
       if (r.kind != RoutineKind::sub) continue;
       const bool by_number = good(r.name.number) && r.name.text.empty() && seen.insert(r.name.number).second;
       if (by_number) continue;
-      const std::int64_t wanted = good(r.name.number) && seen.count(r.name.number) == 0 ? r.name.number : digits_of(r.name.text);
+      const std::int64_t wanted =
+          good(r.name.number) && seen.count(r.name.number) == 0 ? r.name.number : digits_of(r.name.text);
       std::int64_t n = good(wanted) && (used_.count(wanted) == 0 || wanted == r.name.number) && seen.count(wanted) == 0
-                           ? wanted : free_number();
+                           ? wanted
+                           : free_number();
       if (n < 0) {
         context_.diagnostics.error("TRN-194", r.header.span, "no number is free for this subprogram");
         continue;
@@ -52,7 +54,8 @@ class RoutineNames {
     return n >= context_.target.routine_number_min && n <= context_.target.routine_number_max;
   }
   std::int64_t free_number() const {
-    for (std::int64_t n = std::max<std::int64_t>(1, context_.target.routine_number_min); n <= context_.target.routine_number_max; ++n) {
+    for (std::int64_t n = std::max<std::int64_t>(1, context_.target.routine_number_min);
+         n <= context_.target.routine_number_max; ++n) {
       if (used_.count(n) == 0) return n;
     }
     return -1;
@@ -82,9 +85,10 @@ class RoutineNames {
       name = RoutineName{n, {}};
       return;
     }
-    context_.diagnostics.error("TRN-193", s.line.span,
-                               "the called program " + quoted(name.text) + " is not at hand, and the target calls by number",
-                               "add the folder with the subprogram with --lib");
+    context_.diagnostics.error(
+        "TRN-193", s.line.span,
+        "the called program " + quoted(name.text) + " is not at hand, and the target calls by number",
+        "add the folder with the subprogram with --lib");
   }
 
   void references() {

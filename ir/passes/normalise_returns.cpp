@@ -49,7 +49,8 @@ class EndInSub {
     for (bool changed = true; changed;) {
       changed = false;
       for (const auto& site : calls_.sites()) {
-        if (site.callee && enders_.count(*site.callee) != 0 && program_.routines[site.caller].kind == RoutineKind::sub) {
+        if (site.callee && enders_.count(*site.callee) != 0 &&
+            program_.routines[site.caller].kind == RoutineKind::sub) {
           changed = enders_.insert(site.caller).second || changed;
         }
       }
@@ -87,8 +88,10 @@ class EndInSub {
     if (last == body.rend()) {
       body.push_back(make_label(LineInfo{}, *end_label, program_));
       Statement s;
-      if (sub) s.node = Return{};
-      else s.node = End{};
+      if (sub)
+        s.node = Return{};
+      else
+        s.node = End{};
       body.push_back(std::move(s));
     } else {
       last->line.joined = false;
@@ -109,8 +112,10 @@ void ends_that_return(Program& program) {
     for_each_statement(r.body, [&r](Statement& s) {
       auto* e = std::get_if<End>(&s.node);
       if (e == nullptr || !e->returns_from_sub) return;
-      if (r.kind == RoutineKind::sub) s.node = Return{{}, e->text};
-      else e->returns_from_sub = false;
+      if (r.kind == RoutineKind::sub)
+        s.node = Return{{}, e->text};
+      else
+        e->returns_from_sub = false;
     });
   }
 }
@@ -145,8 +150,10 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
 }  // namespace
 
 void normalise_returns(Program& program, const LegaliseContext& context) {
-  if (context.target.end_in_sub_ends_all) ends_that_return(program);
-  else EndInSub(program, context).run();
+  if (context.target.end_in_sub_ends_all)
+    ends_that_return(program);
+  else
+    EndInSub(program, context).run();
   if (context.target.early_return) return;
   for (auto& r : program.routines) single_return(program, r, context);
 }

@@ -6,27 +6,28 @@
 
 namespace cnctrans::ir::passes {
 
-void normalise_returns(Program& program, const LegaliseContext& context);   ///< early returns, program end in subprograms
-void lower_modal_calls(Program& program, const LegaliseContext& context);   ///< calls after every block with motion
-void lower_calls(Program& program, const LegaliseContext& context);         ///< local levels, arguments, results
-void map_variables(Program& program, const LegaliseContext& context);       ///< spaces, numbers and names of the target
-void lower_repeats(Program& program, const LegaliseContext& context);       ///< ranges in place, block repeats, counts
-void lower_control(Program& program, const LegaliseContext& context);       ///< structured statements, switches
-void lower_cycles(Program& program, const LegaliseContext& context);        ///< native or exploded, how they are modal
-void convert_frames(Program& program, const LegaliseContext& context);      ///< work offsets, programmable frame
-void convert_arcs(Program& program, const LegaliseContext& context);        ///< centre forms, radius, helix
-void convert_distance(Program& program, const LegaliseContext& context);    ///< absolute and incremental words
+void normalise_returns(Program& program,
+                       const LegaliseContext& context);  ///< early returns, program end in subprograms
+void lower_modal_calls(Program& program, const LegaliseContext& context);  ///< calls after every block with motion
+void lower_calls(Program& program, const LegaliseContext& context);        ///< local levels, arguments, results
+void map_variables(Program& program, const LegaliseContext& context);      ///< spaces, numbers and names of the target
+void lower_repeats(Program& program, const LegaliseContext& context);      ///< ranges in place, block repeats, counts
+void lower_control(Program& program, const LegaliseContext& context);      ///< structured statements, switches
+void lower_cycles(Program& program, const LegaliseContext& context);       ///< native or exploded, how they are modal
+void convert_frames(Program& program, const LegaliseContext& context);     ///< work offsets, programmable frame
+void convert_arcs(Program& program, const LegaliseContext& context);       ///< centre forms, radius, helix
+void convert_distance(Program& program, const LegaliseContext& context);   ///< absolute and incremental words
 void convert_units(Program& program, const LegaliseContext& context);
 void convert_diameters(Program& program, const LegaliseContext& context);
-void lower_conditions(Program& program, const LegaliseContext& context);    ///< AND, OR, NOT, tolerance
-void lower_expressions(Program& program, const LegaliseContext& context);   ///< operators and functions
-void convert_tools(Program& program, const LegaliseContext& context);       ///< tool change, length compensation, gear
-void convert_feed(Program& program, const LegaliseContext& context);        ///< F after a change of feed mode
-void split_blocks(Program& program, const LegaliseContext& context);        ///< order of actions inside a block
-void convert_dwells(Program& program, const LegaliseContext& context);      ///< dwells, exact stop, path mode
+void lower_conditions(Program& program, const LegaliseContext& context);   ///< AND, OR, NOT, tolerance
+void lower_expressions(Program& program, const LegaliseContext& context);  ///< operators and functions
+void convert_tools(Program& program, const LegaliseContext& context);      ///< tool change, length compensation, gear
+void convert_feed(Program& program, const LegaliseContext& context);       ///< F after a change of feed mode
+void split_blocks(Program& program, const LegaliseContext& context);       ///< order of actions inside a block
+void convert_dwells(Program& program, const LegaliseContext& context);     ///< dwells, exact stop, path mode
 void check_skips(Program& program, const LegaliseContext& context);
 void convert_messages(Program& program, const LegaliseContext& context);
-void resolve_labels(Program& program, const LegaliseContext& context);      ///< searches, duplicates, names, limits
+void resolve_labels(Program& program, const LegaliseContext& context);  ///< searches, duplicates, names, limits
 void name_routines(Program& program, const LegaliseContext& context);
 void safe_start(Program& program, const LegaliseContext& context);
 void tidy(Program& program, const LegaliseContext& context);

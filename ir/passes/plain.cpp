@@ -6,7 +6,6 @@ namespace cnctrans::ir {
 
 namespace {
 
-
 bool plain_motion(const Motion& m, const Capabilities& target) {
   if (target.motions.count(m.kind) == 0 || m.extra) return false;
   if (m.frame != FrameUse::normal && target.frame_uses.count(m.frame) == 0) return false;
@@ -54,8 +53,7 @@ struct PlainAction {
       case Setting::feed_mode:
         if (s.value == static_cast<std::uint8_t>(FeedMode::inverse_time) && !target.inverse_time) return false;
         return s.feed_memory == target.feed_memory || has_feed();
-      case Setting::path_mode:
-        return target.exact_stop_modal;
+      case Setting::path_mode: return target.exact_stop_modal;
       case Setting::length_comp: return target.length_comp_switch;
       case Setting::retract_plane: return target.retract_plane_switch;
       case Setting::feed_point: return target.feed_point_switch;

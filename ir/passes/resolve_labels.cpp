@@ -71,8 +71,10 @@ class LabelPass {
     for (std::size_t i = 0; i < marks_.size(); ++i) {
       if (!same_label(marks_[i].label, l)) continue;
       if (!first) first = i;
-      if (marks_[i].position <= from) backward = i;
-      else if (!forward) forward = i;
+      if (marks_[i].position <= from)
+        backward = i;
+      else if (!forward)
+        forward = i;
     }
     switch (search) {
       case Search::whole_first:
@@ -129,7 +131,8 @@ class LabelPass {
     return r.ec == std::errc{} && n <= target_.label_max;
   }
   bool is_range_of_repeat(const Mark& m) const {
-    return std::any_of(uses_.begin(), uses_.end(), [&](const Use& u) { return u.range && u.found && &marks_[u.mark] == &m; });
+    return std::any_of(uses_.begin(), uses_.end(),
+                       [&](const Use& u) { return u.range && u.found && &marks_[u.mark] == &m; });
   }
 
   void name_targets() {
@@ -193,12 +196,15 @@ class LabelPass {
         // The number of a block that got a name as well stays for the eye where the target numbers its blocks freely.
         if (dropped || m.renamed->is_number || !target_.duplicate_labels) line.number = {};
       } else {
-        std::erase_if(line.labels, [&](std::string_view l) { return same_label(label_of(std::string(l), false), m.label); });
+        std::erase_if(line.labels,
+                      [&](std::string_view l) { return same_label(label_of(std::string(l), false), m.label); });
       }
       if (!dropped) {
         if (!m.label.is_number && m.renamed->is_number) keep_as_comment(line, m.label.text);
-        if (m.renamed->is_number && !line.number.empty()) second_number(m);
-        else set_label(line, *m.renamed, program_);
+        if (m.renamed->is_number && !line.number.empty())
+          second_number(m);
+        else
+          set_label(line, *m.renamed, program_);
       }
       if (context_.report != nullptr && !dropped) {
         const std::string owner = routine_.name.number >= 0 ? std::to_string(routine_.name.number) : routine_.name.text;
@@ -230,7 +236,9 @@ class LabelPass {
       if (m.renamed) *u.ref = *m.renamed;
       const Search search = target_search(u);
       if (auto* j = std::get_if<Jump>(&u.s->node)) j->search = search;
-      if (auto* r = std::get_if<Repeat>(&u.s->node)) r->search = target_.searches.count(Search::whole_first) != 0 ? Search::whole_first : Search::forward_then_backward;
+      if (auto* r = std::get_if<Repeat>(&u.s->node))
+        r->search =
+            target_.searches.count(Search::whole_first) != 0 ? Search::whole_first : Search::forward_then_backward;
       if (auto* sw = std::get_if<Switch>(&u.s->node)) {
         for (auto& c : sw->cases) {
           if (&c.second.target == u.ref) c.second.search = search;
@@ -244,7 +252,8 @@ class LabelPass {
       auto* j = std::get_if<Jump>(&s.node);
       if (j == nullptr) return;
       if (j->target.computed && target_.searches.count(j->search) == 0) {
-        j->search = target_.searches.count(Search::forward_then_backward) != 0 ? Search::forward_then_backward : Search::whole_first;
+        j->search = target_.searches.count(Search::forward_then_backward) != 0 ? Search::forward_then_backward
+                                                                               : Search::whole_first;
       }
       if (j->search == Search::to_start && target_.searches.count(Search::to_start) == 0) jump_to_start(*j);
     });

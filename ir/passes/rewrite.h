@@ -28,13 +28,29 @@ const VarRef* as_variable(const ExprPtr& e);
 // --- values of a block ----------------------------------------------------------------------------------------
 
 enum class Role : std::uint8_t {
-  coordinate, center, radius, pitch, lead, polar_radius,  // lengths
-  angle, turns,
-  feed, spindle, tool, offset, work_offset, machine,
-  frame_length, frame_factor, frame_angle, dwell, count,
+  coordinate,
+  center,
+  radius,
+  pitch,
+  lead,
+  polar_radius,  // lengths
+  angle,
+  turns,
+  feed,
+  spindle,
+  tool,
+  offset,
+  work_offset,
+  machine,
+  frame_length,
+  frame_factor,
+  frame_angle,
+  dwell,
+  count,
   cycle_level,   ///< a height
   cycle_length,  ///< a distance
-  cycle_feed, cycle_other,
+  cycle_feed,
+  cycle_other,
   corner
 };
 struct Place {
@@ -92,6 +108,8 @@ Statement make_jump(const LineInfo& like, const LabelRef& target, ExprPtr condit
 Statement make_label(const LineInfo& like, const LabelRef& label, Program& program);
 Statement make_comment(std::string text, Program& program);
 Statement make_block(const LineInfo& like, Action action);
+/// A line with nothing but comments, or an empty one.
+bool is_remark(const Statement& s);
 /// Puts a label on a line.
 void set_label(LineInfo& line, const LabelRef& label, Program& program);
 /// A block action made by a pass.
@@ -116,8 +134,8 @@ void move_head(LineInfo& from, LineInfo& to);
 // --- reporting ------------------------------------------------------------------------------------------------
 
 /// Puts an Opaque statement in the place of one that the target can't say, with an error.
-void refuse(Statement& s, const Program& program, const LegaliseContext& context, std::string_view code, std::string message,
-            std::string hint = {}, WordPos pos = {});
+void refuse(Statement& s, const Program& program, const LegaliseContext& context, std::string_view code,
+            std::string message, std::string hint = {}, WordPos pos = {});
 std::string quoted(std::string_view name);
 
 /// Name of a variable in messages: P100, LEN, R5.

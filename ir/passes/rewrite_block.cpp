@@ -86,12 +86,18 @@ struct BlockValues {
   }
 
   void act(Action& a) {
-    if (auto* f = std::get_if<SetFeed>(&a.data)) one(f->value, Role::feed, axis::none, a.pos);
-    else if (auto* s = std::get_if<SetSpindle>(&a.data)) one(s->value, Role::spindle, axis::none, a.pos);
-    else if (auto* so = std::get_if<SpindleOrient>(&a.data)) one(so->angle, Role::angle, axis::none, a.pos);
-    else if (auto* sl = std::get_if<SpindleLimit>(&a.data)) one(sl->value, Role::spindle, axis::none, a.pos);
-    else if (auto* t = std::get_if<ToolSelect>(&a.data)) one(t->number, Role::tool, axis::none, a.pos);
-    else if (auto* o = std::get_if<ToolOffset>(&a.data)) one(o->number, Role::offset, axis::none, a.pos);
+    if (auto* f = std::get_if<SetFeed>(&a.data))
+      one(f->value, Role::feed, axis::none, a.pos);
+    else if (auto* s = std::get_if<SetSpindle>(&a.data))
+      one(s->value, Role::spindle, axis::none, a.pos);
+    else if (auto* so = std::get_if<SpindleOrient>(&a.data))
+      one(so->angle, Role::angle, axis::none, a.pos);
+    else if (auto* sl = std::get_if<SpindleLimit>(&a.data))
+      one(sl->value, Role::spindle, axis::none, a.pos);
+    else if (auto* t = std::get_if<ToolSelect>(&a.data))
+      one(t->number, Role::tool, axis::none, a.pos);
+    else if (auto* o = std::get_if<ToolOffset>(&a.data))
+      one(o->number, Role::offset, axis::none, a.pos);
     else if (auto* w = std::get_if<WorkOffset>(&a.data)) {
       if (!w->off) one(w->index, Role::work_offset, axis::none, a.pos);
     } else if (auto* d = std::get_if<Dwell>(&a.data)) {

@@ -93,7 +93,7 @@ bool reads(const ExprPtr& e, const VarRef& ref) {
 }
 
 bool is_primary(const ExprPtr& e) {
-  return std::holds_alternative<Number>(e->node) || std::holds_alternative<VarRef>(e->node) ||
+  return !e || std::holds_alternative<Number>(e->node) || std::holds_alternative<VarRef>(e->node) ||
          std::holds_alternative<SystemRef>(e->node) || std::holds_alternative<String>(e->node) ||
          std::holds_alternative<AxisName>(e->node);
 }

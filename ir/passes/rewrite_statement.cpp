@@ -223,6 +223,11 @@ Statement make_comment(std::string text, Program& program) {
   return s;
 }
 
+bool is_remark(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  return b != nullptr && b->empty() && b->repeat_given == 0 && s.line.number.empty() && s.line.labels.empty();
+}
+
 Statement make_block(const LineInfo& like, Action action) {
   Block b;
   b.actions.push_back(std::move(action));
@@ -247,8 +252,8 @@ void move_head(LineInfo& from, LineInfo& to) {
   from.comments = std::move(stay);
 }
 
-void refuse(Statement& s, const Program& program, const LegaliseContext& context, std::string_view code, std::string message,
-            std::string hint, WordPos pos) {
+void refuse(Statement& s, const Program& program, const LegaliseContext& context, std::string_view code,
+            std::string message, std::string hint, WordPos pos) {
   context.diagnostics.error(code, word_span(s.line.span, pos), std::move(message), std::move(hint));
   Opaque o;
   o.text = to_text(s, program);

@@ -1,5 +1,5 @@
-// Safe start (equivalences rule 2): nothing modal is inherited from the target's power-on state. What the source's machine
-// has at the start, and the program does not say before its first motion, is said in a block at the head.
+// Safe start (equivalences rule 2): nothing modal is inherited from the target's power-on state. What the source's
+// machine has at the start, and the program does not say before its first motion, is said in a block at the head.
 #include <algorithm>
 #include <array>
 
@@ -13,7 +13,8 @@ namespace {
 
 class SafeStart {
  public:
-  SafeStart(Program& program, Routine& main, const LegaliseContext& context) : program_(program), main_(main), context_(context) {}
+  SafeStart(Program& program, Routine& main, const LegaliseContext& context)
+      : program_(program), main_(main), context_(context) {}
 
   void run() {
     look();
@@ -32,10 +33,11 @@ class SafeStart {
     Body blocks;
     if (!head.actions.empty()) blocks.push_back(made(LineInfo{}, std::move(head)));
     const auto offset = context_.source_machine.power_on.work_offset;
-    if (!offset_said_ && offset != context_.target_machine.power_on.work_offset && offset > 0 && offset <= context_.target.work_offset_rows) {
+    if (!offset_said_ && offset != context_.target_machine.power_on.work_offset && offset > 0 &&
+        offset <= context_.target.work_offset_rows) {
       blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
     }
-    if (clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
+    if (!shift_cleared_ && clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
     first_motion();
     main_.body.insert(place(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
   }
@@ -49,11 +51,6 @@ class SafeStart {
     const bool diameter = std::any_of(axes.begin(), axes.end(), [](const machine::AxisSpec& a) { return a.diameter; });
     if (diameter && context_.target.diameter_switch) list.push_back(Setting::diameter);
     return list;
-  }
-
-  static bool is_remark(const Statement& s) {
-    const auto* b = std::get_if<Block>(&s.node);
-    return b != nullptr && b->empty() && s.line.number.empty() && s.line.labels.empty();
   }
 
   /// Settings that stand before the first motion, call or branch.
@@ -74,12 +71,15 @@ class SafeStart {
         if (!open || s.line.skip_mask != 0) continue;
         if (const auto* m = std::get_if<ModalSet>(&a.data)) said_[static_cast<std::size_t>(m->setting)] = true;
         if (std::holds_alternative<WorkOffset>(a.data)) offset_said_ = true;
+        const auto* f = std::get_if<FrameOp>(&a.data);
+        if (f != nullptr && f->change && f->change->combine == FrameCombine::clear) shift_cleared_ = true;
       }
       if (!moves) continue;
       open = false;
       const MotionKind kind = b->motion.kind;
       if (kind != MotionKind::modal) last_kind_ = kind;
-      if (feed_open && last_kind_.value_or(context_.source_machine.power_on.motion) != MotionKind::rapid) needs_feed_ = true;
+      if (feed_open && last_kind_.value_or(context_.source_machine.power_on.motion) != MotionKind::rapid)
+        needs_feed_ = true;
       if (!feed_open || needs_feed_) return;
     }
   }
@@ -131,7 +131,7 @@ class SafeStart {
   Routine& main_;
   const LegaliseContext& context_;
   std::array<bool, setting_count> said_{};
-  bool offset_said_ = false, needs_feed_ = false;
+  bool offset_said_ = false, needs_feed_ = false, shift_cleared_ = false;
   std::optional<MotionKind> last_kind_;
 };
 

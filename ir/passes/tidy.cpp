@@ -15,8 +15,10 @@ bool can_join(const Statement& mark, const Statement& next, const Capabilities& 
   if (!std::holds_alternative<Label>(mark.node) || mark.line.span.known() == false) return false;
   const LineInfo& a = mark.line;
   const LineInfo& b = next.line;
-  if (!a.comments.empty() || a.joined || b.joined || b.skip_mask != 0 || a.skip_mask != 0 || a.blank_lines_before != 0) return false;
-  if (std::holds_alternative<Label>(next.node) || std::holds_alternative<Declare>(next.node) || std::holds_alternative<Opaque>(next.node))
+  if (!a.comments.empty() || a.joined || b.joined || b.skip_mask != 0 || a.skip_mask != 0 || a.blank_lines_before != 0)
+    return false;
+  if (std::holds_alternative<Label>(next.node) || std::holds_alternative<Declare>(next.node) ||
+      std::holds_alternative<Opaque>(next.node))
     return false;
   if (!a.number.empty() && !b.number.empty()) return false;
   if (!b.comments.empty() && b.comments.front().place == CommentPlace::own_line) return false;

@@ -22,7 +22,8 @@ class VariablePools {
   [[nodiscard]] const VariablePool* holding_any(std::int64_t n) const;
   [[nodiscard]] const VariablePool* holding_prefix(const SpaceSegment& segment) const;
   /// A pool and a distance by which all `used` numbers (those from `from` on) fit in and are free.
-  [[nodiscard]] Found shift_for(const SpaceSegment& segment, std::int64_t from, const std::vector<std::int64_t>& used) const;
+  [[nodiscard]] Found shift_for(const SpaceSegment& segment, std::int64_t from,
+                                const std::vector<std::int64_t>& used) const;
   [[nodiscard]] Found any_free(const SpaceSegment& segment) const;
   [[nodiscard]] Found run_of_free(std::int64_t size) const;
   [[nodiscard]] const VariablePool* level_pool() const;

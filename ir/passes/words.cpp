@@ -39,8 +39,7 @@ void SymbolicPosition::follow_block(const Block& b, const Facts& facts) {
   for (const auto& a : b.actions) {
     const auto* set = std::get_if<ModalSet>(&a.data);
     if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
-        std::holds_alternative<CycleDefine>(a.data) ||
-        (set != nullptr && set->setting == Setting::units)) {
+        std::holds_alternative<CycleDefine>(a.data) || (set != nullptr && set->setting == Setting::units)) {
       clear();
     }
   }

@@ -40,7 +40,7 @@ TEST(FagorIdentity, Mill) {
 
 TEST(FagorIdentity, Lathe) {
   same(
-      "G18 G40 G05 G71 G90 G95 G151\nG92 S2500\nT1 D1\nG96 S180 F0.25 M3\nG1 X90 Z5\nG2 X40 Z-5 I0 K-5\nG33 Z-20 "
+      "G18 G40 G05 G71 G90 G95 G151\nG92 S2500\nT1 D1\nG96 F0.25 S180 M3\nG1 X90 Z5\nG2 X40 Z-5 I0 K-5\nG33 Z-20 "
       "L1.5\nG152\nS90 M19\nM30\n",
       "fagor-lathe");
 }

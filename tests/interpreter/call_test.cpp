@@ -96,6 +96,12 @@ TEST(Call, TooManyArguments) {
               ElementsAre("end error RUN-026"));
 }
 
+TEST(Call, AVariableGoesByReferenceThoughTheCallerDoesNotKnow) {
+  EXPECT_EQ(run_text("routine main 1 {\ncall \"DRILL\" (1, 1, R[9])\ncall \"DRILL\" (1, 1, R[9] + 1)\n}" + proc)
+                .variables.at("R9"),
+            "20");
+}
+
 TEST(Call, ArraysByReference) {
   EXPECT_THAT(
       run_text("routine main 1 {\ndeclare real in V \"LIST\"[3] = (1, 2, 3)\ncall \"S\" (ref V.LIST)\nblock rapid "

@@ -11,14 +11,16 @@ std::string main_program(const std::string& body) {
 }
 
 TEST(Arcs, OffsetCentreBecomesAbsolute) {
-  const std::string text = main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 0 Y 10 centre X -10 centre Y 0\n");
+  const std::string text =
+      main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 0 Y 10 centre X -10 centre Y 0\n");
   const auto p = run_pass("arcs", text, chain_target());
   EXPECT_NE(p.text.find("centre X follows_distance"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
 }
 
 TEST(Arcs, UnknownStartFromVariablesBecomesAnExpression) {
-  const std::string text = main_program("  set L[1] = 10\n  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y (L[1]) centre X (-L[1])\n");
+  const std::string text = main_program(
+      "  set L[1] = 10\n  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y (L[1]) centre X (-L[1])\n");
   EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
 }
 
@@ -37,7 +39,9 @@ TEST(Arcs, FullCircleNamesItsEnd) {
 }
 
 TEST(Arcs, AbsoluteCentreNeedsNoStart) {
-  const std::string text = main_program("  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y 0 centre X follows_distance modal 0 centre Y follows_distance modal 0\n");
+  const std::string text = main_program(
+      "  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y 0 centre X follows_distance modal 0 centre Y "
+      "follows_distance modal 0\n");
   const auto p = run_pass("arcs", text, structured_target(), "num-mill", "sinumerik-mill");
   EXPECT_TRUE(p.good) << all(p.diagnostics);
   EXPECT_NE(p.text.find("centre X absolute"), std::string::npos) << p.text;
@@ -45,7 +49,8 @@ TEST(Arcs, AbsoluteCentreNeedsNoStart) {
 
 TEST(Arcs, PitchBecomesTurns) {
   // 10 mm down at 4 mm a turn: 2.5 turns, half of one is the partial arc.
-  const std::string text = main_program("  block feed 100, rapid X 10 Y 0 Z 0\n  block arc_ccw X -10 Y 0 Z -10 centre X -10 centre Y 0 extra pitch 4\n");
+  const std::string text = main_program(
+      "  block feed 100, rapid X 10 Y 0 Z 0\n  block arc_ccw X -10 Y 0 Z -10 centre X -10 centre Y 0 extra pitch 4\n");
   const auto p = run_pass("arcs", text, structured_target());
   EXPECT_NE(p.text.find("turns #2"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
@@ -65,7 +70,8 @@ TEST(Distance, UnknownPositionSwitchesTheBlock) {
 }
 
 TEST(Diameters, RadiusProgrammingOnAFixedDiameterLathe) {
-  const std::string text = main_program("  block diameter radius, rapid X 10 Z 2\n  block diameter diameter, rapid X 30\n");
+  const std::string text =
+      main_program("  block diameter radius, rapid X 10 Z 2\n  block diameter diameter, rapid X 30\n");
   const auto p = run_pass("diameters", text, chain_target(), "fagor-lathe", "num-lathe");
   EXPECT_NE(p.text.find("X #20 Z 2"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("X 30"), std::string::npos) << p.text;
@@ -74,7 +80,8 @@ TEST(Diameters, RadiusProgrammingOnAFixedDiameterLathe) {
 
 TEST(Order, StopBeforeTheMotionGetsABlock) {
   // M9 acts before the motion on the source, after it on the target.
-  const std::string text = main_program("  block feed 100, rapid X 1\n  N10 block linear X 5, coolant off as \"M9\" ; \"cut\"\n  jump N10 if L[1] > 0\n");
+  const std::string text = main_program(
+      "  block feed 100, rapid X 1\n  N10 block linear X 5, coolant off as \"M9\" ; \"cut\"\n  jump N10 if L[1] > 0\n");
   const auto p = run_pass("order", text, chain_target(), "fagor-mill", "num-mill");
   EXPECT_NE(p.text.find("N10 block coolant off"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("block linear X 5 ; \"cut\""), std::string::npos) << p.text;
@@ -82,7 +89,8 @@ TEST(Order, StopBeforeTheMotionGetsABlock) {
 }
 
 TEST(Order, StopAfterTheMotionGetsABlockBehind) {
-  const std::string text = main_program("  block spindle 500, spindle_run cw\n  block feed 100, linear X 5, spindle_run off after as \"M5\"\n");
+  const std::string text = main_program(
+      "  block spindle 500, spindle_run cw\n  block feed 100, linear X 5, spindle_run off after as \"M5\"\n");
   EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
 }
 
@@ -95,24 +103,27 @@ TEST(Dwell, UnitsOfTheTarget) {
 
 TEST(Frames, ShiftOfAllAxesInTheChain) {
   // A named shift keeps the other axes; the chain's statement deletes them, so it names all.
-  const std::string text = main_program("  block frame shift translate replace_named X 100 Y 20\n  block rapid X 0 Y 0\n"
-                                        "  block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n"
-                                        "  block frame shift translate clear\n  block rapid X 1 Y 1\n");
+  const std::string text = main_program(
+      "  block frame shift translate replace_named X 100 Y 20\n  block rapid X 0 Y 0\n"
+      "  block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n"
+      "  block frame shift translate clear\n  block rapid X 1 Y 1\n");
   EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
   const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
   EXPECT_NE(p.text.find("frame chain translate replace X 100 Y 60"), std::string::npos) << p.text;
 }
 
 TEST(Frames, ChainInSlots) {
-  const std::string text = main_program("  block frame chain translate replace X 100 Y 60\n  block frame chain rotate compose angle 30\n"
-                                        "  block rapid X 10 Y 0\n  block frame chain translate clear\n  block rapid X 10 Y 0\n");
+  const std::string text = main_program(
+      "  block frame chain translate replace X 100 Y 60\n  block frame chain rotate compose angle 30\n"
+      "  block rapid X 10 Y 0\n  block frame chain translate clear\n  block rapid X 10 Y 0\n");
   EXPECT_EQ(difference(text, letters_target(), "sinumerik-mill", "fagor-mill"), "");
   EXPECT_EQ(difference(text, chain_target(), "sinumerik-mill", "num-mill"), "");
 }
 
 TEST(Frames, UnknownRestIsRefused) {
-  const std::string text = main_program("  jump N10 if L[1] > 0\n  block frame shift translate replace_named X 100\n"
-                                        "  N10 block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n");
+  const std::string text = main_program(
+      "  jump N10 if L[1] > 0\n  block frame shift translate replace_named X 100\n"
+      "  N10 block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n");
   const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-325")) << p.text;
 }
@@ -131,7 +142,8 @@ TEST(Cycles, WrittenOutMoveByMove) {
 TEST(Cycles, ModalDefinitionBecomesAModalCall) {
   const auto p = run_pass("cycles", main_program(drilling), structured_target(), "fagor-mill", "sinumerik-mill");
   ASSERT_TRUE(p.good) << all(p.diagnostics);
-  const auto call = p.text.find("modal_call cycle"), first = p.text.find("X 10 Y 10"), off = p.text.find("modal_call off");
+  const auto call = p.text.find("modal_call cycle"), first = p.text.find("X 10 Y 10"),
+             off = p.text.find("modal_call off");
   EXPECT_LT(call, first) << p.text;
   EXPECT_LT(first, off) << p.text;
   EXPECT_EQ(difference(main_program(drilling), structured_target(), "fagor-mill", "sinumerik-mill"), "");
@@ -140,20 +152,25 @@ TEST(Cycles, ModalDefinitionBecomesAModalCall) {
 TEST(Cycles, ModalCallBecomesADefinitionAtTheFirstPoint) {
   auto target = letters_target();
   target.native_cycle = [](const ir::Cycle&) { return true; };
-  const std::string text = main_program("  block feed 100, rapid X 0 Y 0 Z 20\n"
-                                        "  modal_call cycle hole drill reference 2 bottom -15 retract 20\n"
-                                        "  block rapid X 10 Y 10\n  block modal X 30\n  modal_call off\n  block rapid Z 50\n");
+  const std::string text = main_program(
+      "  block feed 100, rapid X 0 Y 0 Z 20\n"
+      "  modal_call cycle hole drill reference 2 bottom -15 retract 20\n"
+      "  block rapid X 10 Y 10\n  block modal X 30\n  modal_call off\n  block rapid Z 50\n");
   EXPECT_EQ(difference(text, target, "sinumerik-mill", "fagor-mill"), "");
 }
 
 TEST(SafeStart, SaysThePowerOnStateOfTheSource) {
-  const auto p = run_pass("safe_start", main_program("  block plane zx\n  block rapid X 0\n"), structured_target(), "fagor-mill", "sinumerik-mill");
-  EXPECT_NE(p.text.find("comp off, path_mode continuous, units metric, distance absolute, feed_mode per_minute"), std::string::npos) << p.text;
+  const auto p = run_pass("safe_start", main_program("  block plane zx\n  block rapid X 0\n"), structured_target(),
+                          "fagor-mill", "sinumerik-mill");
+  EXPECT_NE(p.text.find("comp off, path_mode continuous, units metric, distance absolute, feed_mode per_minute"),
+            std::string::npos)
+      << p.text;
   EXPECT_EQ(p.text.find("plane xy"), std::string::npos) << p.text;  // the program says its plane itself
 }
 
 TEST(SafeStart, PowerOnFeedIsWritten) {
-  const auto p = run_pass("safe_start", main_program("  block linear X 10\n"), structured_target(), "num-mill", "sinumerik-mill");
+  const auto p =
+      run_pass("safe_start", main_program("  block linear X 10\n"), structured_target(), "num-mill", "sinumerik-mill");
   EXPECT_NE(p.text.find("feed #1000"), std::string::npos) << p.text;
 }
 

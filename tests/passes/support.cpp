@@ -40,7 +40,8 @@ Capabilities chain_target() {
   c.unary = {UnaryOp::negate};
   c.binary = join(arithmetic(), relations());
   c.functions = {Function::sin, Function::cos, Function::atan, Function::sqrt, Function::trunc};
-  c.spaces = {numbered("L", {{0, 19, Scope::global, false, false, false}, {100, 199, Scope::global, false, false, true}})};
+  c.spaces = {
+      numbered("L", {{0, 19, Scope::global, false, false, false}, {100, 199, Scope::global, false, false, true}})};
   c.spaces[0].starts_at_zero = true;
   c.pools = {{"L", 0, 19, Scope::global, true}, {"L", 100, 199, Scope::global, false}};
   c.centers = {CenterMode::follows_distance};
@@ -66,11 +67,11 @@ Capabilities letters_target() {
   c.repeat_range = true;
   c.searches = {Search::whole_first};
   c.unary = {UnaryOp::negate, UnaryOp::logical_not};
-  c.binary = join(join(arithmetic(), relations()),
-                  {BinaryOp::power, BinaryOp::modulo, BinaryOp::logical_and, BinaryOp::logical_or, BinaryOp::logical_xor});
-  c.functions = {Function::sin,  Function::cos,   Function::tan,  Function::asin,  Function::acos, Function::atan,
-                 Function::arg,  Function::sqrt,  Function::abs,  Function::trunc, Function::ceil, Function::round,
-                 Function::log10};
+  c.binary = join(join(arithmetic(), relations()), {BinaryOp::power, BinaryOp::modulo, BinaryOp::logical_and,
+                                                    BinaryOp::logical_or, BinaryOp::logical_xor});
+  c.functions = {Function::sin,  Function::cos,   Function::tan,  Function::asin, Function::acos,
+                 Function::atan, Function::arg,   Function::sqrt, Function::abs,  Function::trunc,
+                 Function::ceil, Function::round, Function::log10};
   c.relation_as_value = true;
   c.word_indirect = true;
   c.constant_decimals = 5;
@@ -78,8 +79,10 @@ Capabilities letters_target() {
   c.arguments = ArgumentForm::letters;
   c.local_levels = true;
   c.call_count = false;
-  c.spaces = {numbered("P", {{0, 25, Scope::level, false, false, false}, {100, 299, Scope::global, true, false, false}})};
-  c.pools = {{"P", 100, 199, Scope::global, false}, {"P", 0, 25, Scope::level, false}, {"P", 200, 299, Scope::global, true}};
+  c.spaces = {
+      numbered("P", {{0, 25, Scope::level, false, false, false}, {100, 299, Scope::global, true, false, false}})};
+  c.pools = {
+      {"P", 100, 199, Scope::global, false}, {"P", 0, 25, Scope::level, false}, {"P", 200, 299, Scope::global, true}};
   c.centers = {CenterMode::from_start, CenterMode::absolute};
   c.center_scales = {{CenterMode::absolute, WordScale::modal}};
   c.full_circle_needs_end = true;
@@ -109,8 +112,9 @@ Capabilities structured_target() {
   c.unary = {UnaryOp::negate, UnaryOp::logical_not};
   c.binary = join(join(arithmetic(), relations()),
                   {BinaryOp::logical_and, BinaryOp::logical_or, BinaryOp::logical_xor, BinaryOp::int_divide});
-  c.functions = {Function::sin,  Function::cos,  Function::tan, Function::asin, Function::acos,  Function::atan2, Function::sqrt,
-                 Function::square, Function::abs, Function::trunc, Function::ceil, Function::round, Function::exp, Function::ln};
+  c.functions = {Function::sin,   Function::cos,   Function::tan,    Function::asin, Function::acos,
+                 Function::atan2, Function::sqrt,  Function::square, Function::abs,  Function::trunc,
+                 Function::ceil,  Function::round, Function::exp,    Function::ln};
   c.compare = Compare::relative_1e12;
   c.arguments = ArgumentForm::positional;
   c.local_levels = true;
@@ -173,7 +177,8 @@ Passed run_pass(const std::string& pass, const std::string& text, const Capabili
                       [&pass](Program& p, const LegaliseContext& c) { return ir::run_pass(pass, p, c); });
 }
 
-Passed legalise(const std::string& text, const Capabilities& target, const std::string& source, const std::string& target_machine) {
+Passed legalise(const std::string& text, const Capabilities& target, const std::string& source,
+                const std::string& target_machine) {
   return with_context(text, target, source, target_machine,
                       [](Program& p, const LegaliseContext& c) { return ir::legalise(p, c); });
 }
