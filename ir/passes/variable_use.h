@@ -1,0 +1,38 @@
+// What variables a program uses: numbers of each numbered space, names, and where.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+struct VariableUse {
+  struct Named {
+    std::set<std::size_t> routines;
+    std::vector<std::int64_t> dimensions;
+  };
+  struct Numbered {
+    std::set<std::int64_t> used;
+    bool computed = false;  ///< some number is found at run time
+    LineInfo computed_at;
+  };
+  /// Machine data without a counterpart on the target are reported.
+  VariableUse(const Program& program, const LegaliseContext& context);
+
+  std::map<std::pair<SpaceId, std::string>, Named> named;
+  std::map<SpaceId, Numbered> numbered;
+  bool levels = false;  ///< calls open levels of local parameters
+
+ private:
+  void note(const VarRef& v, std::size_t routine, const LineInfo& line);
+  void dimensions(const Declare& d, std::size_t routine);
+  void system(const SystemRef& ref, const Statement& s);
+  const Program& program_;
+  const LegaliseContext& context_;
+};
+
+}  // namespace cnctrans::ir::passes
