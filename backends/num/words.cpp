@@ -62,6 +62,11 @@ void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
   add(word("EC", s.angle, a.pos) + ' ' + m_word(19), Rank::machine, a.pos);
 }
 
+bool Writer::spelling_is_whole_word(const ir::Action& a) const {
+  // The S of G92 S is half of its word.
+  return !std::holds_alternative<ir::SpindleLimit>(a.data) && ProgramWriter::spelling_is_whole_word(a);
+}
+
 void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
   if (s.number != 1 || s.lower) return refuse(no_word, a.pos, "this spindle limit has no counterpart here");
   if (!line().empty() && !same_dialect()) next_line();

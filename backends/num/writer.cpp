@@ -7,6 +7,7 @@
 #include "backends/num/style.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
+#include "dialects/num/variables.h"
 
 namespace cnctrans::backends::num {
 
@@ -59,6 +60,15 @@ void Writer::write_routine(std::size_t index, std::int64_t number) {
     }
     raw_line(head, r.header.span);
   }
+  // Declarations in a row stand between VAR and ENDV.
+  const auto declares = [&r](std::size_t i) {
+    return i < r.body.size() && std::holds_alternative<ir::Declare>(r.body[i].node);
+  };
+  for (std::size_t i = 0; i < r.body.size(); ++i) {
+    if (!declares(i)) continue;
+    if (i == 0 || !declares(i - 1)) declares_first_.insert(r.body[i].id);
+    if (!declares(i + 1)) declares_last_.insert(r.body[i].id);
+  }
   body(r.body);
 }
 
@@ -67,7 +77,7 @@ std::string Writer::word(std::string_view address, const ir::Value& value, WordP
   if (value.literal()) return text + number_text(value);
   const std::string expression = expression_text(value.expr, pos);
   // A word takes a number or one variable with a sign; X L6, X-L6.
-  if (expression.empty() || expression.front() == '-') return text + expression;
+  if (expression.empty() || expression.front() == '-' || expression.front() == '[') return text + expression;
   return text + ' ' + expression;
 }
 
@@ -77,6 +87,20 @@ std::string Writer::word(std::string_view address, const ir::Value& value, WordP
 std::string Writer::target_variable(const ir::VarRef& v) {
   return expression_text(ir::variable(v));
 }
+
+namespace {
+
+/// Offsets and lengths are carried in mm and degrees; the E parameter has the number before the division.
+ir::ExprPtr in_machine_units(const ir::ExprPtr& value) {
+  const auto* b = value ? std::get_if<ir::Binary>(&value->node) : nullptr;
+  if (b == nullptr || b->op != ir::BinaryOp::divide) return value;
+  const auto* n = std::get_if<ir::Number>(&b->right->node);
+  const bool unit =
+      n != nullptr && n->text.empty() && (n->value == facts::units_per_mm || n->value == facts::units_per_degree);
+  return unit ? b->left : value;
+}
+
+}  // namespace
 
 void Writer::assign(const ir::Assign& a) {
   // One piece: the order of the assignments is their meaning.
@@ -93,7 +117,7 @@ void Writer::assign(const ir::Assign& a) {
       target = target_variable(item.target);
     }
     if (!text.empty()) text += ' ';
-    text += target + '=' + expression_text(item.value, item.pos);
+    text += target + '=' + expression_text(item.to_system ? in_machine_units(item.value) : item.value, item.pos);
   }
   if (!text.empty()) add(text, Rank::head, a.items.front().pos);
 }
@@ -103,8 +127,15 @@ void Writer::declare(const ir::Declare& d) {
   for (const auto& item : d.items) {
     std::string text = item.name.empty() || item.name.front() == '[' ? item.name : '[' + item.name + ']';
     if (!item.initial.empty()) text += '=' + expression_text(item.initial.front());
+    if (declares_first_.count(current().id) != 0) {
+      add("VAR", Rank::head);
+      next_line();
+    }
     add(text, Rank::head);
   }
+  if (declares_last_.count(current().id) == 0) return;
+  next_line();
+  add("ENDV", Rank::head);
 }
 
 // ---- control flow

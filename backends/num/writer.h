@@ -1,6 +1,8 @@
 // The writer of NUM programs: statements and words over the shared ProgramWriter.
 #pragma once
 
+#include <set>
+
 #include "backends/common/program_writer.h"
 #include "backends/num/chain_printer.h"
 
@@ -47,6 +49,7 @@ class Writer final : public ProgramWriter {
   void radius(const ir::Motion& m) override;
   void motion_extra(const ir::Motion& m, const ir::MotionExtra& e) override;
 
+  bool spelling_is_whole_word(const ir::Action& a) const override;
   bool joins(const ir::Statement& before, const ir::Statement& next) override;
 
  private:
@@ -63,6 +66,7 @@ class Writer final : public ProgramWriter {
   ChainPrinter printer_;
   bool cycle_here_ = false;  ///< the block being written defines a cycle
   bool cancelled_ = false;   ///< ... or ends one
+  std::set<std::uint32_t> declares_first_, declares_last_;
 };
 
 }  // namespace cnctrans::backends::num

@@ -196,7 +196,10 @@ std::string Writer::call_text(const ir::CallRoutine& c) {
   }
   if (c.computed) {
     if (c.computed->type == ir::Type::string) return "CALL " + expressions_.print(c.computed);
-    return "CALL \"L\"<<" + expressions_.operand(c.computed, primary_level, false);
+    // Reading rounds the number to a whole one; the language does that by itself.
+    const auto* rounded = std::get_if<ir::Call>(&c.computed->node);
+    const bool implied = rounded != nullptr && rounded->function == ir::Function::round && rounded->args.size() == 1;
+    return "CALL \"L\"<<" + expressions_.operand(implied ? rounded->args[0] : c.computed, primary_level, false);
   }
   std::string text = sub_name(c.routine);
   if (!c.arguments.empty()) {

@@ -443,8 +443,10 @@ class CyclePass {
     position_rapid(b);
     active_->height = moves->end_height;
     const std::size_t main = pieces.size();
+    auto first = moves->blocks.begin();
+    if (b.empty() && first != moves->blocks.end()) s.node = std::move((first++)->node);  // nothing of the line is left
     pieces.push_back(std::move(s));
-    for (auto& m : moves->blocks) pieces.push_back(std::move(m));
+    for (; first != moves->blocks.end(); ++first) pieces.push_back(std::move(*first));
     editor_.put_group(out, std::move(pieces), main);
   }
   void position_rapid(Block& b) const {

@@ -48,7 +48,7 @@ TEST_P(Examples, VerifyThereAndBack) {
   ASSERT_TRUE(there.error.empty()) << there.error;
   EXPECT_FALSE(there.refused) << render_text(there.diagnostics, there.files);
   ASSERT_TRUE(there.verdict.good()) << verifier::describe(there.verdict, there.files, there.target_files);
-  EXPECT_GT(there.verdict.moves, 50U);
+  EXPECT_GT(there.verdict.moves, 30U);
 
   const auto folder = fs::temp_directory_path() / ("cnctrans-examples-" + std::to_string(getpid()));
   fs::remove_all(folder);
