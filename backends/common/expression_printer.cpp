@@ -103,7 +103,7 @@ Printed ExpressionPrinter::binary(const ir::ExprPtr& e, const ir::Binary& b) {
   if (t->blanks) text += ' ';
   text += t->text;
   if (t->blanks) text += ' ';
-  text += operand(b.right, t->level + 1, false);
+  text += operand(b.right, t->level + 1, style_.sign_after_comparison && ir::is_comparison(b.op));
   return {std::move(text), t->level, sign};
 }
 

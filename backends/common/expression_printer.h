@@ -39,6 +39,8 @@ struct ExpressionStyle {
   std::string_view string_quote = "\"";
   /// A sign stands only at the start of an expression or of parentheses: R1*(-R2).
   bool sign_needs_parentheses = true;
+  /// ... and right of a comparison: R1==-1.
+  bool sign_after_comparison = false;
   /// Comparisons that are operands stand in parentheses whatever their level.
   bool comparison_needs_parentheses = true;
 };

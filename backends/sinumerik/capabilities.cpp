@@ -81,7 +81,7 @@ void words(ir::Capabilities& c) {  // reference-language 14
   c.own_block = [](const ir::Action& a) {
     return std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||
            std::holds_alternative<ir::CycleDefine>(a.data) || std::holds_alternative<ir::CycleCancel>(a.data) ||
-           std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::Dwell>(a.data);
+           std::holds_alternative<ir::PreparationStop>(a.data);
   };
   c.corners = {ir::CornerKind::round, ir::CornerKind::chamfer_leg, ir::CornerKind::chamfer_chord};
   c.polar = c.line_angle = true;
@@ -99,7 +99,7 @@ void words(ir::Capabilities& c) {  // reference-language 14
   c.exact_stop_modal = c.exact_stop_block = true;
   c.dwell_unit = 1;
   c.dwell_min = 0.001;
-  c.dwell_max = 99999;
+  c.dwell_max = 9999999;  // no limit is printed; real programs wait 999999 s
   c.dwell_revolutions = true;
   c.inverse_time = true;
   c.length_comp_switch = false;

@@ -40,7 +40,8 @@ constexpr auto function_table = make_functions();
 constexpr std::array unary_table{UnaryText{ir::UnaryOp::negate, "-", prefix_level},
                                  UnaryText{ir::UnaryOp::logical_not, "NOT", prefix_level},
                                  UnaryText{ir::UnaryOp::bit_not, "B_NOT", prefix_level}};
-constexpr ExpressionStyle expression_style{.binary = binary_table, .unary = unary_table, .functions = function_table};
+constexpr ExpressionStyle expression_style{
+    .binary = binary_table, .unary = unary_table, .functions = function_table, .sign_after_comparison = true};
 
 struct SystemName {
   ir::Datum datum;
@@ -244,6 +245,7 @@ std::optional<Printed> Expressions::special_call(const ir::ExprPtr& e, const ir:
       return Printed{"LN(" + print(c.args[0]) + ")/LN(10)", product_level, false};
     }
     case ir::Function::to_boolean:
+      if (own_) return print_node(c.args[0]);  // the control converts by itself
       if (e->type == ir::Type::boolean && c.args[0]->type == ir::Type::boolean) return print_node(c.args[0]);
       return Printed{'(' + operand(c.args[0], concat_level, true) + "<>0)", primary_level, false};
     case ir::Function::to_string:

@@ -34,6 +34,13 @@ TEST(SinumerikExpressions, ASignInsideAnExpressionStandsInParentheses) {
   EXPECT_EQ(value_of(ir::unary(ir::UnaryOp::negate, op(BinaryOp::multiply, R(2), R(3)))), "-(R2*R3)");
 }
 
+TEST(SinumerikExpressions, ASignRightOfAComparisonNeedsNone) {
+  Build b;
+  b.add(jump("10", Search::forward, op(BinaryOp::eq, R(1), num(-1))));
+  b.add(jump("10", Search::forward, op(BinaryOp::lt, R(1), ir::unary(ir::UnaryOp::negate, R(2)))));
+  EXPECT_EQ(b.text(), "IF R1==-1 GOTOF N10\nIF R1<-R2 GOTOF N10\n");
+}
+
 // Comparisons bind weakest of all (4.1): beside AND they need parentheses.
 TEST(SinumerikExpressions, ComparisonsBesideLogicStandInParentheses) {
   Build b;
