@@ -25,6 +25,9 @@ void Writer::block(const ir::Block& b) {
   for (const auto& a : b.actions) cancelled_ = cancelled_ || std::holds_alternative<ir::CycleCancel>(a.data);
   for (const auto& a : b.actions) cycle_here_ = cycle_here_ || std::holds_alternative<ir::CycleDefine>(a.data);
   ProgramWriter::block(b);
+  const ir::LineInfo& info = current().line;
+  const bool blank = info.span.known() && (same_dialect() || trim(source_line(info.span)).empty());
+  if (b.empty() && blank) return finish_line();
   // A cycle that runs once: here every cycle is modal and must be ended.
   for (const auto& a : b.actions) {
     const auto* d = std::get_if<ir::CycleDefine>(&a.data);

@@ -198,7 +198,8 @@ std::string Writer::call_text(const ir::CallRoutine& c) {
     if (c.computed->type == ir::Type::string) return "CALL " + expressions_.print(c.computed);
     // Reading rounds the number to a whole one; the language does that by itself.
     const auto* rounded = std::get_if<ir::Call>(&c.computed->node);
-    const bool implied = rounded != nullptr && rounded->function == ir::Function::round && rounded->args.size() == 1;
+    const bool implied = rounded != nullptr && rounded->args.size() == 1 &&
+                         (rounded->function == ir::Function::round || rounded->function == ir::Function::to_integer);
     return "CALL \"L\"<<" + expressions_.operand(implied ? rounded->args[0] : c.computed, primary_level, false);
   }
   std::string text = sub_name(c.routine);
