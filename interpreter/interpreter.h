@@ -20,7 +20,7 @@ struct Options {
   std::uint64_t max_steps = 500'000'000;  ///< statements carried out
   /// Statements in a row without an event: an endless loop that does nothing ends here (as a step limit).
   std::uint64_t max_silent_steps = 10'000'000;
-  std::uint16_t skip_mask = 0;            ///< block-skip switches that are on
+  std::uint16_t skip_mask = 0;                           ///< block-skip switches that are on
   std::vector<std::pair<std::string, std::string>> set;  ///< NAME=VALUE of --set
   bool optional_stops = false;
   /// Finds a routine that the program itself does not have (library); null when there is none. The program returned

@@ -25,6 +25,8 @@ inline constexpr AxisId fixed_axis(char letter) {
   const auto at = names.find(letter);
   return at == std::string_view::npos ? axis::none : static_cast<AxisId>(at);
 }
-inline constexpr bool is_rotary_letter(AxisId id) { return id >= axis::a && id <= axis::c; }
+inline constexpr bool is_rotary_letter(AxisId id) {
+  return id >= axis::a && id <= axis::c;
+}
 
 }  // namespace cnctrans::ir

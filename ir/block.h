@@ -19,8 +19,8 @@ namespace cnctrans::ir {
 
 // --- motion ---------------------------------------------------------------------------------------------------
 
-enum class WordMode : std::uint8_t { modal, absolute, incremental };          ///< modal: by Setting::distance
-enum class WordScale : std::uint8_t { modal, radius, diameter };              ///< modal: by Setting::diameter
+enum class WordMode : std::uint8_t { modal, absolute, incremental };  ///< modal: by Setting::distance
+enum class WordScale : std::uint8_t { modal, radius, diameter };      ///< modal: by Setting::diameter
 enum class RotaryDirection : std::uint8_t { as_value, positive, negative, shortest, by_sign };
 
 /// The end point of one axis.
@@ -34,9 +34,9 @@ struct CoordWord {
 };
 
 enum class CenterMode : std::uint8_t {
-  from_start,        ///< offset from the start of the arc
-  absolute,          ///< coordinate in the current work frame
-  follows_distance   ///< absolute in absolute mode, offset in incremental mode
+  from_start,       ///< offset from the start of the arc
+  absolute,         ///< coordinate in the current work frame
+  follows_distance  ///< absolute in absolute mode, offset in incremental mode
 };
 /// One coordinate of an arc's centre (I -> axis X, J -> Y, K -> Z).
 struct CenterWord {
@@ -59,9 +59,9 @@ enum class FrameUse : std::uint8_t {
 struct MotionExtra {
   // arcs
   bool has_turns = false;
-  Value turns;          ///< full turns added to the arc
+  Value turns;  ///< full turns added to the arc
   bool has_pitch = false;
-  Value pitch;          ///< helix: travel along the normal per turn, unsigned; turns follow from it
+  Value pitch;  ///< helix: travel along the normal per turn, unsigned; turns follow from it
   bool has_angle = false;
   Value opening_angle;  ///< degrees, unsigned
   bool opening_signed = false;
@@ -75,23 +75,23 @@ struct MotionExtra {
   Value line_angle;
   // threads
   bool has_lead = false;
-  Value lead;           ///< mm per rev
+  Value lead;  ///< mm per rev
   AxisId lead_axis = axis::none;
-  Value lead_change;    ///< per rev
+  Value lead_change;  ///< per rev
   bool has_start_angle = false;
-  Value start_angle;    ///< degrees
+  Value start_angle;  ///< degrees
   // probing
   Value probe_tolerance;
 };
 
 struct Motion {
   MotionKind kind = MotionKind::modal;
-  bool explicit_code = false;     ///< the source wrote the code
-  bool radius_given = false;      ///< arc by radius; negative radius: the arc over 180 degrees
-  bool keeps_modal = true;        ///< `kind` stays in force after the block (false: one-shot)
+  bool explicit_code = false;  ///< the source wrote the code
+  bool radius_given = false;   ///< arc by radius; negative radius: the arc over 180 degrees
+  bool keeps_modal = true;     ///< `kind` stays in force after the block (false: one-shot)
   FrameUse frame = FrameUse::normal;
   WordPos code_pos;
-  std::string_view code_text;     ///< "G01" as written
+  std::string_view code_text;  ///< "G01" as written
   WordPos frame_pos;
   std::vector<CoordWord> coords;
   std::vector<CenterWord> centers;
@@ -119,8 +119,8 @@ struct Motion {
 struct ModalSet {
   Setting setting = Setting::plane;
   std::uint8_t value = 0;
-  bool feed_too = true;                           ///< units: F as well
-  FeedMemory feed_memory = FeedMemory::shared;    ///< feed_mode
+  bool feed_too = true;                         ///< units: F as well
+  FeedMemory feed_memory = FeedMemory::shared;  ///< feed_mode
 };
 struct SetFeed {
   Value value;
@@ -188,9 +188,10 @@ struct FrameChange {
   bool by_distance_mode = false;  ///< `replace_named` in absolute mode, `add` in incremental mode
   std::vector<FrameWord> words;   ///< translate, scale (per axis), mirror; rotation centre
   bool has_angle = false;
-  Value angle;                    ///< rotate: degrees in the plane in force, or about `rotation_axis`
-  AxisId rotation_axis = axis::none;  ///< rotate about this axis whatever the plane; none: the normal of the plane in force
-  bool uniform_scale = false;     ///< scale: words[0] holds for all axes
+  Value angle;  ///< rotate: degrees in the plane in force, or about `rotation_axis`
+  AxisId rotation_axis =
+      axis::none;              ///< rotate about this axis whatever the plane; none: the normal of the plane in force
+  bool uniform_scale = false;  ///< scale: words[0] holds for all axes
 };
 struct FrameOp {
   std::shared_ptr<const FrameChange> change;
@@ -254,9 +255,9 @@ struct OpaqueWord {
 };
 
 using ActionData =
-    std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear, ToolSelect, ToolChange,
-                 ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock, Coolant, MachineFunction, Stop, CycleDefine,
-                 CycleCancel, Corner, TangentialEnd, PreparationStop, OpaqueWord>;
+    std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear, ToolSelect,
+                 ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock, Coolant, MachineFunction,
+                 Stop, CycleDefine, CycleCancel, Corner, TangentialEnd, PreparationStop, OpaqueWord>;
 
 /// When an action is carried out relative to the motion of its block.
 enum class Order : std::uint8_t { before, with, after };

@@ -27,36 +27,44 @@ struct Level {
 };
 
 enum class HoleKind : std::uint8_t {
-  drill,        ///< feed to the bottom, (dwell,) rapid out
-  peck_full,    ///< pecks with full retract
-  peck_break,   ///< pecks with a short lift
-  tap, tap_floating, ream, bore, bore_stop, bore_shift, back_bore, bore_manual
+  drill,       ///< feed to the bottom, (dwell,) rapid out
+  peck_full,   ///< pecks with full retract
+  peck_break,  ///< pecks with a short lift
+  tap,
+  tap_floating,
+  ream,
+  bore,
+  bore_stop,
+  bore_shift,
+  back_bore,
+  bore_manual
 };
 /// How the pecks shrink.
 enum class PeckLaw : std::uint8_t {
   none,
-  constant,       ///< equal pecks, the last is the remainder
-  count,          ///< `count` equal pecks: the bottom is reference + count * first
-  arithmetic,     ///< each peck smaller by `degression`
-  geometric,      ///< each peck the former times `degression`
-  linear,         ///< from `first` evenly to `minimum` over n = max(2, ceil(2 D / (first + minimum))) pecks, D the depth
-                  ///< below the reference; then all times one factor, so that they end at the bottom
-  balanced        ///< constant, but a last remainder below two pecks is shared between the last two
+  constant,    ///< equal pecks, the last is the remainder
+  count,       ///< `count` equal pecks: the bottom is reference + count * first
+  arithmetic,  ///< each peck smaller by `degression`
+  geometric,   ///< each peck the former times `degression`
+  linear,      ///< from `first` evenly to `minimum` over n = max(2, ceil(2 D / (first + minimum))) pecks, D the depth
+               ///< below the reference; then all times one factor, so that they end at the bottom
+  balanced     ///< constant, but a last remainder below two pecks is shared between the last two
 };
 struct Pecks {
   PeckLaw law = PeckLaw::none;
-  Value first;                 ///< size of the first peck, unsigned (law `count`: signed along the axis)
-  Level first_to;              ///< or: first peck ends at this level (when given)
+  Value first;     ///< size of the first peck, unsigned (law `count`: signed along the axis)
+  Level first_to;  ///< or: first peck ends at this level (when given)
   Value count;
   Value degression;
   Value minimum;
-  Value lift;                  ///< peck_break: height of the short lift; peck_full: 0
-  Value reapproach;            ///< distance above the last bottom where feeding starts again
-  bool reapproach_automatic = false;  ///< reapproach by rule of the source (0.6 mm up to depth 30, else depth/50, at most 7)
-  bool first_from_surface = false;    ///< pecks are counted from the surface, not from the reference plane
-  bool lift_rapid = false;            ///< peck_break: the lift is a rapid, then rapid to `reapproach`; else at feed
-  Value dwell;                        ///< seconds (after `dwell_scale`) after every peck but the last
-  Value first_feed_factor;            ///< the first peck's feed is the feed times this, when `has_first_feed_factor`
+  Value lift;        ///< peck_break: height of the short lift; peck_full: 0
+  Value reapproach;  ///< distance above the last bottom where feeding starts again
+  bool reapproach_automatic =
+      false;  ///< reapproach by rule of the source (0.6 mm up to depth 30, else depth/50, at most 7)
+  bool first_from_surface = false;  ///< pecks are counted from the surface, not from the reference plane
+  bool lift_rapid = false;          ///< peck_break: the lift is a rapid, then rapid to `reapproach`; else at feed
+  Value dwell;                      ///< seconds (after `dwell_scale`) after every peck but the last
+  Value first_feed_factor;          ///< the first peck's feed is the feed times this, when `has_first_feed_factor`
   bool has_first_feed_factor = false;
 };
 
@@ -70,19 +78,19 @@ struct HoleCycle {
   HoleKind kind = HoleKind::drill;
   AxisId axis = axis::none;  ///< tool axis; none: the normal of the plane in force
   Level surface;
-  Level reference;   ///< R plane: rapid to here, feed from here
+  Level reference;  ///< R plane: rapid to here, feed from here
   Level bottom;
-  Level retract;     ///< not given: by the retract plane setting (initial or reference)
-  Value dwell_bottom;            ///< seconds (after `dwell_scale`); 0: none
-  double dwell_scale = 1;        ///< the word's value times this is seconds (0.01: hundredths)
+  Level retract;           ///< not given: by the retract plane setting (initial or reference)
+  Value dwell_bottom;      ///< seconds (after `dwell_scale`); 0: none
+  double dwell_scale = 1;  ///< the word's value times this is seconds (0.01: hundredths)
   bool dwell_in_revolutions = false;
   Value dwell_top;
-  Value feed;        ///< feed into the hole when `has_feed`, else the feed in force
+  Value feed;  ///< feed into the hole when `has_feed`, else the feed in force
   bool has_feed = false;
   Value feed_out;
   bool has_feed_out = false;
   Pecks pecks;
-  Value pitch;       ///< taps: mm per rev, + right hand
+  Value pitch;  ///< taps: mm per rev, + right hand
   bool rigid = false;
   Value orient_angle, shift_u, shift_v, shift_w;
   bool reference_may_be_below = false;

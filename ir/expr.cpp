@@ -51,17 +51,13 @@ Type binary_type(BinaryOp op) {
     case BinaryOp::ge:
     case BinaryOp::logical_and:
     case BinaryOp::logical_or:
-    case BinaryOp::logical_xor:
-      return Type::boolean;
+    case BinaryOp::logical_xor: return Type::boolean;
     case BinaryOp::bit_and:
     case BinaryOp::bit_or:
     case BinaryOp::bit_xor:
-    case BinaryOp::int_divide:
-      return Type::integer;
-    case BinaryOp::concat:
-      return Type::string;
-    default:
-      return Type::real;
+    case BinaryOp::int_divide: return Type::integer;
+    case BinaryOp::concat: return Type::string;
+    default: return Type::real;
   }
 }
 
@@ -69,18 +65,14 @@ Type function_type(Function f) {
   switch (f) {
     case Function::to_integer:
     case Function::string_length:
-    case Function::index_of:
-      return Type::integer;
+    case Function::index_of: return Type::integer;
     case Function::to_boolean:
-    case Function::is_number:
-      return Type::boolean;
+    case Function::is_number: return Type::boolean;
     case Function::to_string:
     case Function::upper_case:
     case Function::lower_case:
-    case Function::substring:
-      return Type::string;
-    default:
-      return Type::real;
+    case Function::substring: return Type::string;
+    default: return Type::real;
   }
 }
 
@@ -123,22 +115,14 @@ constexpr double degrees = 57.29577951308232087680;
 
 std::optional<double> constant_binary(BinaryOp op, double a, double b) {
   switch (op) {
-    case BinaryOp::add:
-      return a + b;
-    case BinaryOp::subtract:
-      return a - b;
-    case BinaryOp::multiply:
-      return a * b;
-    case BinaryOp::divide:
-      return b == 0 ? std::nullopt : std::optional(a / b);
-    case BinaryOp::modulo:
-      return b == 0 ? std::nullopt : std::optional(a - std::trunc(a / b) * b);
-    case BinaryOp::int_divide:
-      return b == 0 ? std::nullopt : std::optional(std::trunc(a / b));
-    case BinaryOp::power:
-      return std::pow(a, b);
-    default:
-      return std::nullopt;
+    case BinaryOp::add: return a + b;
+    case BinaryOp::subtract: return a - b;
+    case BinaryOp::multiply: return a * b;
+    case BinaryOp::divide: return b == 0 ? std::nullopt : std::optional(a / b);
+    case BinaryOp::modulo: return b == 0 ? std::nullopt : std::optional(a - std::trunc(a / b) * b);
+    case BinaryOp::int_divide: return b == 0 ? std::nullopt : std::optional(std::trunc(a / b));
+    case BinaryOp::power: return std::pow(a, b);
+    default: return std::nullopt;
   }
 }
 
@@ -147,24 +131,15 @@ std::optional<double> constant_call(const Call& c) {
   const auto a = constant_value(c.args[0]);
   if (!a) return std::nullopt;
   switch (c.function) {
-    case Function::sin:
-      return std::sin(*a / degrees);
-    case Function::cos:
-      return std::cos(*a / degrees);
-    case Function::abs:
-      return std::fabs(*a);
-    case Function::square:
-      return *a * *a;
-    case Function::sqrt:
-      return *a < 0 ? std::nullopt : std::optional(std::sqrt(*a));
-    case Function::trunc:
-      return std::trunc(*a);
-    case Function::ceil:
-      return std::ceil(*a);
-    case Function::floor:
-      return std::floor(*a);
-    default:
-      return std::nullopt;
+    case Function::sin: return std::sin(*a / degrees);
+    case Function::cos: return std::cos(*a / degrees);
+    case Function::abs: return std::fabs(*a);
+    case Function::square: return *a * *a;
+    case Function::sqrt: return *a < 0 ? std::nullopt : std::optional(std::sqrt(*a));
+    case Function::trunc: return std::trunc(*a);
+    case Function::ceil: return std::ceil(*a);
+    case Function::floor: return std::floor(*a);
+    default: return std::nullopt;
   }
 }
 
@@ -236,20 +211,13 @@ bool is_comparison(BinaryOp op) {
 
 BinaryOp negated(BinaryOp comparison) {
   switch (comparison) {
-    case BinaryOp::eq:
-      return BinaryOp::ne;
-    case BinaryOp::ne:
-      return BinaryOp::eq;
-    case BinaryOp::lt:
-      return BinaryOp::ge;
-    case BinaryOp::le:
-      return BinaryOp::gt;
-    case BinaryOp::gt:
-      return BinaryOp::le;
-    case BinaryOp::ge:
-      return BinaryOp::lt;
-    default:
-      return comparison;
+    case BinaryOp::eq: return BinaryOp::ne;
+    case BinaryOp::ne: return BinaryOp::eq;
+    case BinaryOp::lt: return BinaryOp::ge;
+    case BinaryOp::le: return BinaryOp::gt;
+    case BinaryOp::gt: return BinaryOp::le;
+    case BinaryOp::ge: return BinaryOp::lt;
+    default: return comparison;
   }
 }
 

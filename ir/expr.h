@@ -19,26 +19,62 @@ enum class Type : std::uint8_t { real, integer, boolean, string, axis, frame };
 
 enum class UnaryOp : std::uint8_t { negate, logical_not, bit_not };
 enum class BinaryOp : std::uint8_t {
-  add, subtract, multiply, divide,
+  add,
+  subtract,
+  multiply,
+  divide,
   modulo,      ///< a - trunc(a/b)*b: the sign of a
   int_divide,  ///< trunc(a/b)
   power,
-  eq, ne, lt, le, gt, ge,                        ///< yield boolean (1 or 0 as a number)
-  logical_and, logical_or, logical_xor,          ///< no short circuit
-  bit_and, bit_or, bit_xor,                      ///< 32-bit integers
-  concat                                         ///< strings
+  eq,
+  ne,
+  lt,
+  le,
+  gt,
+  ge,  ///< yield boolean (1 or 0 as a number)
+  logical_and,
+  logical_or,
+  logical_xor,  ///< no short circuit
+  bit_and,
+  bit_or,
+  bit_xor,  ///< 32-bit integers
+  concat    ///< strings
 };
 enum class Function : std::uint8_t {
-  sin, cos, tan, asin, acos, atan,
-  atan2,   ///< atan2(y, x) in (-180, 180]
-  arg,     ///< arg(x, y) in [0, 360)
-  sqrt, square, exp, ln, log10, abs, sign,
-  trunc,   ///< toward zero
-  ceil,    ///< the next integer toward +infinity
-  floor, round, min, max,
-  bound,   ///< bound(low, high, value)
-  to_bcd, from_bcd, to_integer, to_boolean, to_string, string_length, upper_case, lower_case, substring, index_of,
-  to_number, is_number
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  atan2,  ///< atan2(y, x) in (-180, 180]
+  arg,    ///< arg(x, y) in [0, 360)
+  sqrt,
+  square,
+  exp,
+  ln,
+  log10,
+  abs,
+  sign,
+  trunc,  ///< toward zero
+  ceil,   ///< the next integer toward +infinity
+  floor,
+  round,
+  min,
+  max,
+  bound,  ///< bound(low, high, value)
+  to_bcd,
+  from_bcd,
+  to_integer,
+  to_boolean,
+  to_string,
+  string_length,
+  upper_case,
+  lower_case,
+  substring,
+  index_of,
+  to_number,
+  is_number
 };
 /// How two reals compare: exactly, or equal when they differ by less than 1e-12 of their size.
 enum class Compare : std::uint8_t { exact, relative_1e12 };
@@ -50,7 +86,8 @@ using ExprPtr = std::shared_ptr<const Expr>;
 /// Index into Program::spaces.
 using SpaceId = std::uint16_t;
 
-/// A variable. Numbered spaces: `index` is the number (usually a literal). Named spaces: `name` and, for arrays, `indices`.
+/// A variable. Numbered spaces: `index` is the number (usually a literal). Named spaces: `name` and, for arrays,
+/// `indices`.
 struct VarRef {
   SpaceId space = 0;
   std::string name;
@@ -60,9 +97,27 @@ struct VarRef {
 
 /// Machine data that several controls can read; `other` is known by its name only.
 enum class Datum : std::uint8_t {
-  other, programmed_position, machine_position, work_position, work_offset, active_offset, programmed_shift,
-  tool_number, next_tool, offset_number, tool_length, tool_radius, tool_wear, feed, spindle_speed, feed_override,
-  part_count, cycle_time, active_modal, call_has_argument, position_start
+  other,
+  programmed_position,
+  machine_position,
+  work_position,
+  work_offset,
+  active_offset,
+  programmed_shift,
+  tool_number,
+  next_tool,
+  offset_number,
+  tool_length,
+  tool_radius,
+  tool_wear,
+  feed,
+  spindle_speed,
+  feed_override,
+  part_count,
+  cycle_time,
+  active_modal,
+  call_has_argument,
+  position_start
 };
 /// A system variable. `text` is the name in the source's spelling. `args` its indices; `axis` when it speaks of one.
 struct SystemRef {

@@ -1,4 +1,5 @@
-// The registry of what is not carried yet: the gap is code. Called where it would matter; docs' support matrix reads it.
+// The registry of what is not carried yet: the gap is code. Called where it would matter; docs' support matrix reads
+// it.
 #pragma once
 
 #include <span>

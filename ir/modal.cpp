@@ -52,76 +52,38 @@ std::uint8_t raw(E e) {
 
 std::uint8_t ModalState::get(Setting s) const {
   switch (s) {
-    case Setting::plane:
-      return raw(plane);
-    case Setting::distance:
-      return raw(distance);
-    case Setting::units:
-      return raw(units);
-    case Setting::diameter:
-      return raw(diameter);
-    case Setting::feed_mode:
-      return raw(feed_mode);
-    case Setting::path_mode:
-      return raw(path_mode);
-    case Setting::spindle_mode:
-      return raw(spindle_mode);
-    case Setting::comp:
-      return raw(comp);
-    case Setting::length_comp:
-      return raw(length_comp);
-    case Setting::retract_plane:
-      return raw(retract_plane);
-    case Setting::feed_point:
-      return raw(feed_point);
-    case Setting::feed_override:
-      return raw(feed_override);
-    case Setting::count_:
-      break;
+    case Setting::plane: return raw(plane);
+    case Setting::distance: return raw(distance);
+    case Setting::units: return raw(units);
+    case Setting::diameter: return raw(diameter);
+    case Setting::feed_mode: return raw(feed_mode);
+    case Setting::path_mode: return raw(path_mode);
+    case Setting::spindle_mode: return raw(spindle_mode);
+    case Setting::comp: return raw(comp);
+    case Setting::length_comp: return raw(length_comp);
+    case Setting::retract_plane: return raw(retract_plane);
+    case Setting::feed_point: return raw(feed_point);
+    case Setting::feed_override: return raw(feed_override);
+    case Setting::count_: break;
   }
   return 0;
 }
 
 void ModalState::set(Setting s, std::uint8_t value) {
   switch (s) {
-    case Setting::plane:
-      plane = static_cast<Plane>(value);
-      break;
-    case Setting::distance:
-      distance = static_cast<Distance>(value);
-      break;
-    case Setting::units:
-      units = static_cast<Units>(value);
-      break;
-    case Setting::diameter:
-      diameter = static_cast<DiameterMode>(value);
-      break;
-    case Setting::feed_mode:
-      feed_mode = static_cast<FeedMode>(value);
-      break;
-    case Setting::path_mode:
-      path_mode = static_cast<PathMode>(value);
-      break;
-    case Setting::spindle_mode:
-      spindle_mode = static_cast<SpindleMode>(value);
-      break;
-    case Setting::comp:
-      comp = static_cast<CompSide>(value);
-      break;
-    case Setting::length_comp:
-      length_comp = static_cast<OnOff>(value);
-      break;
-    case Setting::retract_plane:
-      retract_plane = static_cast<RetractPlane>(value);
-      break;
-    case Setting::feed_point:
-      feed_point = static_cast<FeedPoint>(value);
-      break;
-    case Setting::feed_override:
-      feed_override = static_cast<OnOff>(value);
-      break;
-    case Setting::count_:
-      break;
+    case Setting::plane: plane = static_cast<Plane>(value); break;
+    case Setting::distance: distance = static_cast<Distance>(value); break;
+    case Setting::units: units = static_cast<Units>(value); break;
+    case Setting::diameter: diameter = static_cast<DiameterMode>(value); break;
+    case Setting::feed_mode: feed_mode = static_cast<FeedMode>(value); break;
+    case Setting::path_mode: path_mode = static_cast<PathMode>(value); break;
+    case Setting::spindle_mode: spindle_mode = static_cast<SpindleMode>(value); break;
+    case Setting::comp: comp = static_cast<CompSide>(value); break;
+    case Setting::length_comp: length_comp = static_cast<OnOff>(value); break;
+    case Setting::retract_plane: retract_plane = static_cast<RetractPlane>(value); break;
+    case Setting::feed_point: feed_point = static_cast<FeedPoint>(value); break;
+    case Setting::feed_override: feed_override = static_cast<OnOff>(value); break;
+    case Setting::count_: break;
   }
 }
 

@@ -1,5 +1,5 @@
-// Modal state of the neutral machine: the settings that stay until changed. The IR keeps them as state (a subprogram may
-// be run under several of them); every setting has one meaning here, whatever a control makes of it.
+// Modal state of the neutral machine: the settings that stay until changed. The IR keeps them as state (a subprogram
+// may be run under several of them); every setting has one meaning here, whatever a control makes of it.
 #pragma once
 
 #include <array>
@@ -26,24 +26,38 @@ enum class OnOff : std::uint8_t { off, on };
 
 /// The motion function in force. `modal` in a block: the one in force before (no code written).
 enum class MotionKind : std::uint8_t {
-  modal, rapid, linear, arc_cw, arc_ccw, thread, thread_variable, arc_through_point, arc_tangent, spline, polynomial,
-  probe_toward, probe_away, to_stop, reference_point, fixed_point
+  modal,
+  rapid,
+  linear,
+  arc_cw,
+  arc_ccw,
+  thread,
+  thread_variable,
+  arc_through_point,
+  arc_tangent,
+  spline,
+  polynomial,
+  probe_toward,
+  probe_away,
+  to_stop,
+  reference_point,
+  fixed_point
 };
 
 /// Settings that a `ModalSet` action can name; the value is one of the enumerators of the type in brackets.
 enum class Setting : std::uint8_t {
-  plane,           ///< [Plane]
-  distance,        ///< [Distance]
-  units,           ///< [Units]; flag `feed_too`: F words change unit as well
-  diameter,        ///< [DiameterMode]
-  feed_mode,       ///< [FeedMode]; `FeedMemory` in the flags says what becomes of F
-  path_mode,       ///< [PathMode]
-  spindle_mode,    ///< [SpindleMode]
-  comp,            ///< [CompSide] tool radius compensation
-  length_comp,     ///< [OnOff] tool length compensation (controls that switch it)
-  retract_plane,   ///< [RetractPlane]
-  feed_point,      ///< [FeedPoint]
-  feed_override,   ///< [OnOff] override enabled
+  plane,          ///< [Plane]
+  distance,       ///< [Distance]
+  units,          ///< [Units]; flag `feed_too`: F words change unit as well
+  diameter,       ///< [DiameterMode]
+  feed_mode,      ///< [FeedMode]; `FeedMemory` in the flags says what becomes of F
+  path_mode,      ///< [PathMode]
+  spindle_mode,   ///< [SpindleMode]
+  comp,           ///< [CompSide] tool radius compensation
+  length_comp,    ///< [OnOff] tool length compensation (controls that switch it)
+  retract_plane,  ///< [RetractPlane]
+  feed_point,     ///< [FeedPoint]
+  feed_override,  ///< [OnOff] override enabled
   count_
 };
 inline constexpr std::size_t setting_count = static_cast<std::size_t>(Setting::count_);

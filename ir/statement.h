@@ -13,7 +13,8 @@
 
 namespace cnctrans::ir {
 
-/// The name of a routine: a number, an identifier, or both ("L0123" differs from "L123": `text` decides, then `number`).
+/// The name of a routine: a number, an identifier, or both ("L0123" differs from "L123": `text` decides, then
+/// `number`).
 struct RoutineName {
   std::int64_t number = -1;  ///< -1: none
   std::string text;          ///< identifier as the source writes it, folded to capitals where case does not count
@@ -36,7 +37,7 @@ struct LineInfo {
   std::vector<std::string_view> labels;  ///< identifier labels
   std::uint16_t skip_mask = 0;           ///< bit n = level n; several = any of them
   std::vector<CommentText> comments;
-  bool joined = false;                   ///< belongs to the same source line as the statement before
+  bool joined = false;  ///< belongs to the same source line as the statement before
   std::uint16_t blank_lines_before = 0;
 
   void clear() {
@@ -60,7 +61,7 @@ struct Assign {
     VarRef target;
     ExprPtr value;
     WordPos pos;
-    SystemRef system;        ///< when `to_system`: a machine datum is written
+    SystemRef system;  ///< when `to_system`: a machine datum is written
     bool to_system = false;
   };
   std::vector<Item> items;
@@ -98,22 +99,23 @@ struct Loop {
 struct Exit {};
 
 enum class Search : std::uint8_t {
-  whole_first,            ///< first one from the start of the routine's file part
-  forward, backward,
+  whole_first,  ///< first one from the start of the routine's file part
+  forward,
+  backward,
   forward_then_backward,
-  to_start                ///< the routine's first block
+  to_start  ///< the routine's first block
 };
 /// A label: block number or identifier, fixed or computed.
 struct LabelRef {
-  std::string text;       ///< digits of a number without leading zeros, or identifier in capitals
+  std::string text;  ///< digits of a number without leading zeros, or identifier in capitals
   bool is_number = false;
-  ExprPtr computed;       ///< when not null the label is found at run time
+  ExprPtr computed;  ///< when not null the label is found at run time
 };
 struct Jump {
   LabelRef target;
-  ExprPtr condition;      ///< null: always
+  ExprPtr condition;  ///< null: always
   Search search = Search::whole_first;
-  bool quiet = false;     ///< a missing label is no error: go on with the next block
+  bool quiet = false;  ///< a missing label is no error: go on with the next block
 };
 /// Several computed targets by a value: the first case that equals it, else `fallback`.
 struct Switch {
@@ -125,40 +127,40 @@ struct Switch {
 /// `last` empty (no text, not computed): from `first` up to this statement, itself not included.
 struct Repeat {
   LabelRef first, last;
-  ExprPtr count;               ///< null: 1
+  ExprPtr count;  ///< null: 1
   Search search = Search::whole_first;
-  bool order_free = false;     ///< the labels may stand in either order
-  bool has_program = false;    ///< the range stands in another routine
+  bool order_free = false;   ///< the labels may stand in either order
+  bool has_program = false;  ///< the range stands in another routine
   RoutineName program;
 };
 
 enum class CallLevel : std::uint8_t {
-  shared,       ///< callee works on the caller's local parameters
-  new_level     ///< callee has local parameters of its own
+  shared,    ///< callee works on the caller's local parameters
+  new_level  ///< callee has local parameters of its own
 };
 struct Argument {
-  std::string name;    ///< letter ("A") or formal name; empty: by position
-  ExprPtr value;       ///< null: omitted (default)
+  std::string name;  ///< letter ("A") or formal name; empty: by position
+  ExprPtr value;     ///< null: omitted (default)
   bool by_reference = false;
   VarRef reference;
 };
 struct CallRoutine {
   RoutineName routine;
-  ExprPtr computed;    ///< when not null the number is found at run time
+  ExprPtr computed;  ///< when not null the number is found at run time
   std::vector<Argument> arguments;
   CallLevel level = CallLevel::shared;
-  ExprPtr count;       ///< null: once
+  ExprPtr count;           ///< null: once
   bool has_range = false;  ///< only the blocks `first`..`last` of the routine
   LabelRef first, last;
-  bool tail = false;   ///< does not come back (EXEC)
+  bool tail = false;  ///< does not come back (EXEC)
   bool optional = false;
 };
 /// After every later block with motion the call is made; `off` ends it.
 struct ModalCall {
   bool off = false;
-  bool here = false;   ///< also made at once
+  bool here = false;  ///< also made at once
   CallRoutine call;
-  CyclePtr cycle;      ///< or a cycle instead of a call
+  CyclePtr cycle;  ///< or a cycle instead of a call
 };
 struct Return {
   std::vector<ExprPtr> values;
@@ -183,7 +185,7 @@ struct Declare {
     std::vector<ExprPtr> initial;
   };
   Type type = Type::real;
-  std::string type_text;   ///< as written where the type has more to it ("STRING[20]")
+  std::string type_text;  ///< as written where the type has more to it ("STRING[20]")
   SpaceId space = 0;
   std::vector<Item> items;
 };
@@ -198,8 +200,8 @@ struct Opaque {
 
 struct Statement {
   LineInfo line;
-  std::variant<Block, Assign, If, While, Until, For, Loop, Exit, Jump, Switch, Repeat, CallRoutine, ModalCall, Return, End,
-               Message, Declare, Label, Opaque>
+  std::variant<Block, Assign, If, While, Until, For, Loop, Exit, Jump, Switch, Repeat, CallRoutine, ModalCall, Return,
+               End, Message, Declare, Label, Opaque>
       node;
   std::uint32_t id = 0;  ///< given by number_statements()
 };

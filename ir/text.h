@@ -21,8 +21,8 @@ Program from_text(std::string_view text, FileId file, Diagnostics& diagnostics);
 /// JSON form, for tools.
 std::string to_json(const Program& program);
 
-/// Same meaning and same carried texts: routines, statements, labels, comments; places ignored. On a difference `where` (may be
-/// null) gets a short description with both sides.
+/// Same meaning and same carried texts: routines, statements, labels, comments; places ignored. On a difference `where`
+/// (may be null) gets a short description with both sides.
 bool same_program(const Program& a, const Program& b, std::string* where);
 
 /// Well-formedness: labels unique where searches need it, spaces exist, expressions typed, bodies nested. IR-nnn.

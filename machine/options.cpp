@@ -28,8 +28,9 @@ constexpr std::array specs{
                "when a written row of the work offset table counts: when it is selected again, or at once"},
     // Read by the language readers and writers.
     OptionSpec{"fagor.tool_change", "turret|m6", "m6", "T changes at once, or selects for M06"},
-    OptionSpec{"fagor.rotary_rollover", "no|yes", "no",
-               "absolute words of rotary axes: the sign is the direction and the value the target, or a plain coordinate"},
+    OptionSpec{
+        "fagor.rotary_rollover", "no|yes", "no",
+        "absolute words of rotary axes: the sign is the direction and the value the target, or a plain coordinate"},
     OptionSpec{"fagor.mcall_repeat", "sub_only|move_and_sub", "move_and_sub", "what a block repeat does under MCALL"},
     OptionSpec{"num.family", "7xx|10xx|flx", "10xx", "series of the control"},
     OptionSpec{"num.g02_center", "absolute_in_G90|incremental", "absolute_in_G90", "I J K of an arc under G90"},

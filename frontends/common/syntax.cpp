@@ -12,23 +12,14 @@ using Out = std::back_insert_iterator<std::string>;
 
 void dump_expr(const Expr& e, Out out) {
   switch (e.kind) {
-    case ExprKind::number:
-      fmt::format_to(out, "{}", e.text);
-      return;
-    case ExprKind::string:
-      fmt::format_to(out, "\"{}\"", e.text);
-      return;
-    case ExprKind::missing:
-      fmt::format_to(out, "_");
-      return;
-    case ExprKind::name:
-      fmt::format_to(out, "'{}", e.text);
-      return;
+    case ExprKind::number: fmt::format_to(out, "{}", e.text); return;
+    case ExprKind::string: fmt::format_to(out, "\"{}\"", e.text); return;
+    case ExprKind::missing: fmt::format_to(out, "_"); return;
+    case ExprKind::name: fmt::format_to(out, "'{}", e.text); return;
     case ExprKind::variable:
     case ExprKind::unary:
     case ExprKind::binary:
-    case ExprKind::call:
-      break;
+    case ExprKind::call: break;
   }
   fmt::format_to(out, "({}", e.text);
   for (const auto& a : e.args) {

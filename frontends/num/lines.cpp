@@ -118,8 +118,20 @@ void FileReader::begin_routine(ir::RoutineName name, std::string title, ir::Line
   lower_.expressions().forget_symbols();
 }
 
+/// Blank lines at the end of a program: a block without anything stands for the last of them.
+void FileReader::close_blank(const Span& next) {
+  if (blank_ == 0) return;
+  ir::Statement s;
+  s.line.span = {file_, next.line - 1, 1, next.line - 1, 1};
+  s.line.blank_lines_before = static_cast<std::uint16_t>(blank_ - 1);
+  s.node = ir::Block{};
+  blank_ = 0;
+  put(std::move(s));
+}
+
 void FileReader::end_routine() {
   if (!open_) return;
+  if (blank_ != 0) close_blank({file_, static_cast<std::uint32_t>(source_->lines().size() + 1), 1, 0, 0});
   open_ = false;
   for (const Span& s : builder_.finish()) {
     diagnostics_.error("NUM-022", s, "the statement that begins here has no end in this program",
@@ -168,14 +180,16 @@ void FileReader::header(const syntax::Statement& s, const Span& span) {
                        "give it another number");
   }
   // Blank lines and comments before the first header stand before the program.
-  if (open_ && program_.routines.empty() && only_comments_ && !routine_.header.span.known()) {
-    for (const auto& statement : routine_.body) {
-      program_.files[0].leader.emplace_back(source_->lines()[statement.line.span.line - 1].text);
-    }
+  if (program_.routines.empty() && (!open_ || only_comments_) && !routine_.header.span.known()) {
+    auto& leader = program_.files[0].leader;
+    leader.clear();
+    for (std::uint32_t n = 1; n < span.line; ++n) leader.emplace_back(source_->lines()[n - 1].text);
     open_ = false;
+    blank_ = 0;
   }
   ir::LineInfo header_line;
   fill_line(syntax_, span, header_line);
+  if (open_) close_blank(span);
   std::string title;
   if (!header_line.comments.empty()) {
     title = std::string(trim(header_line.comments.front().text));
@@ -252,11 +266,17 @@ void FileReader::line(const SourceLine& source_line) {
     diagnostics_.error("NUM-001", word_span(span_, error.pos), "the block can't be read: " + error.message, {});
     line_.clear();
     line_.span = span_;
+    line_.blank_lines_before = std::exchange(blank_, std::uint16_t{0});
     only_comments_ = false;
     return opaque(span_, text_, "text.unread", false);
   }
+  if (blank_line) {
+    ++blank_;
+    return;
+  }
   fill_line(syntax_, span_, line_);
-  if (blank_line || !is_block) return put_node(ir::Block{});
+  line_.blank_lines_before = std::exchange(blank_, std::uint16_t{0});
+  if (!is_block) return put_node(ir::Block{});
   only_comments_ = false;
   check_label();
   block(span_, text_);

@@ -33,6 +33,7 @@ class FileReader {
   void tape_mark(std::string_view raw);
   void begin_routine(ir::RoutineName name, std::string title, ir::LineInfo header);
   void end_routine();
+  void close_blank(const Span& next);
 
   void block(const Span& span, std::string_view text);
   bool structured(const syntax::Statement& s);
@@ -65,7 +66,8 @@ class FileReader {
   bool open_ = false;          ///< a routine is being read
   bool only_comments_ = true;  ///< and holds nothing but blank lines and comments so far
   bool in_var_ = false;
-  bool ended_ = false;  ///< the routine has an M02
+  std::uint16_t blank_ = 0;  ///< blank lines since the last statement
+  bool ended_ = false;       ///< the routine has an M02
 
   // Of the line at hand.
   syntax::Block syntax_;

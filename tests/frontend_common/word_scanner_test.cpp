@@ -37,8 +37,8 @@ TEST(WordScanner, ReadsAPlainBlockWithPlaces) {
 TEST(WordScanner, LeavesEverythingElseToTheGrammar) {
   syntax::Block b;
   const auto t = plain_table();
-  for (const char* line : {"(P1=2)", "XP100", "X=10", "G1 X", "X-", "X1.2.3", "X1E5", "N10.5", "N", "G1 x5", "%5", "X10 N5",
-                           "X 10", "X12345678901234567890", "/G1 /X2", "X1,5", "\xff", "X1\x1a"}) {
+  for (const char* line : {"(P1=2)", "XP100", "X=10", "G1 X", "X-", "X1.2.3", "X1E5", "N10.5", "N", "G1 x5", "%5",
+                           "X10 N5", "X 10", "X12345678901234567890", "/G1 /X2", "X1,5", "\xff", "X1\x1a"}) {
     EXPECT_FALSE(scan_plain(line, t, b)) << line;
   }
 }
