@@ -183,7 +183,7 @@ void FileReader::header(const syntax::Statement& s, const Span& span) {
   if (program_.routines.empty() && (!open_ || only_comments_) && !routine_.header.span.known()) {
     auto& leader = program_.files[0].leader;
     leader.clear();
-    for (std::uint32_t n = 1; n < span.line; ++n) leader.emplace_back(source_->lines()[n - 1].text);
+    for (std::uint32_t row = 1; row < span.line; ++row) leader.emplace_back(source_->lines()[row - 1].text);
     open_ = false;
     blank_ = 0;
   }
