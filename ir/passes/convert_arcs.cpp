@@ -77,7 +77,8 @@ class ArcPass {
   Arc look(Statement& s) {
     auto& b = std::get<Block>(s.node);
     const Facts& facts = facts_.before(s);
-    const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+    auto plane = setting_in<Plane>(b, facts, Setting::plane);
+    if (!plane) plane = plane_of_words(b.motion);
     const PlaneAxes axes = plane_axes(plane.value_or(context_.source_machine.power_on.plane));
     Arc arc{s,
             b,

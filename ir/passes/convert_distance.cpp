@@ -75,7 +75,11 @@ class DistancePass {
       const auto from = to_radius(c.axis, c.scale, d, b, facts, context_.source_machine);
       const auto to = to_radius(c.axis, WordScale::modal, mode, b, facts, context_.source_machine);
       const auto& at = facts.position[c.axis];
-      if (!from || !to || !at) return false;
+      if (!from || !to) return false;
+      if (!at) {
+        if (!from_machine(c, *mode, *from / *to)) return false;
+        continue;
+      }
       const Value here{*at};
       const Value radius = scale(c.value, *from);
       c.value = scale(*mode == Distance::absolute ? add(here, radius) : subtract(radius, here), 1 / *to);
@@ -84,6 +88,21 @@ class DistancePass {
       c.scale = WordScale::modal;
     }
     b.motion.coords = std::move(coords);
+    return true;
+  }
+
+  /// The increment added to what the target knows as the last programmed coordinate.
+  bool from_machine(CoordWord& c, Distance mode, double factor) const {
+    SystemRef here;
+    here.datum = Datum::programmed_position;
+    here.axis = c.axis;
+    if (mode != Distance::absolute || !context_.target.system_data || !context_.target.system_data(here)) return false;
+    Expr e;
+    e.node = std::move(here);
+    const Value step = scale(c.value, factor);
+    c.value = Value{binary(BinaryOp::add, std::make_shared<const Expr>(std::move(e)), as_expr(step))};
+    c.mode = WordMode::modal;
+    c.scale = WordScale::modal;
     return true;
   }
 

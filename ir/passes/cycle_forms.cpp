@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "ir/passes/lower_cycles.h"
@@ -124,6 +125,68 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     }
   }
   return std::nullopt;
+}
+
+bool disturbs_call(const Block& b) {
+  if (b.has_motion) return true;
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+  });
+}
+
+Statement off_statement(const LineInfo& like, bool by_call) {
+  if (!by_call) return make_block(like, action(CycleCancel{}));
+  ModalCall m;
+  m.off = true;
+  return made(like, std::move(m));
+}
+Statement on_statement(const LineInfo& like, const CyclePtr& cycle) {
+  ModalCall m;
+  m.cycle = cycle;
+  return made(like, std::move(m));
+}
+Statement single_run(const LineInfo& like, const CyclePtr& cycle) {
+  return make_block(like, action(CycleDefine{cycle, false, true, CycleTrigger::plane_axis_word}));
+}
+
+bool ToolHeight::keeps(const Statement& s) {
+  const auto* m = std::get_if<ModalCall>(&s.node);
+  return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
+         std::holds_alternative<Label>(s.node) || std::holds_alternative<Declare>(s.node) ||
+         (m != nullptr && m->cycle != nullptr);
+}
+
+void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless) {
+  for (const auto& l : labels_on(s.line)) {
+    if (uses_.is_target(l)) value_.reset();
+  }
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr) {
+    if (!harmless) value_.reset();
+    return;
+  }
+  for (const auto& a : b->actions) {
+    if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) value_.reset();
+  }
+  const auto* hole = ran ? std::get_if<HoleCycle>(&ran->node) : nullptr;
+  if (hole == nullptr) {
+    for (const auto& a : b->actions) {
+      if (std::holds_alternative<CycleDefine>(a.data)) value_.reset();
+    }
+    for (const auto& c : b->motion.coords) {
+      if (b->has_motion && c.axis == axis_) value_.reset();  // the dataflow knows it then
+    }
+    return;
+  }
+  const auto w = cycle_axis(*hole, *b, facts);
+  const auto units = setting_in<Units>(*b, facts, Setting::units);
+  value_.reset();
+  if (!w || !units) return;
+  axis_ = *w;
+  const HoleCycle h = with_absolute_levels(*hole, *b, facts);
+  if (h.retract.given && h.retract.base == LevelBase::absolute && h.retract.value.literal()) {
+    value_ = h.retract.value.number * (*units == Units::inch ? 25.4 : 1);
+  }
 }
 
 bool has_plane_word(const Block& b, AxisId tool_axis) {

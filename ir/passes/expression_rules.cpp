@@ -111,6 +111,7 @@ ExprPtr ExpressionLowering::call_rule(const Call& c, const ExprPtr& e) {
     }
     return same ? e : call(c.function, std::move(args), c.half);
   }
+  if (const auto known = constant_value(e)) return node(number(*known));
   switch (c.function) {
     case Function::tan:
     case Function::asin:

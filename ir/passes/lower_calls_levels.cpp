@@ -204,6 +204,19 @@ class Levels {
     }
   }
 
+  /// The routine and those that share its level.
+  Routines frame_of(std::size_t routine) const {
+    Routines frame{routine};
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& site : calls_.sites()) {
+        if (site.level != CallLevel::shared || !site.callee || frame.count(site.caller) == 0) continue;
+        changed = frame.insert(*site.callee).second || changed;
+      }
+    }
+    return frame;
+  }
+
   void rewrite_calls(std::size_t caller) {
     rewrite_body(program_.routines[caller].body, [&](Statement&& s, Body& out) {
       auto* call = std::get_if<CallRoutine>(&s.node);
@@ -234,9 +247,11 @@ class Levels {
     }
     std::vector<std::pair<VarRef, ExprPtr>> values;
     Body behind;
+    const Routines frame = frame_of(callee);
     for (std::size_t v = 0; v < count_; ++v) {
       const Class& c = classes_[find(node(callee, v))];
-      if (c.mentions.empty() || (named_target_ && is_local(callee, v))) continue;
+      const bool used = std::any_of(frame.begin(), frame.end(), [&](std::size_t r) { return mentioned_[r][v]; });
+      if (!used || (named_target_ && is_local(callee, v))) continue;
       const VarRef target = target_variable(callee, v);
       if (c.roots.size() > 1) {  // another level waits in the same variable: kept over the call
         const VarRef saved = frame_variable(program_, name_of(v) + "_OF_CALLER", program_.routines[callee]);

@@ -14,7 +14,11 @@ namespace {
 class CyclePass {
  public:
   CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts), editor_(program, routine, context) {
+      : program_(program),
+        context_(context),
+        facts_(facts),
+        editor_(program, routine, context),
+        height_(label_uses(program, routine)) {
     by_call_ = context.target.modal_cycle_by_call;
   }
 
@@ -47,6 +51,21 @@ class CyclePass {
   }
 
   void one(Statement&& s, Body& out) {
+    const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
+    const bool harmless = ToolHeight::keeps(s);
+    lower(std::move(s), out);
+    const auto* b = std::get_if<Block>(&seen.node);
+    const bool ran = active_ && b != nullptr && (defines(*b) || triggers(*b, facts_.before(seen)));
+    height_.follow(seen, facts_.before(seen), ran ? active_->source : nullptr, harmless);
+  }
+  static bool defines(const Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      return d != nullptr && d->here;
+    });
+  }
+
+  void lower(Statement&& s, Body& out) {
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
       if (m->off && active_) return cancel_statement(std::move(s), out);
       if (m->off && !by_call_ && !context_.target.modal_call && facts_.before(s).modal_call == 0) {
@@ -94,6 +113,7 @@ class CyclePass {
     const auto* hole = std::get_if<HoleCycle>(&cycle->node);
     const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
     if (w) a.height = height_mm(b, facts, *w);
+    if (!a.height && w) a.height = height_.at(*w);
     a.defined_at = a.height.value_or(0);
     return a;
   }
@@ -111,22 +131,6 @@ class CyclePass {
   }
   static bool take_cancel(Block& b) {
     return std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<CycleCancel>(a.data); }) != 0;
-  }
-
-  /// Whatever the target's cycle is in force.
-  static Statement off_statement(const LineInfo& like, bool by_call) {
-    if (!by_call) return make_block(like, action(CycleCancel{}));
-    ModalCall m;
-    m.off = true;
-    return made(like, std::move(m));
-  }
-  static Statement on_statement(const LineInfo& like, const CyclePtr& cycle) {
-    ModalCall m;
-    m.cycle = cycle;
-    return made(like, std::move(m));
-  }
-  static Statement single_run(const LineInfo& like, const CyclePtr& cycle) {
-    return make_block(like, action(CycleDefine{cycle, false, true, CycleTrigger::plane_axis_word}));
   }
 
   void cancel_statement(Statement&& s, Body& out) {
@@ -315,13 +319,6 @@ class CyclePass {
     return !w || has_plane_word(b, *w);
   }
 
-  static bool disturbs_call(const Block& b) {
-    if (b.has_motion) return true;
-    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-      return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
-    });
-  }
-
   /// A block while a cycle is active.
   void point(Statement&& s, Body&& pieces, Body& out) {
     auto& b = std::get<Block>(s.node);
@@ -462,6 +459,7 @@ class CyclePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   Editor editor_;
+  ToolHeight height_;
   bool by_call_ = false;
   bool written_out_ = false;
   std::optional<Active> active_;

@@ -30,6 +30,13 @@ class SafeStart {
     if (needs_feed_ && context_.source_machine.power_on_feed > 0) {
       head.actions.push_back(action(SetFeed{Value{context_.source_machine.power_on_feed}, false}));
     }
+    if (needs_feed_ && context_.source_machine.power_on_feed <= 0 && context_.target_machine.power_on_feed > 0) {
+      context_.diagnostics.warning(
+          "TRN-159", main_.header.span,
+          "a move at feed before any F: the source stops with an alarm there, the target moves "
+          "with the feed it has after power-on",
+          "write F before the first move at feed");
+    }
     Body blocks;
     if (!head.actions.empty()) blocks.push_back(made(LineInfo{}, std::move(head)));
     const auto offset = context_.source_machine.power_on.work_offset;

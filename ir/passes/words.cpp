@@ -17,6 +17,16 @@ std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Dist
   return *distance == Distance::absolute ? 0.5 : 1;
 }
 
+std::optional<Plane> plane_of_words(const Motion& m) {
+  if (m.centers.size() != 2) return std::nullopt;
+  for (const auto plane : {Plane::xy, Plane::zx, Plane::yz}) {
+    const PlaneAxes axes = plane_axes(plane);
+    const AxisId a = m.centers[0].axis, b = m.centers[1].axis;
+    if ((a == axes.u && b == axes.v) || (a == axes.v && b == axes.u)) return plane;
+  }
+  return std::nullopt;
+}
+
 void SymbolicPosition::forget(const VarRef& v) {
   for (auto& p : at_) {
     if (p && p->expr && reads(p->expr, v)) p.reset();

@@ -23,6 +23,9 @@ inline std::optional<Distance> distance_of(const CoordWord& c, const Block& b, c
 std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
                                 const Facts& facts, const machine::Profile& machine);
 
+/// Two centre words name the plane.
+std::optional<Plane> plane_of_words(const Motion& m);
+
 /// Last programmed positions along straight text, as expressions, where the dataflow has no number.
 class SymbolicPosition {
  public:
