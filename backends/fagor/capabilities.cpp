@@ -97,6 +97,7 @@ void frames(ir::Capabilities& c, bool lathe) {  // 8.3..8.5, 11.4, 11.5, 25.1
   c.frame_rotation = !lathe;
   c.frame_chain = false;
   c.work_offset_rows = 20;
+  c.shift_survives_end = true;
   c.work_offset_off = true;
 }
 

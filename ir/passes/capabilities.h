@@ -137,6 +137,7 @@ struct Capabilities {
   bool frame_rotation = true;
   /// Programmable frame: which slot takes which operations. Empty slot: the target has none.
   std::map<FrameSlot, std::set<FrameCombine>> frames;
+  bool shift_survives_end = false;     ///< the programmable shift holds on after the end of the program
   std::int32_t work_offset_rows = 99;  ///< settable offsets that a program can select
   bool work_offset_off = true;
   bool units_with_feed = true;        ///< a unit switch that holds for F as well

@@ -23,6 +23,7 @@ class FramePass {
     Editor editor(program_, r, context_);
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       auto* b = std::get_if<Block>(&s.node);
+      if (std::holds_alternative<End>(s.node)) return end(editor, std::move(s), states.before(s), out);
       if (b == nullptr || !concerns(*b)) {
         out.push_back(std::move(s));
         return;
@@ -53,9 +54,12 @@ class FramePass {
         actions.push_back(std::move(a));
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
         const FrameState before = state;
-        state.apply(*f->change, facts_.before(s), b);
+        state.apply(*f->change, facts_.before(s), b, context_.source_machine);
+        const bool silent = a.pos.column == 0 && before.known() && before == state;
         if (legal(*f->change))
           actions.push_back(std::move(a));
+        else if (silent)
+          continue;  // a reset of what is not there, made by the reader
         else if (!rebuild(s, a, *f->change, before, state, actions)) {
           out.push_back(std::move(s));
           return;
@@ -66,6 +70,20 @@ class FramePass {
     }
     b.actions = std::move(actions);
     editor.put(out, {}, std::move(s));
+  }
+
+  /// A shift that outlives the program on the target is taken back where the source forgets it.
+  void end(Editor& editor, Statement&& s, const FrameState& state, Body& out) const {
+    Body before;
+    const bool needed =
+        context_.target.shift_survives_end && program_.dialect != context_.target.dialect && !state.neutral();
+    if (needed && can(FrameSlot::shift, FrameCombine::clear)) {
+      s.line.joined = false;
+      before.push_back(make_block(s.line, make(FrameSlot::shift, FrameKind::translate, FrameCombine::clear)));
+      if (can(FrameSlot::rotation, FrameCombine::clear) && !(state.angle() && state.angle()->is(0)))
+        before.push_back(make_block(s.line, make(FrameSlot::rotation, FrameKind::rotate, FrameCombine::clear)));
+    }
+    editor.put(out, std::move(before), std::move(s));
   }
 
   bool machine_move(Statement& s, Block& b) {

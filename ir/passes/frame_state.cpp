@@ -18,16 +18,20 @@ bool FrameState::known() const {
 FrameWord FrameState::word(std::size_t a) const {
   FrameWord w;
   w.axis = static_cast<AxisId>(a);
-  w.value = *shift_[a];
+  w.value = preset_[a] == 0 ? *shift_[a] : add(*shift_[a], Value{preset_[a]});
   return w;
 }
 
 std::vector<FrameWord> FrameState::shift_words(bool drop_zero) const {
   std::vector<FrameWord> words;
   for (std::size_t a = 0; a < axes; ++a) {
-    if (shift_[a] && !(drop_zero && shift_[a]->is(0))) words.push_back(word(a));
+    if (shift_[a] && !(drop_zero && word(a).value.is(0))) words.push_back(word(a));
   }
   return words;
+}
+
+bool FrameState::neutral() const {
+  return known() && angle_->is(0) && shift_words(true).empty();
 }
 
 void FrameState::forget() {
@@ -47,7 +51,7 @@ void FrameState::join(const FrameState& other) {
     if (shift_[a] && (!other.shift_[a] || !equal(*shift_[a], *other.shift_[a]))) shift_[a].reset();
   }
   if (angle_ && (!other.angle_ || !equal(*angle_, *other.angle_))) angle_.reset();
-  foreign_ = foreign_ || other.foreign_;
+  foreign_ = foreign_ || other.foreign_ || preset_ != other.preset_;
 }
 
 bool FrameState::operator==(const FrameState& o) const {
@@ -57,12 +61,13 @@ bool FrameState::operator==(const FrameState& o) const {
   for (std::size_t a = 0; a < axes; ++a) {
     if (!same(shift_[a], o.shift_[a])) return false;
   }
-  return same(angle_, o.angle_) && foreign_ == o.foreign_;
+  return same(angle_, o.angle_) && foreign_ == o.foreign_ && preset_ == o.preset_;
 }
 
 void FrameState::clear(FrameSlot slot) {
   if (slot == FrameSlot::shift || slot == FrameSlot::chain) shift_.fill(Value{0.0});
   if (slot == FrameSlot::rotation || slot == FrameSlot::chain) angle_ = Value{0.0};
+  if (slot == FrameSlot::preset) preset_.fill(0);
   if (slot == FrameSlot::chain) foreign_ = false;
 }
 
@@ -104,9 +109,24 @@ void FrameState::rotate(const FrameChange& c) {
   }
 }
 
-void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b) {
+/// The present point gets new coordinates: the origin moves by the difference. Positions by numbers only.
+void FrameState::preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine) {
+  if (!(angle_ && angle_->is(0))) foreign_ = true;
+  for (const auto& w : c.words) {
+    const auto& at = facts.position[w.axis];
+    const auto factor = to_radius(w.axis, w.scale, Distance::absolute, b, facts, machine);
+    if (w.axis >= axes || !at || !factor || !w.value.literal()) {
+      foreign_ = true;
+      return;
+    }
+    preset_[w.axis] += *at / *factor - w.value.number;
+  }
+}
+
+void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine) {
   if (c.combine == FrameCombine::clear) return clear(c.slot);
-  if (c.combine == FrameCombine::preset || c.slot == FrameSlot::preset) {
+  if (c.combine == FrameCombine::preset) return preset(c, facts, b, machine);
+  if (c.slot == FrameSlot::preset) {
     foreign_ = true;
     return;
   }
@@ -131,7 +151,8 @@ bool leaves_routine(const Statement& s) {
 
 }  // namespace
 
-FrameStates::FrameStates(const Program& program, const Routine& routine, const FactsOf& facts, const LegaliseContext&) {
+FrameStates::FrameStates(const Program& program, const Routine& routine, const FactsOf& facts,
+                         const LegaliseContext& context) {
   if (routine.body.empty()) return;
   const ControlFlow flow = control_flow(program, routine);
   FrameState start;
@@ -147,7 +168,7 @@ FrameStates::FrameStates(const Program& program, const Routine& routine, const F
     if (const auto* b = std::get_if<Block>(&s.node)) {
       for (const auto& a : b->actions) {
         if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
-          state.apply(*f->change, facts.before(s), *b);
+          state.apply(*f->change, facts.before(s), *b, context.source_machine);
       }
     } else if (std::holds_alternative<Assign>(s.node)) {
       each_target(s, [&state](const VarRef& v) { state.forget(v); });

@@ -18,12 +18,14 @@ class FrameState {
   [[nodiscard]] bool known() const;
   [[nodiscard]] bool foreign() const { return foreign_; }  ///< scale, mirror, rotation about a point or another axis
   [[nodiscard]] const std::optional<Value>& shift(std::size_t a) const { return shift_[a]; }
+  [[nodiscard]] double preset(std::size_t a) const { return preset_[a]; }
+  [[nodiscard]] bool neutral() const;
   [[nodiscard]] const std::optional<Value>& angle() const { return angle_; }
   [[nodiscard]] bool named(std::size_t a) const { return scale_named_[a]; }
   [[nodiscard]] FrameWord word(std::size_t a) const;
-  /// Words of the axes with a shift; `neutral_too`: axes that were named with 0 are left out as well.
+  /// Words of the axes with a shift (the preset included); `drop_zero`: without those that are 0.
   [[nodiscard]] std::vector<FrameWord> shift_words(bool drop_zero) const;
-  void apply(const FrameChange& c, const Facts& facts, const Block& b);
+  void apply(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
   void forget();
   void forget(const VarRef& v);
   void join(const FrameState& other);
@@ -32,8 +34,10 @@ class FrameState {
  private:
   void translate(const FrameChange& c, const Facts& facts, const Block& b);
   void rotate(const FrameChange& c);
+  void preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
   void clear(FrameSlot slot);
   std::array<std::optional<Value>, axes> shift_;
+  std::array<double, axes> preset_{};  ///< of the slot outside the shift, in the scale of the words
   std::array<bool, axes> scale_named_{};
   std::optional<Value> angle_;
   bool foreign_ = false;

@@ -62,6 +62,14 @@ TEST(Distance, IncrementalWordTakesTheKnownPosition) {
   EXPECT_NE(p.text.find("X #15 Y 3"), std::string::npos) << p.text;
 }
 
+TEST(Distance, IncrementIsAddedToWhatTheControlKnows) {
+  auto target = letters_target();
+  target.system_data = [](const ir::SystemRef& s) { return s.datum == ir::Datum::programmed_position; };
+  const std::string text =
+      main_program("  N10 set L[1] = L[1] + 1\n  block rapid X incremental 5 Y (L[1])\n  jump N10 if L[1] < 3\n");
+  EXPECT_EQ(difference(text, target), "");
+}
+
 TEST(Distance, UnknownPositionSwitchesTheBlock) {
   const std::string text = main_program("  block rapid X (L[1])\n  block rapid X incremental 5\n  block rapid X 1\n");
   const auto p = run_pass("distance", text, letters_target());
@@ -120,6 +128,24 @@ TEST(Frames, ChainInSlots) {
   EXPECT_EQ(difference(text, chain_target(), "sinumerik-mill", "num-mill"), "");
 }
 
+TEST(Frames, PresetBecomesAShift) {
+  // At X 30 the coordinate is named 10: the origin moves by 20.
+  const std::string text = main_program(
+      "  block rapid X 30 Y 5\n  block frame preset translate preset X 10\n  block rapid X 0 Y 0\n"
+      "  block frame shift translate replace_named X 1\n  block rapid X 0 Y 0\n");
+  EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
+  const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
+  EXPECT_NE(p.text.find("frame chain translate replace X #20"), std::string::npos) << p.text;
+}
+
+TEST(Frames, ShiftThatWouldOutliveTheProgramIsTakenBack) {
+  auto target = letters_target();
+  target.shift_survives_end = true;
+  const auto p = run_pass("frames", main_program("  block frame chain translate replace X 100\n  block rapid X 0\n"),
+                          target, "sinumerik-mill", "fagor-mill");
+  EXPECT_LT(p.text.find("frame shift translate clear"), p.text.find("end_program")) << p.text;
+}
+
 TEST(Frames, UnknownRestIsRefused) {
   const std::string text = main_program(
       "  jump N10 if L[1] > 0\n  block frame shift translate replace_named X 100\n"
@@ -157,6 +183,16 @@ TEST(Cycles, ModalCallBecomesADefinitionAtTheFirstPoint) {
       "  modal_call cycle hole drill reference 2 bottom -15 retract 20\n"
       "  block rapid X 10 Y 10\n  block modal X 30\n  modal_call off\n  block rapid Z 50\n");
   EXPECT_EQ(difference(text, target, "sinumerik-mill", "fagor-mill"), "");
+}
+
+TEST(Cycles, SecondCycleStartsWhereTheFirstLeftTheTool) {
+  const std::string text = main_program(
+      "  block feed 100, rapid X 0 Y 0 Z 20\n  block cycle hole drill reference 2 bottom -15 retract 10, modal X 5 Y "
+      "5\n"
+      "  block cycle_cancel\n  block cycle hole peck_full reference 2 bottom -15 retract 10 law constant first 6 "
+      "reapproach 1, "
+      "modal X 9\n  block cycle_cancel\n");
+  EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "fagor-mill"), "");
 }
 
 TEST(SafeStart, SaysThePowerOnStateOfTheSource) {

@@ -68,6 +68,25 @@ TEST(Calls, TwoLevelsShareOneHelper) {
   EXPECT_EQ(difference(text, structured_target()), "");
 }
 
+TEST(Calls, CalleesThatDoNotUseAVariableLeaveItAlone) {
+  // 6 is called on the main program's level and on one of its own; P7 is the main program's alone.
+  const std::string text = letters_source + R"(routine main 1 {
+    set P[7] = 70, P[0] = 1
+    call 6
+    call 6 ("A" = 5) new_level
+    block rapid X (P[7]) Y (P[0])
+    end_program
+  }
+  routine sub 6 {
+    set P[0] = P[0] + 1
+    block rapid Z (P[0])
+    return
+  })";
+  EXPECT_EQ(difference(text, chain_target()), "");
+  EXPECT_EQ(difference(text, structured_target()), "");
+  EXPECT_EQ(legalise(text, structured_target()).text.find("OF_CALLER"), std::string::npos);
+}
+
 TEST(Calls, ArgumentsAreSetAtOnce) {
   // A and B swap the caller's values: on shared variables that needs a copy.
   const std::string text = letters_source + R"(routine main 1 {
