@@ -90,7 +90,12 @@ void Writer::write_routine(std::size_t index) {
     ++before;
   }
   const auto split = r.body.begin() + static_cast<std::ptrdiff_t>(before);
-  if (before != 0) body(ir::Body(r.body.begin(), split));
+  // The line written last is finished while its statement is still there.
+  if (before != 0) {
+    const ir::Body front(r.body.begin(), split);
+    body(front);
+    finish_line();
+  }
   ir::LineInfo line = r.header;
   const bool local = same_dialect() && r.locality == ir::Locality::file_local;
   const std::string name = r.title.empty() ? r.name.text : r.title;
@@ -104,7 +109,9 @@ void Writer::write_routine(std::size_t index) {
   add((local ? "(LSUB " : "(SUB ") + std::to_string(r.name.number) + ')', Rank::head);
   finish_line();
   if (before != 0) {
-    body(ir::Body(split, r.body.end()));
+    const ir::Body rest(split, r.body.end());
+    body(rest);
+    finish_line();
   } else {
     body(r.body);
   }

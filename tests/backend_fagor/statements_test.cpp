@@ -32,7 +32,7 @@ ir::Statement statement(decltype(ir::Statement::node) node) {
 TEST(FagorStatements, HeaderHasTwentyCharactersWithoutComma) {  // 1.2
   Build b;
   b.program.routines[0].title = "Flansch, groß und rund, Seite 2";
-  EXPECT_EQ(b.text(), "%Flansch  gross und ,MX,\nM30\n");
+  EXPECT_EQ(b.text(), "%Flansch  gross und r ,MX,\nM30\n");
 }
 
 TEST(FagorStatements, FileNameIsSixDigits) {  // 1.1
@@ -266,7 +266,7 @@ TEST(FagorStatements, RefusedLinesStandAsRemarks) {
   auto& s = b.add(ir::Opaque{"STOPFIFO", "language.statement", false});
   s.line.number = "30";
   b.add(move(ir::MotionKind::rapid, {coord(axis::x, Value(0))}));
-  EXPECT_EQ(b.lines(), "N30 ;!! TRN-205 STOPFIFO\nG0 X0\n");
+  EXPECT_EQ(b.lines(), "N30 ;!! TRN-205\nG0 X0\n");
   EXPECT_EQ(b.codes(), "TRN-205");
 }
 

@@ -48,7 +48,7 @@ TEST(FagorStream, PlainBlocksAreTheSameText) {
   EXPECT_EQ(s.text, whole);
   EXPECT_EQ(s.text,
             "%PART ,MX,\nG17 G05 G90\nG54\nT2 D2 M6\nN0100 G0 X10.500 Y-3. S800 M3 ;Anfahren\n/2 G2 X20 Y0 I5 J0 "
-            "F200\nG04 K150\n;\nM30\n");
+            "F200\nG04 K150\n;\n;\nM30\n");
 }
 
 TEST(FagorStream, WhatIsSpecialHereIsNotPlain) {
@@ -88,10 +88,15 @@ TEST(FagorStream, TheSameLanguageKeepsItsSpelling) {
     if (kind == frontends::StreamLine::no_statement) continue;
     if (!begun) writer->begin(reader->frame(), out);
     begun = true;
-    EXPECT_TRUE(writer->write(s, out, diagnostics)) << line.text;
+    const auto* block = std::get_if<ir::Block>(&s.node);
+    const bool alone = kind == frontends::StreamLine::program_end && block != nullptr && block->empty();
+    if (!alone) {
+      EXPECT_TRUE(writer->write(s, out, diagnostics)) << line.text;
+    }
     if (kind == frontends::StreamLine::program_end) {
       ir::Statement end;
-      end.line.joined = true;
+      if (alone) end.line = s.line;
+      end.line.joined = !alone;
       end.node = ir::End{};
       EXPECT_TRUE(writer->write(end, out, diagnostics));
     }

@@ -220,7 +220,7 @@ TEST(FagorWords, SkipLevels) {  // 2.5
   EXPECT_EQ(b.lines(), "/G0 X1\n/3 X2\n");
   b.add(move(MotionKind::modal, {coord(axis::x, Value(3))})).line.skip_mask = 8;
   (void)b.text();
-  EXPECT_EQ(b.codes(), "TRN-201");
+  EXPECT_EQ(b.codes().substr(0, 7), "TRN-201");
 }
 
 }  // namespace
