@@ -201,8 +201,27 @@ class StreamTranslation {
     return put(end);
   }
 
+  /// What depends on more than the block and is not settled by the local passes: the whole program is needed.
+  static bool needs_more(const ir::Block& b) {
+    if (b.has_motion && b.motion.coords.empty() && !b.motion.centers.empty()) return true;
+    for (const auto& a : b.actions) {
+      if (std::holds_alternative<ir::MachineFunction>(a.data) || std::holds_alternative<ir::FrameOp>(a.data))
+        return true;
+      const auto* set = std::get_if<ir::ModalSet>(&a.data);
+      if (set != nullptr && (set->setting == ir::Setting::feed_mode || set->setting == ir::Setting::units ||
+                             set->setting == ir::Setting::path_mode || set->setting == ir::Setting::diameter)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   bool put(const ir::Statement& s) {
     const auto* block = std::get_if<ir::Block>(&s.node);
+    if (block != nullptr && needs_more(*block)) {
+      give_up();
+      return false;
+    }
     if (block != nullptr && !ir::plain_legal(*block, legal_, &target_)) return put_legalised(s);
     if (block != nullptr) tracker_.follow(*block);
     if (!writer_->write(s, out_, diagnostics_) || diagnostics_.has_errors()) {
@@ -284,6 +303,8 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
                         : std::string(to->name) + (source->kind == machine::Kind::lathe ? "-lathe" : "-mill"),
                     &result.error);
   if (!target) return result;
+  // Diameters and a length compensation that has to be switched on need the whole program.
+  if (source->kind == machine::Kind::lathe || to->backend->capabilities_for(*target).length_comp_switch) return result;
   result.outcome = StreamOutcome::done;
   StreamTranslation(*from, *to, *source, *target, options, result, sink).run(path, progress);
   return result;
