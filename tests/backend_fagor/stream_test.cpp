@@ -40,7 +40,6 @@ TEST(FagorStream, PlainBlocksAreTheSameText) {
   arc.actions = {action(ir::SetFeed{Value(200), false})};
   b.add(arc).line.skip_mask = 2;
   b.add(actions({action(ir::Dwell{Value(1.5), 1, false})}));
-  b.add(ir::Block{});
   b.add(ir::End{});
   const std::string whole = b.text();
   const Streamed s = stream(b);
@@ -48,7 +47,7 @@ TEST(FagorStream, PlainBlocksAreTheSameText) {
   EXPECT_EQ(s.text, whole);
   EXPECT_EQ(s.text,
             "%PART ,MX,\nG17 G05 G90\nG54\nT2 D2 M6\nN0100 G0 X10.500 Y-3. S800 M3 ;Anfahren\n/2 G2 X20 Y0 I5 J0 "
-            "F200\nG04 K150\n;\nM30\n");
+            "F200\nG04 K150\nM30\n");
 }
 
 TEST(FagorStream, WhatIsSpecialHereIsNotPlain) {
