@@ -238,6 +238,7 @@ class StreamTranslation {
     ir::number_statements(program);
     machine::Profile source = source_;
     source.power_on = tracker_.state();
+    source.power_on.length_comp = source_.power_on.length_comp;  // what the machine does by itself, not a mode reached
     const ir::LegaliseContext context{legal_, source, target_, {options_.cycles}, diagnostics_};
     if (!run_local_passes(program, context) || !write_pieces(program)) return false;
     tracker_.follow(std::get<ir::Block>(s.node));

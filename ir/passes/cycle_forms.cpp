@@ -54,12 +54,15 @@ void note_base(const Level& l, std::optional<Value>& base) {
 
 }  // namespace
 
-HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts) {
+HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts, std::optional<double> initial) {
   HoleCycle out = c;
   Bases bases;
   bases.distance = setting_in<Distance>(b, facts, Setting::distance);
   const auto w = cycle_axis(c, b, facts);
-  if (w && facts.position[*w]) bases.initial = Value{*facts.position[*w]};
+  if (initial)
+    bases.initial = Value{*initial};
+  else if (w && facts.position[*w])
+    bases.initial = Value{*facts.position[*w]};
   out.surface = resolved(c.surface, bases);
   note_base(out.surface, bases.surface);
   out.reference = resolved(c.reference, bases);
@@ -75,7 +78,7 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
 }
 
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
-                                    const LegaliseContext& context) {
+                                    const LegaliseContext& context, std::optional<double> initial) {
   const auto& native = context.target.native_cycle;
   if (!native || context.options.cycles == CycleWriting::explode) return std::nullopt;
   const auto* hole = std::get_if<HoleCycle>(&cycle->node);
@@ -93,7 +96,7 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
   // An approach over the retract level is no detour when the tool stands there, or higher levels follow one line.
   const auto w = cycle_axis(h, b, facts);
   const bool literal = h.retract.given && h.retract.base == LevelBase::absolute && h.retract.value.literal();
-  const auto height = w ? facts.position[*w] : std::nullopt;
+  const auto height = initial ? initial : w ? facts.position[*w] : std::nullopt;
   const bool straight = literal && height && std::fabs(*height - h.retract.value.number) < 1e-9;
   const bool downward = literal && height && h.bottom.value.literal() && h.bottom.base == LevelBase::absolute &&
                         *height >= h.retract.value.number && h.retract.value.number >= h.bottom.value.number;
@@ -147,6 +150,21 @@ Statement on_statement(const LineInfo& like, const CyclePtr& cycle) {
 }
 Statement single_run(const LineInfo& like, const CyclePtr& cycle) {
   return make_block(like, action(CycleDefine{cycle, false, true, CycleTrigger::plane_axis_word}));
+}
+
+std::optional<CycleDefine> take_definition(Block& b, WordPos& pos) {
+  for (auto it = b.actions.begin(); it != b.actions.end(); ++it) {
+    if (auto* d = std::get_if<CycleDefine>(&it->data)) {
+      CycleDefine out = *d;
+      pos = it->pos;
+      b.actions.erase(it);
+      return out;
+    }
+  }
+  return std::nullopt;
+}
+bool take_cancel(Block& b) {
+  return std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<CycleCancel>(a.data); }) != 0;
 }
 
 bool ToolHeight::keeps(const Statement& s) {

@@ -33,9 +33,9 @@ class CyclePass {
     CyclePtr source;
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
-    bool on_target = false;  ///< the target's own cycle is in force
-    double defined_at = 0;
-    std::optional<double> height;  ///< of the tool over the holes, mm
+    bool on_target = false;            ///< the target's own cycle is in force
+    std::optional<double> defined_at;  ///< height of the tool at the definition, mm
+    std::optional<double> height;      ///< of the tool over the holes, mm
   };
 
   void walk(Body& body, Body& out) {
@@ -109,28 +109,18 @@ class CyclePass {
     Active a;
     a.source = cycle;
     a.trigger = trigger;
-    if (auto native = native_form(cycle, b, facts, context_)) a.native = *native;
     const auto* hole = std::get_if<HoleCycle>(&cycle->node);
     const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
     if (w) a.height = height_mm(b, facts, *w);
     if (!a.height && w) a.height = height_.at(*w);
-    a.defined_at = a.height.value_or(0);
+    a.defined_at = a.height;
+    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts))) a.native = *native;
     return a;
   }
-
-  static std::optional<CycleDefine> take_definition(Block& b, WordPos& pos) {
-    for (auto it = b.actions.begin(); it != b.actions.end(); ++it) {
-      if (auto* d = std::get_if<CycleDefine>(&it->data)) {
-        CycleDefine out = *d;
-        pos = it->pos;
-        b.actions.erase(it);
-        return out;
-      }
-    }
-    return std::nullopt;
-  }
-  static bool take_cancel(Block& b) {
-    return std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<CycleCancel>(a.data); }) != 0;
+  static std::optional<double> in_units(std::optional<double> mm, const Block& b, const Facts& facts) {
+    const auto units = setting_in<Units>(b, facts, Setting::units);
+    if (!mm || !units) return std::nullopt;
+    return *units == Units::inch ? *mm / 25.4 : *mm;
   }
 
   void cancel_statement(Statement&& s, Body& out) {
@@ -323,9 +313,19 @@ class CyclePass {
   void point(Statement&& s, Body&& pieces, Body& out) {
     auto& b = std::get<Block>(s.node);
     const Facts& facts = facts_.before(s);
-    follow_retract_plane(s, b, facts);
+    const bool was_on = active_->on_target;
+    const bool changed = follow_retract_plane(b, facts);
     const bool hole_here = triggers(b, facts);
     const LineInfo like = s.line;
+    if (changed && !active_->native && was_on) {
+      active_->on_target = false;
+      pieces.push_back(off_statement(like, by_call_));
+    } else if (changed && was_on && by_call_) {
+      pieces.push_back(on_statement(like, active_->native));
+    } else if (changed && was_on) {
+      active_->on_target = false;  // the next point defines it again
+      if (!hole_here) pieces.push_back(off_statement(like, false));
+    }
     if (!active_->native) {
       if (hole_here)
         write_out(std::move(s), std::move(pieces), out);
@@ -364,7 +364,7 @@ class CyclePass {
     }
     const LineInfo like = s.line;
     if (simple && active_->on_target) return editor_.put(out, std::move(pieces), std::move(s));
-    if (simple) {
+    if (simple || active_->trigger == CycleTrigger::plane_axis_word) {
       b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
       active_->on_target = true;
       return editor_.put(out, std::move(pieces), std::move(s));
@@ -397,21 +397,18 @@ class CyclePass {
     editor_.put(out, std::move(pieces), std::move(s));
   }
 
-  /// A new retract plane while the cycle is active is a new cycle.
-  void follow_retract_plane(const Statement& s, Block& b, const Facts& facts) {
+  /// A new retract plane while the cycle is active is a new cycle. True: the target's own one has changed.
+  bool follow_retract_plane(const Block& b, const Facts& facts) {
     const bool sets = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
       const auto* m = std::get_if<ModalSet>(&a.data);
       return m != nullptr && m->setting == Setting::retract_plane;
     });
-    if (!sets || context_.target.retract_plane_switch || !active_->native) return;
     const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-    if (hole == nullptr || hole->retract.given) return;
-    context_.diagnostics.warning(
-        "TRN-332", s.line.span,
-        "the retract plane changes while a cycle is active; the target's cycle keeps the one it was "
-        "defined with",
-        "define the cycle again after the change");
-    (void)facts;
+    if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
+    const auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts));
+    const bool was_native = active_->native != nullptr;
+    active_->native = form ? *form : nullptr;
+    return was_native;
   }
 
   // --- written out ----------------------------------------------------------------------------------------------
@@ -430,7 +427,7 @@ class CyclePass {
     else if (!height)
       error = "the height of the tool before it is not known here";
     else
-      moves = explode(*hole, s.line, b, facts, *height, active_->defined_at, &error);
+      moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), &error);
     if (!moves) {
       refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + error,
              "give the cycle's words and the height before it as numbers");

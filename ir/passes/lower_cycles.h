@@ -11,10 +11,12 @@ namespace cnctrans::ir::passes {
 /// The tool axis of a cycle: its own, or the normal of the plane in force.
 std::optional<AxisId> cycle_axis(const HoleCycle& c, const Block& b, const Facts& facts);
 /// The cycle with absolute levels as far as the circumstances are known; what is not known stays as it is.
-HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts);
-/// The form of the cycle that the target writes natively; nullopt: none. `height`: of the tool when it is defined.
+/// `initial`: height of the tool at the definition in program units, when it is known better than by the facts.
+HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts,
+                               std::optional<double> initial = std::nullopt);
+/// The form of the cycle that the target writes natively; nullopt: none.
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
-                                    const LegaliseContext& context);
+                                    const LegaliseContext& context, std::optional<double> initial = std::nullopt);
 
 /// The moves of one hole as blocks, from `height` (mm); empty and a text in `error`: it can't be expanded.
 struct Explosion {
@@ -42,6 +44,9 @@ class ToolHeight {
 /// Moves along the tool axis beside those in the plane.
 bool has_plane_word(const Block& b, AxisId tool_axis);
 
+/// Takes the definition or the end of a cycle out of the block.
+std::optional<CycleDefine> take_definition(Block& b, WordPos& pos);
+bool take_cancel(Block& b);
 /// A block without a point at which a modal cycle by call runs all the same, on the controls that have it.
 bool disturbs_call(const Block& b);
 /// Ends, starts and runs the target's cycle.

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "ir/passes/call_graph.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/passes.h"
@@ -215,7 +216,7 @@ class RepeatPass {
 /// Modal calls (a subprogram after every block with motion) for a target that has none, or runs them elsewhere.
 class ModalCalls {
  public:
-  ModalCalls(const LegaliseContext& context) : context_(context) {}
+  ModalCalls(const LegaliseContext& context, const CallGraph& calls) : context_(context), calls_(calls) {}
 
   void run(Body& body) {
     Body out;
@@ -249,13 +250,13 @@ class ModalCalls {
       leave_line(std::move(s), out);
       return;
     }
-    const bool as_it_is = context_.target.modal_call && context_.target.modal_call_here == m.here;
-    if (as_it_is) {
+    const bool modal = context_.target.modal_call && !shared_too(m.call);
+    if (modal && context_.target.modal_call_here == m.here) {
       active_.reset();
       out.push_back(std::move(s));
       return;
     }
-    if (context_.target.modal_call && m.here) {  // run once, then modal
+    if (modal && m.here) {  // run once, then modal
       const LineInfo like = s.line;
       s.node = m.call;
       out.push_back(std::move(s));
@@ -272,6 +273,13 @@ class ModalCalls {
       leave_line(std::move(s), out);
     }
   }
+  /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each
+  /// call.
+  bool shared_too(const CallRoutine& call) const {
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    return callee && !call.arguments.empty() && calls_.called_with(*callee, CallLevel::shared) &&
+           call.level == CallLevel::new_level;
+  }
   static void leave_line(Statement&& s, Body& out) {
     if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
     s.node = Label{};
@@ -279,13 +287,15 @@ class ModalCalls {
   }
 
   const LegaliseContext& context_;
+  const CallGraph& calls_;
   std::optional<CallRoutine> active_;
 };
 
 }  // namespace
 
 void lower_modal_calls(Program& program, const LegaliseContext& context) {
-  for (auto& r : program.routines) ModalCalls(context).run(r.body);
+  const CallGraph calls(program);
+  for (auto& r : program.routines) ModalCalls(context, calls).run(r.body);
 }
 
 void lower_repeats(Program& program, const LegaliseContext& context) {

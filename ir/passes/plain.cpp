@@ -66,7 +66,7 @@ struct PlainAction {
     }
     return false;
   }
-  bool operator()(const SetFeed& f) const { return f.value.literal() && !f.zero_is_maximum; }
+  bool operator()(const SetFeed& f) const { return f.value.literal() && !(f.zero_is_maximum && f.value.number == 0); }
   bool operator()(const SetSpindle& s) const { return s.value.literal(); }
   bool operator()(const SpindleRun&) const { return event(); }
   bool operator()(const SpindleLimit& s) const { return s.value.literal() && target.spindle_limit; }
