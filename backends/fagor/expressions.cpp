@@ -122,7 +122,7 @@ Printed built_constant(double value) {
       if (divisor.empty() && !hex && !sum) {
         text += '.' + group;
       } else {
-        text += "+0." + group + divisor;
+        text = (text == "0" ? "" : text + '+') + "0." + group + divisor;
         sum = true;
       }
     }
@@ -215,6 +215,10 @@ std::string Printer::variable(const ExprPtr& e, const ir::VarRef& v) {
     if (*n != std::floor(*n) || !facts::valid_parameter(static_cast<std::int64_t>(*n))) {
       problem(e, "the control has no parameter P" + shortest(*n));
     }
+    const std::size_t at = e->pos.column;
+    const bool letter = *n >= 0 && *n <= 25 && e->pos.length == 1 && at != 0 && at <= source_.size() &&
+                        source_[at - 1] == facts::parameter_letter(static_cast<int>(*n));
+    if (letter) return std::string(1, source_[at - 1]);
     return 'P' + shortest(*n);
   }
   return "P(" + print(v.index) + ')';
@@ -263,11 +267,27 @@ std::optional<Printed> Printer::special(const ExprPtr& e) {
   return std::nullopt;
 }
 
+/// A sign may follow the word of a relation: P1 GT -20.
+std::optional<Printed> Printer::comparison(const ir::Binary& b) {
+  const auto* right = std::get_if<ir::Number>(&b.right->node);
+  const auto* o = facts::find_operator(b.op);
+  if (right == nullptr || o == nullptr || is_condition(b.left)) return std::nullopt;
+  Printed value = number(*right);
+  if (!value.signed_front) return std::nullopt;
+  const Printed left = print_node(b.left);
+  const auto level = level_of(o->level);
+  std::string text = left.level < level ? '(' + left.text + ')' : left.text;
+  text += ' ';
+  text += o->word;
+  return Printed{text + ' ' + value.text, level, left.signed_front && left.level >= level};
+}
+
 /// AND, OR, XOR join conditions; between numbers they would act on bits.
 std::optional<Printed> Printer::special_binary(const ExprPtr& e, const ir::Binary& b) {
   if (b.op == BinaryOp::int_divide) {
     return print_node(ir::call(Function::trunc, {ir::at(ir::binary(BinaryOp::divide, b.left, b.right), e->pos)}));
   }
+  if (ir::is_comparison(b.op)) return comparison(b);
   const bool logical = b.op == BinaryOp::logical_and || b.op == BinaryOp::logical_or || b.op == BinaryOp::logical_xor;
   if (!logical || (is_condition(b.left) && is_condition(b.right))) return std::nullopt;
   return print_node(ir::at(ir::binary(b.op, truth(b.left), truth(b.right)), e->pos));

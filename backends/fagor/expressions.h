@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include "backends/common/expression_printer.h"
 
@@ -23,6 +24,8 @@ class Printer : public ExpressionPrinter {
 
   /// `e` as a condition of IF: a bare value becomes a comparison with zero.
   [[nodiscard]] std::string condition(const ir::ExprPtr& e);
+  /// Line of the source, when it is of this language: a parameter written as a letter there stays one (A = P0).
+  void set_source(std::string line) { source_ = std::move(line); }
   /// A parameter or a sign and a parameter ("P100", "-P3"): all an ISO word can hold. Empty: it is something else.
   [[nodiscard]] std::string parameter(const ir::ExprPtr& e);
 
@@ -34,12 +37,14 @@ class Printer : public ExpressionPrinter {
   std::optional<Printed> special(const ir::ExprPtr& e) override;
 
  private:
+  std::optional<Printed> comparison(const ir::Binary& b);
   std::optional<Printed> special_binary(const ir::ExprPtr& e, const ir::Binary& b);
   std::optional<Printed> special_unary(const ir::ExprPtr& e, const ir::Unary& u);
   std::optional<Printed> special_call(const ir::ExprPtr& e, const ir::Call& c);
   [[nodiscard]] std::string index(const ir::ExprPtr& e);
 
   bool lathe_;
+  std::string source_;
 };
 
 }  // namespace cnctrans::backends::fagor

@@ -73,11 +73,6 @@ bool is_word(std::string_view text) {
   return !text.empty() && text.front() >= 'A' && text.front() <= 'Z';
 }
 
-/// Levels of the manual's table (16.4) turned round: higher binds tighter.
-std::uint8_t level_of(int level) {
-  return static_cast<std::uint8_t>(90 - 10 * (level - 1));
-}
-
 std::vector<BinaryText> binary_texts() {
   std::vector<BinaryText> out;
   for (const auto& o : facts::operators) out.push_back({o.op, o.word, level_of(o.level), is_word(o.word)});

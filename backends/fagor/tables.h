@@ -19,6 +19,10 @@ Style make_style(bool lathe, bool inch, bool foreign);
 std::string_view g_word(bool lathe, dialects::fagor::Use use, int value = 0);
 
 const ExpressionStyle& expression_style();
+/// Levels of the manual's table (16.4) turned round: higher binds tighter.
+inline constexpr std::uint8_t level_of(int level) {
+  return static_cast<std::uint8_t>(90 - 10 * (level - 1));
+}
 
 /// Letter of a centre or pitch by its axis (manual 6.3): X U A -> I, Y V B -> J, Z W C -> K.
 inline constexpr std::string_view center_letter(ir::AxisId axis) {

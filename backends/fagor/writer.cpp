@@ -156,7 +156,13 @@ std::string Writer::assignments(const ir::Assign& a, std::size_t from, std::size
   return text;
 }
 
+/// Local parameters keep the letters of the source.
+void Writer::keep_letters() {
+  if (same_dialect()) printer_.set_source(source_line(current().line.span));
+}
+
 void Writer::assign(const ir::Assign& a) {
+  keep_letters();
   constexpr auto most = static_cast<std::size_t>(facts::max_assignments);
   for (std::size_t from = 0; from < a.items.size(); from += most) {
     next_line();
@@ -166,7 +172,8 @@ void Writer::assign(const ir::Assign& a) {
 
 std::string Writer::jump_text(const ir::Jump& j) {
   if (j.search != ir::Search::whole_first || j.quiet) {
-    text_problem("a jump that searches its label in one direction, or goes on without it, has no counterpart here");
+    refuse("TRN-206", {},
+           "a jump that searches its label in one direction, or goes on without it, has no counterpart here");
   }
   if (!j.target.computed) {
     if (!j.target.is_number) text_problem("the jump target '" + j.target.text + "' is no block number");
@@ -178,6 +185,7 @@ std::string Writer::jump_text(const ir::Jump& j) {
 }
 
 void Writer::jump(const ir::Jump& j) {
+  keep_letters();
   const std::string text = jump_text(j);
   if (!j.condition) return statement_line(text);
   const std::string condition = printer_.condition(j.condition);
@@ -223,6 +231,7 @@ void Writer::if_else(const ir::If& i) {
     }
   }
   if (!i.one_line || i.then_body.empty()) return ProgramWriter::if_else(i);
+  keep_letters();
   std::string text = "IF " + printer_.condition(i.condition) + ' ' + action_text(i.then_body);
   if (const std::string problem = printer_.take_problem(); !problem.empty()) text_problem(problem);
   if (!i.else_body.empty()) text += " ELSE " + action_text(i.else_body);
@@ -317,6 +326,7 @@ void Writer::g_call(const ir::CallRoutine& c) {
 }
 
 void Writer::call(const ir::CallRoutine& c) {
+  keep_letters();
   if (written_as_g_call(c)) return g_call(c);
   statement_line(call_text({}, c));
 }
@@ -347,11 +357,13 @@ std::string Writer::message_text(const ir::Message& m) {
     if (!part) continue;
     if (const auto* s = std::get_if<ir::String>(&part->node)) {
       std::string piece = same_dialect() ? s->text : to_ascii(s->text, &changed);
-      for (char& c : piece) {
-        const bool special = c == '"' || (!same_dialect() && (c == '$' || c == '?'));
-        if (!special) continue;
-        changed = changed || c != '"';
-        c = c == '"' ? '\'' : ' ';
+      for (std::size_t i = 0; i < piece.size(); ++i) {
+        char& c = piece[i];
+        const bool value = c == '?' && i + 1 < piece.size() && (piece[i + 1] == 'P' || piece[i + 1] == 'p');
+        if (c == '"') c = '\'';
+        if (same_dialect() || (c != '$' && !value)) continue;
+        changed = true;
+        c = ' ';
       }
       text += piece;
     } else if (const std::string p = printer_.parameter(part); !p.empty() && p.front() != '-') {
@@ -363,12 +375,12 @@ std::string Writer::message_text(const ir::Message& m) {
     }
   }
   if (changed) {
-    diagnostics().warning("TRN-209", current().line.span,
+    diagnostics().warning("TRN-213", current().line.span,
                           "characters of this message do not exist on the target and are replaced");
   }
   if (m.kind == ir::MessageKind::clear && text.empty()) text = " ";
   if (!same_dialect() && text.size() > static_cast<std::size_t>(facts::max_message)) {
-    diagnostics().warning("TRN-209", current().line.span,
+    diagnostics().warning("TRN-213", current().line.span,
                           "the message is cut to the 59 characters that the target shows");
     text.resize(static_cast<std::size_t>(facts::max_message));
   }

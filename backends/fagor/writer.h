@@ -83,6 +83,7 @@ class Writer : public ProgramWriter {
   [[nodiscard]] std::string action_text(const ir::Body& body);
   [[nodiscard]] bool written_as_g_call(const ir::CallRoutine& c) const;
   void g_call(const ir::CallRoutine& c);
+  void keep_letters();
   void text_problem(std::string what);  ///< a part of a statement that can't be said
   // words
   [[nodiscard]] std::string_view g(dialects::fagor::Use use, int value = 0) const;

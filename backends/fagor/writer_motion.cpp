@@ -65,6 +65,7 @@ void Writer::motion(const ir::Motion& m) {
     }
     if (absolute && !refused()) add(std::string(g(Use::absolute_centre)), Rank::frame);
   }
+  if (same_dialect()) motion_tracker().start_routine();  // the source's own codes: nothing can be out of step
   ProgramWriter::motion(*use);
 }
 
@@ -281,8 +282,8 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const bool spelled = same_dialect() && !a.text.empty();
   const std::string code(spelled ? a.text : words->code);
   add(code + cycle_retract(a, *words), Rank::frame, a.pos);
-  if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::coordinate);
-  add(word("I", words->depth, a.pos), Rank::center);
+  if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::center);
+  add(word("I", words->depth, a.pos), Rank::radius);
   if (words->dwell) {
     ir::Value k = *words->dwell;
     if (words->dwell_scale != 0.01) {

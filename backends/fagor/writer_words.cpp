@@ -1,4 +1,5 @@
 // Words of settings, technology and machine functions.
+#include <algorithm>
 #include <cmath>
 
 #include "backends/fagor/capabilities.h"
@@ -60,15 +61,20 @@ void Writer::block(const ir::Block& b) {
   if (is_empty_line(current())) return add(std::string(style().blank_line), Rank::head);
   offset_before_ = after_offset_;
   if (!b.empty()) after_offset_ = false;
-  if (b.repeat_given == 0) {
+  // A cycle runs at the point of its block: its words follow the move.
+  const bool cycle = b.has_motion && std::any_of(b.actions.begin(), b.actions.end(), holds<ir::CycleDefine>);
+  if (b.repeat_given == 0 && !cycle) {
     block_ = &b;
     ProgramWriter::block(b);
   } else {
     ir::Block once = b;
     once.repeat_given = 0;
+    for (ir::Action& a : once.actions) {
+      if (holds<ir::CycleDefine>(a)) a.order = ir::Order::after;
+    }
     block_ = &once;
     ProgramWriter::block(once);
-    add(word("N", b.repeat, {}), Rank::tail);
+    if (b.repeat_given != 0) add(word("N", b.repeat, {}), Rank::tail);
   }
   block_ = nullptr;
 }

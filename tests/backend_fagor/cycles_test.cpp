@@ -58,6 +58,8 @@ TEST(FagorCycles, DrillingWithPointAndDwell) {
   b.motion.explicit_code = false;
   b.actions = {define(drill())};
   EXPECT_EQ(written(b), "G81 G98 X10 Y24 Z2 I-18\n");
+  b.actions[0].order = ir::Order::before;  // defined first or last: it runs at the point
+  EXPECT_EQ(written(b), "G81 G98 X10 Y24 Z2 I-18\n");
   ir::HoleCycle c = drill();
   c.dwell_bottom = Value(0.3);
   b.actions = {set(ir::Setting::retract_plane, ir::RetractPlane::reference), define(c)};

@@ -1,7 +1,7 @@
 // Expressions as the control reads them: what is written, read back by the language's reader, has the same value.
 #include <cmath>
+#include <cstdlib>
 
-#include "base/text.h"
 #include "interpreter/interpreter.h"
 #include "tests/backend_fagor/build.h"
 
@@ -33,7 +33,7 @@ double read_back(const std::string& text) {
   const auto result = interpreter::run(program, profile, {}, trace, diagnostics);
   EXPECT_EQ(codes_of(diagnostics), "") << text;
   for (const auto& [name, value] : result.variables) {
-    if (name == "P100") return std::stod(value);
+    if (name == "P100") return std::strtod(value.c_str(), nullptr);
   }
   ADD_FAILURE() << "P100 has no value after " << text;
   return std::nan("");
@@ -58,6 +58,7 @@ TEST(FagorExpressions, ParenthesesWhereTheTableOfPrioritiesNeedsThem) {  // 16.4
 
 TEST(FagorExpressions, RelationsAreValues) {
   EXPECT_EQ(printed(op(BinaryOp::gt, P(2), num(3))), "P2 GT 3");
+  EXPECT_EQ(printed(op(BinaryOp::le, op(BinaryOp::add, P(2), num(1)), num(-6))), "P2+1 LE -6");
   EXPECT_EQ(printed(op(BinaryOp::multiply, op(BinaryOp::gt, P(2), num(3)), num(5))), "(P2 GT 3)*5");
 }
 

@@ -64,6 +64,17 @@ TEST(FagorIdentity, ExpressionsWithFewestParentheses) {  // 16.4
       "(P1=P2*(-P3))\n(P1=ARG(P2,P3))\n(P1=P2 AND 15)\n(P1=NOT P2)\n(P1=P2 GT 3)\n(P1=-(P2+P3))\n");
 }
 
+TEST(FagorIdentity, LettersOfLocalParametersStay) {  // A = P0 (16.2)
+  same(
+      "(D=360/B, P4=1)\n(K=A*COS(F), L=P0*SIN(P5))\nN10 (IF E GE P1 GOTO N20)\n(PCALL 5, A=B, C=P3)\nN20 ;\nM30\n(SUB "
+      "5)\n"
+      "(RET)\n");
+}
+
+TEST(FagorIdentity, BlocksWithoutACodeGetNone) {
+  same("N5 G81 G98 X1 Y1 Z2 I-5\nN10 X10\nG80\nN20 X5\n(IF P1 GT -20 GOTO N20)\n(GOTO N10)\n");
+}
+
 TEST(FagorIdentity, FilesOfSubroutines) {
   same("%SUBS ,MX,\n;first\n(SUB 5)\nG1 XP0\n(RET)\n;second\n(SUB 6) ;six\n(RET)\n");
   same("%PART ,MX,\n(LSUB 10)\nG1 X1\n(RET)\n%MAIN\n(CALL 10)\nM30\n");

@@ -145,7 +145,7 @@ TEST(FagorStatements,
   j.search = ir::Search::backward;
   b.add(j);
   (void)b.text();
-  EXPECT_EQ(b.codes(), "TRN-203");
+  EXPECT_EQ(b.codes(), "TRN-206");
 }
 
 TEST(FagorStatements, StructuresAreRefused) {
@@ -216,7 +216,7 @@ TEST(FagorStatements, CallsTheControlDoesNotHave) {
 TEST(FagorStatements, Messages) {  // 17.1
   Build b;
   ir::Message m;
-  m.parts = {ir::string_literal("Tiefe \"Z\": "), P(100), ir::string_literal(" mm")};
+  m.parts = {ir::string_literal("Tiefe? \"Z\": "), P(100), ir::string_literal(" mm")};
   b.add(m);
   m.kind = ir::MessageKind::clear;
   m.parts.clear();
@@ -225,7 +225,7 @@ TEST(FagorStatements, Messages) {  // 17.1
   m.number = num(12);
   m.parts = {ir::string_literal("stop")};
   b.add(m);
-  EXPECT_EQ(b.lines(), "(MSG \"Tiefe 'Z': ?P100 mm\")\n(MSG \" \")\n(ERROR 12, \"stop\")\n");
+  EXPECT_EQ(b.lines(), "(MSG \"Tiefe? 'Z': ?P100 mm\")\n(MSG \" \")\n(ERROR 12, \"stop\")\n");
   EXPECT_EQ(b.codes(), "");
 }
 
@@ -235,7 +235,7 @@ TEST(FagorStatements, AMessageIsCutToWhatTheControlShows) {
   m.parts = {ir::string_literal(std::string(70, 'x'))};
   b.add(m);
   EXPECT_EQ(b.lines(), "(MSG \"" + std::string(59, 'x') + "\")\n");
-  EXPECT_EQ(b.codes(), "TRN-209");
+  EXPECT_EQ(b.codes(), "TRN-213");
 }
 
 TEST(FagorStatements, MachineData) {  // 18.5 of the equivalences: PPOS, ORG54 = row 1

@@ -47,6 +47,15 @@ TEST(Arcs, AbsoluteCentreNeedsNoStart) {
   EXPECT_NE(p.text.find("centre X absolute"), std::string::npos) << p.text;
 }
 
+TEST(Arcs, ArcThatRoundingClosesIsNoFullCircle) {
+  // 0.0002 mm long: three places make start and end one point.
+  const auto p =
+      run_pass("arcs", main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y 0.0002 radius 5\n"),
+               chain_target());
+  EXPECT_NE(p.text.find("linear"), std::string::npos) << p.text;
+  EXPECT_TRUE(has_code(p.diagnostics, "TRN-315"));
+}
+
 TEST(Arcs, PitchBecomesTurns) {
   // 10 mm down at 4 mm a turn: 2.5 turns, half of one is the partial arc.
   const std::string text = main_program(
@@ -185,7 +194,20 @@ TEST(Cycles, ModalCallBecomesADefinitionAtTheFirstPoint) {
   EXPECT_EQ(difference(text, target, "sinumerik-mill", "fagor-mill"), "");
 }
 
-TEST(Cycles, DISABLED_SecondCycleStartsWhereTheFirstLeftTheTool) {
+TEST(Cycles, RetractPlaneChangesWhileTheCycleIsActive) {
+  const std::string text = main_program(
+      "  block feed 100, rapid X 0 Y 0 Z 20\n  block retract_plane initial, cycle hole drill reference 2 bottom -15, "
+      "modal X 5\n"
+      "  block modal X 10\n  block retract_plane reference, modal X 15\n  block modal X 20\n  block cycle_cancel\n  "
+      "block rapid Z 30\n");
+  EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
+  EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "fagor-mill"), "");
+  auto target = chain_target();
+  target.native_cycle = [](const ir::Cycle&) { return true; };
+  EXPECT_EQ(difference(text, target, "fagor-mill", "fagor-mill"), "");
+}
+
+TEST(Cycles, SecondCycleStartsWhereTheFirstLeftTheTool) {
   const std::string text = main_program(
       "  block feed 100, rapid X 0 Y 0 Z 20\n  block cycle hole drill reference 2 bottom -15 retract 10, modal X 5 Y "
       "5\n"

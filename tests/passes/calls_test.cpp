@@ -131,6 +131,27 @@ TEST(Calls, LettersFollowThePosition) {
   EXPECT_NE(p.text.find("new_level"), std::string::npos) << p.text;
 }
 
+TEST(Calls, ModalCallsRunAfterEachMotion) {
+  const std::string text = letters_source + R"(routine main 1 {
+    set P[1] = 100
+    modal_call here call 6 ("A" = 3) new_level
+    block rapid X 1
+    set P[2] = 5
+    block rapid Y (P[2])
+    modal_call off
+    block rapid X 9
+    call 6
+    end_program
+  }
+  routine sub 6 {
+    set P[1] = P[1] + P[0]
+    block rapid Z (P[1])
+    return
+  })";
+  EXPECT_EQ(difference(text, chain_target()), "");
+  EXPECT_EQ(difference(text, structured_target()), "");
+}
+
 TEST(Calls, RecursionIsRefused) {
   const auto p = run_pass(
       "calls",

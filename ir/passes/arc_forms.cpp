@@ -1,0 +1,213 @@
+// Arcs by radius, through a point, by angle, with pitch or turns, and the ones that rounding would close.
+#include "ir/passes/arc_pass.h"
+
+namespace cnctrans::ir::passes {
+
+void ArcPass::tiny(Arc& arc) {
+  const auto units = setting_in<Units>(arc.b, arc.facts, Setting::units);
+  const int places = units == Units::inch ? context_.target.word_decimals_inch : context_.target.word_decimals;
+  if (!known(arc.start) || !known(arc.end) || arc.b.motion.extra) return;
+  const Point a = point(arc.start), b = point(arc.end);
+  if (std::hypot(b.u - a.u, b.v - a.v) > 2 * std::pow(10, -places) || (a.u == b.u && a.v == b.v)) return;
+  const auto same = [places](double x, double y) { return rounded(x, places) == rounded(y, places); };
+  const auto angle = partial_angle(arc);
+  if (!same(a.u, b.u) || !same(a.v, b.v) || !angle || *angle > 180) return;
+  Motion& m = arc.b.motion;
+  m.kind = MotionKind::linear;
+  m.explicit_code = true;
+  m.keeps_modal = false;
+  m.code_text = {};
+  m.centers.clear();
+  m.radius_given = false;
+  context_.diagnostics.warning("TRN-315", word_span(arc.s.line.span, m.code_pos),
+                               "an arc shorter than the last place of the target's words is written as a line: the "
+                               "path differs by less than " +
+                                   shortest(std::pow(10, -places)));
+}
+
+bool ArcPass::radius(Arc& arc) {
+  const Value& r = arc.b.motion.radius;
+  const auto& t = context_.target;
+  if (!r.literal()) {
+    if (t.radius_minor && t.radius_major) return true;
+    if (t.radius_minor) {
+      context_.diagnostics.warning(
+          "TRN-302", word_span(arc.s.line.span, arc.b.motion.radius_pos),
+          "the radius is computed; the target takes positive ones only (arcs up to 180 degrees)",
+          "make sure that the value is never negative");
+      return true;
+    }
+  } else if (r.number < 0 ? t.radius_major : t.radius_minor) {
+    return true;
+  }
+  if (!r.literal() || !known(arc.start) || !known(arc.end) || !arc.ccw) {
+    fail(arc, "TRN-303", "an arc by radius that the target needs by its centre, and its start is not known here",
+         "program the arc by its centre");
+    return false;
+  }
+  const auto c = center_by_radius(point(arc.start), point(arc.end), r.number, *arc.ccw);
+  if (!c) {
+    fail(arc, "TRN-304", "no arc of radius " + shortest(std::fabs(r.number)) + " joins these points",
+         "check the radius");
+    return false;
+  }
+  set_center(arc, *c);
+  return true;
+}
+
+bool ArcPass::through_point(Arc& arc) {
+  Motion& m = arc.b.motion;
+  std::array<std::optional<double>, 3> mid = arc.start;
+  if (m.extra) {
+    for (const auto& w : m.extra->through) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (w.axis != arc.axis[i] || !w.value.literal()) continue;
+        const bool relative = w.mode == CenterMode::from_start ||
+                              (w.mode == CenterMode::follows_distance && arc.distance != Distance::absolute);
+        const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b,
+                                 arc.facts, context_.source_machine);
+        mid[i] = f ? std::optional(w.value.number * *f + (relative && arc.start[i] ? *arc.start[i] : 0)) : std::nullopt;
+      }
+    }
+  }
+  if (!known(arc.start) || !known(arc.end) || !known(mid)) {
+    fail(arc, "TRN-305", "an arc through a point, and its points are not all known here",
+         "program the arc by its centre");
+    return false;
+  }
+  const auto c = circumcentre(point(arc.start), point(mid), point(arc.end));
+  if (!c) {
+    fail(arc, "TRN-306", "the three points of the arc are in line", "check the point on the arc");
+    return false;
+  }
+  arc.ccw = turns_left(point(arc.start), point(mid), point(arc.end));
+  m.kind = *arc.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
+  m.explicit_code = true;
+  m.code_text = {};
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  extra->through.clear();
+  m.extra = std::move(extra);
+  drop_empty_extra(m);
+  set_center(arc, *c);
+  return true;
+}
+
+bool ArcPass::opening_angle(Arc& arc) {
+  Motion& m = arc.b.motion;
+  const auto center = center_point(arc);
+  const Value angle = m.extra->opening_angle;
+  if (!angle.literal() || !known(arc.start) || !arc.ccw || (!center && !known(arc.end))) {
+    fail(arc, "TRN-308", "an arc by its angle, and its start is not known here",
+         "program the arc by its centre and end");
+    return false;
+  }
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  extra->has_angle = false;
+  m.extra = std::move(extra);
+  drop_empty_extra(m);
+  const double sweep = std::fabs(angle.number);
+  if (center) {
+    const Point end = rotated(point(arc.start), *center, *arc.ccw ? sweep : -sweep);
+    arc.end[0] = end.u;
+    arc.end[1] = end.v;
+    set_end(arc);
+    set_center(arc, *center);
+    return true;
+  }
+  const Point a = point(arc.start), b = point(arc.end);
+  const double r = std::hypot(b.u - a.u, b.v - a.v) / (2 * std::sin(sweep * 0.00872664625997164788));
+  const auto c = center_by_radius(a, b, sweep > 180 ? -std::fabs(r) : std::fabs(r), *arc.ccw);
+  if (c) set_center(arc, *c);
+  return c.has_value();
+}
+
+void ArcPass::set_end(Arc& arc) {
+  std::erase_if(arc.b.motion.coords,
+                [&](const CoordWord& c) { return c.axis == arc.axis[0] || c.axis == arc.axis[1]; });
+  for (std::size_t i = 0; i < 2; ++i) {
+    CoordWord w;
+    w.axis = arc.axis[i];
+    w.scale = radius_scale(w.axis);
+    const bool relative = arc.distance == Distance::incremental;
+    if (!arc.distance) w.mode = WordMode::absolute;
+    w.value = Value{relative ? *arc.end[i] - *arc.start[i] : *arc.end[i]};
+    arc.b.motion.coords.push_back(w);
+  }
+}
+
+std::optional<Point> ArcPass::center_point(const Arc& arc) const {
+  if (arc.b.motion.centers.empty() || !known(arc.start)) return std::nullopt;
+  std::array<double, 2> c{*arc.start[0], *arc.start[1]};
+  for (const auto& w : arc.b.motion.centers) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (w.axis != arc.axis[i]) continue;
+      const bool relative = is_relative(w.mode, arc.distance);
+      const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b, arc.facts,
+                               context_.source_machine);
+      if (!w.value.literal() || !f) return std::nullopt;
+      c[i] = w.value.number * *f + (relative ? *arc.start[i] : 0);
+    }
+  }
+  return Point{c[0], c[1]};
+}
+
+std::optional<double> ArcPass::partial_angle(const Arc& arc) const {
+  if (!known(arc.start) || !known(arc.end) || !arc.ccw) return std::nullopt;
+  auto c = center_point(arc);
+  if (arc.b.motion.radius_given && arc.b.motion.radius.literal()) {
+    c = center_by_radius(point(arc.start), point(arc.end), arc.b.motion.radius.number, *arc.ccw);
+  }
+  if (!c) return std::nullopt;
+  return swept(point(arc.start), point(arc.end), *c, *arc.ccw);
+}
+
+bool ArcPass::pitch_to_turns(Arc& arc) {
+  Motion& m = arc.b.motion;
+  const Value pitch = m.extra->pitch;
+  const auto angle = partial_angle(arc);
+  if (!pitch.literal() || pitch.number == 0 || !angle || !arc.start[2] || !arc.end[2]) {
+    fail(arc, "TRN-309", "a helix by its pitch, and its start or end is not known here; the target wants the turns",
+         "program start, end and pitch as numbers");
+    return false;
+  }
+  const double revolutions = std::fabs(*arc.end[2] - *arc.start[2]) / std::fabs(pitch.number);
+  const double turns = std::max(0.0, std::round(revolutions - *angle / 360));
+  const bool nearest = context_.source_machine.option("helix.pitch_mismatch") == "nearest";
+  if (!nearest && std::fabs(revolutions - turns - *angle / 360) > 0.01 * std::max(1.0, revolutions)) {
+    fail(arc, "TRN-310", "the travel of the helix does not fit its pitch", "check pitch and end point");
+    return false;
+  }
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  extra->has_pitch = false;
+  extra->has_turns = turns > 0;
+  extra->turns = Value{turns};
+  m.extra = std::move(extra);
+  drop_empty_extra(m);
+  return true;
+}
+
+bool ArcPass::turns_to_pitch(Arc& arc) {
+  Motion& m = arc.b.motion;
+  const Value turns = m.extra->turns;
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  extra->has_turns = false;
+  if (turns.is(0)) {
+    m.extra = std::move(extra);
+    drop_empty_extra(m);
+    return true;
+  }
+  const auto angle = partial_angle(arc);
+  if (!turns.literal() || !angle || !arc.start[2] || !arc.end[2] || *arc.start[2] == *arc.end[2] ||
+      !context_.target.helix_pitch) {
+    fail(arc, "TRN-311",
+         "a helix by its number of turns, and its start or end is not known here; the target wants the pitch",
+         "program start, end and turns as numbers");
+    return false;
+  }
+  extra->has_pitch = true;
+  extra->pitch = Value{std::fabs(*arc.end[2] - *arc.start[2]) / (turns.number + *angle / 360)};
+  m.extra = std::move(extra);
+  return true;
+}
+
+}  // namespace cnctrans::ir::passes

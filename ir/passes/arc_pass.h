@@ -1,0 +1,321 @@
+// The pass over arcs as a class: centres here, the other forms in arc_forms.cpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/text.h"
+#include "ir/passes/arc_geometry.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/words.h"
+
+namespace cnctrans::ir::passes {
+
+class ArcPass {
+ public:
+  ArcPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : program_(program), context_(context), facts_(facts), symbolic_(context.source_machine) {}
+
+  void routine(Routine& r) {
+    uses_ = label_uses(program_, r);
+    symbolic_.clear();
+    walk(r.body);
+  }
+
+ private:
+  void walk(Body& body) {
+    for (auto& s : body) {
+      for (const auto& l : labels_on(s.line)) {
+        if (uses_.is_target(l)) symbolic_.clear();
+      }
+      const Statement before = std::holds_alternative<Block>(s.node) && is_arc_block(s) ? s : Statement{};
+      if (std::holds_alternative<Block>(before.node) && before.id != 0) {
+        one(s);
+        symbolic_.follow(before, facts_.before(before));
+      } else {
+        symbolic_.follow(s, facts_.before(s));
+      }
+      bool nested = false;
+      each_body(s, [&](Body& inner) {
+        nested = true;
+        symbolic_.clear();
+        walk(inner);
+      });
+      if (nested) symbolic_.clear();
+    }
+  }
+
+  bool is_arc_block(const Statement& s) const {
+    const auto& b = std::get<Block>(s.node);
+    if (!b.has_motion || !b.motion.moves()) return false;
+    const auto kind = motion_in(b, facts_.before(s));
+    const bool words = !b.motion.centers.empty() || b.motion.radius_given;
+    if (!kind) return words;
+    return *kind == MotionKind::arc_cw || *kind == MotionKind::arc_ccw || *kind == MotionKind::arc_through_point ||
+           *kind == MotionKind::arc_tangent;
+  }
+
+  /// What is known about the arc of the statement at hand.
+  struct Arc {
+    Statement& s;
+    Block& b;
+    const Facts& facts;
+    PlaneAxes axes;
+    std::optional<bool> ccw;
+    std::optional<Distance> distance;
+    std::array<std::optional<double>, 3> start, end;  ///< u, v, w; radius
+    std::array<AxisId, 3> axis;
+  };
+
+  void fail(Arc& arc, std::string_view code, std::string text, std::string hint) {
+    refuse(arc.s, program_, context_, code, std::move(text), std::move(hint), arc.b.motion.code_pos);
+  }
+
+  Arc look(Statement& s) {
+    auto& b = std::get<Block>(s.node);
+    const Facts& facts = facts_.before(s);
+    auto plane = setting_in<Plane>(b, facts, Setting::plane);
+    if (!plane) plane = plane_of_words(b.motion);
+    const PlaneAxes axes = plane_axes(plane.value_or(context_.source_machine.power_on.plane));
+    Arc arc{s,
+            b,
+            facts,
+            axes,
+            std::nullopt,
+            setting_in<Distance>(b, facts, Setting::distance),
+            {},
+            {},
+            {axes.u, axes.v, axes.w}};
+    plane_known_ = plane.has_value();
+    const auto kind = motion_in(b, facts);
+    if (kind == MotionKind::arc_cw) arc.ccw = false;
+    if (kind == MotionKind::arc_ccw) arc.ccw = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      arc.start[i] = facts.position[arc.axis[i]];
+      arc.end[i] = arc.start[i];
+    }
+    for (const auto& c : b.motion.coords) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (arc.axis[i] == c.axis) arc.end[i] = end_of(arc, c, arc.start[i]);
+      }
+    }
+    return arc;
+  }
+
+  std::optional<double> end_of(const Arc& arc, const CoordWord& c, std::optional<double> start) const {
+    const auto d = distance_of(c, arc.b, arc.facts);
+    const auto f = to_radius(c.axis, c.scale, d, arc.b, arc.facts, context_.source_machine);
+    if (!c.value.literal() || !d || !f) return std::nullopt;
+    if (*d == Distance::absolute) return c.value.number * *f;
+    if (!start) return std::nullopt;
+    return *start + c.value.number * *f;
+  }
+
+  void one(Statement& s) {
+    Arc arc = look(s);
+    Motion& m = arc.b.motion;
+    const auto kind = motion_in(arc.b, arc.facts);
+    if (kind == MotionKind::arc_tangent && !context_.target.arc_tangent) {
+      return fail(arc, "TRN-301", "a tangent arc: the target has none", "program the arc by its centre or radius");
+    }
+    if (kind == MotionKind::arc_through_point) {
+      if (context_.target.arc_through_point) return;
+      if (!through_point(arc)) return;
+    }
+    if (m.extra && !extras(arc)) return;
+    if (m.radius_given) {
+      if (!radius(arc)) return;
+    }
+    if (!m.centers.empty()) centers(arc);
+    if (std::holds_alternative<Block>(s.node)) tiny(arc);
+  }
+
+  /// End and start fall together when the target rounds its words: a short arc would become a full circle.
+  void tiny(Arc& arc);
+
+  WordScale radius_scale(AxisId axis) const {
+    return is_diameter_axis(context_.source_machine, axis) ? WordScale::radius : WordScale::modal;
+  }
+
+  // --- forms ----------------------------------------------------------------------------------------------------
+
+  void set_center(Arc& arc, Point c) {
+    Motion& m = arc.b.motion;
+    m.radius_given = false;
+    m.radius = Value{};
+    m.centers.clear();
+    const Point at{c.u - *arc.start[0], c.v - *arc.start[1]};
+    for (std::size_t i = 0; i < 2; ++i) {
+      CenterWord w;
+      w.axis = arc.axis[i];
+      w.mode = CenterMode::from_start;
+      w.scale = WordScale::radius;
+      w.value = Value{i == 0 ? at.u : at.v};
+      m.centers.push_back(w);
+    }
+  }
+  static bool known(const std::array<std::optional<double>, 3>& p) { return p[0] && p[1]; }
+  static Point point(const std::array<std::optional<double>, 3>& p) { return {*p[0], *p[1]}; }
+
+  /// Radius: kept when the target has the form for it. False: refused.
+  bool radius(Arc& arc);
+
+  bool through_point(Arc& arc);
+
+  static void drop_empty_extra(Motion& m) {
+    const MotionExtra& e = *m.extra;
+    if (!e.has_turns && !e.has_pitch && !e.has_angle && e.through.empty() && !e.has_polar_radius &&
+        !e.has_polar_angle && !e.has_line_angle && !e.has_lead && !e.has_start_angle)
+      m.extra.reset();
+  }
+
+  /// Turns, pitch, opening angle. False: refused.
+  bool extras(Arc& arc) {
+    Motion& m = arc.b.motion;
+    const auto& t = context_.target;
+    if ((m.extra->has_polar_radius || m.extra->has_polar_angle) && !t.polar) {
+      fail(arc, "TRN-307", "an arc with polar words: the target has none", "program the end point with axis words");
+      return false;
+    }
+    if (m.extra->has_angle && !t.arc_angle && !opening_angle(arc)) return false;
+    if (m.extra && m.extra->has_pitch && !t.helix_pitch && !pitch_to_turns(arc)) return false;
+    if (m.extra && m.extra->has_turns && !t.helix_turns && !turns_to_pitch(arc)) return false;
+    return true;
+  }
+
+  bool opening_angle(Arc& arc);
+
+  /// Both end words of the plane, absolute or incremental as the block is.
+  void set_end(Arc& arc);
+
+  std::optional<Point> center_point(const Arc& arc) const;
+  static bool is_relative(CenterMode mode, std::optional<Distance> distance) {
+    return mode == CenterMode::from_start ||
+           (mode == CenterMode::follows_distance && distance == Distance::incremental);
+  }
+
+  std::optional<double> partial_angle(const Arc& arc) const;
+
+  bool pitch_to_turns(Arc& arc);
+
+  bool turns_to_pitch(Arc& arc);
+
+  // --- centres --------------------------------------------------------------------------------------------------
+
+  /// Start of the arc along one axis in radius: a number, or what the text before says.
+  std::optional<Value> start_of(const Arc& arc, AxisId axis) const {
+    if (arc.facts.position[axis]) return Value{*arc.facts.position[axis]};
+    return symbolic_.at(axis);
+  }
+
+  void centers(Arc& arc) {
+    Motion& m = arc.b.motion;
+    const auto& t = context_.target;
+    const CenterMode from = m.centers.front().mode;
+    const bool whole = t.centers.count(from) != 0 && !incomplete(arc, from);
+    if (!plane_known_ && (!whole || t.full_circle_needs_end)) {
+      context_.diagnostics.error("TRN-312", word_span(arc.s.line.span, m.code_pos),
+                                 "the plane of this arc depends on the path that leads here",
+                                 "write the plane before this block on every path");
+      return;
+    }
+    if (!whole) {
+      const auto to = wanted_mode(arc, from);
+      if (!to || !convert_centers(arc, from, *to)) {
+        return fail(arc, "TRN-313",
+                    "the centre of this arc is given in a form that the target lacks, and its start is not known here",
+                    "give the point before the arc as numbers on every path");
+      }
+    }
+    full_circle(arc);
+  }
+
+  /// Absolute centres must name both coordinates: a missing word would be 0, not the start.
+  static bool incomplete(const Arc& arc, CenterMode mode) {
+    return !is_relative(mode, arc.distance) && arc.b.motion.centers.size() < 2;
+  }
+
+  std::optional<CenterMode> wanted_mode(const Arc& arc, CenterMode from) const {
+    const auto& modes = context_.target.centers;
+    if (modes.count(from) != 0) return from;
+    if (from == CenterMode::follows_distance) {
+      if (!arc.distance) return std::nullopt;
+      const auto same = *arc.distance == Distance::absolute ? CenterMode::absolute : CenterMode::from_start;
+      if (modes.count(same) != 0) return same;
+    }
+    if (modes.count(CenterMode::follows_distance) != 0 && arc.distance) return CenterMode::follows_distance;
+    for (const auto mode : {CenterMode::from_start, CenterMode::absolute}) {
+      if (modes.count(mode) != 0) return mode;
+    }
+    return std::nullopt;
+  }
+
+  bool convert_centers(Arc& arc, CenterMode from, CenterMode to) {
+    const bool was_relative = is_relative(from, arc.distance), relative = is_relative(to, arc.distance);
+    std::vector<CenterWord> words = arc.b.motion.centers;
+    if (!relative) complete(arc, words, from, was_relative);
+    for (auto& w : words) {
+      w.mode = to;
+      if (was_relative == relative) continue;
+      const auto f = to_radius(w.axis, w.scale, was_relative ? Distance::incremental : Distance::absolute, arc.b,
+                               arc.facts, context_.source_machine);
+      const auto start = start_of(arc, w.axis);
+      if (!f || !start) return false;
+      const Value radius = scale(w.value, *f);
+      w.value = relative ? subtract(radius, *start) : add(*start, radius);
+      w.value.text = {};
+      w.scale = WordScale::radius;
+    }
+    if (words.empty()) return false;
+    arc.b.motion.centers = std::move(words);
+    return true;
+  }
+
+  /// Adds the centre word that stands for an offset of zero.
+  static void complete(const Arc& arc, std::vector<CenterWord>& words, CenterMode from, bool was_relative) {
+    if (!was_relative) return;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (std::any_of(words.begin(), words.end(), [&](const CenterWord& w) { return w.axis == arc.axis[i]; })) continue;
+      CenterWord w;
+      w.axis = arc.axis[i];
+      w.mode = from;
+      w.scale = WordScale::radius;
+      words.insert(i == 0 ? words.begin() : words.end(), w);
+    }
+  }
+
+  /// Both end words where the target wants them.
+  void full_circle(Arc& arc) {
+    if (!context_.target.full_circle_needs_end) return;
+    auto& coords = arc.b.motion.coords;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (std::any_of(coords.begin(), coords.end(), [&](const CoordWord& c) { return c.axis == arc.axis[i]; }))
+        continue;
+      CoordWord w;
+      w.axis = arc.axis[i];
+      w.scale = radius_scale(w.axis);
+      if (arc.distance == Distance::incremental) {
+        w.value = Value{0.0};
+      } else {
+        const auto start = start_of(arc, w.axis);
+        if (!start || !arc.distance) {
+          return fail(arc, "TRN-314",
+                      "the target wants both end coordinates of an arc, and the point before is not known here",
+                      "write both end coordinates");
+        }
+        w.value = *start;
+      }
+      coords.push_back(w);
+    }
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  SymbolicPosition symbolic_;
+  LabelUses uses_;
+  bool plane_known_ = true;
+};
+
+}  // namespace cnctrans::ir::passes
