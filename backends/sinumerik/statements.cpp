@@ -37,10 +37,10 @@ void Writer::if_else(const ir::If& i) {
   if (!condition(i.condition, text)) return refuse_structure({});
   next_line();
   add("IF " + text, Rank::head);
-  nested_body(i.then_body);
+  nested(i.then_body);
   if (i.has_else || !i.else_body.empty()) {
     keyword_line(i.else_line, "ELSE");
-    nested_body(i.else_body);
+    nested(i.else_body);
   }
   keyword_line(i.end_line, "ENDIF");
 }
@@ -50,7 +50,7 @@ void Writer::while_loop(const ir::While& w) {
   if (!condition(w.condition, text)) return refuse_structure({});
   next_line();
   add("WHILE " + text, Rank::head);
-  nested_body(w.body);
+  nested(w.body);
   keyword_line(w.end_line, "ENDWHILE");
 }
 
@@ -59,7 +59,7 @@ void Writer::until_loop(const ir::Until& u) {
   if (!condition(u.condition, text)) return refuse_structure({});
   next_line();
   add("REPEAT", Rank::head);
-  nested_body(u.body);
+  nested(u.body);
   keyword_line(u.end_line, "UNTIL " + text);
 }
 
@@ -74,14 +74,14 @@ void Writer::for_loop(const ir::For& f) {
   if (refused_problem()) return refuse_structure({});
   next_line();
   add(std::move(text), Rank::head);
-  nested_body(f.body);
+  nested(f.body);
   keyword_line(f.end_line, "ENDFOR");
 }
 
 void Writer::endless_loop(const ir::Loop& l) {
   next_line();
   add("LOOP", Rank::head);
-  nested_body(l.body);
+  nested(l.body);
   keyword_line(l.end_line, "ENDLOOP");
 }
 
@@ -92,21 +92,21 @@ void Writer::unread_structure(const ir::Statement& s, const ir::Opaque& text) {
   next_line();
   if (const auto* u = std::get_if<ir::Until>(&s.node)) {  // the text follows as a statement of its own
     add("REPEAT", Rank::head);
-    return nested_body(u->body);
+    return nested(u->body);
   }
   add(text.text, Rank::head);
   if (const auto* i = std::get_if<ir::If>(&s.node)) {
-    nested_body(rest(i->then_body));
+    nested(rest(i->then_body));
     if (i->has_else || !i->else_body.empty()) {
       keyword_line(i->else_line, "ELSE");
-      nested_body(i->else_body);
+      nested(i->else_body);
     }
     keyword_line(i->end_line, "ENDIF");
   } else if (const auto* w = std::get_if<ir::While>(&s.node)) {
-    nested_body(rest(w->body));
+    nested(rest(w->body));
     keyword_line(w->end_line, "ENDWHILE");
   } else if (const auto* f = std::get_if<ir::For>(&s.node)) {
-    nested_body(rest(f->body));
+    nested(rest(f->body));
     keyword_line(f->end_line, "ENDFOR");
   }
 }
@@ -160,6 +160,7 @@ void Writer::switch_jump(const ir::Switch& s) {
 }
 
 void Writer::repeat(const ir::Repeat& r) {
+  offset_uncertain();
   if (r.has_program) return refuse("TRN-201", {}, "a range of another program can't be repeated in place here");
   const bool one_block = !r.last.text.empty() && r.first.text == r.last.text && r.first.is_number == r.last.is_number;
   const bool to_here = r.last.text.empty() && !r.last.computed;
@@ -220,6 +221,7 @@ std::string Writer::call_text(const ir::CallRoutine& c) {
 }
 
 void Writer::call(const ir::CallRoutine& c) {
+  offset_uncertain();
   std::string text = call_text(c);
   if (c.count) {
     const bool number = ir::constant_value(c.count).has_value();

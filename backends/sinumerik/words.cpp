@@ -31,6 +31,9 @@ std::string numbered(std::string_view address, std::uint8_t number) {
 
 void Writer::block(const ir::Block& b) {
   block_has_offset_ = has<ir::ToolOffset>(b) || has<ir::ToolSelect>(b);
+  const ir::LineInfo& line = current().line;
+  if (!line.labels.empty() || (!line.number.empty() && labels().is_target(routine_index(), line.number)))
+    offset_uncertain();
   feed_and_spindle_mode(b);
   offset_again(b);
   ProgramWriter::block(b);
@@ -76,6 +79,12 @@ void Writer::offset_again(const ir::Block& b) {
   if (b.empty()) return;
   offset_pending_ = false;
   if (block_has_offset_) return;
+  if (several_offsets_ && !offset_certain_) {
+    diagnostics().warning("TRN-218", current().line.span,
+                          "the tool offset in force before the move in machine coordinates is not known for sure; " +
+                              (offset_word_.empty() ? std::string("D1") : offset_word_) + " is selected again here",
+                          "select the offset in the source after such a move");
+  }
   add(offset_word_.empty() ? "D1" : offset_word_, Rank::offset);
 }
 
@@ -215,7 +224,10 @@ void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
 
 void Writer::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
   std::string text = word("D", t.number, a.pos);
-  if (!t.number.is(0)) offset_word_ = text;
+  if (!t.number.is(0)) {
+    offset_word_ = text;
+    offset_certain_ = true;
+  }
   add(std::move(text), Rank::offset, a.pos);
 }
 

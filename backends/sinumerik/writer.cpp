@@ -45,6 +45,25 @@ bool uses_css(const ir::Program& program) {
   return found;
 }
 
+/// More than one offset number other than 0, or computed ones.
+bool several_offsets(const ir::Program& program) {
+  std::optional<double> first;
+  bool several = false;
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr) return;
+      for (const ir::Action& a : b->actions) {
+        const auto* o = std::get_if<ir::ToolOffset>(&a.data);
+        if (o == nullptr || o->number.is(0)) continue;
+        several = several || !o->number.literal() || (first && *first != o->number.number);
+        first = o->number.number;
+      }
+    });
+  }
+  return several;
+}
+
 }  // namespace
 
 std::string legal_name(std::string_view stem) {
@@ -60,7 +79,8 @@ std::string legal_name(std::string_view stem) {
 Writer::Writer(const ir::Program& source, const WriteOptions& write_options, Diagnostics& sink)
     : ProgramWriter(source, write_options, sinumerik::style, sink),
       expressions_(program(), source.dialect == sinumerik::style.dialect),
-      uses_css_(uses_css(program())) {}
+      uses_css_(uses_css(program())),
+      several_offsets_(several_offsets(program())) {}
 
 std::string Writer::sub_name(const ir::RoutineName& name) const {
   if (!name.text.empty()) return name.text;
@@ -108,7 +128,7 @@ void Writer::write_program() {
 void Writer::routine_text(std::size_t index, const std::string& name) {
   start_routine(index);
   offset_word_.clear();
-  offset_pending_ = false;
+  offset_pending_ = offset_certain_ = false;
   const ir::Routine& r = routine();
   const bool proc = r.has_signature || !r.parameters.empty();
   const bool title = !r.title.empty() && !same_dialect();
@@ -164,6 +184,12 @@ bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
     return words;
   }
   return std::holds_alternative<ir::Assign>(before.node) && std::holds_alternative<ir::Assign>(next.node);
+}
+
+void Writer::nested(const ir::Body& statements) {
+  offset_uncertain();
+  nested_body(statements);
+  offset_uncertain();
 }
 
 // ---- values --------------------------------------------------------------------------------------------------------

@@ -93,6 +93,8 @@ class Writer final : public ProgramWriter {
   std::string cycle_text(const ir::Cycle& cycle, WordPos pos);
   void feed_and_spindle_mode(const ir::Block& b);
   void offset_again(const ir::Block& b);
+  void offset_uncertain() { offset_certain_ = false; }
+  void nested(const ir::Body& statements);
   std::string rotary_attribute(const ir::CoordWord& w);
   [[nodiscard]] std::string source_word(WordPos pos) const;
 
@@ -101,7 +103,9 @@ class Writer final : public ProgramWriter {
   std::string group_code_;  ///< G94 G95 G96... of the block being written
   bool group_written_ = false;
   bool block_has_offset_ = false;  ///< the block being written selects an offset or a tool
-  std::string offset_word_;        ///< last D written, empty: not known
+  std::string offset_word_;        ///< last D written, empty: none in this routine
+  bool offset_certain_ = false;    ///< every path that leads here has selected it
+  bool several_offsets_ = false;   ///< the program selects more than one
   bool offset_pending_ = false;    ///< D0 was written for a move in machine coordinates
 };
 

@@ -80,15 +80,24 @@ bool has_motion(const Block& block) {
   return false;
 }
 
+void settle(Statement& statement) {
+  const auto* b = std::get_if<Block>(&statement.node);
+  if (b != nullptr && b->empty() && b->repeat_given == 0) statement.node = Label{};
+}
+
 void edit_blocks(Program& program, const LegaliseContext& context, const BlockEdit& edit) {
   for (auto& routine : program.routines) {
     Editor editor(program, routine, context);
     rewrite_body(routine.body, [&](Statement&& s, Body& out) {
-      if (std::holds_alternative<Block>(s.node)) {
-        edit(editor, std::move(s), out);
-      } else {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) {
         out.push_back(std::move(s));
+        return;
       }
+      const bool was_empty = b->empty();
+      const std::size_t first = out.size();
+      edit(editor, std::move(s), out);
+      for (std::size_t i = first; i < out.size() && !was_empty; ++i) settle(out[i]);
     });
   }
 }

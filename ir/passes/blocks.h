@@ -16,6 +16,9 @@ bool changes_on_select(const machine::Profile& machine);
 /// True when the block moves or runs a cycle.
 bool has_motion(const Block& block);
 
+/// A block a pass has taken everything out of becomes a mark of its line; one that shows nothing goes with `tidy`.
+void settle(Statement& statement);
+
 /// Runs `edit(editor, statement, out)` over the blocks of every routine; other statements pass through.
 using BlockEdit = std::function<void(class Editor&, Statement&&, Body&)>;
 void edit_blocks(Program& program, const LegaliseContext& context, const BlockEdit& edit);

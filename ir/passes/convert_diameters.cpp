@@ -24,7 +24,7 @@ class DiameterPass {
     for (auto& a : b.actions) {
       if (auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) frame(s, *f, b, facts);
     }
-    settings(b);
+    if (settings(b)) settle(s);
   }
 
  private:
@@ -92,18 +92,19 @@ class DiameterPass {
     f.change = std::move(copy);
   }
 
-  void settings(Block& b) const {
+  /// True when something was taken out.
+  bool settings(Block& b) const {
     const auto& t = context_.target;
-    std::erase_if(b.actions, [&](Action& a) {
-      auto* m = std::get_if<ModalSet>(&a.data);
-      if (m == nullptr || m->setting != Setting::diameter) return false;
-      if (!t.diameter_switch) return true;
-      if (m->value == static_cast<std::uint8_t>(DiameterMode::absolute_only) && !t.diameter_absolute_only) {
-        m->value = static_cast<std::uint8_t>(DiameterMode::diameter);
-        a.text = {};
-      }
-      return false;
-    });
+    return std::erase_if(b.actions, [&](Action& a) {
+             auto* m = std::get_if<ModalSet>(&a.data);
+             if (m == nullptr || m->setting != Setting::diameter) return false;
+             if (!t.diameter_switch) return true;
+             if (m->value == static_cast<std::uint8_t>(DiameterMode::absolute_only) && !t.diameter_absolute_only) {
+               m->value = static_cast<std::uint8_t>(DiameterMode::diameter);
+               a.text = {};
+             }
+             return false;
+           }) != 0;
   }
 
   bool concerns(AxisId axis) const {

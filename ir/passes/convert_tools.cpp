@@ -137,11 +137,14 @@ class LengthCompensation {
       for_each_statement(r.body, [this](Statement& s) {
         auto* b = std::get_if<Block>(&s.node);
         if (b == nullptr) return;
+        bool dropped = false;
         std::erase_if(b->actions, [&](const Action& a) {
           if (!sets(a, Setting::length_comp)) return false;
           if (std::get<ModalSet>(a.data).value == static_cast<std::uint8_t>(OnOff::off)) warn_off(s, a);
+          dropped = true;
           return true;
         });
+        if (dropped) settle(s);
       });
     }
   }

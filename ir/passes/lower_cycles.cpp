@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 
@@ -53,7 +54,10 @@ class CyclePass {
   void one(Statement&& s, Body& out) {
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     const bool harmless = ToolHeight::keeps(s);
+    const std::size_t first = out.size();
+    const auto* source = std::get_if<Block>(&seen.node);
     lower(std::move(s), out);
+    for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
     const auto* b = std::get_if<Block>(&seen.node);
     const bool ran = active_ && b != nullptr && (defines(*b) || triggers(*b, facts_.before(seen)));
     height_.follow(seen, facts_.before(seen), ran ? active_->source : nullptr, harmless);

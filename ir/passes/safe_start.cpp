@@ -37,15 +37,19 @@ class SafeStart {
           "with the feed it has after power-on",
           "write F before the first move at feed");
     }
+    if (!first_motion() && motion_from_power_on()) {  // reached through a loop or a branch: said at the head
+      head.has_motion = true;
+      head.motion.kind = context_.source_machine.power_on.motion;
+      head.motion.explicit_code = true;
+    }
     Body blocks;
-    if (!head.actions.empty()) blocks.push_back(made(LineInfo{}, std::move(head)));
+    if (!head.empty()) blocks.push_back(made(LineInfo{}, std::move(head)));
     const auto offset = context_.source_machine.power_on.work_offset;
     if (!offset_said_ && offset != context_.target_machine.power_on.work_offset && offset > 0 &&
         offset <= context_.target.work_offset_rows) {
       blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
     }
     if (!shift_cleared_ && clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
-    first_motion();
     main_.body.insert(place(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
   }
 
@@ -91,20 +95,42 @@ class SafeStart {
     }
   }
 
-  /// The first move says its function.
-  void first_motion() {
+  /// The first move says its function. False: it stands behind a statement that may lead elsewhere.
+  bool first_motion() {
     for (auto& s : main_.body) {
       auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Declare>(s.node) &&
           !std::holds_alternative<Message>(s.node) && !std::holds_alternative<Label>(s.node))
-        return;
+        return false;
       if (b == nullptr || !b->has_motion) continue;
-      if (b->motion.kind != MotionKind::modal) return;
+      if (b->motion.kind != MotionKind::modal) return true;
       if (!b->motion.moves() || !b->motion.centers.empty()) continue;
       b->motion.kind = context_.source_machine.power_on.motion;
       b->motion.explicit_code = true;
-      return;
+      return true;
     }
+    return true;
+  }
+
+  /// A move without a code that goes by the function in force at power-on, which is another one on the target.
+  bool motion_from_power_on() {
+    const auto own = context_.source_machine.power_on.motion;
+    if (own == context_.target_machine.power_on.motion) return false;
+    number_statements(program_);
+    ModalState other = context_.source_machine.power_on;
+    other.motion = own == MotionKind::rapid ? MotionKind::linear : MotionKind::rapid;
+    const FactTable as_is = analyse(program_, context_.source_machine.power_on), changed = analyse(program_, other);
+    bool found = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr || !b->has_motion || b->motion.kind != MotionKind::modal || !b->motion.moves()) return;
+        const auto& facts = as_is.before(s.id);
+        if (!facts.reachable) return;
+        found = found || !facts.motion || facts.motion != changed.before(s.id).motion;
+      });
+    }
+    return found;
   }
 
   /// A programmed shift that outlives the program on the target is cleared where the source starts without one.

@@ -45,7 +45,8 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
     const auto* b = std::get_if<Block>(&s.node);
     const bool left_over = b != nullptr && b->empty() && b->repeat_given == 0 && shows_nothing(s.line) &&
                            s.line.blank_lines_before == 0 && s.id == 0;
-    if (!left_over) out.push_back(std::move(s));
+    const bool bare_mark = std::holds_alternative<Label>(s.node) && shows_nothing(s.line);
+    if (!left_over && !bare_mark) out.push_back(std::move(s));
   }
   body = std::move(out);
 }

@@ -232,6 +232,18 @@ TEST(SinumerikWords, MachineMoveWithoutLengthSelectsTheOffsetAgain) {
   EXPECT_EQ(b.text(), "T3 D2\nSUPA G0 Z0 D0\nSUPA G0 Z0 D0\nX5 D2\nX6\n");
 }
 
+TEST(SinumerikWords, WhichOffsetComesBackIsSaidWhenItIsNotSure) {
+  Build b;
+  b.add(actions({action(ir::ToolOffset{Value(2)})}));
+  b.add(actions({action(ir::ToolOffset{Value(3)})}));
+  auto& label = b.add(move(MotionKind::rapid, {coord(axis::z, Value(0))}));
+  std::get<ir::Block>(label.node).motion.frame = ir::FrameUse::machine;
+  label.line.labels = {"LAB_A"};
+  b.add(move(MotionKind::rapid, {coord(axis::x, Value(5))}));
+  EXPECT_EQ(b.text(), "D2\nD3\nLAB_A: SUPA G0 Z0 D0\nG0 X5 D3\n");
+  EXPECT_EQ(b.codes(), "TRN-218");
+}
+
 TEST(SinumerikWords, SpindleToolAndCoolant) {
   EXPECT_EQ(line_of(actions({action(ir::ToolSelect{Value(4), {}, false}), action(ir::ToolChange{})})), "T4 M6\n");
   EXPECT_EQ(line_of(action(ir::ToolSelect{Value(0), "DRILL_5", false})), "T=\"DRILL_5\"\n");

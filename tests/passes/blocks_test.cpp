@@ -232,6 +232,15 @@ TEST(SafeStart, PowerOnFeedIsWritten) {
   EXPECT_NE(p.text.find("feed #1000"), std::string::npos) << p.text;
 }
 
+TEST(SafeStart, MotionOfPowerOnIsSaidAtTheHeadWhenABranchComesFirst) {  // feed at power-on there, rapid here
+  const std::string behind = "  jump N10 if L[1] == 5\n  block modal X 10\n  N10 block rapid X 0\n";
+  const auto p = run_pass("safe_start", main_program(behind), structured_target(), "num-mill", "fagor-mill");
+  EXPECT_NE(p.text.find(", linear coded"), std::string::npos) << p.text;
+  const std::string coded = "  jump N10 if L[1] == 5\n  block linear X 10\n  N10 block rapid X 0\n";
+  const auto q = run_pass("safe_start", main_program(coded), structured_target(), "num-mill", "fagor-mill");
+  EXPECT_EQ(q.text.find(", linear coded"), std::string::npos) << q.text;
+}
+
 TEST(Plain, OnlyWhatNoPassTouches) {
   const auto block = [](const std::string& text) {
     const auto p = read("space L \"L\" segment 0 19\nroutine main 1 {\n  " + text + "\n}\n");
