@@ -11,10 +11,25 @@ namespace {
 /// The value that a control with tolerant comparison takes for equal; exact controls get this band.
 constexpr double band = 0.000001;
 
+/// A condition whose value is known: a number, or a relation between two of them.
 bool is_truth_literal(const ExprPtr& e, bool& value) {
-  const auto c = constant_value(e);
-  if (!c) return false;
-  value = *c != 0;
+  if (const auto c = constant_value(e)) {
+    value = *c != 0;
+    return true;
+  }
+  const auto* b = std::get_if<Binary>(&e->node);
+  if (b == nullptr || !is_comparison(b->op)) return false;
+  const auto left = constant_value(b->left), right = constant_value(b->right);
+  if (!left || !right) return false;
+  switch (b->op) {
+    case BinaryOp::eq: value = *left == *right; break;
+    case BinaryOp::ne: value = *left != *right; break;
+    case BinaryOp::lt: value = *left < *right; break;
+    case BinaryOp::le: value = *left <= *right; break;
+    case BinaryOp::gt: value = *left > *right; break;
+    case BinaryOp::ge: value = *left >= *right; break;
+    default: return false;
+  }
   return true;
 }
 

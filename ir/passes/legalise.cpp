@@ -37,6 +37,7 @@ constexpr std::array pipeline{
     Pass{"messages", passes::convert_messages, false},
     Pass{"labels", passes::resolve_labels, false},
     Pass{"routines", passes::name_routines, false},
+    Pass{"numbers", passes::order_numbers, false},
     Pass{"safe_start", passes::safe_start, false},
     Pass{"tidy", passes::tidy, false},
 };
@@ -50,8 +51,16 @@ bool run(const Pass& pass, Program& program, const LegaliseContext& context) {
 }  // namespace
 
 bool legalise(Program& program, const LegaliseContext& context) {
+  std::set<const char*> source_numbers;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (!s.line.number.empty()) source_numbers.insert(s.line.number.data());
+    });
+  }
+  LegaliseContext numbered = context;
+  numbered.source_numbers = &source_numbers;
   bool good = true;
-  for (const auto& pass : pipeline) good = run(pass, program, context) && good;
+  for (const auto& pass : pipeline) good = run(pass, program, numbered) && good;
   number_statements(program);
   return good;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,8 @@ struct LegaliseContext {
   LegaliseOptions options;
   Diagnostics& diagnostics;
   LegaliseReport* report = nullptr;  ///< may be null
+  /// Texts of the block numbers that the source has (their first characters); null: all numbers are the source's.
+  const std::set<const char*>* source_numbers = nullptr;
 };
 
 /// Runs all passes in order. False when an error was reported.

@@ -31,5 +31,6 @@ void resolve_labels(Program& program, const LegaliseContext& context);  ///< sea
 void name_routines(Program& program, const LegaliseContext& context);
 void safe_start(Program& program, const LegaliseContext& context);
 void tidy(Program& program, const LegaliseContext& context);
+void order_numbers(Program& program, const LegaliseContext& context);  ///< block numbers that passes made
 
 }  // namespace cnctrans::ir::passes

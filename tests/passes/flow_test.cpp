@@ -228,5 +228,40 @@ TEST(Labels, TooLargeNumbersAreRenumbered) {
   EXPECT_TRUE(p.good);
 }
 
+// Numbers that passes make stand between those of the source: N10, (made), N15, (made) -> 11 or 12 fits, then tens.
+TEST(Numbers, MadeOnesGoBetweenThoseOfTheSource) {
+  const auto p = legalise(shared_source + R"(routine main 1 {
+  N10 block rapid X 1
+  while L[1] < 2 {
+    set L[1] = L[1] + 1
+  }
+  N15 block rapid X 2
+  jump N15 if L[1] > 9
+  while L[2] < 2 {
+    set L[2] = L[2] + 1
+  }
+})",
+                          chain_target());
+  EXPECT_NE(p.text.find("N12 jump"), std::string::npos) << p.text;
+  EXPECT_NE(p.text.find("N20 jump"), std::string::npos) << p.text;
+}
+
+TEST(Numbers, ARangeThatDescendsIsNumberedAnew) {
+  const auto p =
+      run_pass("numbers",
+               "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  repeat N30 N20 count 2\n"
+               "  jump N30\n}\n",
+               chain_target());
+  EXPECT_NE(p.text.find("repeat N10 N20"), std::string::npos) << p.text;
+  EXPECT_NE(p.text.find("jump N10"), std::string::npos) << p.text;
+  EXPECT_TRUE(has_code(p.diagnostics, "TRN-190")) << all(p.diagnostics);
+}
+
+TEST(Numbers, WithoutRangesTheSourcesNumbersStay) {
+  const auto p = run_pass("numbers", "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  jump N30\n}\n",
+                          chain_target());
+  EXPECT_NE(p.text.find("N30 block"), std::string::npos) << p.text;
+}
+
 }  // namespace
 }  // namespace cnctrans::test
