@@ -165,24 +165,57 @@ class LengthCompensation {
         "use offsets with length 0 on the target, or switch the compensation on in the source");
   }
 
+  // Switched on in the first move along the tool axis of every path, and again after each tool change for the reader's
+  // sake. Every such move gets the switch first; then those go that find it on in any case.
   void add() {
     const FactsOf facts(program_, context_);
     for (auto& r : program_.routines) {
-      bool wanted = r.kind == RoutineKind::main;
       for_each_statement(r.body, [&](Statement& s) {
         auto* b = std::get_if<Block>(&s.node);
         if (b == nullptr) return;
-        if (has<ToolChange>(*b) || has<ToolSelect>(*b)) wanted = true;
-        if (!wanted || !b->has_motion || b->motion.frame != FrameUse::normal) return;
-        const Plane plane = setting_in<Plane>(*b, facts.before(s), Setting::plane).value_or(Plane::xy);
-        const AxisId w = plane_axes(plane).w;
-        const auto& coords = b->motion.coords;
-        if (std::none_of(coords.begin(), coords.end(), [w](const CoordWord& c) { return c.axis == w; })) return;
-        b->actions.insert(b->actions.begin(),
-                          action(ModalSet{Setting::length_comp, static_cast<std::uint8_t>(OnOff::on), true, {}}));
-        wanted = false;
+        if (goes_to_reference(*b)) b->actions.push_back(made_switch(OnOff::off));
+        if (moves_along(*b, facts.before(s))) b->actions.insert(b->actions.begin(), made_switch(OnOff::on));
       });
     }
+    ModalState start = context_.source_machine.power_on;
+    start.length_comp = OnOff::off;
+    const FactTable table = analyse(program_, start);
+    for (auto& r : program_.routines) {
+      bool new_tool = false;
+      for_each_statement(r.body, [&](Statement& s) {
+        auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        new_tool = new_tool || has<ToolChange>(*b) || has<ToolSelect>(*b);
+        std::erase_if(b->actions, [](const Action& a) { return is_switch(a, OnOff::off); });
+        if (b->actions.empty() || !is_switch(b->actions.front(), OnOff::on)) return;
+        const bool on = setting<OnOff>(table.before(s.id), Setting::length_comp) == OnOff::on;
+        if (on && !new_tool) b->actions.erase(b->actions.begin());
+        new_tool = false;
+      });
+    }
+  }
+
+  static Action made_switch(OnOff to) {
+    return action(ModalSet{Setting::length_comp, static_cast<std::uint8_t>(to), true, {}});
+  }
+  static bool is_switch(const Action& a, OnOff to) {
+    return sets(a, Setting::length_comp) && std::get<ModalSet>(a.data).value == static_cast<std::uint8_t>(to);
+  }
+  /// The way to the reference point ends the compensation on controls that switch it.
+  static bool goes_to_reference(const Block& b) { return b.has_motion && b.motion.kind == MotionKind::reference_point; }
+  /// Moves along the tool axis by programmed positions.
+  static bool moves_along(const Block& b, const Facts& facts) {
+    if (!facts.reachable) return false;
+    for (const auto& a : b.actions) {
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      if (d != nullptr && d->here) return true;
+    }
+    if (!b.has_motion || b.motion.frame != FrameUse::normal || goes_to_reference(b)) return false;
+    const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+    const auto& coords = b.motion.coords;
+    return std::any_of(coords.begin(), coords.end(), [plane](const CoordWord& c) {
+      return plane ? c.axis == plane_axes(*plane).w : c.axis <= axis::z;
+    });
   }
 
   Program& program_;
