@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "translator/report/report.h"
 #include "translator/stream.h"
 
 namespace cnctrans::cli {
@@ -52,6 +53,21 @@ int write_outputs(const Arguments& a, const translator::TranslateResult& result,
   return unverified ? limit_or_difference : ok;
 }
 
+bool write_report(const Arguments& a, const translator::TranslateOptions& options, const std::string& input,
+                  const translator::TranslateResult& result) {
+  std::string error;
+  std::vector<std::string> written;
+  for (const auto& out : result.outputs)
+    written.push_back(a.output.empty() || a.output == "-" ? out.name : target_path(a, out).string());
+  const auto text = (*translator::report_writer(a.report))(translator::make_report(input, options, result, written));
+  if (!write_file(a.report, text, &error)) {
+    write_all(stderr, "cnctrans: " + error + "\n");
+    return false;
+  }
+  if (!a.quiet) write_all(stderr, "wrote " + a.report + "\n");
+  return true;
+}
+
 /// The whole-program path: in memory, with calls, verified on request.
 int convert_whole(const Arguments& a, const translator::TranslateOptions& options, const std::string& input) {
   translator::TranslateOptions with = options;
@@ -59,6 +75,7 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   const auto result = translator::translate(input, with);
   if (!result.error.empty()) return usage_error(result.error);
   print_diagnostics(a, result.diagnostics, result.files);
+  if (!a.report.empty() && !write_report(a, options, input, result)) return refused;
   if (result.refused) {
     write_all(stderr, "cnctrans: " + input + ": refused, nothing is written\n");
     return refused;
@@ -121,10 +138,13 @@ int convert(const Arguments& a) {
   if (a.from.empty() || a.to.empty()) return usage_error("--from and --to are needed");
   if (a.inputs.empty()) return usage_error("no input file");
   if (a.inputs.size() > 1 && !is_folder(a.output)) return usage_error("several input files need -o FOLDER/");
-  if (!a.report.empty())
-    return usage_error("--report is not built yet; the diagnostics go to stderr, --diagnostics=json for tools");
+  if (!a.report.empty() && a.inputs.size() > 1) return usage_error("--report takes one input file");
+  if (!a.report.empty() && !translator::report_writer(a.report))
+    return usage_error("--report FILE must end in .html, .json, .md or .sarif");
   translator::TranslateOptions options;
   if (!translate_options(a, options)) return usage;
+  if (!a.report.empty())
+    options.verify = options.keep_traces = true;  // a report without its proof would be half of one
   int status = ok;
   for (const auto& input : a.inputs) {
     const auto streamed = convert_stream(a, options, input);

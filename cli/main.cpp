@@ -3,12 +3,11 @@
 
 #include "cli/commands.h"
 #include "cli/completion.h"
+#include "translator/version.h"
 
 namespace {
 
 using cnctrans::cli::Arguments;
-
-constexpr const char* version_text = "cnctrans 0.1.0";
 
 void add_reading(CLI::App& app, Arguments& a) {
   app.add_option("--machine", a.machine, "machine profile: a built-in name (fagor-lathe) or a JSON file");
@@ -47,7 +46,7 @@ void add_converting(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"utf-8", "windows-1252"}));
   app.add_option("--eol", a.eol, "line ends of the output; else as the input")
       ->check(CLI::IsMember({"lf", "crlf", "cr"}));
-  app.add_option("--report", a.report, "write a report (.html, .json, .sarif, .md)");
+  app.add_option("--report", a.report, "write a report (.html .json .md .sarif); implies --verify");
   add_reading(app, a);
   add_running(app, a);
 }
@@ -69,7 +68,7 @@ int main(int argc, char** argv) {
       "Translates CNC part programs between controls, keeps the program, and proves that the machine moves the same "
       "way.",
       "cnctrans"};
-  app.set_version_flag("--version", version_text);
+  app.set_version_flag("--version", "cnctrans " + std::string(cnctrans::translator::version));
   app.require_subcommand(0, 1);
   app.footer(
       "Examples:\n  cnctrans --from fagor --to sinumerik part.pim -o PART.MPF --verify\n"

@@ -1,5 +1,5 @@
 # Script behind cnc_embed_texts().
-set(text "// Generated from text files; do not edit.\n#include \"${HEADER}\"\n\nnamespace cnctrans::machine {\n")
+set(text "// Generated from text files; do not edit.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n")
 string(APPEND text "extern const EmbeddedText ${SYMBOL}[] = {\n")
 set(count 0)
 foreach(f IN LISTS FILES)
@@ -8,5 +8,5 @@ foreach(f IN LISTS FILES)
   string(APPEND text "    {\"${stem}\", R\"__embed__(${content})__embed__\"},\n")
   math(EXPR count "${count}+1")
 endforeach()
-string(APPEND text "};\nextern const std::size_t ${SYMBOL}_count = ${count};\n}  // namespace cnctrans::machine\n")
+string(APPEND text "};\nextern const std::size_t ${SYMBOL}_count = ${count};\n}  // namespace ${NAMESPACE}\n")
 file(WRITE ${OUT} "${text}")

@@ -1,15 +1,11 @@
 // The profiles of machine/profiles/*.json, compiled in by the build.
 #pragma once
 
-#include <cstddef>
-#include <string_view>
+#include "base/embedded.h"
 
 namespace cnctrans::machine {
 
-struct EmbeddedText {
-  std::string_view name;  ///< file name without extension: "<dialect>-mill", "<dialect>-lathe"
-  std::string_view text;
-};
+/// By name: "<dialect>-mill", "<dialect>-lathe".
 extern const EmbeddedText builtin_profiles[];
 extern const std::size_t builtin_profiles_count;
 

@@ -132,6 +132,10 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
   result.verified = true;
   result.verdict = judge(a, b);
   result.target_files = target_loader.files();
+  if (options.keep_traces) {
+    result.source_trace = std::move(a.events);
+    result.target_trace = std::move(b.events);
+  }
   if (!result.verdict.good()) {
     result.diagnostics.append(source_diagnostics);
     if (target_diagnostics.has_errors()) {
@@ -190,6 +194,9 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
           : std::string(to->name) + (source_profile->kind == machine::Kind::lathe ? "-lathe" : "-mill");
   const auto target_profile = machine::load(target_name, &result.error);
   if (!target_profile) return result;
+  result.source_machine = source_profile->name;
+  result.target_machine = target_profile->name;
+  result.lathe = source_profile->kind == machine::Kind::lathe;
 
   Loader loader(*from, *source_profile, options.reader, options.libraries);
   frontends::ReadStats stats;

@@ -30,6 +30,7 @@ struct TranslateOptions {
   std::int32_t number_step = 10;
   bool annotate = false;
   bool verify = false;
+  bool keep_traces = false;    ///< with `verify`: both traces stay in the result, for a report
   bool single_output = false;  ///< everything in one file (standard output): as an archive where the target has one
   ir::CycleWriting cycles = ir::CycleWriting::native;
   std::optional<Encoding> encoding;  ///< of the output; else as the input
@@ -52,7 +53,10 @@ struct TranslateResult {
   FileTable files;
   bool verified = false;  ///< a verification ran
   verifier::Verdict verdict;
-  FileTable target_files;  ///< of the verification
+  FileTable target_files;                                      ///< of the verification
+  std::vector<interpreter::Event> source_trace, target_trace;  ///< with `keep_traces`
+  std::string source_machine, target_machine;                  ///< names of the profiles
+  bool lathe = false;                                          ///< the source's machine is one
   std::uint64_t lines = 0;
   std::string error;  ///< could not even start (file missing, unknown dialect): usage
 };

@@ -247,11 +247,10 @@ TEST(Numbers, MadeOnesGoBetweenThoseOfTheSource) {
 }
 
 TEST(Numbers, ARangeThatDescendsIsNumberedAnew) {
-  const auto p =
-      run_pass("numbers",
-               "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  repeat N30 N20 count 2\n"
-               "  jump N30\n}\n",
-               chain_target());
+  const auto p = run_pass("numbers",
+                          "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  repeat N30 N20 count 2\n"
+                          "  jump N30\n}\n",
+                          chain_target());
   EXPECT_NE(p.text.find("repeat N10 N20"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("jump N10"), std::string::npos) << p.text;
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-190")) << all(p.diagnostics);
