@@ -196,7 +196,8 @@ class Comparison {
 
   [[nodiscard]] bool same_feed(const Event& a, const Event& b) const {
     if (a.kind == EventKind::rapid) return true;
-    return a.feed_mode == b.feed_mode && close_relative(a.feed, b.feed, options_.tolerances.feed_relative);
+    return a.feed_mode == b.feed_mode &&
+           (a.feed == 0 || close_relative(a.feed, b.feed, options_.tolerances.feed_relative));
   }
 
   static std::string end_difference(const Event& a, const Event& b) {
@@ -216,6 +217,7 @@ class Comparison {
       return fmt::format("feed {} ({}) in the source, {} ({}) in the translation", shortest(a.feed),
                          ir::name(a.feed_mode), shortest(b.feed), ir::name(b.feed_mode));
     }
+    if (a.kind != EventKind::rapid && a.kind != EventKind::thread && a.feed == 0 && b.feed != 0) ++verdict_.unfed_moves;
     if (a.kind == EventKind::arc) return arc_difference(a, b);
     if (a.kind == EventKind::thread && (!close_relative(a.pitch, b.pitch, options_.tolerances.feed_relative) ||
                                         std::fabs(a.pitch_change - b.pitch_change) > exact ||
@@ -315,6 +317,13 @@ std::string source_line_text(const FileTable& files, FileId file, std::uint32_t 
   return std::string(source->lines()[line - 1].text);
 }
 
+/// Said with a good verdict too: feeds that could not be compared.
+std::string without_feed(const Verdict& v) {
+  if (v.unfed_moves == 0) return {};
+  return fmt::format("; {} without a feed in the source (its control stops with an alarm there), feeds not compared",
+                     v.unfed_moves == 1 ? "1 move" : fmt::format("{} moves", v.unfed_moves));
+}
+
 constexpr std::array<std::string_view, 5> status_names{"verified", "verified within tolerance", "differs",
                                                        "nothing to compare", "not replayable"};
 
@@ -344,9 +353,11 @@ std::string_view name(Status s) {
 
 std::string describe(const Verdict& v, const FileTable& source_files, const FileTable& target_files) {
   switch (v.status) {
-    case Status::verified: return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves);
+    case Status::verified:
+      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + without_feed(v);
     case Status::within_tolerance:
-      return fmt::format("verified: {} events, {} moves, within {} mm", v.events, v.moves, rounded(v.max_length, 6));
+      return fmt::format("verified: {} events, {} moves, within {} mm", v.events, v.moves, rounded(v.max_length, 6)) +
+             without_feed(v);
     case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
     case Status::not_replayable: return "not verified: " + v.reason;
     case Status::differs: break;

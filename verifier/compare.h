@@ -47,7 +47,8 @@ struct Verdict {
   Status status = Status::nothing_to_compare;
   std::uint64_t events = 0;  ///< compared after normalisation
   std::uint64_t moves = 0;
-  double max_length = 0;  ///< mm
+  double max_length = 0;          ///< mm
+  std::uint64_t unfed_moves = 0;  ///< at a feed that the source never gives, where the translation has one
   Difference difference;
   std::string reason;  ///< with not_replayable
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }
