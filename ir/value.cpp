@@ -17,12 +17,14 @@ Value add(const Value& a, const Value& b) {
   if (a.literal() && b.literal()) return Value{a.number + b.number};
   if (a.is(0)) return b;
   if (b.is(0)) return a;
+  if (b.literal() && b.number < 0) return Value{binary(BinaryOp::subtract, as_expr(a), number(-b.number))};
   return Value{binary(BinaryOp::add, as_expr(a), as_expr(b))};
 }
 
 Value subtract(const Value& a, const Value& b) {
   if (a.literal() && b.literal()) return Value{a.number - b.number};
   if (b.is(0)) return a;
+  if (b.literal() && b.number < 0) return Value{binary(BinaryOp::add, as_expr(a), number(-b.number))};
   return Value{binary(BinaryOp::subtract, as_expr(a), as_expr(b))};
 }
 

@@ -40,6 +40,8 @@ class DistancePass {
       return;
     }
     if (own == 0 && mode && uniform(b)) return switch_for_block(editor, std::move(s), *mode, out);
+    if (mode == Distance::incremental && all_absolute(b, facts))
+      return switch_for_block(editor, std::move(s), *mode, out);
     refuse(s, editor.program, context_, "TRN-181",
            "absolute and incremental words in one block, and the position before it is not known here",
            "write the block in one mode, or in two blocks");
@@ -76,6 +78,12 @@ class DistancePass {
       const auto to = to_radius(c.axis, WordScale::modal, mode, b, facts, context_.source_machine);
       const auto& at = facts.position[c.axis];
       if (!from || !to) return false;
+      if (d == mode) {
+        c.value = scale(c.value, *from / *to);
+        c.mode = WordMode::modal;
+        c.scale = WordScale::modal;
+        continue;
+      }
       if (!at) {
         if (!from_machine(c, *mode, *from / *to)) return false;
         continue;
@@ -89,6 +97,21 @@ class DistancePass {
     }
     b.motion.coords = std::move(coords);
     return true;
+  }
+
+  /// A block of increments with absolute words beside them: all of them absolute. False: nothing is changed.
+  bool all_absolute(Block& b, const Facts& facts) const {
+    const std::vector<CoordWord> as_it_was = b.motion.coords;
+    const bool centres = std::any_of(b.motion.centers.begin(), b.motion.centers.end(), [](const CenterWord& c) {
+      return c.mode == CenterMode::follows_distance;
+    });
+    if (centres || b.motion.extra) return false;
+    for (auto& c : b.motion.coords) {
+      if (c.mode == WordMode::modal) c.mode = WordMode::incremental;
+    }
+    if (to_block_mode(b, Distance::absolute, facts)) return true;
+    b.motion.coords = as_it_was;
+    return false;
   }
 
   /// The increment added to what the target knows as the last programmed coordinate.
@@ -111,8 +134,16 @@ class DistancePass {
     auto& b = std::get<Block>(s.node);
     const Distance other = mode == Distance::absolute ? Distance::incremental : Distance::absolute;
     for (auto& c : b.motion.coords) c.mode = WordMode::modal;
+    bool said_behind = false;
+    std::erase_if(b.actions, [&said_behind](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      if (m == nullptr || m->setting != Setting::distance) return false;
+      said_behind = said_behind || a.order == Order::after;
+      return a.order != Order::after;
+    });
     b.actions.insert(b.actions.begin(),
                      action(ModalSet{Setting::distance, static_cast<std::uint8_t>(other), true, {}}));
+    if (said_behind) return out.push_back(std::move(s));
     Body pieces;
     const LineInfo like = s.line;
     pieces.push_back(std::move(s));

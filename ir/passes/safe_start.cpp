@@ -79,7 +79,7 @@ class SafeStart {
       const bool moves = b->has_motion && b->motion.moves();
       for (const auto& a : b->actions) {
         if (std::holds_alternative<SetFeed>(a.data)) feed_open = false;
-        if (!open || s.line.skip_mask != 0) continue;
+        if (!open || s.line.skip_mask != 0 || (moves && a.order == Order::after)) continue;
         if (const auto* m = std::get_if<ModalSet>(&a.data)) said_[static_cast<std::size_t>(m->setting)] = true;
         if (std::holds_alternative<WorkOffset>(a.data)) offset_said_ = true;
         const auto* f = std::get_if<FrameOp>(&a.data);
