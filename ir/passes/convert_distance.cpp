@@ -102,9 +102,8 @@ class DistancePass {
   /// A block of increments with absolute words beside them: all of them absolute. False: nothing is changed.
   bool all_absolute(Block& b, const Facts& facts) const {
     const std::vector<CoordWord> as_it_was = b.motion.coords;
-    const bool centres = std::any_of(b.motion.centers.begin(), b.motion.centers.end(), [](const CenterWord& c) {
-      return c.mode == CenterMode::follows_distance;
-    });
+    const bool centres = std::any_of(b.motion.centers.begin(), b.motion.centers.end(),
+                                     [](const CenterWord& c) { return c.mode == CenterMode::follows_distance; });
     if (centres || b.motion.extra) return false;
     for (auto& c : b.motion.coords) {
       if (c.mode == WordMode::modal) c.mode = WordMode::incremental;

@@ -16,19 +16,18 @@ namespace {
 class FramePass {
  public:
   FramePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts) {}
+      : program_(program), context_(context), facts_(facts), states_(program, facts, context) {}
 
   void routine(Routine& r) {
-    const auto states = FrameStates(program_, r, facts_, context_);
     Editor editor(program_, r, context_);
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       auto* b = std::get_if<Block>(&s.node);
-      if (std::holds_alternative<End>(s.node)) return end(editor, std::move(s), states.before(s), out);
+      if (std::holds_alternative<End>(s.node)) return end(editor, std::move(s), states_.before(s), out);
       if (b == nullptr || !concerns(*b)) {
         out.push_back(std::move(s));
         return;
       }
-      block(editor, std::move(s), states.before(s), out);
+      block(editor, std::move(s), states_.before(s), out);
     });
   }
 
@@ -163,7 +162,7 @@ class FramePass {
     }
     const bool chain = can(FrameSlot::chain, FrameCombine::replace);
     const std::size_t first = out.size();
-    const bool done = chain ? to_chain(after, out) : to_slots(c, before, after, out);
+    const bool done = chain ? to_chain(before, after, out) : to_slots(c, before, after, out);
     if (!done) {
       refuse(s, program_, context_, "TRN-326", "the target can't hold this frame",
              "transform the coordinates of the part", a.pos);
@@ -173,9 +172,12 @@ class FramePass {
     return true;
   }
 
-  bool to_chain(const FrameState& f, std::vector<Action>& out) const {
+  bool to_chain(const FrameState& before, const FrameState& f, std::vector<Action>& out) const {
     const auto words = f.shift_words(true);
-    if (words.empty())
+    const bool turn_alone = before.known() && before.angle()->is(0) && !f.angle()->is(0) && same_shift(before, f);
+    if (turn_alone) {
+      // The shift is in force already.
+    } else if (words.empty())
       out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::clear));
     else
       out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::replace, words));
@@ -242,6 +244,7 @@ class FramePass {
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  const FrameStates states_;
 };
 
 bool uses_frames(const Program& program) {

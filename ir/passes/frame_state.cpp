@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "ir/passes/call_graph.h"
-
 namespace cnctrans::ir::passes {
 
 FrameState::FrameState() {
@@ -34,9 +32,23 @@ bool FrameState::neutral() const {
   return known() && angle_->is(0) && shift_words(true).empty();
 }
 
+void FrameState::limit(std::uint32_t axes_touched, bool rotates) {
+  touched_ = axes_touched;
+  rotates_ = rotates;
+}
+
 void FrameState::forget() {
-  shift_.fill(std::nullopt);
-  angle_.reset();
+  for (std::size_t a = 0; a < axes; ++a) {
+    if ((touched_ >> a & 1U) != 0) shift_[a].reset();
+  }
+  if (rotates_) angle_.reset();
+}
+
+void FrameState::forget_expressions() {
+  for (auto& s : shift_) {
+    if (s && s->expr) s.reset();
+  }
+  if (angle_ && angle_->expr) angle_.reset();
 }
 
 void FrameState::forget(const VarRef& v) {
@@ -138,75 +150,6 @@ void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b,
   }
   if (c.combine == FrameCombine::replace && c.slot == FrameSlot::chain) clear(FrameSlot::chain);
   foreign_ = true;
-}
-
-namespace {
-
-/// A range repeated in place is followed through the graph; calls and ranges of other routines are not.
-bool leaves_routine(const Statement& s) {
-  const auto* r = std::get_if<Repeat>(&s.node);
-  if (r != nullptr) return r->has_program || r->first.computed || r->last.computed;
-  return std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
-}
-
-}  // namespace
-
-FrameStates::FrameStates(const Program& program, const Routine& routine, const FactsOf& facts,
-                         const LegaliseContext& context) {
-  if (routine.body.empty()) return;
-  const ControlFlow flow = control_flow(program, routine);
-  FrameState start;
-  if (routine.kind == RoutineKind::sub) start.forget();
-  std::vector<std::uint32_t> open{routine.body.front().id};
-  states_[routine.body.front().id] = start;
-  while (!open.empty()) {
-    const auto id = open.back();
-    open.pop_back();
-    if (id == 0 || id >= flow.statements.size() || flow.statements[id] == nullptr) continue;
-    const Statement& s = *flow.statements[id];
-    FrameState state = states_[id];
-    if (const auto* b = std::get_if<Block>(&s.node)) {
-      for (const auto& a : b->actions) {
-        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
-          state.apply(*f->change, facts.before(s), *b, context.source_machine);
-      }
-    } else if (std::holds_alternative<Assign>(s.node)) {
-      each_target(s, [&state](const VarRef& v) { state.forget(v); });
-    } else if (leaves_routine(s)) {
-      bool changes = false;
-      for (const auto& r : program.routines) {
-        for_each_statement(r.body, [&changes, &r, &routine](const Statement& x) {
-          const auto* other = std::get_if<Block>(&x.node);
-          if (other == nullptr || &r == &routine) return;
-          for (const auto& a : other->actions) changes = changes || std::holds_alternative<FrameOp>(a.data);
-        });
-      }
-      if (changes) state.forget();
-    }
-    if (s.line.skip_mask != 0) state.join(states_[id]);
-    for (const auto next : flow.successors[id]) {
-      const auto it = states_.find(next);
-      if (it == states_.end()) {
-        states_[next] = state;
-        open.push_back(next);
-        continue;
-      }
-      FrameState joined = it->second;
-      joined.join(state);
-      if (!(joined == it->second)) {
-        it->second = joined;
-        open.push_back(next);
-      }
-    }
-  }
-}
-
-FrameState FrameStates::before(const Statement& s) const {
-  const auto it = states_.find(s.id);
-  if (it != states_.end()) return it->second;
-  FrameState none;
-  none.forget();
-  return none;
 }
 
 }  // namespace cnctrans::ir::passes

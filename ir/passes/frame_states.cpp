@@ -1,0 +1,226 @@
+// The programmable frame along a program, calls included.
+#include <algorithm>
+
+#include "ir/passes/call_graph.h"
+#include "ir/passes/frame_state.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+template <class Visit>
+void each_frame_change(const Routine& r, const Visit& visit) {
+  for_each_statement(r.body, [&visit](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) visit(*f->change);
+    }
+  });
+}
+
+/// A range of a routine run from elsewhere: neither its start nor its end is the routine's own.
+bool runs_part(const Statement& s) {
+  if (const auto* r = std::get_if<Repeat>(&s.node)) return r->has_program || r->first.computed || r->last.computed;
+  const auto* c = std::get_if<CallRoutine>(&s.node);
+  return c != nullptr && c->has_range;
+}
+
+bool leaves_by(const Statement& s) {
+  const auto* e = std::get_if<End>(&s.node);
+  return e == nullptr || e->returns_from_sub;
+}
+
+}  // namespace
+
+FrameStates::FrameStates(const Program& program, const FactsOf& facts, const LegaliseContext& context)
+    : program_(program), facts_(facts), machine_(context.source_machine), routines_(program.routines.size()) {
+  look(context);
+  const CallGraph calls(program);
+  for (std::size_t i = 0; i < routines_.size(); ++i) {
+    if (program.routines[i].kind == RoutineKind::main) enter(i, neutral_);
+    if (program.routines[i].kind == RoutineKind::sub && !calls.called(i)) {
+      FrameState any;
+      std::uint32_t all = 0;
+      for (const auto& a : machine_.axes) all |= 1U << a.id;
+      any.limit(all, true);
+      any.forget();
+      enter(i, any);
+    }
+  }
+  for (const auto& site : calls.sites()) {
+    if (!site.callee) continue;
+    const auto* c = std::get_if<CallRoutine>(&site.statement->node);
+    if (c == nullptr || c->computed || c->has_range) enter(*site.callee, unknown_);
+  }
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < routines_.size(); ++i) {
+      if (!routines_[i].open) continue;
+      routines_[i].open = false;
+      follow(i);
+      more = true;
+    }
+  }
+}
+
+/// Which axes are ever shifted, who changes frames.
+void FrameStates::look(const LegaliseContext& context) {
+  std::uint32_t touched = 0;
+  bool rotates = false;
+  for (std::size_t i = 0; i < routines_.size(); ++i) {
+    const Routine& r = program_.routines[i];
+    routines_[i].flow = control_flow(program_, r);
+    each_frame_change(r, [&](const FrameChange& c) {
+      routines_[i].changes_frames = true;
+      rotates = rotates || c.kind == FrameKind::rotate;
+      for (const auto& w : c.words) {
+        if (w.axis < FrameState::axes) touched |= 1U << w.axis;
+      }
+    });
+  }
+  const CallGraph calls(program_);
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& site : calls.sites()) {
+      auto& caller = routines_[site.caller];
+      const bool changes = !site.callee || routines_[*site.callee].changes_frames;
+      if (changes && !caller.changes_frames) caller.changes_frames = more = true;
+    }
+  }
+  for (const auto& site : calls.sites()) {
+    const bool modal = std::holds_alternative<ModalCall>(site.statement->node);
+    if (!site.callee) {  // a program that is not here may shift any axis
+      for (const auto& a : context.source_machine.axes) touched |= 1U << a.id;
+      rotates = true;
+    }
+    modal_calls_change_ = modal_calls_change_ || (modal && (!site.callee || routines_[*site.callee].changes_frames));
+  }
+  neutral_.limit(touched, rotates);
+  unknown_.limit(touched, rotates);
+  unknown_.forget();
+}
+
+void FrameStates::enter(std::size_t routine, FrameState state) {
+  auto& r = routines_[routine];
+  state.forget_expressions();
+  if (r.entry) {
+    FrameState joined = *r.entry;
+    joined.join(state);
+    if (joined == *r.entry) return;
+    state = joined;
+  }
+  r.entry = state;
+  r.open = true;
+}
+
+void FrameStates::follow(std::size_t routine) {
+  const Routine& r = program_.routines[routine];
+  auto& of = routines_[routine];
+  std::optional<FrameState> exit;
+  const auto leave = [&exit](const FrameState& state) {
+    if (exit)
+      exit->join(state);
+    else
+      exit = state;
+  };
+  std::vector<std::uint32_t> open;
+  if (r.body.empty()) {
+    leave(*of.entry);
+  } else {
+    for_each_statement(r.body, [this](const Statement& s) { states_.erase(s.id); });
+    states_.emplace(r.body.front().id, *of.entry);
+    open.push_back(r.body.front().id);
+  }
+  while (!open.empty()) {
+    const auto id = open.back();
+    open.pop_back();
+    if (id == 0 || id >= of.flow.statements.size() || of.flow.statements[id] == nullptr) continue;
+    const Statement& s = *of.flow.statements[id];
+    const FrameState before = states_.at(id);
+    auto state = after(routine, s, before);
+    if (!state) continue;
+    if (s.line.skip_mask != 0) state->join(before);
+    if (std::holds_alternative<Return>(s.node)) leave(*state);
+    for (const auto next : of.flow.successors[id]) {
+      if (next == 0 && leaves_by(s)) leave(*state);
+      if (next == 0) continue;
+      const auto [it, fresh] = states_.emplace(next, *state);
+      if (fresh) {
+        open.push_back(next);
+        continue;
+      }
+      FrameState joined = it->second;
+      joined.join(*state);
+      if (joined == it->second) continue;
+      it->second = joined;
+      open.push_back(next);
+    }
+  }
+  if (!exit || (of.exit && *of.exit == *exit)) return;
+  if (of.exit) exit->join(*of.exit);
+  if (of.exit && *of.exit == *exit) return;
+  of.exit = exit;
+  for (auto& other : routines_) other.open = other.open || other.entry.has_value();
+}
+
+std::optional<FrameState> FrameStates::after(std::size_t routine, const Statement& s, FrameState state) {
+  if (const auto* b = std::get_if<Block>(&s.node)) {
+    for (const auto& a : b->actions) {
+      if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
+        state.apply(*f->change, facts_.before(s), *b, machine_);
+    }
+    if (b->has_motion && modal_calls_change_) state.forget();
+    return state;
+  }
+  if (runs_part(s)) {
+    state.forget();
+    return state;
+  }
+  if (const auto* call = std::get_if<CallRoutine>(&s.node)) return after_call(routine, *call, state);
+  if (std::holds_alternative<ModalCall>(s.node)) {
+    if (modal_calls_change_) state.forget();
+    return state;
+  }
+  each_target(s, [&state](const VarRef& v) { state.forget(v); });
+  return state;
+}
+
+std::optional<FrameState> FrameStates::after_call(std::size_t routine, const CallRoutine& call, FrameState state) {
+  const Routine* callee = call.computed ? nullptr : program_.find(call.routine);
+  if (callee == nullptr) {
+    state.forget();
+    return state;
+  }
+  auto& of = routines_[static_cast<std::size_t>(callee - program_.routines.data())];
+  enter(static_cast<std::size_t>(callee - program_.routines.data()), state);
+  if (!of.changes_frames) {
+    forget_written(routine, state);
+    return state;
+  }
+  if (!of.exit) return std::nullopt;
+  FrameState back = *of.exit;
+  back.forget_expressions();
+  if (call.count) {  // any number of times, none included
+    enter(static_cast<std::size_t>(callee - program_.routines.data()), back);
+    back.join(state);
+  }
+  return back;
+}
+
+/// What other routines write may stand in the expressions of the caller's frame.
+void FrameStates::forget_written(std::size_t caller, FrameState& state) const {
+  for (std::size_t i = 0; i < program_.routines.size(); ++i) {
+    if (i == caller) continue;
+    for_each_statement(program_.routines[i].body, [&state](const Statement& s) {
+      each_target(s, [&state](const VarRef& v) { state.forget(v); });
+    });
+  }
+}
+
+FrameState FrameStates::before(const Statement& s) const {
+  const auto it = states_.find(s.id);
+  return it != states_.end() ? it->second : unknown_;
+}
+
+}  // namespace cnctrans::ir::passes
