@@ -170,10 +170,20 @@ void Writer::motion(const ir::Motion& m) {
   }
   const bool rapid = m.kind == ir::MotionKind::rapid || (m.kind == ir::MotionKind::modal && !same_dialect());
   const bool silent = in_cycle && rapid && (!same_dialect() || !m.explicit_code);
-  if (!silent) return ProgramWriter::motion(m);
+  if (!silent) {
+    ProgramWriter::motion(m);
+    if (machine_frame_in_incremental(m)) add("G91", Rank::center);
+    return;
+  }
   frame_use(m);
   for (const auto& w : m.coords) coordinate(m, w);
   if (m.extra) motion_extra(m, *m.extra);
+}
+
+/// G52 needs G90: the mode in force comes back behind the words.
+bool Writer::machine_frame_in_incremental(const ir::Motion& m) {
+  return m.frame == ir::FrameUse::machine && !same_dialect() &&
+         setting(ir::Setting::distance) == code_value(ir::Distance::incremental);
 }
 
 void Writer::frame_use(const ir::Motion& m) {
@@ -181,7 +191,17 @@ void Writer::frame_use(const ir::Motion& m) {
   if (m.frame != ir::FrameUse::machine)
     return refuse(no_word, m.frame_pos,
                   "a move in machine coordinates that keeps the tool length has no counterpart here");
-  add("G52", Rank::frame, m.frame_pos);
+  if (same_dialect()) return add("G52", Rank::frame, m.frame_pos);
+  const auto mode = setting(ir::Setting::distance);
+  for (const auto& w : m.coords) {
+    if (w.mode == ir::WordMode::incremental || (w.mode == ir::WordMode::modal && !mode) ||
+        (w.mode == ir::WordMode::modal && *mode == code_value(ir::Distance::incremental)))
+      return refuse(no_word, w.pos,
+                    "an incremental move in machine coordinates has no counterpart here (G52 needs G90)",
+                    "write the position in machine coordinates");
+  }
+  if (!mode) return refuse(no_word, m.frame_pos, "a move in machine coordinates stands where G90 or G91 is not known");
+  add(machine_frame_in_incremental(m) ? "G90 G52" : "G52", Rank::frame, m.frame_pos);
 }
 
 void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
@@ -212,11 +232,10 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
     if (!mode)
       return refuse(no_word, w.pos,
                     "a word that is absolute or incremental by itself stands where G90 or G91 is not known");
-    if (*mode != code_value(wanted))
+    if (*mode != code_value(wanted) && m.frame == ir::FrameUse::normal)
       text = (wanted == ir::Distance::absolute ? "G90 " + text + " G91" : "G91 " + text + " G90");
   }
   add(text, Rank::coordinate, w.pos);
-  (void)m;
 }
 
 void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
@@ -302,8 +321,13 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
     const auto plane = setting(ir::Setting::plane);
     return plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::z;
   }();
-  add(level_word(axis_name(axis), c.bottom, a.pos), Rank::center);
+  // Depth and planes are absolute; the positions stand before them and keep the mode in force.
+  const auto mode = setting(ir::Setting::distance);
+  if (!mode && !same_dialect()) return refuse(no_cycle, a.pos, "a cycle stands where G90 or G91 is not known");
+  const bool incremental = mode == code_value(ir::Distance::incremental) && !same_dialect();
+  add((incremental ? "G90 " : "") + level_word(axis_name(axis), c.bottom, a.pos), Rank::center);
   hole_levels(a, c);
+  if (incremental) add("G91", Rank::motion_extra);
   if (dwells)
     add(word("EF", c.dwell_scale == 1 ? c.dwell_bottom : ir::scale(c.dwell_bottom, c.dwell_scale), a.pos),
         Rank::motion_extra);

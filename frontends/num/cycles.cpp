@@ -26,6 +26,14 @@ void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cy
 
 /// Words that all cycles share, into `cycle`; what is not given stays.
 bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
+  for (const int s : {e('R'), e('H')}) {
+    if (!has(s)) continue;
+    const Word& w = *pending_[static_cast<std::size_t>(s)];
+    if (distance_at(w.pos.column) != ir::Distance::incremental) continue;
+    report_.refuse("NUM-026", w.pos, "what a plane of a cycle counts from under G91 is not described",
+                   "write G90 before it", "cycle.hole");
+    return false;
+  }
   const auto level = [this](const Word& w) {
     ir::Level l;
     l.value = axis_value(w, cycle_axis());
@@ -87,10 +95,11 @@ bool Lowering::cycle_bottom(ir::HoleCycle& cycle, const Word& g) {
     if (it->axis != cycle_axis()) continue;
     cycle.bottom.value = std::move(it->value);
     cycle.bottom.given = true;
+    const bool incremental = distance_at(it->pos.column) == ir::Distance::incremental;
     coords.erase(it);
-    if (state_.distance != ir::Distance::incremental) return true;
+    if (!incremental) return true;
     report_.refuse("NUM-026", g.pos, "what the depth of a cycle counts from under G91 is not described",
-                   "write the cycle under G90", "cycle.hole");
+                   "write G90 before the depth", "cycle.hole");
     return false;
   }
   report_.refuse("NUM-026", g.pos, "the cycle has no depth (" + std::string(ir::fixed_axis_name(cycle_axis())) + ")");

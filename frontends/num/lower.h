@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -90,6 +91,8 @@ class Lowering {
   // resolve.cpp: what the words mean together
   void resolve();
   void resolve_distance();
+  /// What a word at this column counts as; nullopt: the state of the caller decides.
+  [[nodiscard]] std::optional<ir::Distance> distance_at(std::uint32_t column) const;
   void resolve_motion();
   void resolve_arc(bool explicit_code);
   void resolve_dwell();
@@ -144,9 +147,10 @@ class Lowering {
     bool any = false;                     ///< one of those above
     bool motion = false;                  ///< a motion code stands in the block
     bool cycle_off = false;
-    bool distance_after = false;      ///< the mode changes after the move: words stand before its code
-    bool unsorted = false;            ///< actions don't stand in the order of their steps
-    std::uint8_t distance_count = 0;  ///< G90 and G91 words
+    bool distance_after = false;  ///< the mode changes after the move: words stand before its code
+    ir::Distance distance_before = ir::Distance::absolute;  ///< in force before the block
+    bool unsorted = false;                                  ///< actions don't stand in the order of their steps
+    std::uint8_t distance_count = 0;                        ///< G90 and G91 words
     std::array<const Word*, 4> distances{};
   };
 

@@ -70,8 +70,10 @@ void Lowering::resolve_special() {
         return;
       }
     }
-    if (state_.known && state_.distance == ir::Distance::incremental) {
+    for (const auto& c : out_->motion.coords) {
+      if (distance_at(c.pos.column) != ir::Distance::incremental) continue;
       report_.refuse("NUM-012", w.pos, "G52 needs absolute programming (G90)");
+      return;
     }
     out_->motion.frame = ir::FrameUse::machine;
     out_->motion.frame_pos = w.pos;
@@ -123,7 +125,7 @@ void Lowering::resolve_distance() {
     before_first = before_first ||
                    (has(letter(c)) && pending_[static_cast<std::size_t>(letter(c))]->pos.column < first->pos.column);
   }
-  if (before_first && (marks_.shift != nullptr || marks_.cycle != nullptr)) {
+  if (before_first && marks_.shift != nullptr) {
     report_.refuse("NUM-012", first->pos, "G90 or G91 in the middle of the words of this block",
                    "write it before them");
     return;
@@ -143,6 +145,16 @@ void Lowering::resolve_distance() {
     act(*last, Step::after, set, ir::Order::after);
   else
     act(*last, Step::setting, set);
+}
+
+std::optional<ir::Distance> Lowering::distance_at(std::uint32_t column) const {
+  std::optional<ir::Distance> mode;
+  if (state_.known) mode = marks_.distance_before;
+  for (std::size_t i = 0; i < marks_.distance_count; ++i) {
+    const Word& w = *marks_.distances[i];
+    if (w.pos.column < column) mode = w.number == 91 ? ir::Distance::incremental : ir::Distance::absolute;
+  }
+  return mode;
 }
 
 void Lowering::resolve_motion() {

@@ -349,6 +349,7 @@ bool Lowering::words(const syntax::Block& b, const Span& line, std::string_view 
   out_ = &out;
   flow_ = &flow;
   marks_ = Marks{};
+  marks_.distance_before = state_.distance;
   present_ = used_ = 0;
   steps_.clear();
   for (const Word& w : b.words) take(w);

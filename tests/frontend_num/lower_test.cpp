@@ -54,6 +54,8 @@ TEST(NumLower, MachineCoordinates) {  // 8.7
   EXPECT_EQ(line("G52 G17 G90 G0 X540 Z650"),
             "block plane xy as \"G17\", distance absolute as \"G90\", rapid as \"G0\" in_frame machine X 540 Z 650");
   EXPECT_EQ(line("Z5 G52"), "opaque \"Z5 G52\" feature \"text.unread\" !NUM-012");
+  EXPECT_NE(line("G91 G0 G52 Z5").find("!NUM-012"), std::string::npos);
+  EXPECT_EQ(line("G91\nG0 G90 G52 Z5 G91").find("NUM-012"), std::string::npos);
 }
 
 TEST(NumLower, DistanceByPlaceInTheBlock) {  // 2.4, 6.10
@@ -186,6 +188,14 @@ TEST(NumLower, DrillingCycles) {  // 11
   EXPECT_NE(line("G81 Z-1 P3").find("!NUM-027"), std::string::npos);
   EXPECT_NE(line("G86 Z-1").find("!NUM-004"), std::string::npos);
   EXPECT_EQ(line("G83 Z-12 P10 ER1 \nX50\nG80 G97 S1000").substr(0, 5), "block");
+}
+
+TEST(NumLower, DepthOfACycleBesideIncrements) {  // 2.4, 11.1
+  EXPECT_NE(line("G91 G81 X5 Z-3").find("!NUM-026"), std::string::npos);
+  EXPECT_NE(line("G91 G81 X5 G90 Z-3 G91 ER2").find("!NUM-026"), std::string::npos);
+  const std::string s = line("G91\nG81 X5 G90 Z-3 ER2 G91");
+  EXPECT_EQ(s.find("!"), std::string::npos) << s;
+  EXPECT_NE(s.find("bottom -3"), std::string::npos) << s;
 }
 
 TEST(NumLower, WordsOfAnActiveCycle) {  // 11.1, 26.6
