@@ -54,16 +54,17 @@ constexpr std::array binary_texts{
 };
 constexpr std::array unary_texts{UnaryText{ir::UnaryOp::negate, "-", 3}};
 
-std::vector<ir::VariablePool> pools() {
+std::vector<ir::VariablePool> pools(bool later) {
   std::vector<ir::VariablePool> list;
   // L0-L19 first: they cost no stop of the preparation. L900-L959 next; L100-L199 wait for the block before.
   list.push_back({"L", 0, 19, ir::Scope::global, true});
-  list.push_back({"L", 900, 959, ir::Scope::global, false});
-  list.push_back({"L", 100, 199, ir::Scope::global, false});
+  if (later) list.push_back({"L", 900, 959, ir::Scope::global, false});
+  // Reference 14.1: L100-L199 are not for blocks under G41 and G42.
+  list.push_back({"L", 100, 199, ir::Scope::global, false, true});
   return list;
 }
 
-ir::Capabilities make_capabilities(bool lathe) {
+ir::Capabilities make_capabilities(bool lathe, bool later) {
   ir::Capabilities c;
   c.dialect = "num";
   // Structured words are not in the course book: loops and branches are written with G79.
@@ -87,7 +88,7 @@ ir::Capabilities make_capabilities(bool lathe) {
   c.routine_number_min = facts::program_min;
   c.routine_number_max = facts::program_max;
   c.spaces = facts::spaces();
-  c.pools = pools();
+  c.pools = pools(later);
   c.distance_inside_block = true;
   c.centers = {ir::CenterMode::follows_distance};
   c.radius_major = false;
@@ -163,10 +164,10 @@ const ExpressionStyle& expression_style() {
   return s;
 }
 
-const ir::Capabilities& capabilities(bool lathe) {
-  static const ir::Capabilities mill = make_capabilities(false);
-  static const ir::Capabilities turn = make_capabilities(true);
-  return lathe ? turn : mill;
+const ir::Capabilities& capabilities(bool lathe, bool later) {
+  static const std::array<ir::Capabilities, 4> all{make_capabilities(false, false), make_capabilities(false, true),
+                                                   make_capabilities(true, false), make_capabilities(true, true)};
+  return all[(lathe ? 2U : 0U) + (later ? 1U : 0U)];
 }
 
 bool centre_from_start(const machine::Profile& profile) {

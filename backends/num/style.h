@@ -11,7 +11,8 @@ namespace cnctrans::backends::num {
 
 const Style& style();
 const ExpressionStyle& expression_style();
-const ir::Capabilities& capabilities(bool lathe);
+/// `later`: of the families 10xx and flx.
+const ir::Capabilities& capabilities(bool lathe, bool later);
 
 /// Centre words are absolute in G90 (the course's rule); `incremental` by profile option.
 bool centre_from_start(const machine::Profile& profile);

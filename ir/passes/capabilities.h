@@ -37,7 +37,8 @@ struct VariablePool {
   std::string prefix;  ///< space prefix
   std::int64_t lo = 0, hi = 0;
   Scope scope = Scope::global;
-  bool temporaries = false;  ///< preferred for temporaries
+  bool temporaries = false;           ///< preferred for temporaries
+  bool outside_compensation = false;  ///< can't be used while radius compensation is on
 };
 
 struct Capabilities {

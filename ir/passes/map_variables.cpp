@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "ir/passes/call_graph.h"
+#include "ir/passes/facts.h"
 #include "ir/passes/lower_calls.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/variable_pools.h"
@@ -37,6 +38,7 @@ class VariableMap {
   void run() {
     number_statements(program_);
     pools_.level_is_global = !use_.levels;
+    if (pools_.depends_on_compensation()) find_compensated();
     place_numbered();
     place_levels();
     place_named();
@@ -47,6 +49,33 @@ class VariableMap {
 
  private:
   using NamedKey = std::pair<SpaceId, std::string>;
+
+  /// Variables that stand in a statement while radius compensation is on, or may be.
+  void find_compensated() {
+    const FactsOf facts(program_, context_);
+    for (auto& routine : program_.routines) {
+      for_each_statement(routine.body, [&](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        const Facts& before = facts.before(s);
+        const auto side =
+            b != nullptr ? setting_in<CompSide>(*b, before, Setting::comp) : setting<CompSide>(before, Setting::comp);
+        if (side == CompSide::off && setting<CompSide>(before, Setting::comp) == CompSide::off) return;
+        const auto note = [this](const VarRef& v) {
+          const auto n = v.name.empty() ? constant_index(v) : std::nullopt;
+          if (n || !v.name.empty()) compensated_.insert({v.space, n ? std::to_string(*n) : v.name});
+        };
+        each_target(s, note);
+        each_expression(s, [&](const ExprPtr& e) {
+          walk(e, [&](const ExprPtr& x) {
+            if (const auto* v = as_variable(x)) note(*v);
+          });
+        });
+      });
+    }
+  }
+  [[nodiscard]] bool compensated(SpaceId space, const std::string& name) const {
+    return compensated_.count({space, name}) != 0;
+  }
 
   // --- numbered spaces ------------------------------------------------------------------------------------------
 
@@ -75,7 +104,10 @@ class VariableMap {
     std::int64_t from = segment.lo;
     if (const auto* pool = pools_.holding(segment.lo, segment)) {  // the numbers stay
       shifts.insert(0);
-      std::erase_if(used, [&](std::int64_t n) { return n <= pool->hi && take(space, n, *pool, n); });
+      std::erase_if(used, [&](std::int64_t n) {
+        const auto* own = pools_.holding(n, segment);
+        return own != nullptr && take(space, n, *own, n);
+      });
       from = pool->hi + 1;
     }
     if (!used.empty() || from == segment.lo) {
@@ -86,7 +118,7 @@ class VariableMap {
     }
     for (const auto n : used) {
       shifts.insert(n == 0 ? 1 : n * 1000003);  // packed: no common shift
-      const auto free = pools_.any_free(segment);
+      const auto free = pools_.any_free(segment, compensated(space, std::to_string(n)));
       if (free)
         take(space, n, *free->first, free->second);
       else
@@ -94,6 +126,7 @@ class VariableMap {
     }
   }
   bool take(SpaceId space, std::int64_t n, const VariablePool& pool, std::int64_t to) {
+    if (pool.outside_compensation && compensated(space, std::to_string(n))) return false;
     if (!pools_.take(pool.prefix, to)) return false;
     places_[{space, n}] = VarRef{pools_.space(pool.prefix), {}, number(static_cast<double>(to)), {}};
     return true;
@@ -172,7 +205,8 @@ class VariableMap {
       if (keeps_name(key, info)) continue;
       const auto wanted = preferred_number(key.second);
       const auto* pool = wanted && info.dimensions.empty() ? pools_.holding_any(*wanted) : nullptr;
-      if (pool != nullptr && pools_.take(pool->prefix, *wanted)) {
+      const bool fits = pool != nullptr && !(pool->outside_compensation && compensated(key.first, key.second));
+      if (fits && pools_.take(pool->prefix, *wanted)) {
         named_places_[key] = VarRef{pools_.space(pool->prefix), {}, number(static_cast<double>(*wanted)), {}};
       } else {
         rest.push_back(key);
@@ -181,7 +215,7 @@ class VariableMap {
     for (const auto& key : rest) {
       std::int64_t size = 1;
       for (const auto d : use_.named[key].dimensions) size *= std::max<std::int64_t>(d, 1);
-      const auto free = pools_.run_of_free(size);
+      const auto free = pools_.run_of_free(size, compensated(key.first, key.second));
       if (!free) {
         none_left(key.second.substr(0, key.second.find('@')));
         continue;
@@ -423,6 +457,7 @@ class VariableMap {
 
   Program& program_;
   const LegaliseContext& context_;
+  std::set<std::pair<SpaceId, std::string>> compensated_;
   VariableUse use_;
   VariablePools pools_;
   std::map<std::pair<SpaceId, std::int64_t>, VarRef> places_;

@@ -69,10 +69,11 @@ VariablePools::Found VariablePools::shift_for(const SpaceSegment& segment, std::
   return std::nullopt;
 }
 
-VariablePools::Found VariablePools::any_free(const SpaceSegment& segment) const {
+VariablePools::Found VariablePools::any_free(const SpaceSegment& segment, bool compensated) const {
   for (const bool temporaries : {false, true}) {
     for (const auto& p : pools_) {
       if (p.temporaries != temporaries || !usable(p, segment.persistent)) continue;
+      if (compensated && p.outside_compensation) continue;
       for (std::int64_t n = p.lo; n <= p.hi; ++n) {
         if (free(p.prefix, n)) return std::make_pair(&p, n);
       }
@@ -81,10 +82,11 @@ VariablePools::Found VariablePools::any_free(const SpaceSegment& segment) const 
   return std::nullopt;
 }
 
-VariablePools::Found VariablePools::run_of_free(std::int64_t size) const {
+VariablePools::Found VariablePools::run_of_free(std::int64_t size, bool compensated) const {
   for (const bool temporaries : {false, true}) {
     for (const auto& p : pools_) {
       if (p.temporaries != temporaries || !usable(p, false)) continue;
+      if (compensated && p.outside_compensation) continue;
       std::int64_t run = 0;
       for (std::int64_t n = p.lo; n <= p.hi; ++n) {
         run = free(p.prefix, n) ? run + 1 : 0;
@@ -93,6 +95,10 @@ VariablePools::Found VariablePools::run_of_free(std::int64_t size) const {
     }
   }
   return std::nullopt;
+}
+
+bool VariablePools::depends_on_compensation() const {
+  return std::any_of(pools_.begin(), pools_.end(), [](const VariablePool& p) { return p.outside_compensation; });
 }
 
 const VariablePool* VariablePools::level_pool() const {

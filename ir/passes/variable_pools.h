@@ -24,8 +24,11 @@ class VariablePools {
   /// A pool and a distance by which all `used` numbers (those from `from` on) fit in and are free.
   [[nodiscard]] Found shift_for(const SpaceSegment& segment, std::int64_t from,
                                 const std::vector<std::int64_t>& used) const;
-  [[nodiscard]] Found any_free(const SpaceSegment& segment) const;
-  [[nodiscard]] Found run_of_free(std::int64_t size) const;
+  /// `compensated`: it is used while radius compensation is on.
+  [[nodiscard]] Found any_free(const SpaceSegment& segment, bool compensated = false) const;
+  [[nodiscard]] Found run_of_free(std::int64_t size, bool compensated = false) const;
+  /// Some of the numbers can't be used while radius compensation is on.
+  [[nodiscard]] bool depends_on_compensation() const;
   [[nodiscard]] const VariablePool* level_pool() const;
   bool take(const std::string& prefix, std::int64_t n) { return taken_.insert({prefix, n}).second; }
   [[nodiscard]] SpaceId space(const std::string& prefix) const;
