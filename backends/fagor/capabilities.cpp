@@ -38,6 +38,7 @@ void statements(ir::Capabilities& c) {  // ch. 12, 17, 18
   c.call_count = false;
   c.call_range = false;
   c.computed_call = true;
+  c.heading_below_header = false;
   c.named_routines = false;
   c.early_return = false;
   c.end_in_sub_ends_all = true;

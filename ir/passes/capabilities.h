@@ -99,6 +99,7 @@ struct Capabilities {
   bool call_count = true;
   bool call_range = false;  ///< CallRoutine::has_range
   bool computed_call = false;
+  bool heading_below_header = true;  ///< comments about a routine stand below its header, not above it
   bool named_routines = false;
   bool early_return = false;
   bool end_in_sub_ends_all = true;

@@ -237,9 +237,7 @@ Editor::~Editor() {
   for (const auto& n : declared_) d.items.push_back({n, {}, {}});
   Statement s;
   s.node = std::move(d);
-  auto at = routine.body.begin();
-  while (at != routine.body.end() && std::holds_alternative<Declare>(at->node)) ++at;
-  routine.body.insert(at, std::move(s));
+  routine.body.insert(below_head(routine.body), std::move(s));
 }
 
 }  // namespace cnctrans::ir::passes

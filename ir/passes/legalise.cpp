@@ -15,6 +15,7 @@ struct Pass {
 };
 
 constexpr std::array pipeline{
+    Pass{"headings", passes::move_headings, false},
     Pass{"returns", passes::normalise_returns, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},

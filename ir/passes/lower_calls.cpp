@@ -65,9 +65,7 @@ void declare_at_top(Routine& routine, Type type, SpaceId space, const std::vecto
   for (const auto& n : names) d.items.push_back({n, {}, {}});
   Statement s;
   s.node = std::move(d);
-  auto at = routine.body.begin();
-  while (at != routine.body.end() && std::holds_alternative<Declare>(at->node)) ++at;
-  routine.body.insert(at, std::move(s));
+  routine.body.insert(below_head(routine.body), std::move(s));
 }
 
 void lower_calls(Program& program, const LegaliseContext& context) {

@@ -450,9 +450,8 @@ class VariableMap {
     if (!line.empty()) head.push_back(make_comment(line, program_));
     const LineInfo nowhere;
     for (const auto& v : zero_first_) head.push_back(make_assign(nowhere, v, number(0)));
-    auto at = main->body.begin();
-    while (at != main->body.end() && (std::holds_alternative<Declare>(at->node) || is_remark(*at))) ++at;
-    main->body.insert(at, std::make_move_iterator(head.begin()), std::make_move_iterator(head.end()));
+    main->body.insert(below_head(main->body), std::make_move_iterator(head.begin()),
+                      std::make_move_iterator(head.end()));
   }
 
   Program& program_;

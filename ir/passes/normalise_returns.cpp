@@ -28,17 +28,11 @@ class EndInSub {
     for (std::size_t r = 0; r < program_.routines.size(); ++r) rewrite(r);
     for (auto& r : program_.routines) {
       if (r.kind != RoutineKind::main) continue;
-      r.body.insert(first_place(r.body), make_assign(LineInfo{}, flag_, number(0)));
+      r.body.insert(below_head(r.body), make_assign(LineInfo{}, flag_, number(0)));
     }
   }
 
  private:
-  static Body::iterator first_place(Body& body) {
-    auto at = body.begin();
-    while (at != body.end() && std::holds_alternative<Declare>(at->node)) ++at;
-    return at;
-  }
-
   void find_enders() {
     for (std::size_t r = 0; r < program_.routines.size(); ++r) {
       if (program_.routines[r].kind == RoutineKind::main) continue;

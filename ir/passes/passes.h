@@ -6,6 +6,7 @@
 
 namespace cnctrans::ir::passes {
 
+void move_headings(Program& program, const LegaliseContext& context);  ///< comments above the header of a routine
 void normalise_returns(Program& program,
                        const LegaliseContext& context);  ///< early returns, program end in subprograms
 void lower_modal_calls(Program& program, const LegaliseContext& context);  ///< calls after every block with motion

@@ -110,6 +110,8 @@ Statement make_comment(std::string text, Program& program);
 Statement make_block(const LineInfo& like, Action action);
 /// A line with nothing but comments, or an empty one.
 bool is_remark(const Statement& s);
+/// Behind the declarations and the remarks at the head of a routine: where a pass puts statements that come first.
+Body::iterator below_head(Body& body);
 /// Puts a label on a line.
 void set_label(LineInfo& line, const LabelRef& label, Program& program);
 /// A block action made by a pass.

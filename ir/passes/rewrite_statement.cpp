@@ -228,6 +228,12 @@ bool is_remark(const Statement& s) {
   return b != nullptr && b->empty() && b->repeat_given == 0 && s.line.number.empty() && s.line.labels.empty();
 }
 
+Body::iterator below_head(Body& body) {
+  auto at = body.begin();
+  while (at != body.end() && (std::holds_alternative<Declare>(at->node) || is_remark(*at))) ++at;
+  return at;
+}
+
 Statement make_block(const LineInfo& like, Action action) {
   Block b;
   b.actions.push_back(std::move(action));

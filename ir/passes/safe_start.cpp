@@ -50,7 +50,8 @@ class SafeStart {
       blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
     }
     if (!shift_cleared_ && clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
-    main_.body.insert(place(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+    main_.body.insert(below_head(main_.body), std::make_move_iterator(blocks.begin()),
+                      std::make_move_iterator(blocks.end()));
   }
 
  private:
@@ -152,12 +153,6 @@ class SafeStart {
     change->slot = FrameSlot::shift;
     change->combine = FrameCombine::clear;
     return action(FrameOp{std::move(change)});
-  }
-
-  Body::iterator place() {
-    auto at = main_.body.begin();
-    while (at != main_.body.end() && (std::holds_alternative<Declare>(at->node) || is_remark(*at))) ++at;
-    return at;
   }
 
   Program& program_;
