@@ -4,8 +4,19 @@ find_program(ANTLR4_TOOL antlr4 REQUIRED)
 find_library(ANTLR4_RUNTIME_STATIC libantlr4-runtime.a REQUIRED)
 find_path(ANTLR4_INCLUDE antlr4-runtime/antlr4-runtime.h REQUIRED)
 
+set(antlr_headers ${ANTLR4_INCLUDE}/antlr4-runtime)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # Clang finds no default constructor for the runtime's Vocabulary (const vectors without an initialiser; language
+  # defect 253, which GCC takes as it was meant). It reads a copy of the headers where they have one.
+  set(antlr_headers ${CMAKE_BINARY_DIR}/generated/antlr4-runtime)
+  file(COPY ${ANTLR4_INCLUDE}/antlr4-runtime/ DESTINATION ${antlr_headers})
+  file(READ ${antlr_headers}/Vocabulary.h vocabulary)
+  string(REGEX REPLACE "(const _(literal|symbolic|display)Names);" "\\1{};" vocabulary "${vocabulary}")
+  file(WRITE ${antlr_headers}/Vocabulary.h "${vocabulary}")
+endif()
+
 add_library(cnc_antlr_runtime INTERFACE)
-target_include_directories(cnc_antlr_runtime SYSTEM INTERFACE ${ANTLR4_INCLUDE}/antlr4-runtime)
+target_include_directories(cnc_antlr_runtime SYSTEM INTERFACE ${antlr_headers})
 find_package(Threads REQUIRED)
 target_link_libraries(cnc_antlr_runtime INTERFACE ${ANTLR4_RUNTIME_STATIC} Threads::Threads)
 
