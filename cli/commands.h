@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Arguments {
   bool quiet = false;
   std::vector<std::string> set;
   std::string skip;
-  std::uint64_t max_events = 50'000'000;
+  std::optional<std::uint64_t> max_events;  ///< else by command: 50 million, or 2 million where traces are kept
   std::uint64_t max_steps = 500'000'000;
   std::string trace, vars;
   bool json = false;

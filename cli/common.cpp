@@ -9,8 +9,11 @@ namespace cnctrans::cli {
 
 namespace {
 
+/// A verification keeps both traces in memory: about 0.5 kB an event.
+constexpr std::uint64_t kept_events = 2'000'000;
+
 bool run_limits(const Arguments& a, interpreter::Options& run) {
-  run.max_events = a.max_events;
+  if (a.max_events) run.max_events = *a.max_events;
   run.max_steps = a.max_steps;
   for (const auto& item : a.set) {
     const auto equals = item.find('=');
@@ -62,6 +65,7 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   if (a.eol == "lf") out.eol = Eol::lf;
   if (a.eol == "crlf") out.eol = Eol::crlf;
   if (a.eol == "cr") out.eol = Eol::cr;
+  out.run.max_events = kept_events;
   return run_limits(a, out.run);
 }
 

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <new>
 
 #include "cli/commands.h"
 #include "cli/completion.h"
@@ -116,14 +117,17 @@ int main(int argc, char** argv) {
     const int status = app.exit(e);
     return status == 0 ? 0 : cnctrans::cli::usage;
   }
-  if (run->parsed()) return cnctrans::cli::run(a);
-  if (verify->parsed()) return cnctrans::cli::verify(a);
-  if (check->parsed()) return cnctrans::cli::check(a);
-  if (ir->parsed()) return cnctrans::cli::print_ir(a);
-  if (list->parsed()) return cnctrans::cli::list_dialects(a);
-  if (completion->parsed()) {
-    std::fputs(cnctrans::cli::completion(app, a.shell).c_str(), stdout);
-    return cnctrans::cli::ok;
+  try {
+    if (run->parsed()) return cnctrans::cli::run(a);
+    if (verify->parsed()) return cnctrans::cli::verify(a);
+    if (check->parsed()) return cnctrans::cli::check(a);
+    if (ir->parsed()) return cnctrans::cli::print_ir(a);
+    if (list->parsed()) return cnctrans::cli::list_dialects(a);
+    if (!completion->parsed()) return cnctrans::cli::convert(a);
+  } catch (const std::bad_alloc&) {
+    std::fputs("cnctrans: not enough memory for this input\n", stderr);
+    return cnctrans::cli::refused;
   }
-  return cnctrans::cli::convert(a);
+  std::fputs(cnctrans::cli::completion(app, a.shell).c_str(), stdout);
+  return cnctrans::cli::ok;
 }
