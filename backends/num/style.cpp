@@ -36,10 +36,9 @@ constexpr std::array modal_codes{
     ModalCode{Setting::feed_override, code_value(ir::OnOff::off), "M49"},
 };
 constexpr std::array motion_codes{
-    MotionCode{ir::MotionKind::rapid, "G0"},
-    MotionCode{ir::MotionKind::linear, "G1"},
-    MotionCode{ir::MotionKind::arc_cw, "G2"},
-    MotionCode{ir::MotionKind::arc_ccw, "G3"},
+    MotionCode{ir::MotionKind::rapid, "G0"},   MotionCode{ir::MotionKind::linear, "G1"},
+    MotionCode{ir::MotionKind::arc_cw, "G2"},  MotionCode{ir::MotionKind::arc_ccw, "G3"},
+    MotionCode{ir::MotionKind::thread, "G38"},
 };
 constexpr std::array<std::string_view, 1> skip_marks{"/"};
 
@@ -93,6 +92,8 @@ ir::Capabilities make_capabilities(bool lathe, bool later) {
   c.centers = {ir::CenterMode::follows_distance};
   c.radius_major = false;
   c.helix_pitch = true;
+  c.line_angle = true;
+  if (lathe) c.motions.insert(ir::MotionKind::thread);
   c.full_circle_needs_end = true;
   c.center_scales[ir::CenterMode::follows_distance] = ir::WordScale::modal;
   c.diameter_switch = false;
@@ -179,9 +180,22 @@ bool later_family(const machine::Profile& profile) {
 }
 
 bool native_hole(const ir::HoleCycle& c) {
-  const bool drill = c.kind == ir::HoleKind::drill;
-  const bool peck = c.kind == ir::HoleKind::peck_full;
-  if (!drill && !peck) return false;
+  const bool full = c.kind == ir::HoleKind::peck_full, chips = c.kind == ir::HoleKind::peck_break;
+  const bool peck = full || chips;
+  switch (c.kind) {
+    case ir::HoleKind::drill:
+    case ir::HoleKind::ream:
+    case ir::HoleKind::peck_full:
+    case ir::HoleKind::peck_break: break;
+    case ir::HoleKind::bore_manual:
+      if (!zero(c.dwell_bottom)) return false;
+      break;
+    case ir::HoleKind::tap_floating:
+      if (!zero(c.dwell_bottom) || !zero(c.pitch)) return false;
+      break;
+    default: return false;
+  }
+  if (chips && !zero(c.dwell_bottom)) return false;
   if (c.has_feed || c.has_feed_out || !zero(c.dwell_top) || c.dwell_in_revolutions || c.reference_may_be_below)
     return false;
   if (!nameable(c.bottom) || !(nameable(c.reference) || at_call(c.reference))) return false;
@@ -190,11 +204,11 @@ bool native_hole(const ir::HoleCycle& c) {
   if (c.dwell_bottom.literal() &&
       (c.dwell_bottom.number * c.dwell_scale > facts::dwell_max || c.dwell_bottom.number < 0))
     return false;
-  if (drill) return true;
+  if (!peck) return true;
   const ir::Pecks& p = c.pecks;
   const bool law = p.law == ir::PeckLaw::constant || p.law == ir::PeckLaw::linear;
   return law && !p.first_to.given && !p.first_from_surface && !p.reapproach_automatic && !p.has_first_feed_factor &&
-         zero(p.dwell) && zero(p.lift);
+         (chips || zero(p.dwell)) && zero(p.lift) && !p.lift_rapid;
 }
 
 PlainTable plain_words(const machine::Profile& profile) {

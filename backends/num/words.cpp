@@ -259,7 +259,23 @@ void Writer::radius(const ir::Motion& m) {
   ProgramWriter::radius(m);
 }
 
+/// EA of a line, EA and EX of a polar end point, K of a thread.
+void Writer::straight_extra(const ir::Motion& m, const ir::MotionExtra& e) {
+  if (e.has_pitch || (e.has_start_angle && !zero(e.start_angle)) || !zero(e.lead_change))
+    return refuse(no_word, m.code_pos, "the start angle or changing pitch of a thread has no counterpart here");
+  if (e.has_lead) return add(word("K", e.lead, m.code_pos), Rank::motion_extra);
+  if (e.has_line_angle) return add(word("EA", e.line_angle, m.code_pos), Rank::center);
+  // The polar form counts from the origin; elsewhere the pole moves.
+  if (!e.has_polar_angle || !e.has_polar_radius || !same_dialect())
+    return refuse(no_word, m.code_pos, "this polar end point has no counterpart here");
+  add(word("EA", e.polar_angle, m.code_pos), Rank::center);
+  add(word("EX", e.polar_radius, m.code_pos), Rank::center);
+}
+
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
+  const bool through = !e.through.empty() || e.has_turns || e.has_angle;
+  if (!through && (e.has_line_angle || e.has_polar_angle || e.has_polar_radius || e.has_lead))
+    return straight_extra(m, e);
   const bool only_pitch = e.has_pitch && !e.has_turns && !e.has_angle && e.through.empty() && !e.has_polar_radius &&
                           !e.has_polar_angle && !e.has_line_angle && !e.has_lead && !e.has_start_angle;
   if (!only_pitch) {
@@ -312,9 +328,20 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
 void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
   if (!native_hole(c))
     return refuse(no_cycle, a.pos, "this cycle is not one of this control's", "use --cycles=explode");
-  const bool dwells = !zero(c.dwell_bottom);
-  const bool peck = c.kind == ir::HoleKind::peck_full;
-  const std::string_view code = peck ? "G83" : dwells ? "G82" : "G81";
+  const bool chips = c.kind == ir::HoleKind::peck_break;
+  const ir::Value& dwell = chips ? c.pecks.dwell : c.dwell_bottom;
+  const bool dwells = !zero(dwell);
+  const bool peck = chips || c.kind == ir::HoleKind::peck_full;
+  const std::string_view code = [&]() -> std::string_view {
+    switch (c.kind) {
+      case ir::HoleKind::peck_full: return "G83";
+      case ir::HoleKind::tap_floating: return "G84";
+      case ir::HoleKind::ream: return dwells ? "G89" : "G85";
+      case ir::HoleKind::peck_break: return "G87";
+      case ir::HoleKind::bore_manual: return "G88";
+      default: return dwells ? "G82" : "G81";
+    }
+  }();
   add(same_dialect() && !a.text.empty() ? std::string(a.text) : std::string(code), Rank::setting, a.pos);
   const ir::AxisId axis = [&] {
     if (c.axis != ir::axis::none) return c.axis;
@@ -328,13 +355,12 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
   add((incremental ? "G90 " : "") + level_word(axis_name(axis), c.bottom, a.pos), Rank::center);
   hole_levels(a, c);
   if (incremental) add("G91", Rank::motion_extra);
-  if (dwells)
-    add(word("EF", c.dwell_scale == 1 ? c.dwell_bottom : ir::scale(c.dwell_bottom, c.dwell_scale), a.pos),
-        Rank::motion_extra);
+  if (dwells) add(word("EF", c.dwell_scale == 1 ? dwell : ir::scale(dwell, c.dwell_scale), a.pos), Rank::motion_extra);
   if (!peck) return;
   add(word("P", c.pecks.first, a.pos), Rank::motion_extra);
   if (c.pecks.law == ir::PeckLaw::linear) add(word("Q", c.pecks.minimum, a.pos), Rank::motion_extra);
-  if (!c.pecks.reapproach.is(1)) add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
+  if (chips ? !zero(c.pecks.reapproach) : !c.pecks.reapproach.is(1))
+    add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
 }
 
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {

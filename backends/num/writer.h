@@ -60,6 +60,7 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] bool machine_frame_in_incremental(const ir::Motion& m);
   std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);
   void shift(const ir::Action& a, const ir::FrameChange& c);
+  void straight_extra(const ir::Motion& m, const ir::MotionExtra& e);
   void hole_cycle(const ir::Action& a, const ir::HoleCycle& c);
   void hole_levels(const ir::Action& a, const ir::HoleCycle& c);
   [[nodiscard]] std::string target_variable(const ir::VarRef& v);

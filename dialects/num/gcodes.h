@@ -31,24 +31,25 @@ enum class GKind : std::uint8_t {
   shift,            ///< G59
   units,            ///< value: ir::Units
   scale_off,
-  scale_on,       ///< G73 G74
-  retract_sub,    ///< G75
-  save_values,    ///< G76
-  call,           ///< G77
-  synchronise,    ///< G78
-  jump,           ///< G79
-  cycle_off,      ///< G80
-  hole_cycle,     ///< G81-G89
-  distance,       ///< value: ir::Distance
-  preset,         ///< G92 (axes, R, S)
-  feed_mode,      ///< value: ir::FeedMode
-  spindle_mode,   ///< value: ir::SpindleMode
-  turning_cycle,  ///< G33 G38 G63-G66
-  milling_cycle,  ///< G31 G45 G46
-  spline,         ///< G06 G48 G49
-  transform,      ///< G24 G26: tilted plane, tool centre point
-  concatenation,  ///< G997 G998 G999
-  grinding_axis   ///< G05 G07
+  scale_on,        ///< G73 G74
+  retract_sub,     ///< G75
+  save_values,     ///< G76
+  call,            ///< G77
+  synchronise,     ///< G78
+  jump,            ///< G79
+  cycle_off,       ///< G80
+  hole_cycle,      ///< G81-G89
+  distance,        ///< value: ir::Distance
+  preset,          ///< G92 (axes, R, S)
+  feed_mode,       ///< value: ir::FeedMode
+  spindle_mode,    ///< value: ir::SpindleMode
+  thread_segment,  ///< G38
+  turning_cycle,   ///< G33 G63-G66
+  milling_cycle,   ///< G31 G45 G46
+  spline,          ///< G06 G48 G49
+  transform,       ///< G24 G26: tilted plane, tool centre point
+  concatenation,   ///< G997 G998 G999
+  grinding_axis    ///< G05 G07
 };
 
 /// Groups of modal functions; a new one of a group replaces the one before.
@@ -116,7 +117,7 @@ inline constexpr std::array g_codes{
     GCode{29, GKind::spatial_comp, 0, GGroup::comp, GMachine::both, "3D tool correction", "9.5"},
     GCode{31, GKind::milling_cycle, 0, GGroup::cycle, GMachine::mill, "thread with a single-point tool", "11.5"},
     GCode{33, GKind::turning_cycle, 0, GGroup::block_only, GMachine::lathe, "threading cycle", "12.1"},
-    GCode{38, GKind::turning_cycle, 0, GGroup::block_only, GMachine::lathe, "chained threads", "12.2"},
+    GCode{38, GKind::thread_segment, 0, GGroup::block_only, GMachine::lathe, "chained threads", "12.2"},
     GCode{40, GKind::comp, u8(ir::CompSide::off), GGroup::comp, GMachine::both, "radius compensation off", "9.3"},
     GCode{41, GKind::comp, u8(ir::CompSide::left), GGroup::comp, GMachine::both, "radius compensation left", "9.3"},
     GCode{42, GKind::comp, u8(ir::CompSide::right), GGroup::comp, GMachine::both, "radius compensation right", "9.3"},

@@ -35,8 +35,10 @@ enum class EMeaning : std::uint8_t {
   tool_radius,
   active_offset,  ///< number of the corrector in use
   feed_override,
-  display,  ///< graphics, minimum block time: no effect on the path
-  machine   ///< known to the machine only
+  tool_note,      ///< of the tool table, without effect on the programmed path: memory
+  active_radius,  ///< radius of the corrector in use
+  display,        ///< graphics, minimum block time: no effect on the path
+  machine         ///< known to the machine only
 };
 enum class EUnit : std::uint8_t { none, length, axis };  ///< length: micrometre; axis: micrometre, or 1/10000 degree
 
@@ -64,9 +66,11 @@ inline constexpr std::array e_parameters{
     EParameter{50001, 50255, 1, 1, EMeaning::tool_length, EUnit::length, true, "tool length (X on a lathe)"},
     EParameter{51000, 51000, 1, 0, EMeaning::machine, EUnit::none, false, "active orientation"},
     EParameter{51001, 51255, 1, 1, EMeaning::tool_length_z, EUnit::length, true, "tip radius, lathe: length Z"},
-    EParameter{52000, 52000, 1, 0, EMeaning::machine, EUnit::length, false, "active radius"},
+    EParameter{52000, 52000, 1, 0, EMeaning::active_radius, EUnit::length, false, "active radius"},
     EParameter{52001, 52255, 1, 1, EMeaning::tool_radius, EUnit::length, true, "cutter or nose radius"},
-    EParameter{53001, 57255, 1, 1, EMeaning::machine, EUnit::length, true, "wear, nose code and others"},
+    EParameter{53001, 54255, 1, 1, EMeaning::tool_note, EUnit::length, true, "wear"},
+    EParameter{55001, 55255, 1, 1, EMeaning::tool_note, EUnit::none, true, "nose orientation"},
+    EParameter{56001, 57255, 1, 1, EMeaning::tool_note, EUnit::none, true, "other data of the tool"},
     EParameter{60000, 68000, 1000, 0, EMeaning::pref, EUnit::axis, true, "PREF"},
     EParameter{60001, 68001, 1000, 0, EMeaning::dec1, EUnit::axis, true, "DEC1"},
     EParameter{60002, 68002, 1000, 0, EMeaning::machine, EUnit::axis, true, "travel minimum"},
@@ -127,7 +131,7 @@ inline std::vector<ir::VariableSpace> spaces() {
   list[space_e].prefix = "E";
   list[space_e].type = ir::Type::integer;
   for (const auto& p : e_parameters) {
-    if (p.meaning == EMeaning::user || p.meaning == EMeaning::scale_factor) {
+    if (p.meaning == EMeaning::user || p.meaning == EMeaning::scale_factor || p.meaning == EMeaning::tool_note) {
       list[space_e].segments.push_back({p.lo, p.hi, ir::Scope::global, true, false, true});
     }
   }

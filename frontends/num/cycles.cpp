@@ -56,8 +56,9 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
   const Word* p = use(letter('P'));
   const Word* q = use(letter('Q'));
   const Word* ep = use(e('P'));
+  const Word* es = use(e('S'));
   const bool pecks = number == 83 || number == 87;
-  for (const Word* w : {p, q, ep}) {
+  for (const Word* w : {p, q, ep, es}) {
     if (w != nullptr && !pecks) {
       report_.refuse("NUM-027", w->pos, "`" + std::string(text_of(*w)) + "` belongs to no word of this cycle", {},
                      "cycle.hole");
@@ -65,6 +66,7 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
     }
   }
   if (ep != nullptr) cycle.pecks.reapproach = value(*ep);
+  if (es != nullptr) return equal_pecks(cycle, *es, p != nullptr ? p : q);
   if (p == nullptr && q == nullptr) return true;
   if (p == nullptr) {
     report_.refuse("NUM-027", q->pos, "Q (last peck) needs P (first peck)", {}, "cycle.hole");
@@ -85,6 +87,26 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
   cycle.pecks.law = falling ? ir::PeckLaw::linear : ir::PeckLaw::constant;
   cycle.pecks.first = value(*p);
   if (falling) cycle.pecks.minimum = value(*q);
+  return true;
+}
+
+/// ES: so many equal pecks between the plane where the feed starts and the bottom.
+bool Lowering::equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside) {
+  if (beside != nullptr || (!es.is_expression && (es.number < 1 || es.number != std::floor(es.number)))) {
+    report_.refuse("NUM-027", (beside != nullptr ? *beside : es).pos,
+                   "ES is the number of equal pecks, a whole number without P and Q", {}, "cycle.hole");
+    return false;
+  }
+  if (cycle.reference.base != ir::LevelBase::absolute) {
+    report_.refuse("NUM-027", es.pos, "ES needs the plane where the feed starts: the depth of a peck follows from it",
+                   "write ER or EH", "cycle.hole");
+    return false;
+  }
+  const ir::Value depth = ir::subtract(cycle.reference.value, cycle.bottom.value), count = value(es);
+  cycle.pecks.law = ir::PeckLaw::constant;
+  cycle.pecks.first = depth.literal() && count.literal()
+                          ? ir::Value(depth.number / count.number)
+                          : ir::Value(ir::binary(ir::BinaryOp::divide, ir::as_expr(depth), ir::as_expr(count)));
   return true;
 }
 
@@ -117,6 +139,7 @@ void Lowering::define_cycle(const Word& g) {
     case 85:
     case 89: cycle.kind = ir::HoleKind::ream; break;
     case 87: cycle.kind = ir::HoleKind::peck_break; break;
+    case 88: cycle.kind = ir::HoleKind::bore_manual; break;
     default:
       report_.refuse("NUM-004", g.pos,
                      "`" + std::string(text_of(g)) + "`: the sequence of this cycle is not carried yet", {},
@@ -147,7 +170,7 @@ void Lowering::define_cycle(const Word& g) {
 void Lowering::change_cycle() {
   ir::HoleCycle cycle = *state_.cycle;
   const Word* at = nullptr;
-  for (const int s : {e('R'), e('H'), e('F'), e('P'), letter('P'), letter('Q')}) {
+  for (const int s : {e('R'), e('H'), e('F'), e('P'), e('S'), letter('P'), letter('Q')}) {
     if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
   }
   for (const auto& c : out_->motion.coords) {

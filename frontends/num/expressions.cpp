@@ -75,6 +75,13 @@ ir::SystemRef axis_ref(ir::Datum datum, ir::AxisId axis, std::string text) {
   return r;
 }
 
+ir::ExprPtr system(ir::SystemRef ref, WordPos pos) {
+  ir::Expr e;
+  e.node = std::move(ref);
+  e.pos = pos;
+  return std::make_shared<const ir::Expr>(std::move(e));
+}
+
 /// nullopt: known to the machine only.
 std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number, bool lathe) {
   const std::int64_t index = facts::e_index(row, number);
@@ -95,19 +102,17 @@ std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number
       if (lathe) n.ref.axis = row.meaning == EMeaning::tool_length ? ir::axis::x : ir::axis::z;
       return n;
     }
+    case EMeaning::active_radius: {
+      Neutral n{table_ref(ir::Datum::tool_radius, 0, std::move(text)), facts::units_per_mm};
+      n.ref.args[0] = system(axis_ref(ir::Datum::offset_number, ir::axis::none, "E50000"), {});
+      return n;
+    }
     case EMeaning::active_offset:
       return Neutral{axis_ref(ir::Datum::offset_number, ir::axis::none, std::move(text)), 1};
     case EMeaning::feed_override:
       return Neutral{axis_ref(ir::Datum::feed_override, ir::axis::none, std::move(text)), 1};
     default: return std::nullopt;
   }
-}
-
-ir::ExprPtr system(ir::SystemRef ref, WordPos pos) {
-  ir::Expr e;
-  e.node = std::move(ref);
-  e.pos = pos;
-  return std::make_shared<const ir::Expr>(std::move(e));
 }
 
 bool whole(const syntax::Expr& e) {
@@ -234,7 +239,8 @@ ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis
 }
 
 bool Expressions::is_memory(const facts::EParameter& row) const {
-  if (row.meaning == EMeaning::user || row.meaning == EMeaning::scale_factor) return true;
+  if (row.meaning == EMeaning::user || row.meaning == EMeaning::scale_factor || row.meaning == EMeaning::tool_note)
+    return true;
   return offsets_apart_ && is_offset(row);
 }
 
@@ -257,6 +263,12 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
                   "language.system_variable");
     return false;
   }
+  if (row->meaning == EMeaning::tool_note) {
+    report_.warn("NUM-041", target.pos,
+                 name + " (" + std::string(row->title) +
+                     ") does not change the programmed path; it is kept as a number and not written into a tool table",
+                 "enter it on the machine");
+  }
   value = integer_part(std::move(value));  // E parameters hold integers: a value is truncated
   ir::Assign::Item item;
   item.pos = pos;
@@ -265,6 +277,16 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
     item.value = std::move(value);
     items.push_back(std::move(item));
     if (is_offset(*row)) items.push_back(offset_item(n, pos));
+    return true;
+  }
+  if (row->meaning == EMeaning::shift) {
+    ir::FrameWord word;
+    word.axis = static_cast<ir::AxisId>(facts::e_index(*row, n));
+    word.scale = ir::WordScale::radius;
+    word.value = ir::Value(ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(word.axis))));
+    if (const auto c = ir::constant_value(word.value.expr)) word.value = ir::Value(*c);
+    word.pos = pos;
+    shifts_.push_back(std::move(word));
     return true;
   }
   auto found = neutral(*row, n, settings_.lathe);

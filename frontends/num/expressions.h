@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dialects/num/variables.h"
@@ -26,6 +27,8 @@ class Expressions {
   /// Appends target and value of one assignment; false after a refusal. PREF or DEC1 of a program that uses both give a
   /// second item: their sum is the offset of the machine.
   bool assignment(const syntax::Statement& s, std::vector<ir::Assign::Item>& items);
+  /// Axes of the G59 shift that assignments to E6x005 gave since the last call.
+  std::vector<ir::FrameWord> take_shifts() { return std::exchange(shifts_, {}); }
   /// PREF, DEC1 and DEC3 are kept apart (memory), because the program works with more than DEC1.
   void keep_offsets_apart(bool apart) { offsets_apart_ = apart; }
 
@@ -56,6 +59,7 @@ class Expressions {
   Report& report_;
   std::set<std::string> declared_;
   std::vector<Use> undeclared_;
+  std::vector<ir::FrameWord> shifts_;
 };
 
 /// The number of an L or E variable.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
 #include "frontends/num/lines.h"
 
@@ -64,10 +65,32 @@ bool FileReader::assignments() {
     }
   }
   for (const auto* d : declarations) declare(*d);
+  std::vector<ir::FrameWord> shifts = lower_.expressions().take_shifts();
+  const bool computed = std::any_of(shifts.begin(), shifts.end(), [](const auto& w) { return !w.value.literal(); });
+  if (computed && !assign.items.empty()) {
+    report.refuse("NUM-019", assign.items.front().pos,
+                  "a computed shift (E6x005) beside other assignments: which comes first can't be kept",
+                  "write the shift in a block of its own", "language.system_variable");
+  }
   if (report.refused()) return false;
   if (!assign.items.empty()) put_node(std::move(assign));
+  if (!shifts.empty()) put_shift(std::move(shifts));
   if (text != nullptr) message(*text);
   return true;
+}
+
+/// E6x005 is the shift of G59: the named axes get it at once, whether G90 or G91 is in force.
+void FileReader::put_shift(std::vector<ir::FrameWord> words) {
+  ir::Block block;
+  ir::Action& a = block.actions.emplace_back();
+  a.pos = words.front().pos;
+  ir::FrameChange change;
+  change.slot = ir::FrameSlot::shift;
+  change.kind = ir::FrameKind::translate;
+  change.combine = ir::FrameCombine::replace_named;
+  change.words = std::move(words);
+  a.data = ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(change))};
+  put_node(std::move(block));
 }
 
 void FileReader::declare(const syntax::Statement& s) {
@@ -110,6 +133,7 @@ void FileReader::message(const syntax::Statement& s) {
 }
 
 void FileReader::words(const syntax::Statement* test) {
+  if (flow_.macro != 0) return macro_call();
   const bool has_flow = flow_.code != nullptr;
   ir::Statement flow;
   if (has_flow && !lower_.flow_statement(flow_, test, flow)) {
@@ -136,6 +160,23 @@ void FileReader::words(const syntax::Statement* test) {
   ir::End end;
   end.text = flow_.end_text;
   put_node(std::move(end));
+}
+
+/// Gxxx of the machine: its words into L900.. (the names 'A to 'EZ of the macro), then its program %10xxx.
+void FileReader::macro_call() {
+  ir::Assign words;
+  for (auto& [number, value] : flow_.arguments) {
+    ir::Assign::Item item;
+    item.target.space = facts::space_l;
+    item.target.index = ir::number(static_cast<double>(number));
+    item.value = ir::as_expr(value);
+    item.pos = flow_.macro_pos;
+    words.items.push_back(std::move(item));
+  }
+  if (!words.items.empty()) put_node(std::move(words));
+  ir::CallRoutine call;
+  call.routine.number = facts::macro_program_base + flow_.macro;
+  put_node(std::move(call));
 }
 
 /// A jump or call stands where the move would: what acts after a move comes behind it.

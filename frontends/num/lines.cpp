@@ -93,11 +93,25 @@ ir::Program FileReader::read() {
   lower_.expressions().keep_offsets_apart(names_pref(to_upper_ascii(source_->text())));
   look.final_eol = lines.empty() || lines.back().has_eol;
   program_.files.push_back(std::move(look));
+  find_macros();
   for (const SourceLine& l : lines) line(l);
   if (!open_ && program_.routines.empty()) begin_routine({}, {}, {});
   end_routine();
   program_.files[0].archive = program_.routines.size() > 1;
   return std::move(program_);
+}
+
+/// Macros of the machine (%10100 to %10255) that the file brings along.
+void FileReader::find_macros() {
+  constexpr std::string_view mark = "%10";
+  for (const SourceLine& l : source_->lines()) {
+    const std::string_view text = without_tape_bytes(l.text);
+    if (text.substr(0, mark.size()) != mark) continue;
+    const auto n = parse_decimal(text.substr(mark.size(), 3));
+    const bool ends =
+        text.size() == mark.size() + 3 || (text.size() > mark.size() + 3 && (text[6] < '0' || text[6] > '9'));
+    if (n && ends) lower_.add_macro(static_cast<std::int64_t>(*n));
+  }
 }
 
 void FileReader::begin_routine(ir::RoutineName name, std::string title, ir::LineInfo header) {

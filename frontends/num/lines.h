@@ -39,8 +39,11 @@ class FileReader {
   bool structured(const syntax::Statement& s);
   bool assignments();
   void declare(const syntax::Statement& s);
+  void put_shift(std::vector<ir::FrameWord> words);
   void message(const syntax::Statement& s);
   void words(const syntax::Statement* test);
+  void macro_call();
+  void find_macros();
   void split_call(ir::Statement flow);
   void opaque(const Span& span, std::string_view text, std::string_view feature, bool harmless);
   void put(ir::Statement s);

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dialects/num/gcodes.h"
@@ -40,6 +42,9 @@ struct Flow {
   bool end = false;
   std::string_view end_text;
   bool linear_after = false;  ///< G23 leaves G01 in force
+  std::int64_t macro = 0;     ///< Gxxx of the machine whose program is at hand
+  WordPos macro_pos;
+  std::vector<std::pair<std::int64_t, ir::Value>> arguments;  ///< of the macro: number of the L variable, value
 
   void clear() { *this = Flow{}; }
 };
@@ -58,6 +63,9 @@ class Lowering {
   bool flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out);
   /// Value of a word that is no axis word.
   ir::Value value(const syntax::Word& w);
+
+  /// The program of this Gxxx is at hand.
+  void add_macro(std::int64_t number) { macros_.insert(number); }
 
   [[nodiscard]] Report& report() { return report_; }
   [[nodiscard]] Expressions& expressions() { return expressions_; }
@@ -106,6 +114,13 @@ class Lowering {
   void tool_axis(const Word& g16);
   void corner(const Word& eb);
   void through_points();
+
+  // geometry.cpp
+  void macro_words();
+  void line_by_angle(const Word& ea);
+  void thread_segment();
+
+  // resolve.cpp
   std::vector<ir::FrameWord> take_frame_words();
   void sort_actions();
   void leftovers();
@@ -114,6 +129,7 @@ class Lowering {
   void define_cycle(const Word& g);
   void change_cycle();
   bool cycle_words(ir::HoleCycle& cycle, int number);
+  bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);
   bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);
   void put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here);
   [[nodiscard]] ir::AxisId cycle_axis() const;
@@ -130,6 +146,7 @@ class Lowering {
   Report report_;
   Expressions expressions_;
   TextState state_;
+  std::set<std::int64_t> macros_;
 
   /// Words of the line at hand that change what others mean; null: not given.
   struct Marks {
@@ -144,6 +161,8 @@ class Lowering {
     const Word* three_points = nullptr;   ///< G23
     const Word* machine_frame = nullptr;  ///< G52
     const Word* retract = nullptr;        ///< G75
+    const Word* thread = nullptr;         ///< G38
+    const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above
     bool motion = false;                  ///< a motion code stands in the block
     bool cycle_off = false;

@@ -21,7 +21,7 @@ constexpr std::uint64_t bit(int s) {
 }
 constexpr std::uint64_t arc_slots = bit(letter('I')) | bit(letter('J')) | bit(letter('K')) | bit(letter('R'));
 constexpr std::uint64_t cycle_slots =
-    bit(e('R')) | bit(e('H')) | bit(e('F')) | bit(e('P')) | bit(letter('P')) | bit(letter('Q'));
+    bit(e('R')) | bit(e('H')) | bit(e('F')) | bit(e('P')) | bit(e('S')) | bit(letter('P')) | bit(letter('Q'));
 constexpr std::uint64_t geometry_slots = bit(e('A')) | bit(e('S')) | bit(e('T')) | bit(letter('E'));
 
 bool is_arc(ir::MotionKind k) {
@@ -169,6 +169,11 @@ void Lowering::resolve_motion() {
     if ((present_ & cycle_slots) != 0) return change_cycle();
   }
   if (marks_.three_points != nullptr) return through_points();
+  if (marks_.thread != nullptr) return thread_segment();
+  if (has(e('A'))) {
+    if (const Word* ea = use(e('A'))) line_by_angle(*ea);
+    return;
+  }
   if ((present_ & arc_slots & ~used_) != 0 || (marks_.motion && is_arc(m.kind))) {
     const bool explicit_arc = marks_.motion && is_arc(m.kind);
     if (explicit_arc || (!marks_.motion && (is_arc(state_.motion) || !state_.known))) resolve_arc(explicit_arc);

@@ -197,6 +197,11 @@ void Lowering::code(const Word& w) {
   const facts::GCode* row = n < 0 ? nullptr : facts::g_code(static_cast<double>(n));
   if (!w.has_value && !w.number_text.empty() && n != 76) row = nullptr;  // a sign after the number
   if (row != nullptr) return code_action(w, *row);
+  if (n >= facts::g_macro_first && n <= facts::g_macro_last && macros_.count(n) != 0) {
+    if (marks_.macro != nullptr) return unknown(w, "a second macro in the block");
+    marks_.macro = &w;
+    return;
+  }
   if (n >= facts::g_macro_first && n <= facts::g_macro_last) {
     report_.refuse("NUM-003", w.pos,
                    "`" + std::string(text_of(w)) + "` calls the macro %10" + std::to_string(n) + " of the machine",
@@ -274,6 +279,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       state_.cycle.reset();
       state_.turning_profile = false;
       return;
+    case GKind::thread_segment: return mark(marks_.thread);
     case GKind::turning_cycle: state_.turning_profile = row.code == 64; return missing("cycle.turning");
     case GKind::milling_cycle: return missing("cycle.milling");
     case GKind::spline: return missing("motion.spline");
@@ -353,7 +359,11 @@ bool Lowering::words(const syntax::Block& b, const Span& line, std::string_view 
   present_ = used_ = 0;
   steps_.clear();
   for (const Word& w : b.words) take(w);
-  if (!report_.refused()) resolve();
+  if (marks_.macro != nullptr && !report_.refused()) {
+    macro_words();
+  } else if (!report_.refused()) {
+    resolve();
+  }
   return !report_.refused();
 }
 
