@@ -84,12 +84,16 @@ interpreter::Result replay(const ir::Program& program, const machine::Profile& p
 struct Replayed {
   std::vector<interpreter::Event> events;
   interpreter::Result result;
+  interpreter::Position start;
 };
 
 verifier::Verdict judge(const Replayed& source, const Replayed& target) {
   using interpreter::EndReason;
   // Two runs that end in the same error at the same event are compared up to there; one alone is a difference.
-  verifier::Verdict verdict = verifier::compare(source.events, target.events, {});
+  verifier::Options options;
+  options.source_start = source.start;
+  options.target_start = target.start;
+  verifier::Verdict verdict = verifier::compare(source.events, target.events, options);
   const bool source_ended = source.result.reason == EndReason::program_end;
   const bool target_ended = target.result.reason == EndReason::program_end;
   if (verdict.good() && (!source_ended || !target_ended)) {
@@ -129,6 +133,8 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
   interpreter::Options target_run = options.run;
   target_run.set.clear();  // the source's names mean nothing there
   b.result = replay(target, target_profile, target_run, target_loader, target_diagnostics, b.events);
+  a.start = verifier::start_of(source_profile);
+  b.start = verifier::start_of(target_profile);
   result.verified = true;
   result.verdict = judge(a, b);
   result.target_files = target_loader.files();
@@ -273,6 +279,7 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
     interpreter::Options run = options.run;
     if (!with_set) run.set.clear();
     replayed.result = replay(*program, *profile, run, loader, diagnostics, replayed.events);
+    replayed.start = verifier::start_of(*profile);
     files = loader.files();
     return true;
   };

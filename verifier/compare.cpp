@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/text.h"
 #include "verifier/normalise.h"
@@ -63,7 +65,12 @@ bool message_with_gaps(std::string_view source, std::string_view target) {
 class Comparison {
  public:
   Comparison(std::vector<const Event*> a, std::vector<const Event*> b, const Options& options, Verdict& verdict)
-      : a_(std::move(a)), b_(std::move(b)), options_(options), verdict_(verdict) {}
+      : a_(std::move(a)),
+        b_(std::move(b)),
+        options_(options),
+        verdict_(verdict),
+        from_a_(options.source_start),
+        from_b_(options.target_start) {}
 
   void run() {
     while (i_ < a_.size() && j_ < b_.size()) {
@@ -93,12 +100,48 @@ class Comparison {
       return differ(fmt::format("{} there, {} here", interpreter::name(a.kind), interpreter::name(b.kind)), i_, j_);
     }
     if (is_motion(a.kind)) return step_motion(a, b);
+    if (a.kind == EventKind::dwell) return step_dwell();
     const std::string what = state_difference(a, b);
     if (!what.empty()) return differ(what, i_, j_);
+    if (a.kind == EventKind::spindle) rpm_ = a.state == "off" || a.css ? 0 : a.value;
     ++verdict_.events;
     ++i_;
     ++j_;
     return true;
+  }
+
+  /// Dwells that follow each other are one. Revolutions of a known speed are a time.
+  bool step_dwell() {
+    const Dwells a = dwells(a_, i_), b = dwells(b_, j_);
+    const bool revolutions = a.revolutions && b.revolutions;
+    const auto seconds = [this](const Dwells& d) { return d.revolutions ? d.amount * 60 / rpm_ : d.amount; };
+    const bool comparable = a.revolutions == b.revolutions || rpm_ > 0;
+    const double apart = revolutions ? a.amount - b.amount : comparable ? seconds(a) - seconds(b) : 0;
+    if (!comparable || std::fabs(apart) > options_.tolerances.seconds * double(std::max(a.events, b.events))) {
+      const auto unit = [](const Dwells& d) { return d.revolutions ? "revolutions" : "s"; };
+      return differ(fmt::format("dwell of {} {} in the source, {} {} in the translation", shortest(a.amount), unit(a),
+                                shortest(b.amount), unit(b)),
+                    i_, j_);
+    }
+    verdict_.events += std::max(a.events, b.events);
+    i_ += a.events;
+    j_ += b.events;
+    return true;
+  }
+  struct Dwells {
+    double amount = 0;
+    bool revolutions = false;
+    std::size_t events = 0;
+  };
+  static Dwells dwells(const std::vector<const Event*>& trace, std::size_t from) {
+    Dwells d;
+    d.revolutions = trace[from]->revolutions;
+    for (; from < trace.size() && trace[from]->kind == EventKind::dwell; ++from) {
+      if (trace[from]->revolutions != d.revolutions) break;
+      d.amount += trace[from]->amount;
+      ++d.events;
+    }
+    return d;
   }
 
   bool step_motion(const Event& a, const Event& b) {
@@ -106,24 +149,33 @@ class Comparison {
     if (!ends_agree(a.to, b.to)) {
       const bool straight = a.kind == EventKind::linear || a.kind == EventKind::rapid;
       if (straight && same_feed(a, b)) {
-        // One side has split the move: the shorter part must lie on the longer one.
-        if (on_segment(a.to, from_b_, b.to)) return take_a();
-        if (on_segment(b.to, from_a_, a.to)) return take_b();
+        // One side has split the move: the shorter part must lie on the longer one, ahead of the parts before it.
+        if (part_of(a.to, from_a_, from_b_, b.to)) return take_part(true);
+        if (part_of(b.to, from_b_, from_a_, a.to)) return take_part(false);
       }
       if (negligible(a, from_a_)) return take_a();
       if (negligible(b, from_b_)) return take_b();
       return differ(end_difference(a, b), i_, j_);
     }
     const std::string what = motion_difference(a, b);
+    if (!what.empty() && a.kind == EventKind::arc && negligible(a, from_a_)) return take_a();
+    if (!what.empty() && a.kind == EventKind::arc && negligible(b, from_b_)) return take_b();
     if (!what.empty()) return differ(what, i_, j_);
     verdict_.max_length = std::max(verdict_.max_length, apart);
     ++verdict_.events;
     ++verdict_.moves;
     from_a_ = a.to;
     from_b_ = b.to;
+    part_.reset();
     ++i_;
     ++j_;
     return true;
+  }
+
+  /// A part of a move that the other side makes in one: the rest has to follow.
+  bool take_part(bool of_source) {
+    part_ = std::pair(i_, j_);
+    return of_source ? take_a() : take_b();
   }
 
   bool take_a() {
@@ -140,6 +192,11 @@ class Comparison {
   }
 
   bool differ(std::string what, std::size_t i, std::size_t j) {
+    if (part_ && !ends_agree(from_a_, from_b_)) {  // the rest of a longer move did not come: that move differs
+      i = part_->first;
+      j = part_->second;
+      what = end_difference(*a_[i], *b_[j]);
+    }
     auto& d = verdict_.difference;
     d.what = std::move(what);
     d.source_event = i;
@@ -189,9 +246,30 @@ class Comparison {
     return ends_agree(p, foot);
   }
 
+  /// `p` lies on the move `from` - `to` of the other side, and ahead of `before`, where this side stands on it.
+  [[nodiscard]] bool part_of(const Position& p, const Position& before, const Position& from,
+                             const Position& to) const {
+    return on_segment(p, from, to) && on_segment(p, before, to);
+  }
+
   [[nodiscard]] bool negligible(const Event& e, const Position& from) const {
+    if (e.kind == EventKind::arc) return distance(from, e.to) <= options_.tolerances.length && short_arc(e, from);
     if (e.kind != EventKind::linear && e.kind != EventKind::rapid) return false;
-    return distance(from, e.to) <= options_.tolerances.length;
+    return common(from, e.to) != 0 && distance(from, e.to) <= options_.tolerances.length;
+  }
+
+  /// Less than the tolerance along the arc: no (nearly) full circle.
+  [[nodiscard]] bool short_arc(const Event& e, const Position& from) const {
+    const auto [u, v, w] = ir::plane_axes(e.plane);
+    (void)w;
+    if (e.turns != 0 || (from.known >> u & 1U) == 0 || (from.known >> v & 1U) == 0) return false;
+    const double radius = std::hypot(e.to.value[u] - e.center_u, e.to.value[v] - e.center_v);
+    const double start = std::atan2(from.value[v] - e.center_v, from.value[u] - e.center_u);
+    const double end = std::atan2(e.to.value[v] - e.center_v, e.to.value[u] - e.center_u);
+    constexpr double full = 6.283185307179586;
+    double sweep = e.cw ? start - end : end - start;
+    if (sweep <= 0) sweep += full;
+    return radius * sweep <= options_.tolerances.length;
   }
 
   [[nodiscard]] bool same_feed(const Event& a, const Event& b) const {
@@ -243,8 +321,10 @@ class Comparison {
     }
     verdict_.max_length = std::max(verdict_.max_length, apart);
     // A tiny arc and a full circle have the same end point: they must be the same on both sides.
-    const bool full_a = distance(from_a_, a.to) <= exact;
-    const bool full_b = distance(from_b_, b.to) <= exact;
+    const auto full = [this](const Event& e, const Position& from) {
+      return distance(from, e.to) <= options_.tolerances.length && !short_arc(e, from);
+    };
+    const bool full_a = full(a, from_a_), full_b = full(b, from_b_);
     if (full_a != full_b)
       return fmt::format("{} in the source, {} in the translation", full_a ? "a full circle" : "an arc",
                          full_b ? "a full circle" : "an arc");
@@ -254,13 +334,6 @@ class Comparison {
   [[nodiscard]] std::string state_difference(const Event& a, const Event& b) const {
     const auto& t = options_.tolerances;
     switch (a.kind) {
-      case EventKind::dwell:
-        if (a.revolutions != b.revolutions || std::fabs(a.amount - b.amount) > t.seconds) {
-          return fmt::format("dwell of {} {} in the source, {} {} in the translation", shortest(a.amount),
-                             a.revolutions ? "revolutions" : "s", shortest(b.amount),
-                             b.revolutions ? "revolutions" : "s");
-        }
-        return {};
       case EventKind::spindle:
         if (a.number != b.number || a.state != b.state ||
             (a.state != "off" && (a.css != b.css || !close_relative(a.value, b.value, t.speed_relative))) ||
@@ -308,7 +381,9 @@ class Comparison {
   const Options& options_;
   Verdict& verdict_;
   std::size_t i_ = 0, j_ = 0;
-  Position from_a_{}, from_b_{};
+  Position from_a_, from_b_;
+  double rpm_ = 0;                                           ///< 0: not known, or it changes with the diameter
+  std::optional<std::pair<std::size_t, std::size_t>> part_;  ///< events of a split move and of the whole one
 };
 
 std::string source_line_text(const FileTable& files, FileId file, std::uint32_t line) {
@@ -345,6 +420,15 @@ Verdict compare(const std::vector<Event>& source, const std::vector<Event>& targ
     verdict.status = Status::within_tolerance;
   }
   return verdict;
+}
+
+Position start_of(const machine::Profile& machine) {
+  Position p;
+  for (const auto& a : machine.axes) {
+    p.value[a.id] = a.start;
+    p.known |= 1U << a.id;
+  }
+  return p;
 }
 
 std::string_view name(Status s) {

@@ -7,6 +7,7 @@
 
 #include "base/source.h"
 #include "interpreter/trace.h"
+#include "machine/profile.h"
 
 namespace cnctrans::verifier {
 
@@ -25,7 +26,11 @@ struct Options {
   /// Compare numbers of tools and offsets literally; off: only that a change happens.
   bool tool_numbers = true;
   bool offset_numbers = false;
+  /// Where the machines stand before the first event; no axis known: the first move has no length to judge by.
+  interpreter::Position source_start{}, target_start{};
 };
+/// The position of a machine before a program.
+interpreter::Position start_of(const machine::Profile& machine);
 
 enum class Status : std::uint8_t {
   verified,          ///< every event agrees within 1e-6

@@ -207,6 +207,10 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
     c_.error("SIN-021", pos, name + " needs its planes: RTP, RFP, SDIS and a depth");
     return nullptr;
   }
+  if (!a.given("DP") && !a.says("DPR")) {
+    c_.error("SIN-021", pos, name + " needs its depth: DP or DPR");
+    return nullptr;
+  }
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);
   dwell(a.get("DTB"), hole, c_, pos);

@@ -8,11 +8,31 @@ void ArcPass::tiny(Arc& arc) {
   const int places = units == Units::inch ? context_.target.word_decimals_inch : context_.target.word_decimals;
   if (!known(arc.start) || !known(arc.end) || arc.b.motion.extra) return;
   const Point a = point(arc.start), b = point(arc.end);
-  if (std::hypot(b.u - a.u, b.v - a.v) > 2 * std::pow(10, -places) || (a.u == b.u && a.v == b.v)) return;
-  const auto same = [places](double x, double y) { return rounded(x, places) == rounded(y, places); };
+  const double chord = std::hypot(b.u - a.u, b.v - a.v), place = std::pow(10, -places);
+  if (a.u == b.u && a.v == b.v) return;
   const auto angle = partial_angle(arc);
-  if (!same(a.u, b.u) || !same(a.v, b.v) || !angle || *angle > 180) return;
   Motion& m = arc.b.motion;
+  const auto same = [&](AxisId axis, double from, double to) {
+    const auto word =
+        std::find_if(m.coords.begin(), m.coords.end(), [axis](const CoordWord& c) { return c.axis == axis; });
+    if (word == m.coords.end()) return true;
+    if (distance_of(*word, arc.b, arc.facts) == Distance::incremental) return std::fabs(to - from) < 0.5 * place;
+    return rounded(from, places) == rounded(to, places);
+  };
+  if (m.radius_given && m.radius.literal() && m.radius.number < 0 && arc.ccw) {
+    // Nearly a full circle by its radius: rounding turns the chord, and the centre with it.
+    constexpr double centre_tolerance = 0.002;
+    const auto fits = [place](double v) { return std::fabs(v / place - std::round(v / place)) < 1e-6; };
+    if (fits(a.u) && fits(a.v) && fits(b.u) && fits(b.v)) return;
+    const auto c = center_by_radius(a, b, m.radius.number, *arc.ccw);
+    if (c && std::fabs(m.radius.number) * place > centre_tolerance * chord) {
+      set_center(arc, *c);
+      centers(arc);
+    }
+    return;
+  }
+  if (chord > 2 * place) return;
+  if (!same(arc.axis[0], a.u, b.u) || !same(arc.axis[1], a.v, b.v) || !angle || *angle > 180) return;
   m.kind = MotionKind::linear;
   m.explicit_code = true;
   m.keeps_modal = false;
@@ -22,7 +42,7 @@ void ArcPass::tiny(Arc& arc) {
   context_.diagnostics.warning("TRN-315", word_span(arc.s.line.span, m.code_pos),
                                "an arc shorter than the last place of the target's words is written as a line: the "
                                "path differs by less than " +
-                                   shortest(std::pow(10, -places)));
+                                   shortest(place));
 }
 
 bool ArcPass::radius(Arc& arc) {

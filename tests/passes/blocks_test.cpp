@@ -56,6 +56,40 @@ TEST(Arcs, ArcThatRoundingClosesIsNoFullCircle) {
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-315"));
 }
 
+TEST(Arcs, ArcByItsCentreThatRoundingClosesIsNoFullCircle) {
+  // Four places there, three here; 0.00002 mm long resp. 0.0002 mm.
+  const auto p =
+      run_pass("arcs", main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y -0.00002 centre X 5\n"),
+               letters_target(), "sinumerik-mill");
+  EXPECT_NE(p.text.find("linear"), std::string::npos) << p.text;
+  EXPECT_TRUE(has_code(p.diagnostics, "TRN-315"));
+  EXPECT_EQ(difference(main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y -0.0002 centre X 5\n"),
+                       letters_target(), "sinumerik-mill"),
+            "");
+}
+
+TEST(Arcs, IncrementThatRoundsToNothing) {
+  // From 10.0003 to 10.0007: the places differ, the increment 0.0004 is nothing in three places.
+  const auto p = run_pass("arcs",
+                          main_program("  block feed 100, rapid X 10.0003 Y 0\n  block distance incremental, arc_ccw X "
+                                       "0.0004 Y 0 radius 3\n"),
+                          chain_target());
+  EXPECT_NE(p.text.find("linear"), std::string::npos) << p.text;
+}
+
+TEST(Arcs, NearlyAFullCircleByItsRadiusTakesItsCentre) {
+  // The chord is shorter than the last place: by the radius nothing would say where the circle lies.
+  const auto p = run_pass(
+      "arcs", main_program("  block feed 100, rapid X 20 Y 0\n  block arc_ccw X 20.00002 Y -0.00001 radius -3\n"),
+      letters_target(), "sinumerik-mill");
+  EXPECT_EQ(p.text.find("radius"), std::string::npos) << p.text;
+  EXPECT_EQ(p.text.find("linear"), std::string::npos) << p.text;
+  const auto kept =
+      run_pass("arcs", main_program("  block feed 100, rapid X 20 Y 0\n  block arc_ccw X 20.5 Y -0.3 radius -3\n"),
+               letters_target(), "sinumerik-mill");
+  EXPECT_NE(kept.text.find("radius -3"), std::string::npos) << kept.text;
+}
+
 TEST(Arcs, PitchBecomesTurns) {
   // 10 mm down at 4 mm a turn: 2.5 turns, half of one is the partial arc.
   const std::string text = main_program(

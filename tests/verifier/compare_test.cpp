@@ -1,0 +1,112 @@
+// Two traces made by hand: what counts as the same path, and which difference is named.
+#include "verifier/compare.h"
+
+#include <gtest/gtest.h>
+
+namespace cnctrans::test {
+namespace {
+
+using interpreter::Event;
+using interpreter::EventKind;
+using verifier::Status;
+
+interpreter::Position at(double x, double y = 0) {
+  interpreter::Position p;
+  p.known = 3;
+  p.value[0] = x;
+  p.value[1] = y;
+  return p;
+}
+Event move(EventKind kind, double x, double y, std::uint32_t line) {
+  Event e;
+  e.kind = kind;
+  e.to = at(x, y);
+  e.line = line;
+  e.feed = kind == EventKind::rapid ? 0 : 100;
+  return e;
+}
+Event rapid(double x, std::uint32_t line = 1) {
+  return move(EventKind::rapid, x, 0, line);
+}
+Event linear(double x, std::uint32_t line = 1) {
+  return move(EventKind::linear, x, 0, line);
+}
+Event dwell(double amount, bool revolutions = false) {
+  Event e;
+  e.kind = EventKind::dwell;
+  e.amount = amount;
+  e.revolutions = revolutions;
+  return e;
+}
+Event spindle(double rpm) {
+  Event e;
+  e.kind = EventKind::spindle;
+  e.number = 1;
+  e.state = "cw";
+  e.value = rpm;
+  return e;
+}
+verifier::Verdict compare(const std::vector<Event>& a, const std::vector<Event>& b) {
+  verifier::Options options;
+  options.source_start = options.target_start = at(0);
+  return verifier::compare(a, b, options);
+}
+
+TEST(Compare, AMissingFirstMoveIsADifference) {
+  EXPECT_EQ(compare({rapid(10), linear(20)}, {linear(20)}).status, Status::differs);
+  EXPECT_EQ(verifier::compare({rapid(10), linear(20)}, {linear(20)}, {}).status, Status::differs);
+}
+
+TEST(Compare, AMoveSplitInPartsIsOneMove) {
+  EXPECT_EQ(compare({linear(30)}, {linear(10), linear(20), linear(30)}).status, Status::verified);
+  EXPECT_EQ(compare({linear(10), linear(30)}, {linear(20), linear(30)}).status, Status::verified);
+}
+
+TEST(Compare, PartsThatGoBackAreNot) {
+  EXPECT_EQ(compare({linear(30)}, {linear(20), linear(10), linear(30)}).status, Status::differs);
+  EXPECT_EQ(compare({linear(20), linear(10), linear(30)}, {linear(30)}).status, Status::differs);
+}
+
+TEST(Compare, ALongerMoveIsNamedItself) {
+  // The translation goes on to 15 where the source stops at 10: the blocks in line 5 and 7 differ, not those behind.
+  const auto v =
+      compare({linear(10, 5), spindle(100), linear(10.5, 6)}, {linear(15, 7), spindle(100), linear(10.5, 8)});
+  ASSERT_EQ(v.status, Status::differs);
+  EXPECT_EQ(v.difference.source_line, 5U);
+  EXPECT_EQ(v.difference.target_line, 7U);
+  EXPECT_EQ(v.difference.what, "end of the linear move: X10 in the source, X15 in the translation");
+}
+
+TEST(Compare, ALongerLastMoveIsNamedItself) {
+  const auto v = compare({linear(10, 5)}, {linear(15, 7)});
+  ASSERT_EQ(v.status, Status::differs);
+  EXPECT_EQ(v.difference.what, "end of the linear move: X10 in the source, X15 in the translation");
+}
+
+TEST(Compare, AnArcShorterThanTheToleranceMayBeMissing) {
+  // About (5, 0) from (0, 0): clockwise up to (0, 0.0005), or all the way round to it.
+  Event arc = move(EventKind::arc, 0, 0.0005, 1);
+  arc.center_u = 5;
+  arc.cw = true;
+  EXPECT_TRUE(compare({arc, linear(10)}, {linear(10)}).good());
+  arc.cw = false;
+  EXPECT_EQ(compare({arc, linear(10)}, {linear(10)}).status, Status::differs);
+}
+
+TEST(Compare, DwellsThatFollowEachOtherAreOne) {
+  EXPECT_EQ(compare({linear(1), dwell(10)}, {linear(1), dwell(4), dwell(6)}).status, Status::verified);
+  EXPECT_EQ(compare({linear(1), dwell(10)}, {linear(1), dwell(4), dwell(5)}).status, Status::differs);
+  EXPECT_EQ(compare({linear(1), dwell(4), dwell(6)}, {linear(1), dwell(10)}).status, Status::verified);
+}
+
+TEST(Compare, RevolutionsAreATimeAtAKnownSpeed) {
+  // 5 revolutions at 600/min take 0.5 s.
+  EXPECT_EQ(compare({spindle(600), linear(1), dwell(5, true)}, {spindle(600), linear(1), dwell(0.5)}).status,
+            Status::verified);
+  EXPECT_EQ(compare({spindle(600), linear(1), dwell(5, true)}, {spindle(600), linear(1), dwell(0.6)}).status,
+            Status::differs);
+  EXPECT_EQ(compare({linear(1), dwell(5, true)}, {linear(1), dwell(0.5)}).status, Status::differs);
+}
+
+}  // namespace
+}  // namespace cnctrans::test
