@@ -6,5 +6,6 @@ function(cnc_embed_texts target namespace symbol header)
     COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DNAMESPACE=${namespace} -DSYMBOL=${symbol} -DHEADER=${header} "-DFILES=${ARGN}"
             -P ${CMAKE_SOURCE_DIR}/cmake/embed_texts.cmake
     DEPENDS ${ARGN} ${CMAKE_SOURCE_DIR}/cmake/embed_texts.cmake VERBATIM)
+  set_source_files_properties(${out} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   target_sources(${target} PRIVATE ${out})
 endfunction()
