@@ -407,7 +407,9 @@ constexpr std::array<std::string_view, 5> status_names{"verified", "verified wit
 Verdict compare(const std::vector<Event>& source, const std::vector<Event>& target, const Options& options) {
   Verdict verdict;
   verdict.status = Status::verified;
-  Comparison(normalise(source, options.offset_numbers), normalise(target, options.offset_numbers), options, verdict)
+  const bool selections = has_selections(source) && has_selections(target);
+  Comparison(normalise(source, options.offset_numbers, selections),
+             normalise(target, options.offset_numbers, selections), options, verdict)
       .run();
   if (verdict.status != Status::verified) return verdict;
   // An empty trace never verifies: nothing was proved.

@@ -58,7 +58,12 @@ class StateFilter {
 
 }  // namespace
 
-std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets) {
+bool has_selections(const std::vector<Event>& events) {
+  return std::any_of(events.begin(), events.end(),
+                     [](const Event& e) { return e.kind == EventKind::tool && !e.change; });
+}
+
+std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections) {
   std::vector<const Event*> out;
   out.reserve(events.size());
   StateFilter filter;
@@ -66,10 +71,21 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
   const auto close_stretch = [&out, &stretch] {
     std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(stretch), out.end(),
                      [](const Event* a, const Event* b) { return a->kind < b->kind; });
+    // Of speeds and limits that follow each other with nothing between only the last is ever driven.
+    const auto from = out.begin() + static_cast<std::ptrdiff_t>(stretch);
+    auto kept = from;
+    for (auto at = from; at != out.end(); ++at) {
+      const bool replaced = at + 1 != out.end() && (*at)->kind == EventKind::spindle &&
+                            (*(at + 1))->kind == EventKind::spindle && (*at)->number == (*(at + 1))->number &&
+                            (*at)->state == (*(at + 1))->state;
+      if (!replaced) *kept++ = *at;
+    }
+    out.erase(kept, out.end());
   };
   for (const auto& e : events) {
     if (e.kind == EventKind::feed_stop) continue;  // timing, not path: see docs/verify.md
     if (e.kind == EventKind::offset && !keep_offsets) continue;
+    if (e.kind == EventKind::tool && !e.change && !keep_selections) continue;
     if (!filter.changes(e)) continue;
     if (is_barrier(e.kind)) {
       close_stretch();

@@ -14,6 +14,10 @@ namespace cnctrans::verifier {
 
 /// Drops commands that change nothing (the spindle already runs so, the coolant is already so, the same offset or
 /// compensation side again) and orders the state changes of each stretch by kind, keeping the order inside a kind.
-std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets);
+/// `keep_selections`: tools that are only made ready; a turret has no such event.
+std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets,
+                                                 bool keep_selections);
+/// Some tool is made ready before its change.
+bool has_selections(const std::vector<interpreter::Event>& events);
 
 }  // namespace cnctrans::verifier

@@ -114,7 +114,8 @@ ir::Capabilities make_capabilities(bool lathe, bool later) {
   c.message_length = facts::message_length;
   c.block_length = facts::block_length;
   c.own_block = [](const ir::Action& a) {
-    return std::holds_alternative<ir::Dwell>(a.data) || std::holds_alternative<ir::FrameOp>(a.data);
+    return std::holds_alternative<ir::Dwell>(a.data) || std::holds_alternative<ir::FrameOp>(a.data) ||
+           std::holds_alternative<ir::SpindleLimit>(a.data);
   };
   c.native_cycle = [](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);

@@ -1,5 +1,7 @@
 #include "ir/passes/blocks.h"
 
+#include <algorithm>
+
 #include "ir/passes/editor.h"
 
 namespace cnctrans::ir::passes {
@@ -61,6 +63,20 @@ bool makes_event(const Action& a) {
          std::holds_alternative<ToolChange>(a.data) || std::holds_alternative<Coolant>(a.data) ||
          std::holds_alternative<Stop>(a.data) || std::holds_alternative<MachineFunction>(a.data) ||
          std::holds_alternative<SpindleGear>(a.data) || std::holds_alternative<Dwell>(a.data);
+}
+
+std::vector<Action> take_after(Block& block) {
+  const bool changes = std::any_of(block.actions.begin(), block.actions.end(), [](const Action& a) {
+    return a.order == Order::after && std::holds_alternative<ToolChange>(a.data);
+  });
+  std::vector<Action> late, rest;
+  for (auto& a : block.actions) {
+    const bool tool = changes && std::holds_alternative<ToolSelect>(a.data);
+    if (changes && a.order != Order::after && std::holds_alternative<ToolOffset>(a.data)) late.push_back(a);
+    (tool || a.order == Order::after ? late : rest).push_back(std::move(a));
+  }
+  block.actions = std::move(rest);
+  return late;
 }
 
 bool own_block(const Action& action, const Capabilities& target) {

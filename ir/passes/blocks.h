@@ -9,6 +9,8 @@ namespace cnctrans::ir::passes {
 Order target_order(const Action& action, const machine::Profile& target);
 /// False for modal settings and values: carrying them out makes no event and they wait for nothing.
 bool makes_event(const Action& action);
+/// Takes out what the block does after its motion; the T of a tool change comes along, a D is said there as well.
+std::vector<Action> take_after(Block& block);
 /// Actions whose place among the others of a block without motion counts.
 bool own_block(const Action& action, const Capabilities& target);
 /// T carries out the tool change (turret, or a control set up so).

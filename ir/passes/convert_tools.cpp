@@ -49,41 +49,39 @@ class ToolChanges {
         changed = changed || t->changes != at_once_;
         select(std::move(a), has<ToolChange>(b), out);
       } else if (std::holds_alternative<ToolChange>(a.data) && at_once_) {
-        change(s, std::move(a), out);
+        change(s, a, out);
       } else {
         out.push_back(std::move(a));
       }
     }
     b.actions = std::move(out);
+    settle(s);
   }
 
  private:
   void select(Action a, bool change_follows, std::vector<Action>& out) {
     auto& t = std::get<ToolSelect>(a.data);
     const bool did = t.changes;
-    selected_ = a;
+    selected_ = true;
     if (did == at_once_) {
       out.push_back(std::move(a));
       return;
     }
     t.changes = at_once_;
-    if (at_once_) {  // the source changes at M6
-      if (change_follows)
-        out.push_back(std::move(a));
-      else
-        pending_ = std::move(a);
+    if (at_once_) {  // the source changes at M6, in this block or later
+      if (!change_follows) a.pos = {};
+      pending_ = std::move(a);
       return;
     }
+    const Order order = a.order;
     out.push_back(std::move(a));
-    Action m6 = action(ToolChange{});
-    m6.order = target_order(m6, context_.target_machine);
-    out.push_back(std::move(m6));
+    if (!change_follows) out.push_back(action(ToolChange{}, order));  // when the source changes; `order` moves it
   }
 
   /// M6 where the target changes at T: the T that was waiting is written here.
-  void change(const Statement& s, Action a, std::vector<Action>& out) {
+  void change(const Statement& s, const Action& a, std::vector<Action>& out) {
     if (pending_) {
-      pending_->pos = {};
+      pending_->order = a.order;
       out.push_back(std::move(*pending_));
       pending_.reset();
       return;
@@ -99,7 +97,8 @@ class ToolChanges {
 
   const LegaliseContext& context_;
   bool at_once_;
-  std::optional<Action> pending_, selected_;
+  bool selected_ = false;
+  std::optional<Action> pending_;
 };
 
 /// Length compensation: left out where the target always has it, switched on where the target needs it.

@@ -333,4 +333,19 @@ std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const
   return Explosion{std::move(writer.blocks), writer.last};
 }
 
+bool uses_cycles(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) found = found || m->cycle != nullptr;
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        found = found || std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<CycleCancel>(a.data);
+      }
+    });
+  }
+  return found;
+}
+
 }  // namespace cnctrans::ir::passes

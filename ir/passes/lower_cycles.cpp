@@ -3,6 +3,7 @@
 #include "ir/passes/lower_cycles.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
@@ -101,6 +102,27 @@ class CyclePass {
     out.push_back(std::move(s));
   }
 
+  void put(Body& out, Body&& pieces, Statement&& s) {
+    const std::size_t main = pieces.size();
+    pieces.push_back(std::move(s));
+    put_group(out, std::move(pieces), main);
+  }
+  void put_group(Body& out, Body&& pieces, std::size_t main) {
+    if (!late_.empty()) {
+      Block behind;
+      behind.actions = std::exchange(late_, {});
+      pieces.push_back(made(pieces[main].line, std::move(behind)));
+    }
+    editor_.put_group(out, std::move(pieces), main);
+  }
+  /// What acts after the motion acts after the hole: behind all its pieces.
+  void hold_back(Block& b, bool native) {
+    const bool stays = native && (!by_call_ || std::none_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+                         return a.order == Order::after && makes_event(a);
+                       }));
+    if (!stays) late_ = take_after(b);
+  }
+
   // --- definitions ----------------------------------------------------------------------------------------------
 
   std::optional<double> height_mm(const Block& b, const Facts& facts, AxisId w) const {
@@ -182,7 +204,7 @@ class CyclePass {
       out.push_back(std::move(pieces.back()));
       return;
     }
-    editor_.put(out, std::move(pieces), std::move(s));
+    put(out, std::move(pieces), std::move(s));
   }
 
   void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
@@ -206,6 +228,7 @@ class CyclePass {
     const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
     const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
     const bool point_here = w && has_plane_word(b, *w);
+    if (d.here) hold_back(b, a.native != nullptr);
     if (!a.native) {
       if (old_on) pieces.push_back(off_statement(s.line, by_call_));
       written_out_ = true;
@@ -213,7 +236,7 @@ class CyclePass {
       if (d.here)
         write_out(std::move(s), std::move(pieces), out);
       else
-        editor_.put(out, std::move(pieces), std::move(s));
+        put(out, std::move(pieces), std::move(s));
       if (!d.modal) active_.reset();
       return;
     }
@@ -223,7 +246,7 @@ class CyclePass {
       native.trigger = CycleTrigger::plane_axis_word;
       if (!d.here) {  // the next point runs it
         active_ = a;
-        editor_.put(out, std::move(pieces), std::move(s));
+        put(out, std::move(pieces), std::move(s));
         return;
       }
       b.actions.push_back(action(native));
@@ -231,7 +254,7 @@ class CyclePass {
         a.on_target = true;
         active_ = a;
       }
-      editor_.put(out, std::move(pieces), std::move(s));
+      put(out, std::move(pieces), std::move(s));
       return;
     }
     define_by_call(std::move(s), d, std::move(a), point_here, std::move(pieces), out);
@@ -245,10 +268,10 @@ class CyclePass {
         const LineInfo like = pieces.back().line;
         const std::size_t main = pieces.size() - 1;
         pieces.push_back(single_run(like, a.native));
-        editor_.put_group(out, std::move(pieces), main);
+        put_group(out, std::move(pieces), main);
       } else {
         b.actions.push_back(action(CycleDefine{a.native, false, true, CycleTrigger::path_motion}));
-        editor_.put(out, std::move(pieces), std::move(s));
+        put(out, std::move(pieces), std::move(s));
       }
       return;
     }
@@ -273,7 +296,7 @@ class CyclePass {
       pieces.push_back(std::move(s));
       active_ = a;
       const std::size_t main = pieces.size() - 1;
-      editor_.put_group(out, std::move(pieces), main);
+      put_group(out, std::move(pieces), main);
       return;
     }
     pieces.push_back(on_statement(like, a.native));
@@ -285,13 +308,13 @@ class CyclePass {
     }
     active_ = a;
     const std::size_t main = pieces.size() - 1;
-    editor_.put_group(out, std::move(pieces), main);
+    put_group(out, std::move(pieces), main);
   }
 
   /// The way to a hole: rapid on controls that always position so.
-  void position_kind(Block& b) const {
+  void position_kind(Block& b, bool native = true) const {
     const bool source_rapid = context_.source_machine.option("cycle.positioning") == "rapid";
-    const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid" && !by_call_;
+    const bool target_rapid = native && context_.target_machine.option("cycle.positioning") == "rapid" && !by_call_;
     if (!source_rapid || target_rapid || !b.has_motion) return;
     if (b.motion.kind != MotionKind::modal) return;
     b.motion.kind = MotionKind::rapid;
@@ -330,6 +353,7 @@ class CyclePass {
       active_->on_target = false;  // the next point defines it again
       if (!hole_here) pieces.push_back(off_statement(like, false));
     }
+    if (hole_here) hold_back(b, active_->native != nullptr);
     if (!active_->native) {
       if (hole_here)
         write_out(std::move(s), std::move(pieces), out);
@@ -344,7 +368,7 @@ class CyclePass {
       const std::size_t main = pieces.size();
       pieces.push_back(std::move(s));
       if (wrap) pieces.push_back(on_statement(like, active_->native));
-      editor_.put_group(out, std::move(pieces), main);
+      put_group(out, std::move(pieces), main);
       return;
     }
     if (!hole_here) return plain(std::move(s), std::move(pieces), out);
@@ -364,22 +388,23 @@ class CyclePass {
     const bool simple = w && has_plane_word(b, *w) && !moves_tool && (!target_rapid || kind == MotionKind::rapid) &&
                         b.motion.centers.empty() && !b.motion.radius_given;
     if (active_->trigger == CycleTrigger::plane_axis_word && active_->on_target) {
-      return editor_.put(out, std::move(pieces), std::move(s));
+      return put(out, std::move(pieces), std::move(s));
     }
     const LineInfo like = s.line;
-    if (simple && active_->on_target) return editor_.put(out, std::move(pieces), std::move(s));
+    if (simple && active_->on_target) return put(out, std::move(pieces), std::move(s));
     if (simple || active_->trigger == CycleTrigger::plane_axis_word) {
       b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
       active_->on_target = true;
-      return editor_.put(out, std::move(pieces), std::move(s));
+      return put(out, std::move(pieces), std::move(s));
     }
     // Moved there in another way than the target's cycle does: the move, then one run of the cycle.
     if (active_->on_target) pieces.push_back(off_statement(like, false));
     active_->on_target = false;
+    late_ = take_after(b);
     const std::size_t main = pieces.size();
     pieces.push_back(std::move(s));
     pieces.push_back(single_run(like, active_->native));
-    editor_.put_group(out, std::move(pieces), main);
+    put_group(out, std::move(pieces), main);
   }
 
   void plain(Statement&& s, Body&& pieces, Body& out) {
@@ -398,7 +423,7 @@ class CyclePass {
           active_->height = c.value.number * (*units == Units::inch ? 25.4 : 1);
       }
     }
-    editor_.put(out, std::move(pieces), std::move(s));
+    put(out, std::move(pieces), std::move(s));
   }
 
   /// A new retract plane while the cycle is active is a new cycle. True: the target's own one has changed.
@@ -435,27 +460,19 @@ class CyclePass {
     if (!moves) {
       refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + error,
              "give the cycle's words and the height before it as numbers");
+      late_.clear();
       out.push_back(std::move(s));
       return;
     }
-    position_rapid(b);
+    position_kind(b, false);
     active_->height = moves->end_height;
     const std::size_t main = pieces.size();
     auto first = moves->blocks.begin();
     if (b.empty() && first != moves->blocks.end()) s.node = std::move((first++)->node);  // nothing of the line is left
     pieces.push_back(std::move(s));
     for (; first != moves->blocks.end(); ++first) pieces.push_back(std::move(*first));
-    editor_.put_group(out, std::move(pieces), main);
+    put_group(out, std::move(pieces), main);
   }
-  void position_rapid(Block& b) const {
-    if (context_.source_machine.option("cycle.positioning") != "rapid" || !b.has_motion ||
-        b.motion.kind != MotionKind::modal)
-      return;
-    b.motion.kind = MotionKind::rapid;
-    b.motion.explicit_code = true;
-    b.motion.keeps_modal = false;
-  }
-
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
@@ -464,22 +481,8 @@ class CyclePass {
   bool by_call_ = false;
   bool written_out_ = false;
   std::optional<Active> active_;
+  std::vector<Action> late_;  ///< of the block at hand, behind the hole
 };
-
-bool uses_cycles(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      if (const auto* m = std::get_if<ModalCall>(&s.node)) found = found || m->cycle != nullptr;
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) {
-        found = found || std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<CycleCancel>(a.data);
-      }
-    });
-  }
-  return found;
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 namespace cnctrans::ir::passes {
 
+bool uses_cycles(const Program& program);
 /// The tool axis of a cycle: its own, or the normal of the plane in force.
 std::optional<AxisId> cycle_axis(const HoleCycle& c, const Block& b, const Facts& facts);
 /// The cycle with absolute levels as far as the circumstances are known; what is not known stays as it is.

@@ -15,98 +15,156 @@ bool is_after(Order o) {
   return o == Order::after;
 }
 
+bool is_tool_word(const Action& a) {
+  return std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
+         std::holds_alternative<ToolOffset>(a.data);
+}
+
+/// Words that an event of the same block may rest on: they go where it goes.
+bool goes_with_events(const Action& a) {
+  if (makes_event(a) || is_tool_word(a) || std::holds_alternative<SetSpindle>(a.data)) return true;
+  const auto* m = std::get_if<ModalSet>(&a.data);
+  return m != nullptr && m->setting == Setting::spindle_mode;
+}
+
+/// When the block changes the tool, and whether by a word of its own; nullopt: it does not.
+struct Change {
+  Order order = Order::before;
+  bool by_m = false;
+};
+std::optional<Change> tool_change(const Block& b) {
+  std::optional<Change> found;
+  for (const auto& a : b.actions) {
+    if (std::holds_alternative<ToolChange>(a.data)) return Change{a.order, true};
+    const auto* t = std::get_if<ToolSelect>(&a.data);
+    if (t != nullptr && t->changes) found = Change{a.order, false};
+  }
+  return found;
+}
+
+/// The words of a tool change stay together; beside a move they need a block of their own where the target changes
+/// at another time, and an M code for it always has one when another language is written (chapter 4).
+bool change_leaves(const Block& b, const Program& program, const LegaliseContext& context) {
+  const auto change = tool_change(b);
+  if (!change || !has_motion(b)) return false;
+  const Order theirs = change->by_m ? target_order(action(ToolChange{}), context.target_machine) : Order::before;
+  if (is_after(change->order) != is_after(theirs)) return true;
+  return change->by_m && program.dialect != context.target.dialect;
+}
+
 class Splitter {
  public:
   Splitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
 
   void put(Body& out) {
     auto& block = std::get<Block>(main_.node);
+    const bool moving = has_motion(block);
+    if (moving && change_leaves(block, editor_.program, editor_.context)) change_ = tool_change(block);
     std::vector<Action> actions = std::move(block.actions);
     block.actions.clear();
-    const bool moving = has_motion(block) || defines_cycle(actions);
-    for (auto& a : actions) sort_in(std::move(a), moving);
-    pieces_.push_back(Statement{});  // place of the block itself
-    const std::size_t at = pieces_.size() - 1;
-    flush_after();
-    const bool nothing_left = block.empty() && block.repeat_given == 0 && pieces_.size() > 1;
-    if (nothing_left && at > 0) {
-      fold_main_into(pieces_[at - 1]);
-      pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(at));
-      editor_.put_group(out, std::move(pieces_), at - 1);
-      return;
+    // A limit of the speed holds before the speed does.
+    std::stable_partition(actions.begin(), actions.end(), [this](const Action& a) {
+      return std::holds_alternative<SpindleLimit>(a.data) && own_block(a, editor_.target());
+    });
+    Body pieces;
+    std::size_t at = 0;
+    if (moving) {
+      for (auto& a : actions) sort_in(std::move(a));
+      sequence(std::move(early_), pieces);
+      at = pieces.size();
+      pieces.push_back(Statement{});
+      sequence(std::move(late_), pieces);
+    } else {
+      sequence(std::move(actions), pieces);
+      at = pieces.size() - 1;
+      block.actions = std::move(std::get<Block>(pieces[at].node).actions);
     }
-    pieces_[at] = std::move(main_);
-    editor_.put_group(out, std::move(pieces_), at);
+    pieces[at] = std::move(main_);
+    editor_.put_group(out, std::move(pieces), at);
   }
 
  private:
-  static bool defines_cycle(const std::vector<Action>& actions) {
-    return std::any_of(actions.begin(), actions.end(),
-                       [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
-  }
+  std::vector<Action>& gathered() { return std::get<Block>(main_.node).actions; }
 
-  /// The line's comments and marks go to `s`, which replaces the block.
-  void fold_main_into(Statement& s) {
-    auto node = std::move(s.node);
-    s = std::move(main_);
-    s.node = std::move(node);
-  }
-
-  Block& main_block() { return std::get<Block>(main_.node); }
-
-  /// A block of its own before (or, when `behind`, after) the motion.
-  void own(Action a, bool behind) {
-    a.order = Order::before;
-    Statement s = made(main_.line, Block{});
-    std::get<Block>(s.node).actions.push_back(std::move(a));
-    (behind ? after_ : pieces_).push_back(std::move(s));
-  }
-
-  void sort_in(Action a, bool moving) {
+  /// An action of a block that moves: with the motion, or in a block before or behind it.
+  void sort_in(Action a) {
+    if (change_ && is_tool_word(a)) return with_change(std::move(a));
     const Order theirs = target_order(a, editor_.context.target_machine);
-    const bool alone = own_block(a, editor_.target());
-    if (moving) {
-      if (is_after(a.order) != is_after(theirs) && makes_event(a)) return own(std::move(a), is_after(a.order));
-      if (alone) return own(std::move(a), is_after(a.order));
-      if (makes_event(a)) a.order = theirs;
-      main_block().actions.push_back(std::move(a));
+    const bool event = makes_event(a);
+    const bool leaves = own_block(a, editor_.target()) || (event && is_after(a.order) != is_after(theirs));
+    if (is_after(a.order)) {
+      if (leaves || (event && !late_.empty())) {
+        late_.push_back(std::move(a));
+        return;
+      }
+    } else if (leaves) {
+      if (event) pull_events();
+      early_.push_back(std::move(a));
       return;
     }
-    // Without motion only the sequence of events counts.
-    if (alone) {
-      cut();
-      return own(std::move(a), false);
-    }
-    if (makes_event(a)) {
-      if (reached_after_ && !is_after(theirs)) cut();
-      reached_after_ = reached_after_ || is_after(theirs);
-      a.order = theirs;
-    }
-    main_block().actions.push_back(std::move(a));
+    if (event) a.order = theirs;
+    gathered().push_back(std::move(a));
   }
 
-  /// What has been gathered so far becomes a block of its own.
-  void cut() {
-    reached_after_ = false;
-    if (main_block().actions.empty()) return;
-    Statement s = made(main_.line, Block{});
-    std::get<Block>(s.node).actions = std::move(main_block().actions);
-    main_block().actions.clear();
-    pieces_.push_back(std::move(s));
+  /// T, D and the change. A D that counts for the move as well is said with both.
+  void with_change(Action a) {
+    const bool late = is_after(change_->order);
+    if (late && std::holds_alternative<ToolOffset>(a.data) && !is_after(a.order)) gathered().push_back(a);
+    a.order = Order::before;
+    if (!late && std::holds_alternative<ToolChange>(a.data)) pull_events();
+    (late ? late_ : early_).push_back(std::move(a));
   }
 
-  void flush_after() {
-    for (auto& s : after_) pieces_.push_back(std::move(s));
-    after_.clear();
+  /// What comes before an event that leaves leaves with it.
+  void pull_events() {
+    auto& b = gathered();
+    for (auto& a : b) {
+      if (goes_with_events(a)) early_.push_back(a);
+    }
+    std::erase_if(b, goes_with_events);
+  }
+
+  /// Without motion only the sequence of events counts: as few blocks as the target's order allows.
+  void sequence(std::vector<Action> actions, Body& pieces) {
+    std::vector<Action> block;
+    bool reached_after = false;
+    const auto cut = [&] {
+      reached_after = false;
+      if (block.empty()) return;
+      Statement s = made(main_.line, Block{});
+      std::get<Block>(s.node).actions = std::move(block);
+      block.clear();
+      pieces.push_back(std::move(s));
+    };
+    for (auto& a : actions) {
+      if (own_block(a, editor_.target())) {
+        cut();
+        a.order = Order::before;
+        block.push_back(std::move(a));
+        cut();
+        continue;
+      }
+      if (makes_event(a)) {
+        const Order theirs = target_order(a, editor_.context.target_machine);
+        if (reached_after && !is_after(theirs)) cut();
+        reached_after = reached_after || is_after(theirs);
+        a.order = theirs;
+      } else if (reached_after && std::holds_alternative<ToolSelect>(a.data)) {
+        cut();
+      }
+      block.push_back(std::move(a));
+    }
+    cut();
   }
 
   Editor& editor_;
   Statement main_;
-  Body pieces_, after_;
-  bool reached_after_ = false;
+  std::vector<Action> early_, late_;
+  std::optional<Change> change_;
 };
 
-bool needs_split(const Block& block, const LegaliseContext& context) {
+bool needs_split(const Block& block, const Program& program, const LegaliseContext& context) {
+  if (change_leaves(block, program, context)) return true;
   const bool moving = has_motion(block);
   bool reached_after = false;
   std::size_t others = block.has_motion ? 1 : 0;
@@ -126,9 +184,9 @@ bool needs_split(const Block& block, const LegaliseContext& context) {
 }  // namespace
 
 void split_blocks(Program& program, const LegaliseContext& context) {
-  edit_blocks(program, context, [&context](Editor& editor, Statement&& s, Body& out) {
+  edit_blocks(program, context, [&program, &context](Editor& editor, Statement&& s, Body& out) {
     auto& block = std::get<Block>(s.node);
-    if (!needs_split(block, context)) {
+    if (!needs_split(block, program, context)) {
       for (auto& a : block.actions) {
         if (makes_event(a)) a.order = target_order(a, context.target_machine);
       }
