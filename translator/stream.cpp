@@ -1,9 +1,8 @@
 #include "translator/stream.h"
 
-#include <array>
-
 #include "base/text.h"
 #include "ir/passes/legalise.h"
+#include "ir/passes/stream_watch.h"
 #include "translator/encode.h"
 
 namespace cnctrans::translator {
@@ -11,8 +10,8 @@ namespace cnctrans::translator {
 namespace {
 
 constexpr std::size_t window_bytes = 1U << 20U;
-/// The stretch before the first motion must fit into the first window: longer ones take the whole-program path.
-constexpr std::size_t prefix_limit = 2000;
+/// The head must fit into the first window: longer ones take the whole-program path.
+constexpr std::size_t head_limit = 2000;
 
 /// A source as windows of whole lines; the first window also tells encoding and line ends.
 struct Windows {
@@ -35,23 +34,6 @@ struct Windows {
   }
 };
 
-/// Keeps modal state along the stream, for the blocks that need a pass.
-class ModalTracker {
- public:
-  explicit ModalTracker(const ir::ModalState& power_on) : state_(power_on) {}
-  void follow(const ir::Block& block) {
-    for (const auto& a : block.actions) {
-      if (const auto* set = std::get_if<ir::ModalSet>(&a.data)) state_.set(set->setting, set->value);
-    }
-    if (block.has_motion && block.motion.kind != ir::MotionKind::modal && block.motion.keeps_modal)
-      state_.motion = block.motion.kind;
-  }
-  [[nodiscard]] const ir::ModalState& state() const { return state_; }
-
- private:
-  ir::ModalState state_;
-};
-
 class StreamTranslation {
  public:
   StreamTranslation(const Dialect& from, const Dialect& to, const machine::Profile& source,
@@ -64,16 +46,16 @@ class StreamTranslation {
         options_(options),
         result_(result),
         sink_(sink),
-        tracker_(source.power_on),
-        legal_(to.backend->capabilities_for(target)) {}
+        legal_(to.backend->capabilities_for(target)),
+        watch_(legal_, source, target) {}
 
   void run(const std::string& path, const Progress& progress) {
     Windows windows;
     if (!windows.open(path, &result_.error)) return fail();
     eol_ = options_.eol.value_or(windows.eol);
-    encoding_ = options_.encoding.value_or(windows.encoding);
-    source_encoding_ = windows.encoding;
-    if (encoding_ != source_encoding_) return give_up();
+    const bool utf8 =
+        windows.encoding == Encoding::utf8 && options_.encoding.value_or(Encoding::utf8) == Encoding::utf8;
+    if (!utf8) return void(give_up());
     const FileId file = result_.files.add_name(path);
     const frontends::ReadOptions read{options_.reader, &source_};
     reader_ = from_.frontend->stream(file, read, path);
@@ -84,101 +66,117 @@ class StreamTranslation {
     write.number_step = options_.number_step;
     write.main_stem = SourceText::from_string(path, {})->stem();
     writer_ = to_.backend->stream(write);
-    if (!reader_ || !writer_) return give_up();
+    if (!reader_ || !writer_ || !watch_.possible()) return void(give_up());
     out_.reserve(window_bytes + window_bytes / 4);
-    if (windows.bom && encoding_ == Encoding::utf8) out_ += "\xEF\xBB\xBF";
-    std::string_view window = windows.first;
-    std::uint32_t number = 0;
-    while (!window.empty()) {
-      SourceLine line;
-      while (take_line(window, line)) {
-        line.number = ++number;
-        if (!take(line)) return;
-      }
-      if (!prefix_done_) return give_up();
-      if (!flush()) return fail();
-      if (progress && windows.reader.file_size() > 0) {
-        progress(static_cast<double>(windows.reader.bytes_read()) / static_cast<double>(windows.reader.file_size()));
-      }
-      window = windows.reader.next();
-      if (encoding_ == Encoding::utf8 && !window.empty() && !valid_utf8(window)) return give_up();
-    }
-    if (!prefix_done_) return give_up();  // no motion at all: let the whole-program path look at it
+    if (windows.bom && !options_.encoding) out_ += "\xEF\xBB\xBF";
+    if (!take_windows(windows, progress)) return;
+    if (!watch_.head_done()) return void(give_up());  // no motion at all: let the whole-program path look at it
+    reader_->end(result_.lines, reading_);
     if (!ended_) {
-      diagnostics_.note("TRN-092", statement_.line.span, "the program ends without an end word; one is written");
-      if (!put_end(false)) return;
+      reading_.note("TRN-092", last_code_, "the program ends without an end word; one is written");
+      ir::Statement end;
+      end.line.span = last_code_;
+      end.node = ir::End{};
+      if (!emit(end)) return;
     }
     writer_->end(out_);
-    result_.lines = number;
-    if (!flush()) fail();
+    if (!flush()) return fail();
+    for (const Diagnostics* stage : {&reading_, &passing_, &writing_}) result_.diagnostics.append(*stage);
   }
 
  private:
   void fail() { result_.outcome = StreamOutcome::failed; }
-  void give_up() { result_.outcome = StreamOutcome::needs_program; }
-
-  /// One source line. False: the stream has ended (result says how).
-  bool take(const SourceLine& line) {
-    const frontends::StreamLine kind = reader_->read(line, statement_, diagnostics_);
-    if (kind == frontends::StreamLine::needs_program || diagnostics_.has_errors() ||
-        diagnostics_.warning_count() != 0) {
-      give_up();
-      return false;
-    }
-    if (kind == frontends::StreamLine::no_statement) return true;
-    if (!prefix_done_) return take_prefix(kind);
-    if (kind != frontends::StreamLine::program_end) return put(statement_);
-    ended_ = true;
-    const auto* block = std::get_if<ir::Block>(&statement_.node);
-    const bool alone = block != nullptr && block->empty();
-    return (alone || put(statement_)) && put_end(!alone);
+  bool give_up() {
+    result_.outcome = StreamOutcome::needs_program;
+    return false;
   }
 
-  /// Until the first motion the statements are kept, so that the safe start can be put where it belongs.
-  bool take_prefix(frontends::StreamLine kind) {
-    prefix_.push_back(statement_);
-    if (kind == frontends::StreamLine::program_end || prefix_.size() > prefix_limit) {
-      give_up();
-      return false;
-    }
-    const auto* block = std::get_if<ir::Block>(&statement_.node);
-    if (block == nullptr) {
-      give_up();
-      return false;
-    }
-    if (!block->has_motion || !block->motion.moves()) return true;
-    prefix_done_ = true;
-    ir::Program program = frame();
-    program.routines.front().body = std::move(prefix_);
-    ir::number_statements(program);
-    const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, diagnostics_};
-    for (const auto& s : program.routines.front().body) {
-      if (const auto* b = std::get_if<ir::Block>(&s.node)) tracker_.follow(*b);
-    }
-    if (!run_local_passes(program, context)) return false;
-    ir::run_pass("safe_start", program, context);
-    writer_->begin(program, out_);
-    return write_pieces(program);
-  }
-
-  bool run_local_passes(ir::Program& program, const ir::LegaliseContext& context) {
-    for (const std::string_view pass : ir::block_local_passes()) {
-      if (!ir::run_pass(pass, program, context)) {
-        give_up();
+  /// False: the stream has come to an early end (result says how).
+  bool take_windows(Windows& windows, const Progress& progress) {
+    std::string_view window = windows.first;
+    SourceLine line;
+    while (!window.empty()) {
+      while (take_line(window, line)) {
+        if (!take(line)) return false;
+      }
+      if (!watch_.head_done()) return give_up();
+      if (!flush()) {
+        fail();
         return false;
       }
+      if (progress && windows.reader.file_size() > 0) {
+        progress(static_cast<double>(windows.reader.bytes_read()) / static_cast<double>(windows.reader.file_size()));
+      }
+      window = windows.reader.next();
+      if (!window.empty() && !valid_utf8(window)) return give_up();
+    }
+    result_.lines = line.number;
+    result_.error = windows.reader.read_error();
+    if (!result_.error.empty()) fail();
+    return result_.error.empty();
+  }
+
+  bool take(const SourceLine& line) {
+    const frontends::StreamLine kind = reader_->read(line, statement_, reading_);
+    if (kind == frontends::StreamLine::needs_program || reading_.has_errors() || reading_.warning_count() != 0)
+      return give_up();
+    if (kind == frontends::StreamLine::no_statement) return true;
+    auto* block = std::get_if<ir::Block>(&statement_.node);
+    if (block == nullptr) return give_up();
+    // After a block that may be skipped the modal state is not known.
+    if (statement_.line.skip_mask != 0 && (!block->actions.empty() || block->motion.kind != ir::MotionKind::modal))
+      return give_up();
+    const bool end = kind == frontends::StreamLine::program_end;
+    const bool code = end || !block->empty() || !statement_.line.number.empty();
+    if (code) {
+      if (ended_) return give_up();  // blocks behind the end
+      last_code_ = statement_.line.span;
+    }
+    if (!watch_.head_done()) return end ? give_up() : take_head(*block);
+    ended_ = ended_ || end;
+    if (!end) return put(*block);
+    const bool alone = block->empty();
+    if (!alone && !put(*block)) return false;
+    ir::Statement last;
+    last.node = ir::End{reader_->end_word(), false};
+    if (alone) {
+      last.line = statement_.line;
+    } else {
+      last.line.span = statement_.line.span;
+      last.line.joined = true;
+    }
+    return emit(last);
+  }
+
+  /// The head's statements are kept until the safe start can be put where it belongs.
+  bool take_head(const ir::Block& block) {
+    head_.push_back(statement_);
+    if (head_.size() > head_limit || !watch_.take_head(block)) return give_up();
+    if (!watch_.head_done()) return true;
+    ir::Program program = frame();
+    program.routines.front().body = std::move(head_);
+    ir::number_statements(program);
+    const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, passing_};
+    if (!run_local_passes(program, context)) return give_up();
+    ir::run_pass("safe_start", program, context);
+    ir::run_pass("tidy", program, context);
+    if (passing_.has_errors() || passing_.warning_count() != 0) return give_up();
+    writer_->begin(program, out_);
+    return emit_all(program);
+  }
+
+  static bool run_local_passes(ir::Program& program, const ir::LegaliseContext& context) {
+    for (const std::string_view pass : ir::block_local_passes()) {
+      if (!ir::run_pass(pass, program, context)) return false;
     }
     return true;
   }
 
-  bool write_pieces(const ir::Program& program) {
+  bool emit(const ir::Statement& s) { return writer_->write(s, out_, writing_) || give_up(); }
+  bool emit_all(const ir::Program& program) {
     for (const auto& piece : program.routines.front().body) {
-      const auto* block = std::get_if<ir::Block>(&piece.node);
-      if (block == nullptr || diagnostics_.has_errors() || diagnostics_.warning_count() != 0 ||
-          !writer_->write(piece, out_, diagnostics_)) {
-        give_up();
-        return false;
-      }
+      if (!std::holds_alternative<ir::Block>(piece.node)) return give_up();
+      if (!emit(piece)) return false;
     }
     return true;
   }
@@ -189,60 +187,29 @@ class StreamTranslation {
     return program;
   }
 
-  bool put_end(bool joined) {
-    ir::Statement end;
-    if (joined || !ended_) {
-      end.line.joined = joined;
-      end.line.span = statement_.line.span;
-    } else {
-      end.line = statement_.line;  // the end word stands alone in its line
+  /// The statement at hand, which is this block.
+  bool put(const ir::Block& block) {
+    switch (watch_.look(block)) {
+      case ir::StreamWatch::Verdict::plain: break;
+      case ir::StreamWatch::Verdict::local: return put_legalised(block);
+      case ir::StreamWatch::Verdict::whole: return give_up();
     }
-    end.node = ir::End{};
-    return put(end);
-  }
-
-  /// What depends on more than the block and is not settled by the local passes: the whole program is needed.
-  static bool needs_more(const ir::Block& b) {
-    if (b.has_motion && b.motion.coords.empty() && !b.motion.centers.empty()) return true;
-    for (const auto& a : b.actions) {
-      if (std::holds_alternative<ir::MachineFunction>(a.data) || std::holds_alternative<ir::FrameOp>(a.data))
-        return true;
-      const auto* set = std::get_if<ir::ModalSet>(&a.data);
-      if (set != nullptr && (set->setting == ir::Setting::feed_mode || set->setting == ir::Setting::units ||
-                             set->setting == ir::Setting::path_mode || set->setting == ir::Setting::diameter)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  bool put(const ir::Statement& s) {
-    const auto* block = std::get_if<ir::Block>(&s.node);
-    if (block != nullptr && needs_more(*block)) {
-      give_up();
-      return false;
-    }
-    if (block != nullptr && !ir::plain_legal(*block, legal_, &target_)) return put_legalised(s);
-    if (block != nullptr) tracker_.follow(*block);
-    if (!writer_->write(s, out_, diagnostics_) || diagnostics_.has_errors()) {
-      give_up();
-      return false;
-    }
-    return true;
+    watch_.follow(block);
+    return emit(statement_);
   }
 
   /// A block that a pass has to look at: a program of this block alone, under the modal state reached so far.
-  bool put_legalised(const ir::Statement& s) {
+  bool put_legalised(const ir::Block& block) {
     ir::Program program = frame();
-    program.routines.front().body = {s};
+    program.routines.front().body = {statement_};
     ir::number_statements(program);
-    machine::Profile source = source_;
-    source.power_on = tracker_.state();
-    source.power_on.length_comp = source_.power_on.length_comp;  // what the machine does by itself, not a mode reached
-    const ir::LegaliseContext context{legal_, source, target_, {options_.cycles}, diagnostics_};
-    if (!run_local_passes(program, context) || !write_pieces(program)) return false;
-    tracker_.follow(std::get<ir::Block>(s.node));
-    return true;
+    const machine::Profile source = watch_.source_for(block);
+    Diagnostics said;  // one block's report can't be put in its place among those of the other passes
+    const ir::LegaliseContext context{legal_, source, target_, {options_.cycles}, said};
+    if (!run_local_passes(program, context) || !said.empty()) return give_up();
+    ir::run_pass("tidy", program, context);
+    watch_.follow(block);
+    return emit_all(program);
   }
 
   bool flush() {
@@ -250,8 +217,7 @@ class StreamTranslation {
     if (eol_ == Eol::lf) {
       good = sink_(out_);
     } else {
-      good = sink_(encode_output(out_, Encoding::utf8 == encoding_ ? encoding_ : Encoding::windows1252, eol_, false,
-                                 diagnostics_));
+      good = sink_(encode_output(out_, Encoding::utf8, eol_, false, writing_));
     }
     out_.clear();
     if (!good) result_.error = "the output could not be written";
@@ -267,16 +233,16 @@ class StreamTranslation {
   const TextSink& sink_;
   std::unique_ptr<frontends::StreamReader> reader_;
   std::unique_ptr<backends::StreamWriter> writer_;
-  ModalTracker tracker_;
   const ir::Capabilities& legal_;
-  Diagnostics& diagnostics_ = result_.diagnostics;
+  ir::StreamWatch watch_;
+  // What each stage says comes in the order of the stages, as from the whole-program path.
+  Diagnostics reading_, passing_, writing_;
   ir::Statement statement_;
-  ir::Body prefix_;
-  bool prefix_done_ = false;
+  ir::Body head_;
+  Span last_code_;  ///< of the last statement that is more than a comment
   bool ended_ = false;
   std::string out_;
   Eol eol_ = Eol::lf;
-  Encoding encoding_ = Encoding::utf8, source_encoding_ = Encoding::utf8;
 };
 
 }  // namespace
@@ -287,7 +253,8 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   const Dialect* from = find_dialect(options.from);
   const Dialect* to = find_dialect(options.to);
   result.outcome = StreamOutcome::needs_program;
-  if (from == nullptr || to == nullptr || options.verify || options.annotate ||
+  // In its own language a program keeps its spelling, which the stream does not look at closely enough.
+  if (from == nullptr || to == nullptr || from == to || options.verify || options.annotate ||
       options.reader != frontends::Reader::scanner)
     return result;
   Windows look;
@@ -304,8 +271,6 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
                         : std::string(to->name) + (source->kind == machine::Kind::lathe ? "-lathe" : "-mill"),
                     &result.error);
   if (!target) return result;
-  // Diameters and a length compensation that has to be switched on need the whole program.
-  if (source->kind == machine::Kind::lathe || to->backend->capabilities_for(*target).length_comp_switch) return result;
   result.outcome = StreamOutcome::done;
   StreamTranslation(*from, *to, *source, *target, options, result, sink).run(path, progress);
   return result;
@@ -342,6 +307,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
     }
     window = windows.reader.next();
   }
+  if (!windows.reader.read_error().empty()) return run;  // the whole-program path reports
   run.outcome = StreamOutcome::done;
   run.result = runner.finish(last);
   return run;

@@ -90,4 +90,8 @@ std::string comment(std::string_view text, const CommentStyle& style, bool own, 
   return out;
 }
 
+void note_lossy_comment(const Span& place, Diagnostics& diagnostics) {
+  diagnostics.note("TRN-209", place, "a character of this comment does not exist on the target control and became '?'");
+}
+
 }  // namespace cnctrans::backends

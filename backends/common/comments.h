@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "backends/common/style.h"
+#include "base/diagnostics.h"
 
 namespace cnctrans::backends {
 
@@ -16,5 +17,8 @@ std::string to_ascii(std::string_view text, bool* lossy);
 std::string comment_text(std::string_view text, const CommentStyle& style, bool own, bool* lossy);
 /// With the marks.
 std::string comment(std::string_view text, const CommentStyle& style, bool own, bool* lossy);
+
+/// Says that a comment got a '?'.
+void note_lossy_comment(const Span& place, Diagnostics& diagnostics);
 
 }  // namespace cnctrans::backends

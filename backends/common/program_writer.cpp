@@ -110,6 +110,7 @@ void ProgramWriter::begin_line(const ir::LineInfo& info) {
   info_ = &info;
   line_open_ = true;
   first_of_source_line_ = true;
+  blank_line_ = is_blank_line();
   if (is_join(info)) {
     tracker_.join();
     settings_.fill(std::nullopt);
@@ -169,10 +170,7 @@ std::string ProgramWriter::line_comments() {
     bool lossy = false;
     if (!out.empty()) out += ' ';
     out += comment(c.text, style_.comment, same_dialect_, &lossy);
-    if (lossy) {
-      diagnostics_.note("TRN-209", word_span(info_->span, c.pos),
-                        "a character of this comment does not exist on the target control and became '?'");
-    }
+    if (lossy) note_lossy_comment(word_span(info_->span, c.pos), diagnostics_);
   }
   return out;
 }
@@ -204,11 +202,11 @@ void ProgramWriter::finish_line() {
   const bool before = style_.comment.line_before && !words.empty() && !same_dialect_ && first_of_source_line_;
   if (before) emit_comments_before();
   const std::string remarks = before ? std::string{} : line_comments();
-  std::string text = line_head(!words.empty());
+  std::string text = line_head(!words.empty() && words != style_.blank_line);
   if (refused()) return emit_refusal();
   const bool only_head = words.empty() && remarks.empty();
   if (only_head && trim(text).empty()) {
-    if (is_blank_line() && style_.blank_lines) emit(style_.blank_line, info_->span);
+    if (blank_line_ && first_of_source_line_ && style_.blank_lines) emit(style_.blank_line, info_->span);
     return;
   }
   text += words;
@@ -226,7 +224,7 @@ void ProgramWriter::finish_line() {
 /// An empty block is an empty line of the source; elsewhere nothing was said because nothing had to be.
 bool ProgramWriter::is_blank_line() const {
   const auto* b = current_ != nullptr && info_ == &current_->line ? std::get_if<ir::Block>(&current_->node) : nullptr;
-  return b != nullptr && b->empty() && first_of_source_line_ && !info_->joined;
+  return b != nullptr && b->empty() && !info_->joined;
 }
 
 void ProgramWriter::annotate() {

@@ -199,6 +199,7 @@ class ProgramWriter {
   Line line_;
   const ir::LineInfo* info_ = nullptr;
   bool line_open_ = false, first_of_source_line_ = true;
+  bool blank_line_ = false;  ///< the line at hand is an empty line of the source
   std::size_t depth_ = 0;
   std::int64_t next_number_ = 0;
   Span annotated_;

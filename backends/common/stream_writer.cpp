@@ -191,6 +191,7 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
   } else if (const auto* e = std::get_if<ir::End>(&statement.node)) {
     const std::string_view text = same_dialect_ && !e->text.empty() ? e->text : table_.end_program;
     if (text.empty()) return false;
+    if (info.joined && ends_in_comment_) return false;
     if (info.joined && !out.empty() && out.back() == '\n') {  // goes on the line of its block
       out.back() = ' ';
       out += text;
@@ -202,7 +203,7 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
     return false;
   }
   words.sort(style_.order_by_rank);
-  if (!write_line(info, words, out)) return false;
+  if (!write_line(info, words, out, diagnostics)) return false;
   if (rounded_ && !rounding_noted_) {
     rounding_noted_ = true;
     diagnostics.warning("TRN-210", info.span,
@@ -256,7 +257,7 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
     return true;
   };
   bool plain = false;
-  bool m_code_fits = true;
+  bool m_code_fits = !moves || a.order != ir::Order::after;  // of other words than M functions
   if (const auto* f = std::get_if<ir::SetFeed>(&a.data)) {
     const bool special = f->value.number == 0 && (f->zero_is_maximum || !table_.zero_feed);
     plain = !special && valued(table_.feed, f->value, Rank::feed);
@@ -347,7 +348,8 @@ bool PlainStreamWriter::add_motion(const ir::Motion& m, Words& words) const {
   }
   for (const ir::CoordWord& c : m.coords) {
     if (c.mode != ir::WordMode::modal || c.scale != ir::WordScale::modal ||
-        c.direction != ir::RotaryDirection::as_value || !c.value.literal() || c.axis >= table_.axes.size()) {
+        c.direction != ir::RotaryDirection::as_value || !c.value.literal() || c.axis >= table_.axes.size() ||
+        table_.axes[c.axis].empty()) {
       return false;
     }
     if (!words.add(table_.axes[c.axis], c.value, Rank::coordinate, c.pos.column)) return false;
@@ -401,7 +403,7 @@ bool PlainStreamWriter::write_head(const ir::LineInfo& info, bool numbered, char
   return true;
 }
 
-void PlainStreamWriter::write_comments(const ir::LineInfo& info, std::string& out) const {
+void PlainStreamWriter::write_comments(const ir::LineInfo& info, std::string& out, Diagnostics* diagnostics) const {
   bool first = true;
   for (const ir::CommentText& c : info.comments) {
     if (!first) out += ' ';
@@ -411,12 +413,15 @@ void PlainStreamWriter::write_comments(const ir::LineInfo& info, std::string& ou
       out += c.text;
       out += style_.comment.close;
     } else {
-      out += comment(c.text, style_.comment, false, nullptr);
+      bool lossy = false;
+      out += comment(c.text, style_.comment, false, &lossy);
+      if (lossy && diagnostics != nullptr) note_lossy_comment(word_span(info.span, c.pos), *diagnostics);
     }
   }
 }
 
-bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words, std::string& out) {
+bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words, std::string& out,
+                                   Diagnostics& diagnostics) {
   char line[line_max];
   char* p = line;
   const char* const end = line + line_max;
@@ -436,19 +441,21 @@ bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words,
     }
   }
   const bool has_comments = !info.comments.empty();
+  ends_in_comment_ = has_comments;
   if (!has_comments && words.count == 0 && head_end == line) {  // an empty line
     if (style_.blank_lines) out += std::string(style_.blank_line) + '\n';
     return true;
   }
   const bool comment_before = has_comments && style_.comment.line_before && words.count != 0 && !same_dialect_;
   if (comment_before) {
-    write_comments(info, out);
+    write_comments(info, out, nullptr);
     out += '\n';
+    ends_in_comment_ = false;
   }
   out.append(line, static_cast<std::size_t>(p - line));
   if (has_comments && !comment_before) {
     if (p != line) out.append(words.count == 0 ? 1 : style_.comment.gap, ' ');
-    write_comments(info, out);
+    write_comments(info, out, &diagnostics);
   } else if (words.count == 0 && !style_.only_label.empty()) {
     out += ' ';
     out += style_.only_label;

@@ -69,10 +69,10 @@ class PlainStreamWriter : public StreamWriter {
   bool add_modal(const ir::ModalSet& m, Word& w) const;
   bool add_motion(const ir::Motion& m, Words& words) const;
   [[nodiscard]] bool order_fits(const ir::Action& a, std::size_t code, bool moves) const;
-  bool write_line(const ir::LineInfo& info, const Words& words, std::string& out);
+  bool write_line(const ir::LineInfo& info, const Words& words, std::string& out, Diagnostics& diagnostics);
   bool write_number(const Word& w, char*& p, const char* end);
   bool write_head(const ir::LineInfo& info, bool numbered, char*& p, const char* end);
-  void write_comments(const ir::LineInfo& info, std::string& out) const;
+  void write_comments(const ir::LineInfo& info, std::string& out, Diagnostics* diagnostics) const;
 
   Style style_;
   WriteOptions options_;
@@ -83,6 +83,7 @@ class PlainStreamWriter : public StreamWriter {
   std::array<std::uint16_t, 8> m_codes_{};    ///< spindle off cw ccw, coolant off flood mist second, tool change
   bool same_dialect_ = false;
   bool lathe_ = false;
+  bool ends_in_comment_ = false;  ///< the line written last: no word can follow in it
   bool rounded_ = false, rounding_noted_ = false;
   std::int64_t next_number_ = 0;
 };

@@ -220,6 +220,12 @@ PlainTable plain_words(const machine::Profile& profile) {
   t.work_offset_off = "G53";
   t.work_offsets[1] = "G54";
   t.dwell = "G4 F";
+  // The sign of such an axis is its direction: positions have to be looked at.
+  const std::string modulo =
+      profile.option(facts::option::rotary_modulo, facts::option_default(facts::option::rotary_modulo));
+  for (ir::AxisId axis = 0; axis < t.axes.size(); ++axis) {
+    if (ir::is_rotary_letter(axis) && modulo.find(t.axes[axis]) != std::string::npos) t.axes[axis] = {};
+  }
   return t;
 }
 

@@ -43,6 +43,10 @@ class StreamReader {
  public:
   virtual ~StreamReader() = default;
   virtual StreamLine read(const SourceLine& line, ir::Statement& out, Diagnostics& diagnostics) = 0;
+  /// After program_end: the end word as written.
+  [[nodiscard]] virtual std::string_view end_word() const = 0;
+  /// After the last line (`lines` of them): what is to be said of the program as a whole.
+  virtual void end(std::uint32_t lines, Diagnostics& diagnostics) = 0;
   /// The program frame so far: title, name, spaces; valid from the first line on.
   [[nodiscard]] virtual const ir::Program& frame() const = 0;
 };

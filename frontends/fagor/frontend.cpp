@@ -13,6 +13,8 @@ using cnctrans::fagor::LineReader;
 using cnctrans::fagor::LowerState;
 using cnctrans::fagor::ParseError;
 
+constexpr std::size_t max_number_digits = 8;  ///< of a block number; longer ones are reported
+
 /// Word blocks, comments, header and program end; anything else needs the whole program.
 class FagorStream : public StreamReader {
  public:
@@ -35,15 +37,20 @@ class FagorStream : public StreamReader {
     if (!line.text.empty() && line.text.front() == '%') return header(line, out);
     ParseError error;
     if (!reader_.read(line.text, block_, error, state_) || !block_.statements.empty()) return StreamLine::needs_program;
+    if (block_.number.size() > max_number_digits) return StreamLine::needs_program;
     first_ = first_ && block_.words.empty() && block_.number.empty();
     cnctrans::fagor::fill_line(block_, state_.line(), out.line);
     if (!std::holds_alternative<ir::Block>(out.node)) out.node = ir::Block{};
     BlockResult result;
     lowerer_.lower(block_, std::get<ir::Block>(out.node), result);
     if (result.needs_program || result.call || !result.opaque.empty()) return StreamLine::needs_program;
-    return result.end ? StreamLine::program_end : StreamLine::statement;
+    if (!result.end) return StreamLine::statement;
+    end_word_ = cnctrans::fagor::word_text(*result.end);
+    return StreamLine::program_end;
   }
 
+  [[nodiscard]] std::string_view end_word() const override { return end_word_; }
+  void end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {}
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 
  private:
@@ -65,6 +72,7 @@ class FagorStream : public StreamReader {
   BlockLowerer lowerer_{state_};
   syntax::Block block_;
   ir::Program frame_;
+  std::string_view end_word_;
   bool first_ = true;
 };
 

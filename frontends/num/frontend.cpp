@@ -51,15 +51,20 @@ class NumStream : public StreamReader {
       (void)diagnostics;  // the whole-program path reports
       return StreamLine::needs_program;
     }
+    ended_ = ended_ || flow_.end;
     return flow_.end ? StreamLine::program_end : StreamLine::statement;
   }
 
+  [[nodiscard]] std::string_view end_word() const override { return flow_.end_text; }
+  void end(std::uint32_t lines, Diagnostics& diagnostics) override {
+    if (!ended_ && started_) note_missing_end(Span{file_, lines, 1, lines, 1}, diagnostics);
+  }
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 
  private:
   StreamLine header(const Span& span) {
     const auto& list = syntax_.statements;
-    if (started_ || list.size() != 1 || list[0].keyword != "%" || list[0].args.empty() ||
+    if (span.line != 1 || list.size() != 1 || list[0].keyword != "%" || list[0].args.empty() ||
         frame_.routines[0].header.span.known()) {
       return StreamLine::needs_program;
     }
@@ -81,7 +86,7 @@ class NumStream : public StreamReader {
   ir::Program frame_;
   syntax::Block syntax_;
   Flow flow_;
-  bool started_ = false;
+  bool started_ = false, ended_ = false;
 };
 
 class NumFrontend : public Frontend {

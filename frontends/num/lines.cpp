@@ -11,6 +11,10 @@ namespace cnctrans::frontends::num {
 
 namespace facts = dialects::num;
 
+void note_missing_end(const Span& end, Diagnostics& diagnostics) {
+  diagnostics.note("NUM-037", end, "the program has no M02; it ends with its last block");
+}
+
 void fill_line(const syntax::Block& b, const Span& span, ir::LineInfo& line) {
   line.clear();
   line.span = span;
@@ -159,7 +163,7 @@ void FileReader::end_routine() {
   }
   if (routine_.kind == ir::RoutineKind::main && !ended_ && !only_comments_ && !source_->lines().empty()) {
     Span end{file_, source_->lines().back().number, 1, source_->lines().back().number, 1};
-    diagnostics_.note("NUM-037", end, "the program has no M02; it ends with its last block");
+    note_missing_end(end, diagnostics_);
   }
   program_.routines.push_back(std::move(routine_));
 }

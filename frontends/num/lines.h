@@ -15,6 +15,8 @@ namespace cnctrans::frontends::num {
 
 /// Number, skip mark and comments of a block into a line; no allocation when `line` has its memory.
 void fill_line(const syntax::Block& b, const Span& span, ir::LineInfo& line);
+/// The program ends with its text (`end`: its last line).
+void note_missing_end(const Span& end, Diagnostics& diagnostics);
 
 /// Name of a program without a header: the number that its file is named by, or the file's name in capitals.
 ir::RoutineName name_of_file(std::string_view stem);

@@ -280,6 +280,8 @@ class LineStream final : public StreamReader {
     if (!ok || words_.tail() == Tail::subprogram_end) return StreamLine::needs_program;
     return words_.tail() == Tail::program_end ? StreamLine::program_end : StreamLine::statement;
   }
+  [[nodiscard]] std::string_view end_word() const override { return context_.slice(words_.tail_pos()); }
+  void end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {}
   [[nodiscard]] const ir::Program& frame() const override { return program_; }
 
  private:

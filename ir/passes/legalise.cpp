@@ -32,7 +32,7 @@ constexpr std::array pipeline{
     Pass{"conditions", passes::lower_conditions, false},
     Pass{"expressions", passes::lower_expressions, false},
     Pass{"tools", passes::convert_tools, true},
-    Pass{"feed", passes::convert_feed, false},
+    Pass{"feed", passes::convert_feed, true},
     Pass{"order", passes::split_blocks, true},
     Pass{"skips", passes::check_skips, true},
     Pass{"messages", passes::convert_messages, false},

@@ -45,6 +45,7 @@ struct PlainAction {
   }
 
   bool operator()(const ModalSet& s) const {
+    if (moving && action.order == Order::after) return false;
     switch (s.setting) {
       case Setting::units: return s.feed_too ? target.units_with_feed : target.units_geometry_only;
       case Setting::diameter:

@@ -1,0 +1,196 @@
+#include "ir/passes/stream_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ir/passes/blocks.h"
+
+namespace cnctrans::ir {
+
+namespace {
+
+const ModalSet* set_of(const Action& a, Setting s) {
+  const auto* m = std::get_if<ModalSet>(&a.data);
+  return m != nullptr && m->setting == s ? m : nullptr;
+}
+
+template <class Data>
+bool has(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(),
+                     [](const Action& a) { return std::holds_alternative<Data>(a.data); });
+}
+
+/// The value in force in the block: its own word, else the state before.
+template <class Enum>
+Enum in_block(const Block& b, Setting s, Enum before) {
+  for (const auto& a : b.actions) {
+    const auto* m = a.order == Order::after ? nullptr : set_of(a, s);
+    if (m != nullptr) before = static_cast<Enum>(m->value);
+  }
+  return before;
+}
+
+bool is_arc(MotionKind k) {
+  return k == MotionKind::arc_cw || k == MotionKind::arc_ccw;
+}
+
+}  // namespace
+
+StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& source,
+                         const machine::Profile& target_machine)
+    : target_(target),
+      source_(source),
+      target_machine_(target_machine),
+      state_(source.power_on),
+      places_(std::max(0, std::min(target.word_decimals, target.word_decimals_inch))),
+      at_once_(passes::changes_on_select(target_machine)),
+      keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")) {
+  const bool source_on = source.power_on.length_comp == OnOff::on;
+  const bool target_on = target_machine.power_on.length_comp == OnOff::on;
+  adds_length_ = target.length_comp_switch && source_on && !target_on;
+  never_on_ = !source_on && (!target.length_comp_switch || target_on);
+}
+
+bool StreamWatch::too_long(const Value& v) const {
+  if (v.text.empty()) return v.number != std::trunc(v.number);
+  const std::size_t point = v.text.find('.');
+  return point != std::string_view::npos && v.text.size() - point - 1 > static_cast<std::size_t>(places_);
+}
+
+bool StreamWatch::possible() const {
+  if (source_.kind != machine::Kind::lathe) return true;
+  return target_.diameter_switch || target_.fixed_diameter == source_.power_on.diameter;
+}
+
+// --- the head -------------------------------------------------------------------------------------------------------
+
+bool StreamWatch::take_head(const Block& block) {
+  for (const auto& a : block.actions) {
+    const auto* units = set_of(a, Setting::units);
+    if (units != nullptr && units->value != static_cast<std::uint8_t>(source_.power_on.units)) return false;
+    if (set_of(a, Setting::diameter) != nullptr) return false;
+    const bool once = set_of(a, Setting::feed_mode) != nullptr || set_of(a, Setting::path_mode) != nullptr;
+    if (units == nullptr && !once && action_needs_whole(block, a)) return false;
+  }
+  if (block.has_motion && motion_needs_whole(block)) return false;
+  follow_head(block);
+  follow(block);
+  return true;
+}
+
+/// safe_start looks for the first motion function and the first feed, the pass over feeds for a feed after the last
+/// change of its mode.
+void StreamWatch::follow_head(const Block& block) {
+  for (const auto& a : block.actions) {
+    if (set_of(a, Setting::feed_mode) != nullptr) waits_for_feed_ = true;
+  }
+  if (has<SetFeed>(block)) {
+    fed_ = true;
+    waits_for_feed_ = false;
+  }
+  if (!block.has_motion) return;
+  const Motion& m = block.motion;
+  said_motion_ = said_motion_ || m.kind != MotionKind::modal || (m.moves() && m.centers.empty());
+  moved_ = moved_ || m.moves();
+  const MotionKind kind = m.kind == MotionKind::modal ? state_.motion : m.kind;
+  const bool at_feed = m.moves() && kind != MotionKind::rapid;
+  head_done_ = said_motion_ && moved_ && (at_feed || (fed_ && !waits_for_feed_));
+}
+
+// --- blocks ---------------------------------------------------------------------------------------------------------
+
+bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const {
+  if (std::holds_alternative<MachineFunction>(a.data) || std::holds_alternative<FrameOp>(a.data)) return true;
+  if (const auto* m = std::get_if<ModalSet>(&a.data)) {
+    const Setting s = m->setting;
+    return s == Setting::feed_mode || s == Setting::units || s == Setting::path_mode || s == Setting::diameter ||
+           (s == Setting::length_comp && adds_length_);
+  }
+  if (std::holds_alternative<SpindleRun>(a.data)) return target_.gear_needed;
+  if (const auto* t = std::get_if<ToolSelect>(&a.data)) return at_once_ && !t->changes && !has<ToolChange>(block);
+  if (std::holds_alternative<ToolChange>(a.data)) return at_once_ && !has<ToolSelect>(block);
+  return false;
+}
+
+bool StreamWatch::motion_needs_whole(const Block& block) const {
+  const Motion& m = block.motion;
+  if (m.coords.empty() && !m.centers.empty()) return true;
+  const auto distance = in_block(block, Setting::distance, state_.distance);
+  if (keeps_differ_ && (offset_changed_ || has<WorkOffset>(block))) {
+    for (const auto& c : m.coords) {
+      const bool absolute = c.mode == WordMode::modal ? distance == Distance::absolute : c.mode == WordMode::absolute;
+      if (!absolute) return true;
+    }
+  }
+  if (!is_arc(m.kind == MotionKind::modal ? state_.motion : m.kind)) return false;
+  if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), [this](auto& c) { return too_long(c.value); }))
+    return true;
+  if (m.centers.empty()) return !m.radius_given;
+  const CenterMode mode = m.centers.front().mode;
+  const bool relative =
+      mode == CenterMode::from_start || (mode == CenterMode::follows_distance && distance == Distance::incremental);
+  if (!relative && m.centers.size() < 2) return true;
+  if (!target_.full_circle_needs_end) return false;
+  const PlaneAxes plane = plane_axes(in_block(block, Setting::plane, state_.plane));
+  const auto written = [&m](AxisId axis) {
+    return std::any_of(m.coords.begin(), m.coords.end(), [axis](const CoordWord& c) { return c.axis == axis; });
+  };
+  return !written(plane.u) || !written(plane.v);
+}
+
+bool StreamWatch::needs_whole(const Block& block) const {
+  if (block.has_motion && motion_needs_whole(block)) return true;
+  return std::any_of(block.actions.begin(), block.actions.end(), [&](const Action& a) {
+    const bool tool = std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolOffset>(a.data);
+    return (tool && never_on_ && !length_switched_) || action_needs_whole(block, a);
+  });
+}
+
+/// The block is the one that convert_tools switches length compensation on in.
+bool StreamWatch::takes_length(const Block& block) const {
+  const bool wanted = length_wanted_ || has<ToolChange>(block) || has<ToolSelect>(block);
+  if (!wanted || !block.has_motion || block.motion.frame != FrameUse::normal) return false;
+  const AxisId w = plane_axes(in_block(block, Setting::plane, state_.plane)).w;
+  const auto& coords = block.motion.coords;
+  return std::any_of(coords.begin(), coords.end(), [w](const CoordWord& c) { return c.axis == w; });
+}
+
+StreamWatch::Verdict StreamWatch::look(const Block& block) const {
+  if (needs_whole(block)) return Verdict::whole;
+  if (adds_length_ && takes_length(block)) return Verdict::local;
+  return plain_legal(block, target_, &target_machine_) ? Verdict::plain : Verdict::local;
+}
+
+void StreamWatch::follow(const Block& block) {
+  if (adds_length_) {
+    if (takes_length(block)) {
+      length_wanted_ = false;
+    } else if (has<ToolChange>(block) || has<ToolSelect>(block)) {
+      length_wanted_ = true;
+    }
+  }
+  for (const auto& a : block.actions) {
+    if (const auto* set = std::get_if<ModalSet>(&a.data)) {
+      state_.set(set->setting, set->value);
+      length_switched_ = length_switched_ || set->setting == Setting::length_comp;
+    } else if (std::holds_alternative<WorkOffset>(a.data)) {
+      offset_changed_ = true;
+    }
+  }
+  if (!block.has_motion) return;
+  const Motion& m = block.motion;
+  if (m.kind != MotionKind::modal && m.keeps_modal) state_.motion = m.kind;
+  for (const auto& c : m.coords) long_word_ = long_word_ || too_long(c.value);
+}
+
+machine::Profile StreamWatch::source_for(const Block& block) const {
+  machine::Profile now = source_;
+  now.power_on = state_;
+  // For the passes this is the machine's habit, not a mode reached: on means that nothing has to be switched off.
+  now.power_on.length_comp = source_.power_on.length_comp;
+  if (adds_length_ && !takes_length(block)) now.power_on.length_comp = OnOff::off;
+  if (never_on_ && length_switched_) now.power_on.length_comp = OnOff::on;
+  return now;
+}
+
+}  // namespace cnctrans::ir

@@ -1,0 +1,58 @@
+// What a stream of blocks has to know of the passes: which blocks none of them touches, which ones the block-local
+// passes settle, and which ones (or the blocks before them) need the whole program.
+#pragma once
+
+#include "ir/passes/legalise.h"
+
+namespace cnctrans::ir {
+
+class StreamWatch {
+ public:
+  enum class Verdict : std::uint8_t {
+    plain,  ///< no pass touches the block
+    local,  ///< the block-local passes settle it, in a program of this block alone on the machine `source_for()`
+    whole   ///< a pass would look at other blocks too
+  };
+
+  StreamWatch(const Capabilities& target, const machine::Profile& source, const machine::Profile& target_machine);
+
+  /// False: no program of these machines can be streamed (the words of the diameter axis mean something else).
+  [[nodiscard]] bool possible() const;
+  /// The head: the blocks up to the point where nothing that follows can change what safe_start and the pass over
+  /// feeds do to them. They are legalised together. False: the whole program is needed.
+  bool take_head(const Block& block);
+  [[nodiscard]] bool head_done() const { return head_done_; }
+
+  /// A block behind the head. Does not follow it.
+  [[nodiscard]] Verdict look(const Block& block) const;
+  /// The block is done: what it changes holds for those that follow.
+  void follow(const Block& block);
+  /// The source machine in the state before the block, for a program of this block alone.
+  [[nodiscard]] machine::Profile source_for(const Block& block) const;
+
+ private:
+  [[nodiscard]] bool needs_whole(const Block& block) const;
+  [[nodiscard]] bool action_needs_whole(const Block& block, const Action& action) const;
+  [[nodiscard]] bool motion_needs_whole(const Block& block) const;
+  [[nodiscard]] bool takes_length(const Block& block) const;
+  [[nodiscard]] bool too_long(const Value& value) const;
+  void follow_head(const Block& block);
+
+  const Capabilities& target_;
+  const machine::Profile& source_;
+  const machine::Profile& target_machine_;
+  ModalState state_;
+  int places_;              ///< of the target's coordinates, in the unit that has fewer
+  bool at_once_;            ///< the target changes tools at T
+  bool keeps_differ_;       ///< a change of the offsets keeps another point on the target
+  bool adds_length_;        ///< the target wants length compensation switched on, the source has it always
+  bool never_on_;           ///< the source switches it, the target has it always
+  bool head_done_ = false;  ///< from here on the head's
+  bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;
+  bool long_word_ = false;        ///< a coordinate so far has more places than the target writes
+  bool offset_changed_ = false;   ///< a work offset was selected
+  bool length_wanted_ = true;     ///< adds_length_: the next move along the tool switches it on
+  bool length_switched_ = false;  ///< the source has switched length compensation
+};
+
+}  // namespace cnctrans::ir
