@@ -123,8 +123,10 @@ class StreamTranslation {
     if (kind == frontends::StreamLine::no_statement) return true;
     auto* block = std::get_if<ir::Block>(&statement_.node);
     if (block == nullptr) return give_up();
-    // After a block that may be skipped the modal state is not known.
-    if (statement_.line.skip_mask != 0 && (!block->actions.empty() || block->motion.kind != ir::MotionKind::modal))
+    // After a block that may be skipped the modal state is known only when the block does not touch it.
+    if (statement_.line.skip_mask != 0 &&
+        (!block->actions.empty() || block->motion.kind != ir::MotionKind::modal || !watch_.head_done() ||
+         watch_.look(*block) != ir::StreamWatch::Verdict::plain))
       return give_up();
     const bool end = kind == frontends::StreamLine::program_end;
     const bool code = end || !block->empty() || !statement_.line.number.empty();
