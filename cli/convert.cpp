@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/stdout_sink.h"
 #include "translator/report/report.h"
 #include "translator/stream.h"
 
@@ -87,20 +88,6 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   return status;
 }
 
-/// A temporary file that vanishes; for streams to standard output, which may have to be thrown away.
-struct Spool {
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{std::tmpfile(), &std::fclose};
-  bool copy_to_stdout() const {
-    std::rewind(file.get());
-    std::string buffer(1U << 16U, '\0');
-    while (true) {
-      const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file.get());
-      if (n == 0) return std::fflush(stdout) == 0;
-      if (!write_all(stdout, std::string_view(buffer).substr(0, n))) return false;
-    }
-  }
-};
-
 /// Tries the stream; nullopt: the whole-program path must do it.
 std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options,
                                   const std::string& input) {
@@ -111,11 +98,15 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
   std::string error;
   translator::StreamResult result;
   if (to_stdout) {
-    const Spool spool;
-    if (!spool.file) return std::nullopt;
+    StdoutSink sink;
+    if (!sink.good()) return std::nullopt;
     result = translator::translate_stream(
-        input, options, [&spool](std::string_view t) { return write_all(spool.file.get(), t); }, tell);
-    if (result.outcome == translator::StreamOutcome::done && !spool.copy_to_stdout()) return refused;
+        input, options, [&sink](std::string_view t) { return sink.write(t); }, tell);
+    const bool kept = result.outcome == translator::StreamOutcome::done;
+    if (!(kept ? sink.commit() : sink.discard())) {
+      write_all(stderr, "cnctrans: the standard output could not be written\n");
+      return refused;
+    }
   } else {
     AtomicFile file(a.output);
     if (!file.open(&error)) return std::nullopt;

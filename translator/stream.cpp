@@ -1,9 +1,14 @@
 #include "translator/stream.h"
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "base/text.h"
 #include "ir/passes/legalise.h"
 #include "ir/passes/stream_watch.h"
 #include "translator/encode.h"
+#include "translator/line_shapes.h"
 
 namespace cnctrans::translator {
 
@@ -56,9 +61,9 @@ class StreamTranslation {
     const bool utf8 =
         windows.encoding == Encoding::utf8 && options_.encoding.value_or(Encoding::utf8) == Encoding::utf8;
     if (!utf8) return void(give_up());
-    const FileId file = result_.files.add_name(path);
+    file_ = result_.files.add_name(path);
     const frontends::ReadOptions read{options_.reader, &source_};
-    reader_ = from_.frontend->stream(file, read, path);
+    reader_ = from_.frontend->stream(file_, read, path);
     backends::WriteOptions write;
     write.profile = &target_;
     write.unsupported = options_.unsupported;
@@ -117,6 +122,19 @@ class StreamTranslation {
   }
 
   bool take(const SourceLine& line) {
+    if (shapes_ && !ended_ && shapes_->write(line.text, state_, out_)) {
+      last_code_ = {file_, line.number, 1, line.number, static_cast<std::uint32_t>(line.text.size()) + 1};
+      return true;
+    }
+    const std::size_t before = out_.size(), said = reading_.all().size() + writing_.all().size();
+    if (!take_block(line)) return false;
+    if (!watch_.head_done() || ended_) return true;
+    const bool quiet = said == reading_.all().size() + writing_.all().size();
+    return learn(line, before, quiet);
+  }
+
+  bool take_block(const SourceLine& line) {
+    plain_ = false;
     const frontends::StreamLine kind = reader_->read(line, statement_, reading_);
     if (kind == frontends::StreamLine::needs_program || reading_.has_errors() || reading_.warning_count() != 0)
       return give_up();
@@ -148,6 +166,47 @@ class StreamTranslation {
       last.line.joined = true;
     }
     return emit(last);
+  }
+
+  // --- lines of a shape that came before ----------------------------------------------------------------------------
+
+  /// The state that reader and passes have reached, as a small number; the same state has the same one.
+  std::uint32_t state_now() {
+    const std::pair<std::uint64_t, std::uint64_t> key{reader_->modal_key(), watch_.key()};
+    const auto it = std::find(states_.begin(), states_.end(), key);
+    if (it == states_.end()) states_.push_back(key);
+    return static_cast<std::uint32_t>(it - states_.begin());
+  }
+
+  /// False: the attempt to learn the line's shape left another state behind, which must not happen.
+  bool learn(const SourceLine& line, std::size_t before, bool quiet) {
+    if (!shapes_) {
+      const int places = std::min(writer_->places_kept(), watch_.places());
+      if (reader_->modal_key() == 0 || places < 0) return true;
+      shapes_.emplace(reader_->free_numbers(), places);
+      state_ = state_now();
+      return true;
+    }
+    const std::uint32_t now = state_now();
+    if (now == state_ && plain_ && quiet && out_.size() > before) {
+      const std::string text = out_.substr(before);
+      shapes_->learn(line.text, now, text, [&](std::string_view marked) { return try_line(line, marked); });
+      if (state_now() != now) return give_up();
+    }
+    state_ = now;
+    return true;
+  }
+
+  std::optional<std::string> try_line(const SourceLine& like, std::string_view text) {
+    SourceLine line = like;
+    line.text = text;
+    Diagnostics said;
+    if (reader_->read(line, statement_, said) != frontends::StreamLine::statement) return std::nullopt;
+    const auto* block = std::get_if<ir::Block>(&statement_.node);
+    if (block == nullptr || watch_.look(*block) != ir::StreamWatch::Verdict::plain) return std::nullopt;
+    std::string out;
+    const bool good = writer_->write(statement_, out, said) && said.empty();
+    return good ? std::optional(std::move(out)) : std::nullopt;
   }
 
   /// The head's statements are kept until the safe start can be put where it belongs.
@@ -196,6 +255,7 @@ class StreamTranslation {
       case ir::StreamWatch::Verdict::local: return put_legalised(block);
       case ir::StreamWatch::Verdict::whole: return give_up();
     }
+    plain_ = true;
     watch_.follow(block);
     return emit(statement_);
   }
@@ -240,6 +300,11 @@ class StreamTranslation {
   // What each stage says comes in the order of the stages, as from the whole-program path.
   Diagnostics reading_, passing_, writing_;
   ir::Statement statement_;
+  FileId file_ = 0;
+  std::optional<LineShapes> shapes_;  ///< from the end of the head on, when reader and writer allow it
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> states_;
+  std::uint32_t state_ = 0;  ///< of the states
+  bool plain_ = false;       ///< the block at hand needed no pass
   ir::Body head_;
   Span last_code_;  ///< of the last statement that is more than a comment
   bool ended_ = false;

@@ -47,6 +47,9 @@ class StreamWriter {
   virtual void begin(const ir::Program& frame, std::string& out) = 0;
   virtual bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) = 0;
   virtual void end(std::string& out) = 0;
+  /// Numbers with at most so many places (no plus sign) are written as the source has them, and a line depends on
+  /// nothing but its statement; -1: not so.
+  [[nodiscard]] virtual int places_kept() const { return -1; }
 };
 
 class Backend {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "backends/common/comments.h"
+#include "base/short_copy.h"
 #include "base/text.h"
 
 namespace cnctrans::backends {
@@ -93,31 +94,9 @@ namespace {
 
 constexpr std::size_t line_max = 2048;
 
-/// Words are short: two overlapping copies of a fixed size beat a call.
-inline void copy_short(char* to, const char* from, std::size_t n) {
-  if (n >= 8 && n <= 16) {
-    std::uint64_t head, tail;
-    std::memcpy(&head, from, 8);
-    std::memcpy(&tail, from + n - 8, 8);
-    std::memcpy(to, &head, 8);
-    std::memcpy(to + n - 8, &tail, 8);
-  } else if (n >= 4 && n < 8) {
-    std::uint32_t head, tail;
-    std::memcpy(&head, from, 4);
-    std::memcpy(&tail, from + n - 4, 4);
-    std::memcpy(to, &head, 4);
-    std::memcpy(to + n - 4, &tail, 4);
-  } else if (n < 4) {
-    for (std::size_t i = 0; i < n; ++i) to[i] = from[i];
-  } else {
-    std::memcpy(to, from, n);
-  }
-}
-
 inline bool put(std::string_view text, char*& p, const char* end) {
   if (text.size() > static_cast<std::size_t>(end - p)) return false;
-  copy_short(p, text.data(), text.size());
-  p += text.size();
+  p = copy_short(p, text);
   return true;
 }
 
@@ -180,6 +159,9 @@ void PlainStreamWriter::begin(const ir::Program& frame, std::string& out) {
 }
 void PlainStreamWriter::header(const ir::Program& /*frame*/, std::string& /*out*/) {}
 void PlainStreamWriter::end(std::string& /*out*/) {}
+int PlainStreamWriter::places_kept() const {
+  return options_.numbering == Numbering::renumber ? -1 : numbers_.kept_decimals;
+}
 
 bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) {
   const ir::LineInfo& info = statement.line;

@@ -55,6 +55,7 @@ class PlainStreamWriter : public StreamWriter {
   void begin(const ir::Program& frame, std::string& out) override;
   bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) final;
   void end(std::string& out) override;
+  [[nodiscard]] int places_kept() const override;
 
  protected:
   /// Lines before the first block (header, title). Default: none.

@@ -70,6 +70,7 @@ class Stream : public StreamWriter {
   void end(std::string& out) override {
     if (writer_) writer_->end(out);
   }
+  [[nodiscard]] int places_kept() const override { return writer_ != nullptr ? writer_->places_kept() : -1; }
 
  private:
   WriteOptions options_;

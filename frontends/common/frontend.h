@@ -1,6 +1,7 @@
 // What a frontend is to the rest of the house: text in, IR out.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -38,6 +39,17 @@ enum class StreamLine : std::uint8_t {
   needs_program,  ///< the construct needs the whole program: give up streaming
 };
 
+/// Numbers of an address that the reading of a plain line treats alike: same statement, only the value differs, and
+/// nothing else depends on it.
+struct FreeNumber {
+  bool free = false;
+  bool minus = false;       ///< also negative ones
+  bool zero = false;        ///< also 0
+  std::uint8_t whole = 0;   ///< at most so many digits before the point
+  std::uint8_t places = 0;  ///< and behind it
+};
+using FreeNumbers = std::array<FreeNumber, 26>;  ///< by letter, capitals
+
 /// Reads a straight-line program line by line. Views in `out` point into the line given.
 class StreamReader {
  public:
@@ -47,6 +59,9 @@ class StreamReader {
   [[nodiscard]] virtual std::string_view end_word() const = 0;
   /// After the last line (`lines` of them): what is to be said of the program as a whole.
   virtual void end(std::uint32_t lines, Diagnostics& diagnostics) = 0;
+  [[nodiscard]] virtual FreeNumbers free_numbers() const { return {}; }
+  /// What plain lines change and the reading of later ones depends on, as one number; 0: this reader does not say.
+  [[nodiscard]] virtual std::uint64_t modal_key() const { return 0; }
   /// The program frame so far: title, name, spaces; valid from the first line on.
   [[nodiscard]] virtual const ir::Program& frame() const = 0;
 };

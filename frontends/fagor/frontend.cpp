@@ -1,6 +1,7 @@
 #include "frontends/fagor/frontend.h"
 
 #include "base/text.h"
+#include "dialects/fagor/limits.h"
 #include "frontends/fagor/program_reader.h"
 
 namespace cnctrans::frontends::fagor {
@@ -51,6 +52,30 @@ class FagorStream : public StreamReader {
 
   [[nodiscard]] std::string_view end_word() const override { return end_word_; }
   void end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {}
+  /// Coordinates and centres are checked against 99999.9999 only, block numbers against 8 digits; F0 has a meaning of
+  /// its own. Rotary words are looked at one by one.
+  [[nodiscard]] FreeNumbers free_numbers() const override {
+    FreeNumbers free;
+    for (const char c : std::string_view("XYZUVWIJK")) {
+      free[static_cast<std::size_t>(c - 'A')] = {true, true, true, 5, dialects::fagor::decimals_mm};
+    }
+    free['F' - 'A'] = {true, false, false, 5, dialects::fagor::decimals_mm};
+    free['N' - 'A'] = {true, false, true, max_number_digits, 0};
+    return free;
+  }
+  [[nodiscard]] std::uint64_t modal_key() const override {
+    std::uint64_t key = 1;
+    const auto add = [&key](auto value) { key = key << 5U | static_cast<std::uint64_t>(value); };
+    add(state_.plane_now());
+    add(state_.comp_by_text);
+    add(state_.units_by_text);
+    add(state_.motion_by_text);
+    add(state_.facts.rotary);
+    add(state_.facts.preset);
+    add(state_.facts.table_shift);
+    add(state_.facts.shift);
+    return key;
+  }
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 
  private:

@@ -48,8 +48,10 @@ bool legalise(Program& program, const LegaliseContext& context);
 std::vector<std::string_view> pass_names();
 bool run_pass(std::string_view name, Program& program, const LegaliseContext& context);
 
-/// The passes that look at one block and the modal state before it only, in order: a stream runs them on single blocks
-/// (which ones, says StreamWatch).
+/// The passes that look at one block under a known modal state and nothing else: a stream runs them on single blocks.
+std::vector<std::string_view> block_local_passes();
+
+/// The passes that look at one block and the modal state before it only (for streams), in order.
 std::vector<std::string_view> block_local_passes();
 
 /// For streams: true when no pass would touch this block (plain motion in forms the target has). Cheap: no allocation.

@@ -123,7 +123,9 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
     }
   }
   if (!is_arc(m.kind == MotionKind::modal ? state_.motion : m.kind)) return false;
-  if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), [this](auto& c) { return too_long(c.value); }))
+  const auto rounded = [this](const auto& word) { return too_long(word.value); };
+  if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), rounded) ||
+      std::any_of(m.centers.begin(), m.centers.end(), rounded) || (m.radius_given && too_long(m.radius)))
     return true;
   if (m.centers.empty()) return !m.radius_given;
   const CenterMode mode = m.centers.front().mode;
@@ -181,6 +183,14 @@ void StreamWatch::follow(const Block& block) {
   const Motion& m = block.motion;
   if (m.kind != MotionKind::modal && m.keeps_modal) state_.motion = m.kind;
   for (const auto& c : m.coords) long_word_ = long_word_ || too_long(c.value);
+}
+
+std::uint64_t StreamWatch::key() const {
+  std::uint64_t key = static_cast<std::uint64_t>(state_.motion);
+  for (std::size_t s = 0; s < setting_count; ++s) key = key << 2U | state_.get(static_cast<Setting>(s));
+  for (const bool flag : {long_word_, offset_changed_, length_wanted_, length_switched_})
+    key = key << 1U | (flag ? 1U : 0U);
+  return key;
 }
 
 machine::Profile StreamWatch::source_for(const Block& block) const {

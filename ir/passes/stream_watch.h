@@ -29,6 +29,10 @@ class StreamWatch {
   void follow(const Block& block);
   /// The source machine in the state before the block, for a program of this block alone.
   [[nodiscard]] machine::Profile source_for(const Block& block) const;
+  /// Numbers with more places than these count as something else: see follow().
+  [[nodiscard]] int places() const { return places_; }
+  /// Everything that look() goes by besides the block.
+  [[nodiscard]] std::uint64_t key() const;
 
  private:
   [[nodiscard]] bool needs_whole(const Block& block) const;
