@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/saturate.h"
 #include "dialects/fagor/limits.h"
 #include "frontends/fagor/letters.h"
 #include "frontends/fagor/lower_expr.h"
@@ -47,7 +48,7 @@ void BlockLowerer::gather_g(const Word& w) {
     return;
   }
   const GCode* row = w.number >= 0 && w.number == std::floor(w.number) && w.number <= facts::max_g_code
-                         ? state_.g(static_cast<int>(w.number))
+                         ? state_.g(saturate<int>(w.number))
                          : nullptr;
   if (!row) {
     state_.error(
@@ -189,7 +190,7 @@ void BlockLowerer::technology() {
   if (const Word* f = take('F')) act(ir::SetFeed{value(*f), true}, f);
   bool orients = false, changes = false, live = false;
   for (std::size_t i = 0; i < m_count_; ++i) {
-    const machine::MCode* m = m_[i]->expr < 0 ? state_.m(static_cast<int>(m_[i]->number)) : nullptr;
+    const machine::MCode* m = m_[i]->expr < 0 ? state_.m(saturate<int>(m_[i]->number)) : nullptr;
     orients = orients || (m && m->meaning == machine::MMeaning::spindle_orient);
     changes = changes || (m && m->meaning == machine::MMeaning::tool_change);
     live = live || (m_[i]->expr < 0 && m_[i]->number == 45);
@@ -218,7 +219,7 @@ void BlockLowerer::machine_function(const Word& w) {
                  "write the function's number");
     return;
   }
-  const auto code = static_cast<std::int32_t>(w.number);
+  const auto code = saturate<std::int32_t>(w.number);
   const machine::MCode* m = state_.m(code);
   const Order order = m ? m->order : Order::before;
   using machine::MMeaning;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/saturate.h"
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/operators.h"
 #include "dialects/fagor/variables.h"
@@ -32,7 +33,7 @@ ir::VarRef parameter(const Expr& e, LowerState& state) {
   const Expr& index = e.args.front();
   if (index.kind != ExprKind::number) return {parameter_space, {}, lower_expr(index, state), {}};
   const double n = index.number;
-  if (n != std::floor(n) || n > 1e6 || !facts::valid_parameter(static_cast<std::int64_t>(n))) {
+  if (n != std::floor(n) || n > 1e6 || !facts::valid_parameter(saturate<std::int64_t>(n))) {
     state.error("FAG-018", e.pos, "the parameter P" + index.text + " does not exist",
                 "parameters are P0-P25, P100-P299, P1000-P1255 and P2000-P2255");
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
 #include "frontends/fagor/lower_expr.h"
@@ -152,7 +153,7 @@ Node StatementLowerer::repeat(const syntax::Statement& s) {
   if (s.args.size() > 2) {
     r.has_program = true;
     if (s.args[2].kind != ExprKind::number) return kept(s, "language.statement", false);
-    r.program.number = static_cast<std::int64_t>(s.args[2].number);
+    r.program.number = saturate<std::int64_t>(s.args[2].number);
   }
   for (const auto& w : block_.words) {
     if (!w.has_value || (w.expr < 0 && !whole(w.number, static_cast<double>(facts::max_repeat)))) {
@@ -170,7 +171,7 @@ void StatementLowerer::routine(const Expr& e, ir::CallRoutine& call) {
   }
   if (!whole(e.number, static_cast<double>(facts::max_oem_subroutine)))
     state_.error("FAG-013", e.pos, "a subroutine has a number from 0 to 9999");
-  call.routine.number = static_cast<std::int64_t>(e.number);
+  call.routine.number = saturate<std::int64_t>(e.number);
 }
 
 /// CALL and LL share the caller's local parameters; PCALL and MCALL open a level.
@@ -257,11 +258,11 @@ std::vector<ir::ExprPtr> message_parts(std::string_view text, LowerState& state)
       continue;
     }
     const double n = parse_decimal(text.substr(i + 2, digits - i - 2)).value_or(0);
-    if (!facts::valid_parameter(static_cast<std::int64_t>(n)))
+    if (!facts::valid_parameter(saturate<std::int64_t>(n)))
       state.error("FAG-018", {}, "the parameter in " + std::string(text.substr(i, digits - i)) + " does not exist");
     if (!plain.empty()) parts.push_back(ir::string_literal(std::move(plain)));
     plain.clear();
-    parts.push_back(ir::numbered(parameter_space, static_cast<std::int64_t>(n)));
+    parts.push_back(ir::numbered(parameter_space, saturate<std::int64_t>(n)));
     i = digits;
   }
   if (!plain.empty() || parts.empty()) parts.push_back(ir::string_literal(std::move(plain)));
@@ -271,7 +272,7 @@ std::vector<ir::ExprPtr> message_parts(std::string_view text, LowerState& state)
 std::int64_t subroutine_number(const syntax::Statement& s, LowerState& state) {
   const Expr& e = s.args.at(0);
   if (e.kind == ExprKind::number && whole(e.number, static_cast<double>(facts::max_oem_subroutine)))
-    return static_cast<std::int64_t>(e.number);
+    return saturate<std::int64_t>(e.number);
   state.error("FAG-013", e.pos, "a subroutine has a fixed number from 0 to 9999");
   return -1;
 }
@@ -286,7 +287,7 @@ void lower_statement(const syntax::Block& block, std::string_view text, LowerSta
 
 void lower_g_call(const syntax::Block& block, const syntax::Word& code, LowerState& state, ir::Statement& out) {
   ir::CallRoutine call;
-  call.routine.number = static_cast<std::int64_t>(code.number);
+  call.routine.number = saturate<std::int64_t>(code.number);
   for (const auto& w : block.words) {
     if (&w == &code) continue;
     const char c = word_letter(w);

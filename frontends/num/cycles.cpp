@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/lower.h"
 
@@ -129,7 +130,7 @@ bool Lowering::cycle_bottom(ir::HoleCycle& cycle, const Word& g) {
 }
 
 void Lowering::define_cycle(const Word& g) {
-  const int number = static_cast<int>(g.number);
+  const int number = saturate<int>(g.number);
   ir::HoleCycle cycle;
   switch (number) {
     case 81:

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/saturate.h"
 #include "dialects/num/functions.h"
 #include "dialects/num/variables.h"
 
@@ -130,7 +131,7 @@ ir::ExprPtr integer_part(ir::ExprPtr e) {
 }  // namespace
 
 std::int64_t variable_number(const syntax::Expr& e) {
-  return !e.args.empty() && whole(e.args[0]) ? static_cast<std::int64_t>(e.args[0].number) : -1;
+  return !e.args.empty() && whole(e.args[0]) ? saturate<std::int64_t>(e.args[0].number) : -1;
 }
 
 std::optional<ir::VarRef> Expressions::l_variable(const syntax::Expr& e) {

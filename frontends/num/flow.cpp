@@ -1,6 +1,7 @@
 // Jumps (G79) and calls (G77) (reference 13.1, 13.2).
 #include <utility>
 
+#include "base/saturate.h"
 #include "dialects/num/limits.h"
 #include "frontends/num/lower.h"
 
@@ -14,7 +15,7 @@ bool Lowering::label(const Word& w, ir::LabelRef& out) {
     out.computed = value(w).expr;
     return out.computed != nullptr;
   }
-  const auto n = static_cast<std::int64_t>(w.number);
+  const auto n = saturate<std::int64_t>(w.number);
   if (w.number < 0 || static_cast<double>(n) != w.number || n > facts::label_max) {
     report_.refuse("NUM-016", w.pos,
                    "`" + std::string(text_of(w)) + "`: block numbers are whole and go from 0 to 32767");
@@ -44,7 +45,7 @@ bool Lowering::call(const Flow& flow, ir::Statement& out) {
   if (flow.repeat != nullptr) {
     const Word& s = *flow.repeat;
     if (!s.is_expression && (s.number < 1 || s.number > static_cast<double>(facts::call_repeat_max) ||
-                             s.number != static_cast<double>(static_cast<int>(s.number)))) {
+                             s.number != static_cast<double>(saturate<int>(s.number)))) {
       report_.refuse("NUM-014", s.pos, "G77 repeats 1 to 100 times");
       return false;
     }
@@ -79,7 +80,7 @@ bool Lowering::call(const Flow& flow, ir::Statement& out) {
     call.computed = value(h).expr;
     if (!call.computed) return false;
   } else {
-    call.routine.number = static_cast<std::int64_t>(h.number);
+    call.routine.number = saturate<std::int64_t>(h.number);
     if (h.number != static_cast<double>(call.routine.number)) call.routine.text = std::string(h.number_text);
   }
   call.count = std::move(count);

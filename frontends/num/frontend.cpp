@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
@@ -70,9 +71,9 @@ class NumStream : public StreamReader {
     }
     auto& main = frame_.routines[0];
     const double n = list[0].args[0].number;
-    if (n != static_cast<double>(static_cast<std::int64_t>(n)) || syntax_.comments.size() > 1)
+    if (n != static_cast<double>(saturate<std::int64_t>(n)) || syntax_.comments.size() > 1)
       return StreamLine::needs_program;
-    main.name = {static_cast<std::int64_t>(n), {}};
+    main.name = {saturate<std::int64_t>(n), {}};
     main.header.span = span;
     if (!syntax_.comments.empty()) main.title = std::string(trim(syntax_.comments[0].text));
     return StreamLine::no_statement;

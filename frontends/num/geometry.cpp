@@ -1,6 +1,7 @@
 // Lines given by an angle, polar end points (reference 10.2, 10.3) and single thread segments (12.2).
 #include <utility>
 
+#include "base/saturate.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/lower.h"
 
@@ -21,7 +22,7 @@ bool straight(ir::MotionKind k) {
 void Lowering::macro_words() {
   constexpr std::int64_t first_alias = 900, last_slot = 51;
   const Word& g = *marks_.macro;
-  flow_->macro = static_cast<std::int64_t>(g.number);
+  flow_->macro = saturate<std::int64_t>(g.number);
   flow_->macro_pos = g.pos;
   for (const Word& w : block_->words) {
     if (&w == &g) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
@@ -37,7 +38,7 @@ ir::RoutineName name_of_file(std::string_view stem) {
   const auto number = parse_decimal(stem);
   const bool digits = !stem.empty() && stem.find_first_not_of("0123456789") == std::string_view::npos;
   if (digits && number && *number >= facts::program_min && *number <= facts::program_max) {
-    return {static_cast<std::int64_t>(*number), {}};
+    return {saturate<std::int64_t>(*number), {}};
   }
   return {-1, to_upper_ascii(stem)};
 }
@@ -114,7 +115,7 @@ void FileReader::find_macros() {
     const auto n = parse_decimal(text.substr(mark.size(), 3));
     const bool ends =
         text.size() == mark.size() + 3 || (text.size() > mark.size() + 3 && (text[6] < '0' || text[6] > '9'));
-    if (n && ends) lower_.add_macro(static_cast<std::int64_t>(*n));
+    if (n && ends) lower_.add_macro(saturate<std::int64_t>(*n));
   }
 }
 
@@ -179,7 +180,7 @@ void FileReader::tape_mark(std::string_view raw) {
 void FileReader::header(const syntax::Statement& s, const Span& span) {
   ir::RoutineName name;
   const double n = s.args.at(0).number;
-  name.number = static_cast<std::int64_t>(n);
+  name.number = saturate<std::int64_t>(n);
   if (n != static_cast<double>(name.number)) name.text = s.args[0].text;
   if (n < 0 || n > 99999) {
     diagnostics_.error("NUM-036", word_span(span, s.pos), "program numbers go from %1 to %9999", {});

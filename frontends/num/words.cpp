@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
 #include "frontends/num/actions.h"
@@ -38,7 +39,7 @@ bool has_blank(std::string_view text) {
 /// The number of a G, M, N or H word: a literal integer; -1 otherwise.
 std::int64_t integer(const syntax::Word& w) {
   if (w.is_expression || w.number < 0 || w.number > 1e9) return -1;
-  const auto n = static_cast<std::int64_t>(w.number);
+  const auto n = saturate<std::int64_t>(w.number);
   return static_cast<double>(n) == w.number ? n : -1;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/saturate.h"
 #include "dialects/sinumerik/cycles.h"
 #include "frontends/sinumerik/lower_statements.h"
 
@@ -107,7 +108,7 @@ bool axis_of_hole(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordP
     c.error("SIN-021", pos, "AXN must be 1, 2 or 3");
     return false;
   }
-  hole.axis = static_cast<ir::AxisId>(ir::axis::x + static_cast<int>(axn.number) - 1);
+  hole.axis = static_cast<ir::AxisId>(ir::axis::x + saturate<std::int16_t>(axn.number) - 1);
   return true;
 }
 
@@ -166,7 +167,7 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
 bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
   if (!a.says("AMODE")) return true;
   const ir::Value mode = a.get("AMODE");
-  const int number = mode.literal() ? static_cast<int>(mode.number) : -1;
+  const int number = mode.literal() ? saturate<int>(mode.number) : -1;
   const int depth = number % 10;
   const int time = number / 10 % 10;
   if (number < 0 || depth > 2 || time > 2) {

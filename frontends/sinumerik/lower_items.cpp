@@ -2,6 +2,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/cycles.h"
@@ -145,10 +146,9 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
     return assign(target, value, s.pos, parts);
   if (target.text == "G" && one_index) {
     const auto* group = &target.args[0];
-    const GFunction* g =
-        group->kind == ExprKind::number && value.kind == ExprKind::number
-            ? g_function(static_cast<std::int32_t>(group->number), static_cast<std::int32_t>(value.number))
-            : nullptr;
+    const GFunction* g = group->kind == ExprKind::number && value.kind == ExprKind::number
+                             ? g_function(saturate<std::int32_t>(group->number), saturate<std::int32_t>(value.number))
+                             : nullptr;
     if (g == nullptr)
       return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
     parts.indirect.emplace_back(g, s.pos);

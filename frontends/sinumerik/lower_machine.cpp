@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "frontends/sinumerik/lower_words.h"
 
 namespace cnctrans::sinumerik {
@@ -23,7 +24,7 @@ void WordLowering::m_word(const syntax::Block& block, const Word& w) {
     c_.error("SIN-017", w.pos, std::string(c_.slice(w.pos)) + " is no M function");
     return;
   }
-  m_code(static_cast<std::int32_t>(value.number), w);
+  m_code(saturate<std::int32_t>(value.number), w);
 }
 
 void WordLowering::m_code(std::int32_t code, const Word& w) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 
 namespace cnctrans::sinumerik {
@@ -113,7 +114,7 @@ void WordLowering::g_words(const syntax::Block& block) {
     const GFunction* g = nullptr;
     const bool whole =
         w.has_value && !w.is_expression && !w.equals && w.extension < 0 && w.number == std::floor(w.number);
-    if (whole && w.number >= 0 && w.number < 1000) g = sinumerik::g_function(static_cast<std::int32_t>(w.number));
+    if (whole && w.number >= 0 && w.number < 1000) g = sinumerik::g_function(saturate<std::int32_t>(w.number));
     if (g == nullptr) {
       failed_ = true;
       c_.error("SIN-002", w.pos, std::string(c_.slice(w.pos)) + " is no G function of this control");
