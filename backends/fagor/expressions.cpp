@@ -270,9 +270,11 @@ std::optional<Printed> Printer::special(const ExprPtr& e) {
 /// A sign may follow the word of a relation: P1 GT -20.
 std::optional<Printed> Printer::comparison(const ir::Binary& b) {
   const auto* right = std::get_if<ir::Number>(&b.right->node);
+  const auto* sign = std::get_if<ir::Unary>(&b.right->node);
+  if (sign != nullptr && sign->op == ir::UnaryOp::negate) right = std::get_if<ir::Number>(&sign->operand->node);
   const auto* o = facts::find_operator(b.op);
   if (right == nullptr || o == nullptr || is_condition(b.left)) return std::nullopt;
-  Printed value = number(*right);
+  Printed value = sign != nullptr ? print_node(b.right) : number(*right);
   if (!value.signed_front) return std::nullopt;
   const Printed left = print_node(b.left);
   const auto level = level_of(o->level);

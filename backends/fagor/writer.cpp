@@ -350,6 +350,14 @@ void Writer::end_program(const ir::End& e) {
   add(same_dialect() && !e.text.empty() ? std::string(e.text) : "M30", Rank::tail);
 }
 
+/// Numbers of user alarms elsewhere start at 65000: the same number counted from 0 (equivalences 3.2).
+std::string Writer::error_number(const ir::ExprPtr& number) {
+  constexpr double first_user_alarm = 65000, last_user_alarm = 69999;
+  const auto value = ir::constant_value(number);
+  const bool alarm = !same_dialect() && value && *value >= first_user_alarm && *value <= last_user_alarm;
+  return expression_text(alarm ? ir::number(*value - first_user_alarm) : number);
+}
+
 std::string Writer::message_text(const ir::Message& m) {
   std::string text;
   bool changed = false;
@@ -386,7 +394,7 @@ std::string Writer::message_text(const ir::Message& m) {
   }
   if (m.kind != ir::MessageKind::error) return "MSG \"" + text + '"';
   std::string out = "ERROR ";
-  if (m.number) out += expression_text(m.number);
+  if (m.number) out += error_number(m.number);
   if (m.number && !m.parts.empty()) out += ", ";
   if (!m.parts.empty()) out += '"' + text + '"';
   return out;

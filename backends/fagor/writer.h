@@ -79,6 +79,7 @@ class Writer : public ProgramWriter {
   [[nodiscard]] std::string range_text(const ir::Repeat& r);
   [[nodiscard]] std::string call_text(std::string_view keyword, const ir::CallRoutine& c);
   [[nodiscard]] std::string message_text(const ir::Message& m);
+  [[nodiscard]] std::string error_number(const ir::ExprPtr& number);
   [[nodiscard]] std::string argument_text(const ir::Argument& a);
   [[nodiscard]] std::string action_text(const ir::Body& body);
   [[nodiscard]] bool written_as_g_call(const ir::CallRoutine& c) const;

@@ -294,6 +294,14 @@ void Writer::message(const ir::Message& m) {
   }
   if (refused_problem()) return;
   add(std::move(text), Rank::head);
+  if (m.kind != ir::MessageKind::error || same_dialect()) return;
+  diagnostics().warning("TRN-215", current().line.span,
+                        "the error stops the source's run; here an alarm is shown and M0 follows, and START goes on",
+                        "end the program there if nothing must follow");
+  for (const char* word : {"STOPRE", "M0"}) {
+    next_line();
+    add(word, Rank::head);
+  }
 }
 
 void Writer::declare(const ir::Declare& d) {

@@ -2,6 +2,7 @@
 #include "backends/sinumerik/writer.h"
 
 #include <algorithm>
+#include <set>
 
 #include "backends/common/comments.h"
 #include "backends/sinumerik/tables.h"
@@ -141,6 +142,7 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
     begin_line(r.header);
     finish_line();
   }
+  if (!same_dialect()) externs(r);
   body(r.body);
   finish_line();
   // A subprogram of another control may end with its text; here it needs its word.
@@ -148,6 +150,26 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
     return std::holds_alternative<ir::Return>(s.node) || std::holds_alternative<ir::End>(s.node);
   };
   if (r.kind == ir::RoutineKind::sub && !same_dialect() && (r.body.empty() || !returns(r.body.back()))) raw_line("M17");
+}
+
+/// A call with parameters of a program in another file needs its signature at the head of the caller's.
+void Writer::externs(const ir::Routine& r) {
+  std::set<std::string> said;
+  ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+    const ir::CallRoutine* call = std::get_if<ir::CallRoutine>(&s.node);
+    if (const auto* m = std::get_if<ir::ModalCall>(&s.node); m != nullptr && !m->off && !m->cycle) call = &m->call;
+    const ir::Routine* callee = call == nullptr || call->computed ? nullptr : program().find(call->routine);
+    if (callee == nullptr || callee->parameters.empty()) return;
+    std::string line = "EXTERN " + sub_name(callee->name) + '(';
+    for (std::size_t i = 0; i < callee->parameters.size(); ++i) {
+      const ir::Parameter& p = callee->parameters[i];
+      if (i != 0) line += ',';
+      if (p.by_reference) line += "VAR ";
+      line += type_word(p.type);
+    }
+    line += ')';
+    if (said.insert(line).second) raw_line(line, r.header.span);
+  });
 }
 
 std::string Writer::proc_line(const ir::Routine& r, const std::string& name) {

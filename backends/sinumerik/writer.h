@@ -76,6 +76,7 @@ class Writer final : public ProgramWriter {
   void routine_text(std::size_t index, const std::string& name);
   std::string main_name();
   [[nodiscard]] std::string sub_name(const ir::RoutineName& name) const;
+  void externs(const ir::Routine& r);
   std::string proc_line(const ir::Routine& r, const std::string& name);
 
   // statements

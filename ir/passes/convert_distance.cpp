@@ -1,5 +1,6 @@
 // Absolute and incremental words (equivalences 7): a word with its own mode where the target knows block modes only.
 #include <algorithm>
+#include <array>
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
@@ -19,7 +20,10 @@ class DistancePass {
 
   void block(Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
-    watch_frames(s, b);
+    const bool settled = watch_frames(s, b);
+    if (settled && !context_.target.distance_per_word &&
+        setting_in<Distance>(b, facts_.before(s), Setting::distance) == Distance::incremental)
+      return switch_for_block(editor, std::move(s), Distance::incremental, out);
     if (!wants_work(b)) {
       out.push_back(std::move(s));
       return;
@@ -48,9 +52,53 @@ class DistancePass {
     out.push_back(std::move(s));
   }
 
-  void new_routine() { dirty_ = 0; }
+  void new_routine(Editor& editor) {
+    dirty_ = 0;
+    shifted_.clear_all();
+    const Routine& r = editor.routine;
+    uses_ = label_uses(editor.program, r);
+    straight_ = r.kind == RoutineKind::main;
+    for (const auto& s : r.body) {
+      const bool structured = std::holds_alternative<While>(s.node) || std::holds_alternative<Until>(s.node) ||
+                              std::holds_alternative<For>(s.node) || std::holds_alternative<Loop>(s.node) ||
+                              (std::holds_alternative<If>(s.node) && !std::get<If>(s.node).one_line);
+      if (structured) straight_ = false;
+    }
+    if (straight_) shifted_.start();
+  }
+  /// A statement that is no block: does control go on in the text, and with the frame as it was?
+  void other(const Statement& s) {
+    leave_straight(s);
+    const bool goes_on = std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
+                         std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node) ||
+                         std::holds_alternative<Jump>(s.node);
+    if (!goes_on) shifted_.clear_all();
+  }
 
  private:
+  /// The programmed shift along straight text, in numbers, and where the axes stood before it changed.
+  struct Shifted {
+    std::array<std::optional<double>, axis::count_max> shift{}, at{}, moved{};
+    bool turned = true;  ///< a rotation, or something else than a shift, may be in force
+    void clear_all() {
+      shift.fill(std::nullopt);
+      at.fill(std::nullopt);
+      moved.fill(std::nullopt);
+      turned = true;
+    }
+    void start() {
+      clear_all();
+      shift.fill(0);
+      moved.fill(0);
+      turned = false;
+    }
+  };
+  void leave_straight(const Statement& s) {
+    for (const auto& l : labels_on(s.line)) {
+      if (uses_.is_target(l) || uses_.computed) return shifted_.clear_all();
+    }
+  }
+
   static std::optional<Distance> explicit_mode(const CoordWord& c) {
     if (c.mode == WordMode::absolute) return Distance::absolute;
     if (c.mode == WordMode::incremental) return Distance::incremental;
@@ -150,30 +198,115 @@ class DistancePass {
     editor.put_group(out, std::move(pieces), 0);
   }
 
-  /// An increment right after a frame change: controls differ in what it is added to.
-  void watch_frames(const Statement& s, const Block& b) {
-    if (!keeps_differ_) return;
-    for (const auto& a : b.actions) {
-      if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) dirty_ = ~0U;
+  /// The frame change as far as numbers go.
+  void follow_frame(const Block& b, const Facts& facts, const FrameChange& c) {
+    const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
+    const bool clears = c.combine == FrameCombine::clear;
+    const bool replaces = c.combine == FrameCombine::replace;
+    if (c.kind == FrameKind::translate && (clears || replaces)) {
+      if (c.slot == FrameSlot::chain) shifted_.turned = false;
+    } else if (c.kind != FrameKind::translate || c.by_distance_mode || c.combine != FrameCombine::replace_named) {
+      shifted_.turned = shifted_.turned || !clears;
+      if (c.kind != FrameKind::translate) return;
+      return shifted_.clear_all();
     }
-    if (!b.has_motion || dirty_ == 0) return;
+    for (AxisId a = 0; a < axis::first_extra; ++a) {
+      std::optional<double> now = clears || replaces ? std::optional(0.0) : shifted_.shift[a];
+      for (const auto& w : c.words) {
+        if (w.axis != a) continue;
+        const auto factor = to_radius(a, w.scale, Distance::absolute, b, facts, context_.source_machine);
+        now = w.value.literal() && factor && metric ? std::optional(w.value.number * *factor) : std::nullopt;
+      }
+      auto& moved = shifted_.moved[a];
+      moved = moved && now && shifted_.shift[a] ? std::optional(*moved + *now - *shifted_.shift[a]) : std::nullopt;
+      shifted_.shift[a] = now;
+    }
+  }
+
+  /// Where the source's control counts an increment of the axis from, in the frame in force (radius).
+  std::optional<double> base(AxisId a, const Block& b, const Facts& facts) const {
+    if (facts.position[a]) return facts.position[a];
+    if ((dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;
+    if (context_.source_machine.option("frame.change_keeps") == "programmed") return shifted_.at[a];
+    const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
+    if (shifted_.turned || !shifted_.moved[a] || !metric) return std::nullopt;
+    return *shifted_.at[a] - *shifted_.moved[a];
+  }
+
+  /// Increments right after a frame change become absolute where the place they start from is known.
+  bool made_absolute(Block& b, const Facts& facts) const {
+    std::vector<CoordWord> coords = b.motion.coords;
+    if (b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0) return false;
+    for (const auto& c : b.motion.centers) {
+      if (c.mode == CenterMode::follows_distance) return false;
+    }
+    for (auto& c : coords) {
+      const auto d = distance_of(c, b, facts);
+      if (!d) return false;
+      c.mode = WordMode::absolute;
+      if (*d == Distance::absolute) continue;
+      const auto at = base(c.axis, b, facts);
+      const auto from = to_radius(c.axis, c.scale, d, b, facts, context_.source_machine);
+      const auto to = to_radius(c.axis, WordScale::modal, Distance::absolute, b, facts, context_.source_machine);
+      if (!at || !from || !to) return false;
+      c.value = scale(add(Value{*at}, scale(c.value, *from)), 1 / *to);
+      c.value.text = {};
+      c.scale = WordScale::modal;
+    }
+    b.motion.coords = std::move(coords);
+    return true;
+  }
+
+  /// An increment right after a frame change: controls differ in what it is added to. True: its words are absolute now.
+  bool watch_frames(const Statement& s, Block& b) {
+    if (!keeps_differ_) return false;
+    leave_straight(s);
+    const Facts& facts = facts_.before(s);
+    for (const auto& a : b.actions) {
+      const auto* f = std::get_if<FrameOp>(&a.data);
+      const bool offset = std::holds_alternative<WorkOffset>(a.data);
+      if (f == nullptr && !offset) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        if (m != nullptr && m->setting == Setting::units) shifted_.at.fill(std::nullopt);
+        continue;
+      }
+      for (AxisId x = 0; x < axis::first_extra; ++x) {
+        if ((dirty_ >> x & 1U) != 0) continue;  // changed again before a move
+        shifted_.at[x] = facts.position[x];
+        shifted_.moved[x] = 0;
+      }
+      dirty_ = ~0U;
+      if (offset || !f->change || s.line.skip_mask != 0)
+        shifted_.clear_all();
+      else
+        follow_frame(b, facts, *f->change);
+    }
+    if (!b.has_motion || dirty_ == 0) return false;
+    const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
+      return (dirty_ >> c.axis & 1U) != 0 && distance_of(c, b, facts) != Distance::absolute;
+    });
+    const bool settled = relative && made_absolute(b, facts);
     for (const auto& c : b.motion.coords) {
       const std::uint32_t bit = 1U << c.axis;
       if ((dirty_ & bit) == 0) continue;
       dirty_ &= ~bit;
-      if (distance_of(c, b, facts_.before(s)) == Distance::absolute) continue;
+      if (settled || distance_of(c, b, facts) == Distance::absolute) continue;
       context_.diagnostics.warning(
           "TRN-182", word_span(s.line.span, c.pos),
           "an incremental move of this axis right after a change of the offsets: the source and "
           "the target control differ in the point that it starts from",
           "make the first move of the axis after the change absolute");
     }
+    return settled;
   }
 
   const LegaliseContext& context_;
   const FactsOf& facts_;
   bool keeps_differ_ = false;
-  std::uint32_t dirty_ = 0;
+  std::uint32_t dirty_ = 0;  ///< bit n: axis n has not moved since the frame changed
+  Shifted shifted_;
+  LabelUses uses_;
+  bool straight_ = false;
 };
 
 }  // namespace
@@ -183,12 +316,14 @@ void convert_distance(Program& program, const LegaliseContext& context) {
   DistancePass pass(context, facts);
   for (auto& routine : program.routines) {
     Editor editor(program, routine, context);
-    pass.new_routine();
+    pass.new_routine(editor);
     rewrite_body(routine.body, [&](Statement&& s, Body& out) {
-      if (std::holds_alternative<Block>(s.node))
+      if (std::holds_alternative<Block>(s.node)) {
         pass.block(editor, std::move(s), out);
-      else
+      } else {
+        pass.other(s);
         out.push_back(std::move(s));
+      }
     });
   }
 }

@@ -71,7 +71,7 @@ TEST(FagorIdentity, LettersOfLocalParametersStay) {  // A = P0 (16.2)
       "(RET)\n");
 }
 
-TEST(FagorIdentity, DISABLED_BlocksWithoutACodeGetNone) {
+TEST(FagorIdentity, BlocksWithoutACodeGetNone) {
   same("N5 G81 G98 X1 Y1 Z2 I-5\nN10 X10\nG80\nN20 X5\n(IF P1 GT -20 GOTO N20)\n(GOTO N10)\n");
 }
 

@@ -251,7 +251,8 @@ TEST(SinumerikStatements, MessagesAndDefinitions) {
   d.space = 2;
   d.items = {{"NN", {}, {num(3)}}, {"TAB", {num(2), num(3)}, {}}};
   b.add(d);
-  EXPECT_EQ(b.text(), "MSG(\"R1 IS \"<<R1<<\" mm\")\nMSG()\nSETAL(65012,\"too 'deep'\")\nDEF INT NN=3,TAB[2,3]\n");
+  EXPECT_EQ(b.text(),
+            "MSG(\"R1 IS \"<<R1<<\" mm\")\nMSG()\nSETAL(65012,\"too 'deep'\")\nSTOPRE\nM0\nDEF INT NN=3,TAB[2,3]\n");
 }
 
 ir::Statement labelled(ir::Block block, std::string_view number) {

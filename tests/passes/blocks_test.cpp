@@ -241,11 +241,11 @@ TEST(Cycles, RetractPlaneChangesWhileTheCycleIsActive) {
   EXPECT_EQ(difference(text, target, "fagor-mill", "fagor-mill"), "");
 }
 
-TEST(Cycles, DISABLED_SecondCycleStartsWhereTheFirstLeftTheTool) {
+TEST(Cycles, SecondCycleStartsWhereTheFirstLeftTheTool) {
   const std::string text = main_program(
       "  block feed 100, rapid X 0 Y 0 Z 20\n  block cycle hole drill reference 2 bottom -15 retract 10, modal X 5 Y "
       "5\n"
-      "  block cycle_cancel\n  block cycle hole peck_full reference 2 bottom -15 retract 10 law constant first 6 "
+      "  block cycle_cancel\n  block cycle hole peck_full reference 2 bottom -15 retract 10 pecks constant first 6 "
       "reapproach 1, "
       "modal X 9\n  block cycle_cancel\n");
   EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "fagor-mill"), "");
