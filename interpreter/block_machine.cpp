@@ -163,6 +163,14 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
       return true;
     }
   }
+  if (ref.datum == ir::Datum::tool_radius || ref.datum == ir::Datum::tool_length) {
+    // Another name of the control may have written the same datum.
+    const auto it = written_tools_.find({ref.datum, ref.axis, {args.begin(), args.end()}});
+    if (it != written_tools_.end()) {
+      out = it->second;
+      return true;
+    }
+  }
   const bool has_axis = ref.axis < ir::axis::count_max && axis_[ref.axis].present;
   const auto* tool = tool_of(profile_, args.empty() ? tool_in_spindle_ : args[0]);
   switch (ref.datum) {
@@ -230,6 +238,8 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
     default: break;
   }
   written_[datum_key(ref, args)] = v;
+  if (ref.datum == ir::Datum::tool_radius || ref.datum == ir::Datum::tool_length)
+    written_tools_[{ref.datum, ref.axis, {args.begin(), args.end()}}] = v;
   return true;
 }
 

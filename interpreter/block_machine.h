@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "interpreter/emitter.h"
@@ -229,6 +230,7 @@ class BlockMachine final : public SystemData {
   bool once_ = false;
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
+  std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
 };
 
 }  // namespace cnctrans::interpreter

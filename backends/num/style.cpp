@@ -188,9 +188,6 @@ bool native_hole(const ir::HoleCycle& c) {
     case ir::HoleKind::ream:
     case ir::HoleKind::peck_full:
     case ir::HoleKind::peck_break: break;
-    case ir::HoleKind::bore_manual:
-      if (!zero(c.dwell_bottom)) return false;
-      break;
     case ir::HoleKind::tap_floating:
       if (!zero(c.dwell_bottom) || !zero(c.pitch)) return false;
       break;

@@ -338,7 +338,6 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
       case ir::HoleKind::tap_floating: return "G84";
       case ir::HoleKind::ream: return dwells ? "G89" : "G85";
       case ir::HoleKind::peck_break: return "G87";
-      case ir::HoleKind::bore_manual: return "G88";
       default: return dwells ? "G82" : "G81";
     }
   }();

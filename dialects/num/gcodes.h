@@ -192,4 +192,48 @@ inline constexpr const GCode* g_code(double number) {
   return &g_codes[static_cast<std::size_t>(detail::g_index[n])];
 }
 
+/// What is missing for this function: a key of the registry of missing features; empty: it is carried.
+constexpr std::string_view missing_feature(const GCode& row) {
+  switch (row.kind) {
+    case GKind::turning_cycle: return "cycle.turning";
+    case GKind::milling_cycle: return "cycle.milling";
+    case GKind::spline: return "motion.spline";
+    case GKind::interruptible: return "motion.probe";
+    case GKind::spatial_comp:
+    case GKind::transform:
+    case GKind::grinding_axis:
+    case GKind::lathe_transform: return "motion.transformation";
+    case GKind::synchronise: return "language.synchronised";
+    case GKind::save_values:
+    case GKind::concatenation: return "language.statement";
+    case GKind::hole_cycle: return row.code == 86 || row.code == 88 ? "cycle.hole" : "";
+    default: return {};
+  }
+}
+
+/// Functions that are carried in part, with what is not.
+struct GRemark {
+  std::int16_t code;
+  std::string_view text;
+};
+inline constexpr std::array g_remarks{
+    GRemark{0,
+            "EA ES ET E+ E-: only a line by EA with one coordinate, or EA with EX under G90; the rest is refused "
+            "(NUM-004)"},
+    GRemark{1, "as G0"},
+    GRemark{12, "left out with a warning (NUM-034)"},
+    GRemark{16, "R+ only; another tool axis is refused (NUM-038)"},
+    GRemark{20, "kept as text, no effect (NUM-034)"},
+    GRemark{75, "left out with a warning (NUM-033)"},
+    GRemark{83, "P and Q of one size, or falling; a last peck of its own (num.peck_law = constant) is refused"},
+    GRemark{92, "R counts for all arcs (NUM-032)"},
+    GRemark{96, "X beside it is no move (NUM-031)"},
+};
+constexpr std::string_view g_remark(std::int16_t code) {
+  for (const auto& r : g_remarks) {
+    if (r.code == code) return r.text;
+  }
+  return {};
+}
+
 }  // namespace cnctrans::dialects::num

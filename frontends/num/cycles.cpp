@@ -140,7 +140,6 @@ void Lowering::define_cycle(const Word& g) {
     case 85:
     case 89: cycle.kind = ir::HoleKind::ream; break;
     case 87: cycle.kind = ir::HoleKind::peck_break; break;
-    case 88: cycle.kind = ir::HoleKind::bore_manual; break;
     default:
       report_.refuse("NUM-004", g.pos,
                      "`" + std::string(text_of(g)) + "`: the sequence of this cycle is not carried yet", {},
@@ -167,6 +166,17 @@ void Lowering::define_cycle(const Word& g) {
   put_cycle(g, std::make_shared<const ir::HoleCycle>(std::move(cycle)), true);
 }
 
+/// A word of the tool axis while a cycle is active.
+bool Lowering::refuses_new_depth() {
+  for (const auto& c : out_->motion.coords) {
+    if (c.axis != cycle_axis()) continue;
+    report_.refuse("NUM-026", c.pos, "the depth of a cycle can't be changed while it is active",
+                   "write the cycle again");
+    return true;
+  }
+  return false;
+}
+
 /// ER, EH, P, Q ... while a cycle is active.
 void Lowering::change_cycle() {
   ir::HoleCycle cycle = *state_.cycle;
@@ -174,12 +184,7 @@ void Lowering::change_cycle() {
   for (const int s : {e('R'), e('H'), e('F'), e('P'), e('S'), letter('P'), letter('Q')}) {
     if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
   }
-  for (const auto& c : out_->motion.coords) {
-    if (c.axis != cycle_axis()) continue;
-    report_.refuse("NUM-026", c.pos, "the depth of a cycle can't be changed while it is active",
-                   "write the cycle again");
-    return;
-  }
+  if (refuses_new_depth()) return;
   const bool plane_given = has(e('R'));
   const bool to_plane = plane_given && out_->motion.coords.empty();
   if (!cycle_words(cycle, state_.cycle_code)) return;

@@ -128,6 +128,7 @@ class Lowering {
   // cycles.cpp
   void define_cycle(const Word& g);
   void change_cycle();
+  bool refuses_new_depth();
   bool cycle_words(ir::HoleCycle& cycle, int number);
   bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);
   bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);

@@ -167,6 +167,7 @@ void Lowering::resolve_motion() {
       return;
     }
     if ((present_ & cycle_slots) != 0) return change_cycle();
+    if (refuses_new_depth()) return;
   }
   if (marks_.three_points != nullptr) return through_points();
   if (marks_.thread != nullptr) return thread_segment();

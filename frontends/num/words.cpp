@@ -281,17 +281,17 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       state_.turning_profile = false;
       return;
     case GKind::thread_segment: return mark(marks_.thread);
-    case GKind::turning_cycle: state_.turning_profile = row.code == 64; return missing("cycle.turning");
-    case GKind::milling_cycle: return missing("cycle.milling");
-    case GKind::spline: return missing("motion.spline");
-    case GKind::interruptible: return missing("motion.probe");
+    case GKind::turning_cycle: state_.turning_profile = row.code == 64; [[fallthrough]];
+    case GKind::milling_cycle:
+    case GKind::spline:
+    case GKind::interruptible:
     case GKind::spatial_comp:
     case GKind::transform:
     case GKind::grinding_axis:
-    case GKind::lathe_transform: return missing("motion.transformation");
-    case GKind::synchronise: return missing("language.synchronised");
+    case GKind::lathe_transform:
+    case GKind::synchronise:
     case GKind::save_values:
-    case GKind::concatenation: return missing("language.statement");
+    case GKind::concatenation: return missing(facts::missing_feature(row));
     case GKind::unknown: break;
   }
 }
