@@ -106,7 +106,7 @@ int run(const Arguments& a) {
   }
   if (exit_of(r.reason) == limit_or_difference)
     write_all(stderr, "cnctrans: stopped by the limit (--max-events, --max-steps)\n");
-  return exit_of(r.reason);
+  return result.diagnostics.has_errors() ? refused : exit_of(r.reason);
 }
 
 }  // namespace cnctrans::cli

@@ -176,7 +176,9 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
       set_spindle_mode(static_cast<ir::SpindleMode>(m.value), first_of<ir::SetSpindle>(b) != nullptr);
       return;
     case ir::Setting::units: modal_.units_feed_too = m.feed_too; break;
-    case ir::Setting::plane: pole_ = {}; break;
+    case ir::Setting::plane:
+      if (policy_.plane_resets_pole) pole_ = {};
+      break;
     default: break;
   }
   modal_.set(m.setting, m.value);

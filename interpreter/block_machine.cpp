@@ -26,6 +26,10 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.nearest_pitch = is("helix.pitch_mismatch", "nearest");
   policy_.machine_metric = is("machine_move.units", "machine");
   policy_.pole_follows_arc = is("polar.pole_follows_arc", "yes");
+  policy_.plane_resets_pole = is("polar.plane_resets_pole", "yes");
+  policy_.start_angle_stays = is("thread.start_angle", "modal");
+  policy_.machine_absolute = is("machine_move.words", "absolute");
+  policy_.position_as_words = is("machine_position.scale", "words");
   policy_.offsets_at_once = is("work_offset.write", "at_once");
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
@@ -181,7 +185,7 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
       return true;
     case ir::Datum::machine_position:
       if (!has_axis) break;
-      out = frame_.apply(p_)[ref.axis];
+      out = frame_.apply(p_)[ref.axis] / (policy_.position_as_words ? axis_[ref.axis].scale_absolute : 1);
       return true;
     case ir::Datum::work_offset: {
       const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]));

@@ -82,7 +82,8 @@ class BlockMachine final : public SystemData {
   /// Options of the profile, looked up once.
   struct Policies {
     bool cycle_rapid = false, rotary_triggers = false, keeps_programmed = false, centre_through_frame = false;
-    bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, offsets_at_once = false;
+    bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
+         start_angle_stays = false, position_as_words = false, machine_absolute = false, offsets_at_once = false;
   };
   struct Pending {
     Move move;
@@ -150,7 +151,7 @@ class BlockMachine final : public SystemData {
   bool machine_move(const ir::Motion& m, ir::MotionKind kind);
   bool reference_move(const ir::Motion& m);
   bool end_point(const ir::Motion& m, Move& move);
-  bool polar_end(const ir::MotionExtra& x, Move& move);
+  bool polar_end(const ir::Motion& m, Move& move);
   bool line_by_angle(const ir::Motion& m, Move& move);
   bool thread(const ir::Motion& m, bool variable, Move& move);
   double rotary_target(const ir::CoordWord& w, double v) const;
@@ -208,6 +209,7 @@ class BlockMachine final : public SystemData {
   std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
   std::string tool_name_;
   Vec pole_;
+  double start_angle_ = 0;  ///< of a thread, where it stays in force
 
   // the last path element, for tangents
   std::array<double, 3> before_{};

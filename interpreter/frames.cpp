@@ -218,19 +218,19 @@ bool BlockMachine::stretch(const ir::FrameChange& c, ir::FrameCombine combine, F
   return true;
 }
 
-/// The pole: absolute in the work frame; `add`: from the last pole; `compose`: from the present point. Without words:
-/// the present point.
+/// The pole: absolute in the work frame; `add`: from the last pole; `compose`: from the present point. Nothing given:
+/// the present point; an absolute pole without words: the zero point of the work frame.
 void BlockMachine::set_pole(const ir::PoleSet& p) {
   const auto plane = ir::plane_axes(modal_.plane);
   const Vec here{p_[plane.u], p_[plane.v]};
-  if (p.at == nullptr || p.at->words.empty()) {
+  if (p.at == nullptr) {
     pole_ = here;
     return;
   }
   Vec base =
       p.at->combine == ir::FrameCombine::add ? pole_ : (p.at->combine == ir::FrameCombine::compose ? here : Vec{});
   const bool relative = p.at->combine == ir::FrameCombine::add || p.at->combine == ir::FrameCombine::compose;
-  if (!relative) base = pole_;
+  if (!relative && !p.at->words.empty()) base = pole_;
   for (const auto& w : p.at->words) {
     if (!check_axis(w.axis)) return;
     const double x = coordinate(w.axis, w.value, w.scale, !relative);

@@ -61,11 +61,12 @@ double to_bcd(double x, Failure& failure) {
   return static_cast<double>(bcd);
 }
 
-double from_bcd(double x, Failure& failure) {
+/// A number with a digit above 9 is no BCD code: it is binary already: $AB is 171.
+double from_bcd(double x) {
   auto rest = std::llround(x);
   std::int64_t value = 0, unit = 1;
   for (; rest > 0; rest >>= 4, unit *= 10) {
-    if ((rest & 15) > 9) return out_of_domain(failure, number_text(x) + " is not a BCD number");
+    if ((rest & 15) > 9) return x;
     value += (rest & 15) * unit;
   }
   return static_cast<double>(value);
@@ -101,7 +102,7 @@ double one_argument(ir::Function f, ir::RoundHalf half, double x, Failure& failu
     case ir::Function::to_integer: return rounded_half(x, half);
     case ir::Function::to_boolean: return x != 0 ? 1 : 0;
     case ir::Function::to_bcd: return to_bcd(x, failure);
-    case ir::Function::from_bcd: return from_bcd(x, failure);
+    case ir::Function::from_bcd: return from_bcd(x);
     default: break;
   }
   return x;

@@ -165,13 +165,17 @@ bool BlockMachine::end_point(const ir::Motion& m, Move& move) {
     base_pending_ &= ~(1U << a);
   }
   if (failure_.set || !m.extra) return !failure_.set;
-  const bool arc_kind = is_arc(m.kind) || (m.kind == ir::MotionKind::modal && is_arc(modal_.motion));
-  if ((m.extra->has_polar_radius || m.extra->has_polar_angle) && !arc_kind) return polar_end(*m.extra, move);
+  const auto kind = m.kind == ir::MotionKind::modal ? modal_.motion : m.kind;
+  const bool about_pole = kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw;  // see polar_arc
+  if ((m.extra->has_polar_radius || m.extra->has_polar_angle) && !about_pole) return polar_end(m, move);
   return !m.extra->has_line_angle || line_by_angle(m, move);
 }
 
-bool BlockMachine::polar_end(const ir::MotionExtra& x, Move& move) {
+bool BlockMachine::polar_end(const ir::Motion& m, Move& move) {
+  const auto& x = *m.extra;
   const auto plane = ir::plane_axes(modal_.plane);
+  const bool cartesian = std::any_of(m.coords.begin(), m.coords.end(),
+                                     [&](const auto& w) { return w.axis == plane.u || w.axis == plane.v; });
   if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
   const Vec here = Vec{p_[plane.u], p_[plane.v]} - pole_;
   double radius = length(here);
@@ -181,6 +185,7 @@ bool BlockMachine::polar_end(const ir::MotionExtra& x, Move& move) {
   if (x.has_polar_radius) radius = value(x.polar_radius) * unit() + (absolute ? 0 : radius);
   if (x.has_polar_angle) angle = value(x.polar_angle) + (absolute ? 0 : angle);
   if (radius < 0) return failure_.fail(code::polar, "the polar radius becomes negative");
+  if (cartesian) return failure_.fail(code::polar, "a coordinate of the plane stands beside polar words");
   move.to[plane.u] = pole_.u + radius * cos_degrees(angle);
   move.to[plane.v] = pole_.v + radius * sin_degrees(angle);
   return !failure_.set;
@@ -220,8 +225,11 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
     if (x.has_lead) lead_ = value(x.lead) * unit();
     if (variable) move.pitch_change = value(x.lead_change) * unit();
     if (x.has_start_angle) move.start_angle = value(x.start_angle);
+    if (policy_.start_angle_stays && x.has_start_angle) start_angle_ = move.start_angle;
   }
+  if (policy_.start_angle_stays) move.start_angle = start_angle_;
   move.pitch = lead_;
+  if (lead_ == 0) return failure_.fail(code::thread_pitch, "the thread has no pitch");
   return !failure_.set;
 }
 
@@ -236,7 +244,9 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
   const double metric = policy_.machine_metric && modal_.units == ir::Units::inch ? 1 / 25.4 : 1;
   for (const auto& w : m.coords) {
     if (!check_axis(w.axis)) return false;
-    const bool incremental = w.mode == ir::WordMode::incremental;
+    const bool incremental =
+        w.mode == ir::WordMode::incremental ||
+        (w.mode == ir::WordMode::modal && !policy_.machine_absolute && modal_.distance == ir::Distance::incremental);
     const double x = coordinate(w.axis, w.value, w.scale, !incremental) * (axis_[w.axis].rotary ? 1 : metric);
     machine[w.axis] = incremental ? machine[w.axis] + x : x;
     base_pending_ &= ~(1U << w.axis);
@@ -257,6 +267,7 @@ bool BlockMachine::reference_move(const ir::Motion& m) {
     ir::CoordWord word;
     word.axis = w.axis;
     word.scale = ir::WordScale::radius;
+    word.mode = ir::WordMode::absolute;
     word.value = ir::Value(profile_.axis(w.axis)->reference_point / (axis_[w.axis].rotary ? 1 : unit()));
     to.coords.push_back(word);
   }

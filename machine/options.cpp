@@ -23,7 +23,13 @@ constexpr std::array specs{
                "a helix whose pitch does not fit its travel: refused, or run with the nearest pitch"},
     OptionSpec{"machine_move.units", "modal|machine", "modal",
                "unit of machine coordinates: as the other words, or always millimetres"},
+    OptionSpec{"machine_position.scale", "radius|words", "radius",
+               "how a program reads a machine position: radius in mm, or in the unit and diameter mode of its words"},
+    OptionSpec{"machine_move.words", "modal|absolute", "modal",
+               "words of a move in machine coordinates: increments in incremental mode, or positions in any mode"},
+    OptionSpec{"polar.plane_resets_pole", "no|yes", "no", "a plane function puts the pole to the zero point"},
     OptionSpec{"polar.pole_follows_arc", "no|yes", "no", "the centre of an arc becomes the pole"},
+    OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
     OptionSpec{"work_offset.write", "on_select|at_once", "on_select",
                "when a written row of the work offset table counts: when it is selected again, or at once"},
     // Read by the language readers and writers.

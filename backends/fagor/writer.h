@@ -50,6 +50,7 @@ class Writer : public ProgramWriter {
   void tool_select(const ir::Action& a, const ir::ToolSelect& t) override;
   void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;
   void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
+  [[nodiscard]] bool rollover() const;
   void pole_set(const ir::Action& a, const ir::PoleSet& p) override;
   void dwell(const ir::Action& a, const ir::Dwell& d) override;
   void cycle_define(const ir::Action& a, const ir::CycleDefine& c) override;

@@ -200,7 +200,10 @@ void Writer::mirror(const ir::Action& a, const ir::FrameChange& f) {
 }
 
 void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
+  const bool relative = p.at && p.at->combine != ir::FrameCombine::replace;
+  if (relative) return refuse("TRN-202", a.pos, "a pole given from another point has no counterpart here");
   add(std::string(g(Use::pole)), Rank::setting, a.pos);
+  if (p.at && p.at->words.empty()) return add("I0 J0", Rank::setting);
   if (p.at) plane_point(p.at->words, a.pos);
 }
 

@@ -14,6 +14,10 @@ using dialects::fagor::Use;
 constexpr std::string_view no_word = "TRN-202";
 constexpr std::string_view no_cycle = "TRN-214";
 
+constexpr const char* plain_axis =
+    "the direction of this rotary move is lost: the axis of the target is no rollover axis";
+constexpr const char* rollover_hint = "on a rollover axis set the option fagor.rotary_rollover of the target to yes";
+
 const ir::CycleDefine* cycle_of(const ir::Block* b) {
   if (b == nullptr) return nullptr;
   for (const ir::Action& a : b->actions) {
@@ -34,6 +38,11 @@ bool Writer::absolute_center(const ir::CenterWord& c) {
   if (!distance)
     refuse(no_word, c.pos, "whether the centre of this arc is absolute depends on the path that leads here");
   return distance == ir::Distance::absolute;
+}
+
+/// The sign of an absolute rotary word is its direction (3.7).
+bool Writer::rollover() const {
+  return profile().option("fagor.rotary_rollover") == "yes";
 }
 
 /// A cycle's block reaches its point in rapid without a motion code of its own (25.3).
@@ -90,7 +99,10 @@ void Writer::frame_use(const ir::Motion& m) {
 }
 
 void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
-  if (w.mode != ir::WordMode::modal) {
+  const bool machine = m.frame != ir::FrameUse::normal;
+  if (machine && w.mode == ir::WordMode::incremental)
+    return refuse(no_word, w.pos, "an incremental move in machine coordinates has no counterpart here");
+  if (w.mode != ir::WordMode::modal && !machine) {
     const auto distance = known<ir::Distance>(ir::Setting::distance);
     const bool absolute = w.mode == ir::WordMode::absolute;
     if (!distance || (*distance == ir::Distance::absolute) != absolute) {
@@ -99,7 +111,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   }
   auto value = scaled(w.axis, w.scale, w.value);
   if (!value) return refuse(no_word, w.pos, "whether this word is a radius or a diameter is not known here");
-  const bool machine_units = m.frame != ir::FrameUse::normal && !same_dialect() && !ir::is_rotary_letter(w.axis) &&
+  const bool machine_units = machine && !same_dialect() && !ir::is_rotary_letter(w.axis) &&
                              profile().option("machine_move.units") == "machine";
   if (machine_units) {
     const auto units = known<ir::Units>(ir::Setting::units);
@@ -114,12 +126,16 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
     }
   }
   switch (w.direction) {
-    case ir::RotaryDirection::as_value:
-    case ir::RotaryDirection::by_sign: break;
+    case ir::RotaryDirection::as_value: break;
+    case ir::RotaryDirection::by_sign:
+      if (!rollover() && !same_dialect() && known<ir::Distance>(ir::Setting::distance) != ir::Distance::incremental)
+        return refuse(no_word, w.pos, plain_axis, rollover_hint);
+      break;
     case ir::RotaryDirection::positive:
     case ir::RotaryDirection::negative: {
       if (!value->literal())
         return refuse(no_word, w.pos, "the direction of this rotary move is the sign of a number here");
+      if (!rollover()) return refuse(no_word, w.pos, plain_axis, rollover_hint);
       const double turn = std::fmod(std::fmod(value->number, 360) + 360, 360);
       const bool backward = w.direction == ir::RotaryDirection::negative;
       if (backward && turn == 0)
@@ -160,7 +176,10 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
     return refuse(no_word, m.code_pos,
                   "polar words that are absolute or incremental by themselves have no counterpart here");
   // Polar words stand before the Cartesian ones (25.1).
-  if (e.has_polar_radius) add(word("R", e.polar_radius, m.code_pos), Rank::motion_code);
+  // In an arc R is the arc's radius: about the pole the angle alone says the end (10.3).
+  const auto kind = m.kind != ir::MotionKind::modal || facts() == nullptr ? m.kind : facts()->motion.value_or(m.kind);
+  const bool arc = kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw;
+  if (e.has_polar_radius && (!arc || same_dialect())) add(word("R", e.polar_radius, m.code_pos), Rank::motion_code);
   if (e.has_polar_angle) add(word("Q", e.polar_angle, m.code_pos), Rank::motion_code);
   if (e.has_line_angle) add(word("Q", e.line_angle, m.code_pos), Rank::motion_code);
   if (e.has_pitch) {

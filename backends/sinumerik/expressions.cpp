@@ -79,7 +79,8 @@ std::optional<double> literal(const ir::ExprPtr& e) {
 }  // namespace
 
 bool has_system_name(const ir::SystemRef& s) {
-  return system_name(s.datum) != nullptr;
+  const bool of_active_tool = s.datum == ir::Datum::tool_radius;  // $P_TOOLR takes no index
+  return system_name(s.datum) != nullptr && !(of_active_tool && !s.args.empty());
 }
 
 Expressions::Expressions(const ir::Program& program, bool own)

@@ -78,14 +78,34 @@ void Writer::offset_again(const ir::Block& b) {
   if (b.has_motion && b.motion.frame == ir::FrameUse::machine) return;
   if (b.empty()) return;
   offset_pending_ = false;
-  if (block_has_offset_) return;
-  if (several_offsets_ && !offset_certain_) {
+  if (block_has_offset_ || !offset_in_force()) return;
+  add(offset_word_, Rank::offset);
+}
+
+/// The offset before the move in machine coordinates as `offset_word_`. False: none was in force, or refused.
+bool Writer::offset_in_force() {
+  const bool in_main = program().main() == &program().routines[routine_index()];
+  const char* select = "select the offset in the source after such a move";
+  bool guess = several_offsets_ && !offset_certain_;
+  if (offset_word_.empty() && several_offsets_) {
+    refuse("TRN-218", {}, "the tool offset in force before the move in machine coordinates is not known here", select);
+    return false;
+  }
+  if (offset_word_.empty() && only_offset_ && !in_main) {
+    guess = true;
+    offset_word_ = word("D", *only_offset_, {});
+  }
+  if (offset_word_.empty()) {
+    if (!selects_tools_) return false;  // no tool, no offset: D0 stays
+    offset_word_ = "D1";                // what the control selects with the tool
+  }
+  if (guess) {
     diagnostics().warning("TRN-218", current().line.span,
                           "the tool offset in force before the move in machine coordinates is not known for sure; " +
-                              (offset_word_.empty() ? std::string("D1") : offset_word_) + " is selected again here",
-                          "select the offset in the source after such a move");
+                              offset_word_ + " is selected again here",
+                          select);
   }
-  add(offset_word_.empty() ? "D1" : offset_word_, Rank::offset);
+  return true;
 }
 
 bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
@@ -174,17 +194,18 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   add(std::move(text), Rank::head, a.pos);
 }
 
+/// G111 from the zero point, G110 from the present point, G112 from the last pole.
 void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
   std::string text = "G110";
   if (p.at) {
-    text = "G111";
+    if (p.at->combine == ir::FrameCombine::add) text = "G112";
+    if (p.at->combine == ir::FrameCombine::replace) text = "G111";
     for (const ir::FrameWord& w : p.at->words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
   } else {
-    text += " X0 Y0";
     const auto plane = setting(Setting::plane);
     if (!plane) return refuse("TRN-202", a.pos, "the plane in force is not known, and the polar origin needs it");
     const ir::PlaneAxes axes = ir::plane_axes(static_cast<ir::Plane>(*plane));
-    text = "G110 " + std::string(axis_name(axes.u)) + "0 " + std::string(axis_name(axes.v)) + '0';
+    text += ' ' + std::string(axis_name(axes.u)) + "0 " + std::string(axis_name(axes.v)) + '0';
   }
   add(std::move(text), Rank::head, a.pos);
 }
@@ -361,6 +382,44 @@ void Writer::radius(const ir::Motion& m) {
   add(word("CR", m.radius, m.radius_pos), Rank::radius, m.radius_pos);
 }
 
+/// The axis along which the pitch of a thread counts when the source does not name it: the one with the longer way.
+ir::AxisId Writer::main_axis(const ir::Motion& m) {
+  if (m.coords.size() == 1) return m.coords.front().axis;
+  ir::AxisId longest = ir::axis::none;
+  double most = -1;
+  for (const ir::CoordWord& w : m.coords) {
+    const auto way = travel(w);
+    if (!way) return ir::axis::none;
+    if (*way > most) longest = w.axis;
+    most = std::max(most, *way);
+  }
+  return longest;
+}
+
+/// Way of the axis in this block as radius; nullopt: the point before or a mode is not known here.
+std::optional<double> Writer::travel(const ir::CoordWord& w) {
+  const auto distance = setting(Setting::distance);
+  const auto diameter = setting(Setting::diameter);
+  const machine::AxisSpec* axis = profile().axis(w.axis);
+  if (!w.value.literal() || axis == nullptr || (w.mode == ir::WordMode::modal && !distance)) return std::nullopt;
+  const bool absolute = w.mode == ir::WordMode::absolute ||
+                        (w.mode == ir::WordMode::modal && *distance == code_value(ir::Distance::absolute));
+  double factor = 1;
+  if (axis->diameter && w.scale == ir::WordScale::diameter) factor = 0.5;
+  if (axis->diameter && w.scale == ir::WordScale::modal) {
+    if (!diameter) return std::nullopt;
+    const bool all = *diameter == code_value(ir::DiameterMode::diameter);
+    const bool radius = *diameter == code_value(ir::DiameterMode::radius);
+    if (all || (!radius && absolute)) factor = 0.5;
+  }
+  const double value = w.value.number * factor;
+  if (!absolute) return std::abs(value);
+  const ir::Facts* f = facts();
+  const auto from = f != nullptr ? f->position[w.axis] : std::nullopt;
+  if (!from) return std::nullopt;
+  return std::abs(value - *from);
+}
+
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   constexpr std::string_view letters = "IJK";
   if (e.has_pitch) return refuse("TRN-202", m.code_pos, "a helix by its pitch has no counterpart here");
@@ -384,8 +443,9 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (e.has_angle) extra("AR", e.opening_angle);
   if (e.has_turns) extra("TURN", e.turns);
   if (!e.has_lead) return;
-  if (e.lead_axis > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
-  extra(letters.substr(e.lead_axis, 1), e.lead);
+  const ir::AxisId lead = e.lead_axis == ir::axis::none ? main_axis(m) : e.lead_axis;
+  if (lead > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
+  extra(letters.substr(lead, 1), e.lead);
   if (!e.lead_change.is(0))
     extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);
   if (e.has_start_angle) extra("SF", e.start_angle);

@@ -46,15 +46,20 @@ bool uses_css(const ir::Program& program) {
   return found;
 }
 
-/// More than one offset number other than 0, or computed ones.
-bool several_offsets(const ir::Program& program) {
+struct Offsets {
   std::optional<double> first;
-  bool several = false;
+  bool several = false;  ///< more than one offset number other than 0, or computed ones
+  bool tools = false;    ///< some tool is selected
+};
+Offsets offsets_of(const ir::Program& program) {
+  std::optional<double> first;
+  bool several = false, tools = false;
   for (const ir::Routine& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
       if (b == nullptr) return;
       for (const ir::Action& a : b->actions) {
+        tools = tools || std::holds_alternative<ir::ToolSelect>(a.data);
         const auto* o = std::get_if<ir::ToolOffset>(&a.data);
         if (o == nullptr || o->number.is(0)) continue;
         several = several || !o->number.literal() || (first && *first != o->number.number);
@@ -62,7 +67,7 @@ bool several_offsets(const ir::Program& program) {
       }
     });
   }
-  return several;
+  return {first, several, tools};
 }
 
 }  // namespace
@@ -81,7 +86,10 @@ Writer::Writer(const ir::Program& source, const WriteOptions& write_options, Dia
     : ProgramWriter(source, write_options, sinumerik::style, sink),
       expressions_(program(), source.dialect == sinumerik::style.dialect),
       uses_css_(uses_css(program())),
-      several_offsets_(several_offsets(program())) {}
+      several_offsets_(offsets_of(program()).several),
+      selects_tools_(offsets_of(program()).tools) {
+  if (const auto only = offsets_of(program()).first; only && !several_offsets_) only_offset_ = ir::Value(*only);
+}
 
 std::string Writer::sub_name(const ir::RoutineName& name) const {
   if (!name.text.empty()) return name.text;

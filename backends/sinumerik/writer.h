@@ -94,20 +94,25 @@ class Writer final : public ProgramWriter {
   std::string cycle_text(const ir::Cycle& cycle, WordPos pos);
   void feed_and_spindle_mode(const ir::Block& b);
   void offset_again(const ir::Block& b);
+  bool offset_in_force();
   void offset_uncertain() { offset_certain_ = false; }
   void nested(const ir::Body& statements);
   std::string rotary_attribute(const ir::CoordWord& w);
+  [[nodiscard]] ir::AxisId main_axis(const ir::Motion& m);
+  [[nodiscard]] std::optional<double> travel(const ir::CoordWord& w);
   [[nodiscard]] std::string source_word(WordPos pos) const;
 
   Expressions expressions_;
   bool uses_css_ = false;
   std::string group_code_;  ///< G94 G95 G96... of the block being written
   bool group_written_ = false;
-  bool block_has_offset_ = false;  ///< the block being written selects an offset or a tool
-  std::string offset_word_;        ///< last D written, empty: none in this routine
-  bool offset_certain_ = false;    ///< every path that leads here has selected it
-  bool several_offsets_ = false;   ///< the program selects more than one
-  bool offset_pending_ = false;    ///< D0 was written for a move in machine coordinates
+  bool block_has_offset_ = false;         ///< the block being written selects an offset or a tool
+  std::string offset_word_;               ///< last D written, empty: none in this routine
+  bool offset_certain_ = false;           ///< every path that leads here has selected it
+  bool several_offsets_ = false;          ///< the program selects more than one
+  bool selects_tools_ = false;            ///< the program selects tools
+  std::optional<ir::Value> only_offset_;  ///< the one offset other than 0 that the program selects
+  bool offset_pending_ = false;           ///< D0 was written for a move in machine coordinates
 };
 
 }  // namespace cnctrans::backends::sinumerik

@@ -77,6 +77,7 @@ class BlockLowerer {
   void rotary(ir::CoordWord& c, const Word& w);
   void centers(ir::Motion& m);
   void radius_and_polar(ir::Motion& m);
+  bool in_plane(const ir::Motion& m);
   void thread(ir::Motion& m);
   void technology();
   void machine_functions();

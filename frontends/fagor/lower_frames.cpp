@@ -200,12 +200,14 @@ void BlockLowerer::pole(const GWord& g) {
     state_.error("FAG-014", g.word->pos, "G93 needs both I and J, or neither");
     return;
   }
-  ir::FrameChange at;
-  if (i) {
-    const ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
-    at.words.push_back({p.u, value(*i), ir::WordScale::modal, i->pos});
-    at.words.push_back({p.v, value(*j), ir::WordScale::modal, j->pos});
+  if (!i) {
+    act(ir::PoleSet{}, g.word);
+    return;
   }
+  ir::FrameChange at;
+  const ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
+  at.words.push_back({p.u, value(*i), ir::WordScale::modal, i->pos});
+  at.words.push_back({p.v, value(*j), ir::WordScale::modal, j->pos});
   act(ir::PoleSet{std::make_shared<const ir::FrameChange>(std::move(at))}, g.word);
 }
 

@@ -88,8 +88,18 @@ void BlockLowerer::centers(ir::Motion& m) {
   }
 }
 
-/// R: radius of an arc when the block has coordinates, else polar radius. Q: polar angle; with a coordinate of a
-/// straight line the angle of the line; of a thread the start angle.
+/// A coordinate of the plane is given; one outside the plane goes along with polar words (6.5).
+bool BlockLowerer::in_plane(const ir::Motion& m) {
+  if (m.coords.empty()) return false;
+  const ir::PlaneAxes plane = ir::plane_axes(state_.plane_by_text());
+  for (const auto& c : m.coords) {
+    if (c.axis == plane.u || c.axis == plane.v) return true;
+  }
+  return false;
+}
+
+/// R: radius of an arc when the block has coordinates, else polar radius. Q: polar angle; with a coordinate of the
+/// plane the angle of a straight line; of a thread the start angle.
 void BlockLowerer::radius_and_polar(ir::Motion& m) {
   const bool straight = m.kind == ir::MotionKind::rapid || m.kind == ir::MotionKind::linear;
   const bool arc = m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw;
@@ -104,7 +114,7 @@ void BlockLowerer::radius_and_polar(ir::Motion& m) {
     return;
   }
   result_->needs_program = true;
-  if (q && !r && !arc && m.centers.empty() && !m.coords.empty()) {
+  if (q && !r && !arc && m.centers.empty() && in_plane(m)) {
     extra().has_line_angle = true;
     extra().line_angle = value(*q);
     return;

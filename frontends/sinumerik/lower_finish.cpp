@@ -41,6 +41,11 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
     if (attribute == Attribute::ac) extra().polar_mode = ir::WordMode::absolute;
   };
   const auto corner = [&](ir::CornerKind kind, bool modal) {
+    if (corner_ >= 0 || (value.literal() && value.number < 0)) {
+      failed_ = true;
+      c_.error("SIN-005", w.pos,
+               corner_ >= 0 ? "two corners in one block" : name + " takes the size of the corner: not below 0");
+    }
     corner_ = static_cast<std::int32_t>(out_->actions.size());
     ir::Corner c;
     c.kind = kind;
@@ -126,7 +131,9 @@ bool WordLowering::finish() {
       out_->motion.code_text = c_.slice(special_pos_);
       break;
   }
-  if (has_rpl_ && special_ != Special::frame) {
+  const bool rotation = special_ == Special::frame && (static_cast<FrameVerb>(special_g_->a) == FrameVerb::rot ||
+                                                       static_cast<FrameVerb>(special_g_->a) == FrameVerb::arot);
+  if (has_rpl_ && !rotation) {
     failed_ = true;
     c_.error("SIN-003", special_pos_, "RPL= belongs to ROT or AROT");
   }
@@ -153,30 +160,29 @@ void WordLowering::finish_dwell() {
   dwell_ = ir::Dwell{};
 }
 
+/// G110 from the present point, G111 from the zero point of the work frame, G112 from the last pole.
 void WordLowering::finish_pole() {
   auto& coords = out_->motion.coords;
-  ir::PoleSet pole;
-  const bool absolute = special_g_->a == 1;
-  const bool literal_zero = [&] {
-    for (const auto& c : coords) {
-      if (!c.value.is(0)) return false;
-    }
-    return true;
-  }();
-  if (has_extra_ || (!absolute && (special_g_->a == 2 || !literal_zero))) {
-    refuse("motion.geometry", special_pos_,
-           "a pole given relative to another point or in polar words is not carried yet",
-           "give it with G111 and Cartesian words");
+  if (has_extra_) {
+    refuse("motion.geometry", special_pos_, "a pole given in polar words is not carried yet",
+           "give it with Cartesian words");
     coords.clear();
     return;
   }
-  if (absolute) {
-    auto at = std::make_shared<ir::FrameChange>();
-    for (auto& c : coords) at->words.push_back(ir::FrameWord{c.axis, std::move(c.value), c.scale, c.pos});
-    pole.at = std::move(at);
+  constexpr std::uint8_t present_point = 0, zero_point = 1;
+  auto at = std::make_shared<ir::FrameChange>();
+  at->combine = special_g_->a == zero_point      ? ir::FrameCombine::replace
+                : special_g_->a == present_point ? ir::FrameCombine::compose
+                                                 : ir::FrameCombine::add;
+  for (auto& c : coords) {
+    if (c.mode != ir::WordMode::modal) {
+      failed_ = true;
+      c_.error("SIN-012", c.pos, "AC() and IC() have no meaning here");
+    }
+    at->words.push_back(ir::FrameWord{c.axis, std::move(c.value), c.scale, c.pos});
   }
   coords.clear();
-  push(std::move(pole), Rank::setting, ir::Order::before, special_pos_);
+  push(ir::PoleSet{std::move(at)}, Rank::setting, ir::Order::before, special_pos_);
 }
 
 namespace {
@@ -253,6 +259,50 @@ void WordLowering::finish_frame() {
   push(ir::FrameOp{std::move(change)}, Rank::setting, ir::Order::before, special_pos_);
 }
 
+/// Every word that gives the end, the centre or the shape of a move must count: two that say the same are an error of
+/// the control (alarms 12080, 14xxx).
+void WordLowering::check_words(bool arc) {
+  const ir::Motion& m = out_->motion;
+  const auto wrong = [&](std::string_view code, WordPos pos, std::string_view text) {
+    failed_ = true;
+    c_.error(code, pos, std::string(text));
+  };
+  const WordPos place = !m.coords.empty() ? m.coords.front().pos : m.code_pos;
+  if (m.radius_given && !m.centers.empty())
+    wrong("SIN-005", m.radius_pos, "an arc takes its radius or its centre, not both");
+  if (!has_extra_) return;
+  const ir::MotionKind kind = motion_kind();
+  const bool straight = kind == ir::MotionKind::rapid || kind == ir::MotionKind::linear;
+  const bool polar = extra_.has_polar_radius || extra_.has_polar_angle;
+  if (straight && (extra_.has_angle || extra_.has_turns || !extra_.through.empty()))
+    wrong("SIN-003", place, "AR=, TURN= and the point on the way belong to arcs; a straight move is in force");
+  if (arc && polar && (m.radius_given || !m.centers.empty() || extra_.has_angle))
+    wrong("SIN-005", place, "an arc by AP= and RP= has the pole as its centre: no I J K, CR= or AR= beside them");
+  if (arc && extra_.has_angle && m.radius_given)
+    wrong("SIN-005", m.radius_pos, "an arc takes its radius or its opening angle, not both");
+  if (arc && extra_.has_angle && !m.centers.empty()) {
+    const ir::AxisId normal = ir::plane_axes(plane_of_centres()).w;
+    for (const auto& c : m.coords) {
+      if (c.axis <= ir::axis::z && c.axis != normal && m.centers.size() == 2)
+        wrong("SIN-005", c.pos, "an arc by its opening angle takes its centre or its end, not both");
+    }
+  }
+  if (arc && !extra_.through.empty()) wrong("SIN-003", place, "the point on the way belongs to CIP");
+  if (polar && m.frame != ir::FrameUse::normal)
+    wrong("SIN-005", m.frame_pos, "polar words can't stand beside a move in machine coordinates");
+}
+
+/// Two centre words name the plane.
+ir::Plane WordLowering::plane_of_centres() const {
+  bool x = false, y = false;
+  for (const auto& c : out_->motion.centers) {
+    x = x || c.axis == ir::axis::x;
+    y = y || c.axis == ir::axis::y;
+  }
+  if (x && y) return ir::Plane::xy;
+  return x ? ir::Plane::zx : ir::Plane::yz;
+}
+
 void WordLowering::finish_motion() {
   ir::Motion& m = out_->motion;
   const ir::MotionKind kind = motion_kind();
@@ -266,10 +316,7 @@ void WordLowering::finish_motion() {
     failed_ = true;
     c_.error("SIN-003", m.radius_pos, "CR= belongs to G2 and G3");
   }
-  if (m.radius_given && !m.centers.empty()) {
-    failed_ = true;
-    c_.error("SIN-005", m.radius_pos, "an arc takes its radius or its centre, not both");
-  }
+  check_words(arc);
   if (has_extra_) m.extra = std::make_shared<const ir::MotionExtra>(std::move(extra_));
   out_->has_motion = m.explicit_code || m.moves() || m.radius_given || m.frame != ir::FrameUse::normal;
 }

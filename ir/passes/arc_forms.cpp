@@ -206,6 +206,27 @@ bool ArcPass::pitch_to_turns(Arc& arc) {
   return true;
 }
 
+bool ArcPass::exact_pitch(Arc& arc) {
+  const std::string_view option = "helix.pitch_mismatch";
+  if (context_.source_machine.option(option) != "nearest" || context_.target_machine.option(option) == "nearest")
+    return true;
+  Motion& m = arc.b.motion;
+  const Value pitch = m.extra->pitch;
+  const auto angle = partial_angle(arc);
+  if (!pitch.literal() || pitch.number == 0 || !angle || !arc.start[2] || !arc.end[2]) {
+    fail(arc, "TRN-309", "a helix by its pitch that need not fit its travel, and its start or end is not known here",
+         "program start, end and pitch as numbers");
+    return false;
+  }
+  const double travel = std::fabs(*arc.end[2] - *arc.start[2]);
+  const double turns = std::max(0.0, std::round(travel / std::fabs(pitch.number) - *angle / 360)) + *angle / 360;
+  if (turns == 0 || std::fabs(std::fabs(pitch.number) * turns - travel) < 1e-9) return true;
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  extra->pitch = Value{travel / turns};
+  m.extra = std::move(extra);
+  return true;
+}
+
 bool ArcPass::turns_to_pitch(Arc& arc) {
   Motion& m = arc.b.motion;
   const Value turns = m.extra->turns;

@@ -180,6 +180,7 @@ class ArcPass {
     }
     if (m.extra->has_angle && !t.arc_angle && !opening_angle(arc)) return false;
     if (m.extra && m.extra->has_pitch && !t.helix_pitch && !pitch_to_turns(arc)) return false;
+    if (m.extra && m.extra->has_pitch && t.helix_pitch && !exact_pitch(arc)) return false;
     if (m.extra && m.extra->has_turns && !t.helix_turns && !turns_to_pitch(arc)) return false;
     return true;
   }
@@ -198,6 +199,9 @@ class ArcPass {
   std::optional<double> partial_angle(const Arc& arc) const;
 
   bool pitch_to_turns(Arc& arc);
+
+  /// A pitch that the source rounds to whole turns, for a target that wants it to fit. False: refused.
+  bool exact_pitch(Arc& arc);
 
   bool turns_to_pitch(Arc& arc);
 
@@ -233,7 +237,8 @@ class ArcPass {
 
   /// Absolute centres must name both coordinates: a missing word would be 0, not the start.
   static bool incomplete(const Arc& arc, CenterMode mode) {
-    return !is_relative(mode, arc.distance) && arc.b.motion.centers.size() < 2;
+    const bool may_be_absolute = !is_relative(mode, arc.distance) || mode == CenterMode::follows_distance;
+    return may_be_absolute && arc.b.motion.centers.size() < 2;
   }
 
   std::optional<CenterMode> wanted_mode(const Arc& arc, CenterMode from) const {
@@ -254,7 +259,7 @@ class ArcPass {
   bool convert_centers(Arc& arc, CenterMode from, CenterMode to) {
     const bool was_relative = is_relative(from, arc.distance), relative = is_relative(to, arc.distance);
     std::vector<CenterWord> words = arc.b.motion.centers;
-    if (!relative) complete(arc, words, from, was_relative);
+    if (!relative || to == CenterMode::follows_distance) complete(arc, words, from, was_relative);
     for (auto& w : words) {
       w.mode = to;
       if (was_relative == relative) continue;

@@ -8,6 +8,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/frame_state.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
 
@@ -86,6 +87,7 @@ class FramePass {
   }
 
   bool machine_move(Statement& s, Block& b) {
+    if (!machine_words(s, b)) return false;
     const auto& uses = context_.target.frame_uses;
     if (uses.count(b.motion.frame) != 0) return true;
     if (b.motion.frame == FrameUse::machine_with_length && uses.count(FrameUse::machine) != 0) {
@@ -100,6 +102,34 @@ class FramePass {
     refuse(s, program_, context_, "TRN-322", "a move in machine coordinates of a kind that the target lacks", {},
            b.motion.frame_pos);
     return false;
+  }
+
+  /// Increments and positions in machine coordinates, by what the modes mean there on both controls. False: refused.
+  bool machine_words(Statement& s, Block& b) const {
+    if (b.motion.frame == FrameUse::no_programmable) return true;
+    const auto positions = [](const machine::Profile& m) { return m.option("machine_move.words") == "absolute"; };
+    const bool from = positions(context_.source_machine), to = positions(context_.target_machine);
+    const Capabilities& t = context_.target;
+    for (auto& c : b.motion.coords) {
+      if (from && c.mode == WordMode::modal) c.mode = WordMode::absolute;
+      const auto d = distance_of(c, b, facts_.before(s));
+      if (!to) continue;
+      if (d == Distance::incremental) {
+        refuse(s, program_, context_, "TRN-322", "an incremental move in machine coordinates, which the target lacks",
+               "write the position in machine coordinates", c.pos);
+        return false;
+      }
+      if (!d) {
+        context_.diagnostics.warning(
+            "TRN-321", word_span(s.line.span, c.pos),
+            "whether this word in machine coordinates is absolute depends on the path that leads here; the target "
+            "takes it as a machine position",
+            "write the distance mode before this move");
+      }
+      const bool by_block = !t.distance_per_word && !t.distance_inside_block;
+      c.mode = by_block ? WordMode::modal : WordMode::absolute;
+    }
+    return true;
   }
 
   void work_offset(const Statement& s, const Action& a, const WorkOffset& w) const {

@@ -24,6 +24,7 @@ constexpr std::array pipeline{
     Pass{"control", passes::lower_control, false},
     Pass{"cycles", passes::lower_cycles, false},
     Pass{"frames", passes::convert_frames, false},
+    Pass{"poles", passes::convert_poles, false},
     Pass{"arcs", passes::convert_arcs, true},
     Pass{"distance", passes::convert_distance, true},
     Pass{"units", passes::convert_units, true},

@@ -16,6 +16,7 @@ void lower_repeats(Program& program, const LegaliseContext& context);      ///< 
 void lower_control(Program& program, const LegaliseContext& context);      ///< structured statements, switches
 void lower_cycles(Program& program, const LegaliseContext& context);       ///< native or exploded, how they are modal
 void convert_frames(Program& program, const LegaliseContext& context);     ///< work offsets, programmable frame
+void convert_poles(Program& program, const LegaliseContext& context);      ///< poles, arcs by polar words
 void convert_arcs(Program& program, const LegaliseContext& context);       ///< centre forms, radius, helix
 void convert_distance(Program& program, const LegaliseContext& context);   ///< absolute and incremental words
 void convert_units(Program& program, const LegaliseContext& context);

@@ -1,0 +1,274 @@
+// Poles of polar coordinates (equivalences 9.2, 10): followed along the straight text, so that a plane function that
+// resets the pole on one control only, a pole relative to another point and an arc by its pole mean the same there.
+#include <cmath>
+#include <numbers>
+
+#include "ir/passes/blocks.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/words.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+struct Point2 {
+  double u = 0, v = 0;
+};
+
+class PolePass {
+ public:
+  PolePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : program_(program), context_(context), facts_(facts) {
+    source_resets_ = context.source_machine.option("polar.plane_resets_pole") == "yes";
+    target_resets_ = context.target_machine.option("polar.plane_resets_pole") == "yes";
+    follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
+  }
+
+  void routine(Routine& r) {
+    uses_ = label_uses(program_, r);
+    pole_ = &r == program_.main() ? std::optional(Point2{}) : std::nullopt;
+    walk(r.body);
+  }
+
+ private:
+  void walk(Body& body) {
+    for (auto& s : body) {
+      for (const auto& l : labels_on(s.line)) {
+        if (uses_.is_target(l)) pole_.reset();
+      }
+      if (auto* b = std::get_if<Block>(&s.node)) {
+        block(s, *b);
+        continue;
+      }
+      bool nested = false;
+      each_body(s, [&](Body& inner) {
+        nested = true;
+        pole_.reset();
+        walk(inner);
+      });
+      const bool elsewhere = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node) ||
+                             std::holds_alternative<Opaque>(s.node);
+      if (nested || elsewhere) pole_.reset();
+    }
+  }
+
+  void block(Statement& s, Block& b) {
+    const Facts& facts = facts_.before(s);
+    plane_ = setting<Plane>(facts, Setting::plane);
+    std::vector<Action> actions;
+    std::string_view problem;
+    WordPos place;
+    for (auto& a : b.actions) {
+      if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane) {
+        plane_ = static_cast<Plane>(m->value);
+        actions.push_back(std::move(a));
+        if (!plane_code(actions)) problem = "where the pole of the polar words behind this plane function lies";
+        continue;
+      }
+      if (const auto* p = std::get_if<PoleSet>(&a.data)) {
+        place = a.pos;
+        if (!pole_set(*p, a, b, facts)) problem = "the point that this pole is given from";
+      }
+      actions.push_back(std::move(a));
+    }
+    b.actions = std::move(actions);
+    if (problem.empty() && is_polar_arc(b, facts) && !polar_arc(b, facts)) {
+      problem = "the start or the centre of this arc by polar words";
+      place = b.motion.code_pos;
+    }
+    if (!problem.empty()) {
+      refuse(s, program_, context_, "TRN-316", std::string(problem) + " is not known here, and the target needs it",
+             "give the pole and the point before it as numbers", place);
+      return;
+    }
+    if (follows_arc_ && b.has_motion && !b.motion.centers.empty()) pole_.reset();
+  }
+
+  /// After a plane function: the pole of the source, said again. False: not known.
+  bool plane_code(std::vector<Action>& actions) {
+    const bool at_zero = pole_ && pole_->u == 0 && pole_->v == 0;
+    if (source_resets_) pole_ = Point2{};
+    if (source_resets_ == target_resets_ || at_zero) return true;
+    if (!pole_) return false;
+    actions.push_back(action(PoleSet{absolute(*pole_, 1, 1)}));
+    return true;
+  }
+
+  std::shared_ptr<const FrameChange> absolute(Point2 at, double fu, double fv) const {
+    const PlaneAxes axes = plane_axes(*plane_);
+    auto change = std::make_shared<FrameChange>();
+    change->words.push_back({axes.u, Value{at.u / fu}, WordScale::modal, {}});
+    change->words.push_back({axes.v, Value{at.v / fv}, WordScale::modal, {}});
+    return change;
+  }
+
+  /// Follows the pole; a relative one becomes absolute. False: not known.
+  bool pole_set(const PoleSet& p, Action& a, const Block& b, const Facts& facts) {
+    const bool relative = p.at && (p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose);
+    const bool from_last = relative && p.at->combine == FrameCombine::add;
+    pole_ = place_of(p, b, facts, from_last ? pole_ : here(facts));
+    if (!relative) return true;
+    bool zero = true;
+    for (const auto& w : p.at->words) zero = zero && w.value.is(0);
+    const auto f = factors(b, facts, Distance::absolute);
+    if (!from_last && zero) {
+      a.data = PoleSet{};
+    } else if (pole_ && f) {
+      a.data = PoleSet{absolute(*pole_, f->u, f->v)};
+    } else {
+      return false;
+    }
+    a.text = {};
+    return true;
+  }
+
+  std::optional<Point2> here(const Facts& facts) const {
+    if (!plane_) return std::nullopt;
+    const PlaneAxes axes = plane_axes(*plane_);
+    if (!facts.position[axes.u] || !facts.position[axes.v]) return std::nullopt;
+    return Point2{*facts.position[axes.u], *facts.position[axes.v]};
+  }
+
+  /// The value of a word of each axis of the plane times this is its radius.
+  std::optional<Point2> factors(const Block& b, const Facts& facts, std::optional<Distance> d) const {
+    if (!plane_) return std::nullopt;
+    const PlaneAxes axes = plane_axes(*plane_);
+    const auto u = to_radius(axes.u, WordScale::modal, d, b, facts, context_.source_machine);
+    const auto v = to_radius(axes.v, WordScale::modal, d, b, facts, context_.source_machine);
+    if (!u || !v) return std::nullopt;
+    return Point2{*u, *v};
+  }
+
+  std::optional<Point2> place_of(const PoleSet& p, const Block& b, const Facts& facts,
+                                 std::optional<Point2> base) const {
+    if (!plane_) return std::nullopt;
+    if (!p.at) return base;
+    const bool relative = p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose;
+    if (!relative) base = p.at->words.empty() ? Point2{} : pole_;
+    const PlaneAxes axes = plane_axes(*plane_);
+    std::optional<double> u, v;
+    if (base) u = base->u, v = base->v;
+    for (const auto& w : p.at->words) {
+      auto* slot = w.axis == axes.u ? &u : w.axis == axes.v ? &v : nullptr;
+      if (slot == nullptr) continue;
+      const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, b, facts,
+                               context_.source_machine);
+      if (!w.value.literal() || !f || (relative && !*slot)) {
+        slot->reset();
+        continue;
+      }
+      *slot = w.value.number * *f + (relative ? **slot : 0);
+    }
+    if (!u || !v) return std::nullopt;
+    return Point2{*u, *v};
+  }
+
+  static bool is_polar_arc(const Block& b, const Facts& facts) {
+    if (!b.has_motion || !b.motion.extra) return false;
+    const auto kind = motion_in(b, facts);
+    if (kind != MotionKind::arc_cw && kind != MotionKind::arc_ccw) return false;
+    return b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius;
+  }
+
+  /// An arc whose end is an angle about its centre: with its radius about the pole every target has it (the writer
+  /// leaves out a word that the target does not take), the other forms become axis words. False: not known.
+  bool polar_arc(Block& b, const Facts& facts) {
+    if (!context_.target.polar) return true;  // refused by the pass over arcs
+    if (b.motion.centers.empty() && b.motion.extra->has_polar_radius) return true;
+    return to_cartesian(b, facts, *b.motion.extra);
+  }
+
+  bool to_cartesian(Block& b, const Facts& facts, MotionExtra x) const {
+    Motion& m = b.motion;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    const auto start = here(facts);
+    const auto centre = m.centers.empty() ? pole_ : centre_of(b, facts, start, distance);
+    const auto f = factors(b, facts, distance);
+    const bool absolute =
+        x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
+    if (!start || !centre || !f || !distance || !x.polar_angle.literal()) return false;
+    const Point2 d{start->u - centre->u, start->v - centre->v};
+    const double turn = absolute ? 0 : std::atan2(d.v, d.u);
+    const double angle = turn + x.polar_angle.number * std::numbers::pi / 180;
+    const double r = std::hypot(d.u, d.v);
+    const Point2 end{centre->u + r * std::cos(angle), centre->v + r * std::sin(angle)};
+    const PlaneAxes axes = plane_axes(*plane_);
+    const bool inc = distance == Distance::incremental;
+    const auto word = [&](AxisId axis, double to, double from, double factor) {
+      CoordWord w;
+      w.axis = axis;
+      w.value = Value{(inc ? to - from : to) / factor};
+      m.coords.push_back(w);
+    };
+    word(axes.u, end.u, start->u, f->u);
+    word(axes.v, end.v, start->v, f->v);
+    m.centers.clear();
+    for (const auto& [axis, offset] : {std::pair{axes.u, -d.u}, std::pair{axes.v, -d.v}}) {
+      CenterWord w;
+      w.axis = axis;
+      w.mode = CenterMode::from_start;
+      w.scale = WordScale::radius;
+      w.value = Value{offset};
+      m.centers.push_back(w);
+    }
+    x.has_polar_radius = x.has_polar_angle = false;
+    x.polar_radius = x.polar_angle = Value{};
+    const bool more = x.has_turns || x.has_pitch;
+    m.extra = more ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    return true;
+  }
+
+  std::optional<Point2> centre_of(const Block& b, const Facts& facts, std::optional<Point2> start,
+                                  std::optional<Distance> distance) const {
+    if (!start || !plane_) return std::nullopt;
+    const PlaneAxes axes = plane_axes(*plane_);
+    Point2 c = *start;
+    for (const auto& w : b.motion.centers) {
+      const bool abs =
+          w.mode == CenterMode::absolute || (w.mode == CenterMode::follows_distance && distance == Distance::absolute);
+      const auto f = to_radius(w.axis, w.scale, abs ? Distance::absolute : Distance::incremental, b, facts,
+                               context_.source_machine);
+      if (!f || !w.value.literal() || (w.axis != axes.u && w.axis != axes.v)) return std::nullopt;
+      double& slot = w.axis == axes.u ? c.u : c.v;
+      slot = (abs ? 0 : slot) + w.value.number * *f;
+    }
+    return c;
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  LabelUses uses_;
+  std::optional<Point2> pole_;
+  std::optional<Plane> plane_;
+  bool source_resets_ = false, target_resets_ = false, follows_arc_ = false;
+};
+
+bool uses_polar(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      const MotionExtra* x = b->has_motion ? b->motion.extra.get() : nullptr;
+      found = found || (x != nullptr && (x->has_polar_angle || x->has_polar_radius));
+      for (const auto& a : b->actions) {
+        const auto* p = std::get_if<PoleSet>(&a.data);
+        found = found || (p != nullptr && p->at && !p->at->words.empty());
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void convert_poles(Program& program, const LegaliseContext& context) {
+  if (program.dialect == context.target.dialect || !uses_polar(program)) return;
+  const FactsOf facts(program, context);
+  PolePass pass(program, context, facts);
+  for (auto& r : program.routines) pass.routine(r);
+}
+
+}  // namespace cnctrans::ir::passes
