@@ -82,6 +82,7 @@ class BlockMachine final : public SystemData {
   struct Policies {
     bool cycle_rapid = false, rotary_triggers = false, keeps_programmed = false, centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, offsets_at_once = false;
+    bool data_modal = false;  ///< machine data in the units of the program
   };
   struct Pending {
     Move move;
@@ -99,6 +100,12 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] double feed_unit() const;
   double coordinate(ir::AxisId a, const ir::Value& v, ir::WordScale scale, bool absolute);
   bool check_axis(ir::AxisId a);
+
+  // machine data (machine_data.cpp)
+  [[nodiscard]] const double* given_datum(const ir::SystemRef& ref, std::span<const double> args) const;
+  bool read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
+  bool read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
+  bool read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
 
   // actions (actions.cpp)
   friend struct ActionRunner;

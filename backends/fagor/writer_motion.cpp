@@ -266,9 +266,12 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const auto distance = known<ir::Distance>(ir::Setting::distance);
   if (const auto problem = level_problem(hole, distance); !problem.empty())
     return refuse(no_cycle, a.pos, std::string(problem));
-  const auto plane = known<ir::Plane>(ir::Setting::plane);
+  auto plane = known<ir::Plane>(ir::Setting::plane);
+  if (!plane && same_dialect()) plane = plane_by_text_;  // as the reader took it
   if (!plane) return refuse(no_cycle, a.pos, "the plane of this cycle is not known here");
-  const bool peck = words->code == "G83";
+  const bool has_gap =
+      std::any_of(words->more.begin(), words->more.end(), [](const auto& m) { return m.first == 'C'; });
+  const bool peck = words->code == "G83" || (words->code == "G69" && !has_gap);
   if (peck && !same_dialect()) {
     const auto units = known<ir::Units>(ir::Setting::units);
     if (!hole.pecks.reapproach.is(units == ir::Units::inch ? 1 / 25.4 : 1)) {
@@ -284,6 +287,12 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   add(code + cycle_retract(a, *words), Rank::frame, a.pos);
   if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::center);
   add(word("I", words->depth, a.pos), Rank::radius);
+  const auto further = [&](bool before_dwell) {  // in the order of the alphabet, as the manual prints them
+    for (const auto& [letter, v] : words->more) {
+      if ((letter < 'K') == before_dwell) add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
+    }
+  };
+  further(true);
   if (words->dwell) {
     ir::Value k = *words->dwell;
     if (words->dwell_scale != 0.01) {
@@ -295,6 +304,7 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
     add(word("K", k, a.pos), Rank::motion_extra);
   }
   if (words->count) add(word("J", *words->count, a.pos), Rank::motion_extra);
+  further(false);
   if (c.modal) return;
   further_line(a.pos);
   add(std::string(g(Use::cycle_cancel)), Rank::setting);

@@ -133,6 +133,7 @@ void Writer::action(const ir::Action& a) {
 // ---- settings ------------------------------------------------------------------------------------------------------
 
 void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  if (m.setting == ir::Setting::plane) plane_by_text_ = static_cast<ir::Plane>(m.value);
   const bool neutral =
       (m.setting == ir::Setting::diameter && !lathe_ && m.value == 0) ||
       (m.setting == ir::Setting::spindle_mode && !lathe_ && m.value == code_value(ir::SpindleMode::rpm)) ||
