@@ -86,6 +86,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;
   }
+  machining_ = nullptr;
   feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
@@ -94,6 +95,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     block_corner_.reset();
     return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");
   }
+  if (machining_ != nullptr && with_cycle && !run_machining(*machining_)) return false;
   if (hole_ && with_cycle) {
     const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
     if (runs && !run_cycle()) return false;

@@ -15,6 +15,7 @@
 #include "interpreter/geometry.h"
 #include "ir/block.h"
 #include "ir/cycles/hole.h"
+#include "ir/cycles/machining.h"
 #include "machine/profile.h"
 
 namespace cnctrans::interpreter {
@@ -181,6 +182,11 @@ class BlockMachine final : public SystemData {
   bool emit_joint(const Move& first, const Move& corner);
   void release_pending();
 
+  // machining cycles (machining_cycles.cpp)
+  bool run_machining(const ir::NamedCycle& c);
+  bool machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNumbers& out);
+  bool machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense);
+
   // cycles (cycles.cpp)
   bool run_cycle();
   bool resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cycles::HoleNumbers>& out, ir::AxisId& axis);
@@ -234,6 +240,7 @@ class BlockMachine final : public SystemData {
   ir::AxisId hole_axis_ = ir::axis::z;
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;
+  const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
 };

@@ -106,6 +106,7 @@ class Writer : public ProgramWriter {
   // cycles
   [[nodiscard]] std::string cycle_retract(const ir::Action& a, const CycleWords& w);
   void cycle_approach(const CycleWords& w);
+  bool machining_cycle(const ir::Action& a, const ir::CycleDefine& c);
   [[nodiscard]] bool absolute_center(const ir::CenterWord& c);
 
   bool lathe_;

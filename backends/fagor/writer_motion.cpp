@@ -5,6 +5,7 @@
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "base/text.h"
+#include "dialects/fagor/cycles.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -256,7 +257,27 @@ void Writer::cycle_approach(const CycleWords& w) {
   further_line({});
 }
 
+/// A cycle of the lathe in the letters of its own (ch. 9), in the order of its words.
+bool Writer::machining_cycle(const ir::Action& a, const ir::CycleDefine& c) {
+  const auto* named = std::get_if<ir::NamedCycle>(&c.cycle->node);
+  const auto* row = named != nullptr && lathe_ ? dialects::fagor::find_cycle(named->name) : nullptr;
+  if (row == nullptr) return false;
+  std::string text = same_dialect() && !a.text.empty() ? std::string(a.text) : "G" + std::to_string(row->code);
+  for (const auto& [parameter, v] : named->words) {
+    const auto* letter = std::find_if(row->letters.begin(), row->letters.end(),
+                                      [&p = parameter](const auto& l) { return l.parameter == p; });
+    if (letter == row->letters.end()) {
+      refuse(no_cycle, a.pos, "this cycle has no word for its " + parameter + " there");
+      return true;
+    }
+    text += ' ' + word(std::string(1, letter->letter), v, a.pos);
+  }
+  add(std::move(text), Rank::motion_code, a.pos);
+  return true;
+}
+
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
+  if (machining_cycle(a, c)) return;
   const auto words = lathe_ ? std::nullopt : cycle_words(*c.cycle);
   if (!words) return ProgramWriter::cycle_define(a, c);
   const auto& hole = std::get<ir::HoleCycle>(c.cycle->node);

@@ -21,7 +21,8 @@ using ir::Order;
 
 /// Its words follow an order of their own, not that of a plain block.
 bool has_own_words(const facts::GCode& row) {
-  return row.use == Use::refused || row.use == Use::no_path || row.use == Use::call || row.use == Use::hole_cycle;
+  return row.use == Use::refused || row.use == Use::no_path || row.use == Use::call || row.use == Use::hole_cycle ||
+         row.use == Use::machining;
 }
 
 std::string word_name(const syntax::Word& w) {
@@ -67,6 +68,7 @@ void BlockLowerer::gather_g(const Word& w) {
     state_.error("FAG-006", w.pos, "too many G functions in one block");
     return;
   }
+  if (row->use == Use::machining) cycle_row_ = facts::find_cycle(row->code);
   g_[g_count_++] = {row, &w};
 }
 
@@ -84,6 +86,8 @@ void BlockLowerer::gather(const syntax::Block& in) {
   coords_taken_ = cycle_ = has_after_ = false;
   motion_code_ = nullptr;
   argument_ = nullptr;
+  cycle_row_ = nullptr;
+  cycle_word_count_ = 0;
   absolute_centre_ = tangent_arc_ = three_points_ = machine_coords_ = home_ = nullptr;
   if (has_extra_) {
     extra_ = ir::MotionExtra{};
@@ -94,6 +98,7 @@ void BlockLowerer::gather(const syntax::Block& in) {
   bool lower_case = false;
   for (const Word& w : in.words) {
     const char c = word_letter(w);
+    if (cycle_row_ && gather_cycle_word(w, c)) continue;
     const std::uint32_t mask = bit(c);
     const LetterInfo& info = letter_info[index(c)];
     lower_case = lower_case || w.address[0] != c;

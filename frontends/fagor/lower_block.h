@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "dialects/fagor/cycles.h"
 #include "frontends/common/syntax.h"
 #include "frontends/fagor/lower_state.h"
 #include "ir/block.h"
@@ -64,6 +65,8 @@ class BlockLowerer {
   void rotation(const GWord& g);
   void look_ahead(const GWord& g);
   void hole_cycle(const GWord& g);
+  void machining_cycle(const GWord& g);
+  bool gather_cycle_word(const Word& w, char c);
   const Word* take_coordinate(ir::AxisId axis);
   const Word* take_cycle_word(char c, const Word& depth);
   bool equal_pecks(const GWord& g, const Word& count, ir::HoleCycle& c);
@@ -110,6 +113,9 @@ class BlockLowerer {
   bool coords_taken_ = false;
 
   const GWord* motion_code_ = nullptr;
+  const dialects::fagor::CycleRow* cycle_row_ = nullptr;  ///< a machining cycle of the lathe: its letters are its own
+  std::array<const Word*, 26> cycle_words_{};             ///< in the written order
+  std::size_t cycle_word_count_ = 0;
   const Word* argument_ = nullptr;
   const Word* absolute_centre_ = nullptr;
   const Word* tangent_arc_ = nullptr;

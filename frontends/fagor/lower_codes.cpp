@@ -71,6 +71,7 @@ void BlockLowerer::apply_special(const GWord& g) {
     case Use::look_ahead: look_ahead(g); return;
     case Use::home: home(g); return;
     case Use::hole_cycle: hole_cycle(g); return;
+    case Use::machining: machining_cycle(g); return;
     case Use::cycle_cancel:
       act(ir::CycleCancel{}, g.word);
       result_->needs_program = true;

@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "dialects/fagor/limits.h"
 #include "frontends/fagor/lower_block.h"
 #include "frontends/fagor/lower_expr.h"
+#include "ir/cycles/machining.h"
 
 namespace cnctrans::fagor {
 
@@ -199,6 +201,59 @@ bool BlockLowerer::variable_pecks(const GWord& g, const std::array<const Word*, 
   c.surface.value = ir::Value(c.bottom.value.number < c.reference.value.number ? -d->number : d->number);
   c.pecks.first_from_surface = true;
   return true;
+}
+
+// --- the lathe ------------------------------------------------------------------------------------------------------
+
+/// Behind the code of a machining cycle its letters are its own, whatever they mean elsewhere.
+bool BlockLowerer::gather_cycle_word(const Word& w, char c) {
+  if (w.extension >= 0 || !facts::find_letter(*cycle_row_, c)) return false;
+  const auto begin = cycle_words_.begin(), end = begin + static_cast<std::ptrdiff_t>(cycle_word_count_);
+  if (std::any_of(begin, end, [c](const Word* other) { return word_letter(*other) == c; })) {
+    state_.error("FAG-005", w.pos, std::string("the word ") + c + " stands twice in the block");
+    return true;
+  }
+  cycle_words_[cycle_word_count_++] = &w;
+  return true;
+}
+
+/// Ch. 9: runs once, where it is programmed. Most of them end the radius compensation.
+void BlockLowerer::machining_cycle(const GWord& g) {
+  cycle_ = true;
+  result_->needs_program = true;
+  ir::NamedCycle c;
+  c.name = std::string(cycle_row_->cycle);
+  std::uint32_t there = 0;
+  for (std::size_t i = 0; i < cycle_word_count_; ++i) {
+    const Word& w = *cycle_words_[i];
+    const auto* row = facts::find_letter(*cycle_row_, word_letter(w));
+    there |= bit(word_letter(w));
+    const bool label = row->parameter.ends_with("_label");
+    if (label &&
+        (w.expr >= 0 || w.number < 0 || w.number != std::floor(w.number) || w.number > facts::max_profile_label))
+      state_.error("FAG-015", w.pos, "a label of a profile is a fixed number from 0 to 9999");
+    c.words.emplace_back(std::string(row->parameter), value(w));
+  }
+  for (const auto& l : cycle_row_->letters) {
+    if (l.letter == 0 || !l.mandatory || (there & bit(l.letter)) != 0) continue;
+    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the word " + l.letter);
+    return;
+  }
+  const auto* machining = ir::cycles::find_machining(c.name);
+  ir::CycleDefine define;
+  define.modal = false;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
+  act(std::move(define), g.word);
+  if (!machining->ends_comp) return;
+  ir::ModalSet off;
+  off.setting = ir::Setting::comp;
+  off.value = static_cast<std::uint8_t>(ir::CompSide::off);
+  act(off, nullptr, ir::Order::after);
+  state_.comp_by_text = ir::CompSide::off;
+  if (!machining->ends_modes) return;
+  off.setting = ir::Setting::distance;
+  off.value = static_cast<std::uint8_t>(ir::Distance::absolute);
+  act(off, nullptr, ir::Order::after);
 }
 
 }  // namespace cnctrans::fagor
