@@ -31,6 +31,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.machine_absolute = is("machine_move.words", "absolute");
   policy_.position_as_words = is("machine_position.scale", "words");
   policy_.offsets_at_once = is("work_offset.write", "at_once");
+  policy_.data_modal = is("machine_data.units", "modal");
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
     axis_[a.id].rotary = a.rotary;
@@ -89,6 +90,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;
   }
+  machining_ = nullptr;
   feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
@@ -97,6 +99,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     block_corner_.reset();
     return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");
   }
+  if (machining_ != nullptr && with_cycle && !run_machining(*machining_)) return false;
   if (hole_ && with_cycle) {
     const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
     if (runs && !run_cycle()) return false;
@@ -142,109 +145,6 @@ void BlockMachine::end_event(EndReason reason, const Failure& failure, const Spa
     e.text = failure.text;
   }
   emitter_.finish(e);
-}
-
-// --- machine data ----------------------------------------------------------------------------------------------
-
-namespace {
-std::string datum_key(const ir::SystemRef& ref, std::span<const double> args) {
-  std::string key = ref.text;
-  if (args.empty()) return key;
-  key += '[';
-  for (std::size_t i = 0; i < args.size(); ++i) key += (i == 0 ? "" : ",") + shortest(args[i]);
-  return key + "]";
-}
-const machine::Tool* tool_of(const machine::Profile& p, double number) {
-  const auto it = std::find_if(p.tools.begin(), p.tools.end(), [number](const auto& t) { return t.number == number; });
-  return it == p.tools.end() ? nullptr : &*it;
-}
-}  // namespace
-
-bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
-  if (!written_.empty()) {
-    if (const auto it = written_.find(datum_key(ref, args)); it != written_.end()) {
-      out = it->second;
-      return true;
-    }
-  }
-  if (ref.datum == ir::Datum::tool_radius || ref.datum == ir::Datum::tool_length) {
-    // Another name of the control may have written the same datum.
-    const auto it = written_tools_.find({ref.datum, ref.axis, {args.begin(), args.end()}});
-    if (it != written_tools_.end()) {
-      out = it->second;
-      return true;
-    }
-  }
-  const bool has_axis = ref.axis < ir::axis::count_max && axis_[ref.axis].present;
-  const auto* tool = tool_of(profile_, args.empty() ? tool_in_spindle_ : args[0]);
-  switch (ref.datum) {
-    case ir::Datum::programmed_position:
-    case ir::Datum::work_position:
-      if (!has_axis) break;
-      out = p_[ref.axis] / axis_[ref.axis].scale_absolute;
-      return true;
-    case ir::Datum::machine_position:
-      if (!has_axis) break;
-      out = frame_.apply(p_)[ref.axis] / (policy_.position_as_words ? axis_[ref.axis].scale_absolute : 1);
-      return true;
-    case ir::Datum::work_offset: {
-      const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]));
-      out = 0;
-      if (row != work_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis);
-      return true;
-    }
-    case ir::Datum::active_offset: out = modal_.work_offset; return true;
-    case ir::Datum::programmed_shift:
-      if (!has_axis) break;
-      out = frame_.t[ref.axis] - offset_frame().t[ref.axis];
-      return true;
-    case ir::Datum::tool_number: out = tool_in_spindle_; return true;
-    case ir::Datum::next_tool: out = tool_; return true;
-    case ir::Datum::offset_number: out = offset_; return true;
-    case ir::Datum::tool_length:
-      out = tool == nullptr ? 0 : (ref.axis == ir::axis::x ? tool->length_x : tool->length);
-      return true;
-    case ir::Datum::tool_radius: out = tool == nullptr ? 0 : tool->radius; return true;
-    case ir::Datum::tool_wear:
-    case ir::Datum::part_count:
-    case ir::Datum::cycle_time: out = 0; return true;
-    case ir::Datum::feed: out = feed_now() / feed_unit(); return true;
-    case ir::Datum::spindle_speed: out = spindles_[1].value[static_cast<std::size_t>(spindles_[1].mode)]; return true;
-    case ir::Datum::feed_override: out = 100; return true;
-    case ir::Datum::call_has_argument:
-      out = static_cast<double>(args.empty() ? arguments_given
-                                             : ((arguments_given >> static_cast<unsigned>(args[0])) & 1U));
-      return true;
-    case ir::Datum::position_start:
-    case ir::Datum::active_modal:
-    case ir::Datum::other: break;
-  }
-  return failure_.fail(code::no_datum,
-                       "the value of " + datum_key(ref, args) + " is known to the machine only; --set gives it one");
-}
-
-bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
-  switch (ref.datum) {
-    case ir::Datum::work_offset: {
-      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]);
-      work_offsets_[row][ref.axis] = v;
-      if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
-      active_offset_ = work_offsets_[row];
-      return rebuild_frame();
-    }
-    case ir::Datum::programmed_position:
-    case ir::Datum::machine_position:
-    case ir::Datum::work_position:
-    case ir::Datum::programmed_shift:
-    case ir::Datum::active_offset:
-      return failure_.fail(code::no_datum,
-                           "writing " + datum_key(ref, args) + " would move the machine's zero; it is not carried");
-    default: break;
-  }
-  written_[datum_key(ref, args)] = v;
-  if (ref.datum == ir::Datum::tool_radius || ref.datum == ir::Datum::tool_length)
-    written_tools_[{ref.datum, ref.axis, {args.begin(), args.end()}}] = v;
-  return true;
 }
 
 }  // namespace cnctrans::interpreter

@@ -16,6 +16,7 @@
 #include "interpreter/geometry.h"
 #include "ir/block.h"
 #include "ir/cycles/hole.h"
+#include "ir/cycles/machining.h"
 #include "machine/profile.h"
 
 namespace cnctrans::interpreter {
@@ -84,6 +85,7 @@ class BlockMachine final : public SystemData {
     bool cycle_rapid = false, rotary_triggers = false, keeps_programmed = false, centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
          start_angle_stays = false, position_as_words = false, machine_absolute = false, offsets_at_once = false;
+    bool data_modal = false;  ///< machine data in the units of the program
   };
   struct Pending {
     Move move;
@@ -101,6 +103,12 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] double feed_unit() const;
   double coordinate(ir::AxisId a, const ir::Value& v, ir::WordScale scale, bool absolute);
   bool check_axis(ir::AxisId a);
+
+  // machine data (machine_data.cpp)
+  [[nodiscard]] const double* given_datum(const ir::SystemRef& ref, std::span<const double> args) const;
+  bool read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
+  bool read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
+  bool read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
 
   // actions (actions.cpp)
   friend struct ActionRunner;
@@ -176,6 +184,11 @@ class BlockMachine final : public SystemData {
   bool emit_joint(const Move& first, const Move& corner);
   void release_pending();
 
+  // machining cycles (machining_cycles.cpp)
+  bool run_machining(const ir::NamedCycle& c);
+  bool machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNumbers& out);
+  bool machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense);
+
   // cycles (cycles.cpp)
   bool run_cycle();
   bool resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cycles::HoleNumbers>& out, ir::AxisId& axis);
@@ -230,6 +243,7 @@ class BlockMachine final : public SystemData {
   ir::AxisId hole_axis_ = ir::axis::z;
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;
+  const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;

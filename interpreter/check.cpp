@@ -4,10 +4,17 @@
 
 #include "interpreter/routines.h"
 #include "interpreter/run_codes.h"
+#include "ir/missing_features.h"
 
 namespace cnctrans::interpreter {
 
 namespace {
+
+/// Understood when it was read: only a run that comes here stops.
+bool is_read(const ir::Opaque& o) {
+  const auto* f = ir::find_missing_feature(o.feature);
+  return f != nullptr && f->key != "text.unread";
+}
 
 class Checker {
  public:
@@ -71,7 +78,7 @@ class Checker {
       case Op::end: return;
       case Op::opaque: {
         const auto& o = std::get<ir::Opaque>(in.statement->node);
-        if (o.harmless) break;
+        if (o.harmless || is_read(o)) break;
         diagnostics_.error(code::opaque, in.statement->line.span,
                            "this statement is not understood and may move the machine or change its state",
                            "the program cannot be run; see the diagnostic of the reader for the same line");

@@ -34,6 +34,11 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
 }
 
 bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
+  const auto* named = c.cycle ? std::get_if<ir::NamedCycle>(&c.cycle->node) : nullptr;
+  if (named != nullptr && !c.modal && c.here && ir::cycles::find_machining(named->name) != nullptr) {
+    machining_ = named;
+    return true;
+  }
   std::optional<ir::cycles::HoleNumbers> numbers;
   ir::AxisId axis = ir::axis::z;
   if (!resolve_cycle(c.cycle, numbers, axis)) return false;

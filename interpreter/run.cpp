@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "interpreter/run_codes.h"
 #include "interpreter/runner.h"
+#include "ir/missing_features.h"
 
 namespace cnctrans::interpreter {
 
@@ -199,7 +200,10 @@ void Runner::step(Instruction& in) {
       return;
     case Op::opaque:
       if (!std::get<ir::Opaque>(in.statement->node).harmless) {
-        failure_.fail(code::not_carried, "this statement is not understood and may move the machine");
+        const auto& o = std::get<ir::Opaque>(in.statement->node);
+        const auto* f = ir::find_missing_feature(o.feature);
+        failure_.fail(code::not_carried, "this block is kept as text and not carried out" +
+                                             (f != nullptr ? " (" + std::string(f->title) + ")" : std::string{}));
       }
       go_to(at_ + 1);
       return;

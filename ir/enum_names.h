@@ -40,7 +40,7 @@ template <> struct EnumText<HoleKind> : NamedByFunction<HoleKind, HoleKind::bore
 template <> struct EnumText<LevelBase> : NamedByFunction<LevelBase, LevelBase::distance_mode> {};
 template <> struct EnumText<PeckLaw> : NamedByFunction<PeckLaw, PeckLaw::balanced> {};
 template <> struct EnumText<Type> : NamedByFunction<Type, Type::frame> {};
-template <> struct EnumText<Datum> : NamedByFunction<Datum, Datum::position_start> {};
+template <> struct EnumText<Datum> : NamedByFunction<Datum, Datum::diameter_on> {};
 template <> struct EnumText<UnaryOp> : NamedByFunction<UnaryOp, UnaryOp::bit_not> {};
 template <> struct EnumText<BinaryOp> : NamedByFunction<BinaryOp, BinaryOp::concat> {};
 template <> struct EnumText<Function> : NamedByFunction<Function, Function::is_number> {};

@@ -96,6 +96,8 @@ struct VarRef {
 };
 
 /// Machine data that several controls can read; `other` is known by its name only.
+/// active_modal: args are the source's code, the Setting (setting_count: the motion function, setting_count + 1: the
+/// work offset) and the value that makes it 1.
 enum class Datum : std::uint8_t {
   other,
   programmed_position,
@@ -117,7 +119,25 @@ enum class Datum : std::uint8_t {
   cycle_time,
   active_modal,
   call_has_argument,
-  position_start
+  position_start,
+  active_shift,  ///< all of the offsets of `axis` that are not incremental ones: table row and preset
+  pole_first,    ///< abscissa and ordinate of the polar origin
+  pole_second,
+  tool_nose,  ///< orientation code of the tool's nose
+  tool_nose_width,
+  feed_per_minute,  ///< the programmed feed of each feed mode
+  feed_per_rev,
+  feed_inverse_time,
+  rpm,  ///< the programmed speed of each spindle mode
+  cutting_speed,
+  spindle_limit,
+  spindle_state,  ///< args: the source's code, SpindleState; 1 when the spindle is in it
+  active_plane,   ///< 16 * abscissa + ordinate; axes numbered from 1 in the machine's order
+  mirrored_axes,  ///< bit n: axis n of the machine (from 0) is mirrored
+  scale_factor,
+  axis_scale,
+  rotation_angle,
+  diameter_on  ///< 1: words of a diameter axis are diameters
 };
 /// A system variable. `text` is the name in the source's spelling. `args` its indices; `axis` when it speaks of one.
 struct SystemRef {

@@ -39,10 +39,15 @@ std::span<const MissingFeature> missing_features() {
   return features;
 }
 
-const MissingFeature& missing_feature(std::string_view key) {
+const MissingFeature* find_missing_feature(std::string_view key) {
   for (const auto& f : features) {
-    if (f.key == key) return f;
+    if (f.key == key) return &f;
   }
+  return nullptr;
+}
+
+const MissingFeature& missing_feature(std::string_view key) {
+  if (const auto* f = find_missing_feature(key)) return *f;
   assert(false && "unknown key of the missing-features registry");
   return features.front();
 }

@@ -13,6 +13,8 @@ struct MissingFeature {
   std::string_view reason;  ///< why it is missing, and until when
 };
 std::span<const MissingFeature> missing_features();
+/// The entry; nullptr when there is none.
+const MissingFeature* find_missing_feature(std::string_view key);
 /// The entry; an unknown key is a programming error and aborts in debug builds.
 const MissingFeature& missing_feature(std::string_view key);
 

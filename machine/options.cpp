@@ -21,6 +21,8 @@ constexpr std::array specs{
                "whether the centre of a rotation goes through scale and mirror"},
     OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",
                "a helix whose pitch does not fit its travel: refused, or run with the nearest pitch"},
+    OptionSpec{"machine_data.units", "modal|machine", "machine",
+               "lengths read from machine data: in the unit and diameter mode in force, or always mm and radius"},
     OptionSpec{"machine_move.units", "modal|machine", "modal",
                "unit of machine coordinates: as the other words, or always millimetres"},
     OptionSpec{"machine_position.scale", "radius|words", "radius",

@@ -59,6 +59,7 @@ struct Tool {
   double length = 0;  ///< mm; lathe: length along Z
   double length_x = 0;
   std::int32_t nose = 0;
+  double nose_width = 0;    ///< mm; insert width of a grooving tool
   std::int32_t offset = 0;  ///< default offset number / edge
 };
 
@@ -77,6 +78,8 @@ struct Profile {
   std::vector<Tool> tools;
   /// Settable work offsets, row 1..: axis -> mm (radius). Missing rows are zero.
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets;
+  /// Values of machine data that only this machine knows, by the name a program reads them under ("FRO", "PLCM12").
+  std::map<std::string, double> data;
   /// Named options ("num.g02_center" = "absolute"): policies where the manual is silent. Unknown names are an error.
   std::map<std::string, std::string> options;
   double max_rapid = 10000;     ///< mm/min, for reports only

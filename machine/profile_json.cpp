@@ -178,6 +178,7 @@ void read_tools(const json& list, Profile& p) {
     r.number("length", t.length);
     r.number("length_x", t.length_x);
     r.number("nose", t.nose);
+    r.number("nose_width", t.nose_width);
     r.number("offset", t.offset);
     r.done();
     p.tools.push_back(std::move(t));
@@ -203,6 +204,14 @@ void read_work_offsets(const json& object, Profile& p) {
       if (!item.value().is_number()) fail("work_offsets." + row.key() + "." + item.key() + " must be a number");
       values[axis_by_name(p, item.key())] = item.value().get<double>();
     }
+  }
+}
+
+void read_data(const json& object, Profile& p) {
+  if (!object.is_object()) fail("data must be an object");
+  for (const auto& item : object.items()) {
+    if (!item.value().is_number()) fail("data." + item.key() + " must be a number");
+    p.data[item.key()] = item.value().get<double>();
   }
 }
 
@@ -251,6 +260,7 @@ Profile read_profile(const json& root) {
   if (const auto* j = r.find("m_codes")) read_m_codes(*j, p);
   if (const auto* j = r.find("tools")) read_tools(*j, p);
   if (const auto* j = r.find("work_offsets")) read_work_offsets(*j, p);
+  if (const auto* j = r.find("data")) read_data(*j, p);
   if (const auto* j = r.find("options")) read_options(*j, p);
   r.number("max_rapid", p.max_rapid);
   r.number("arc_tolerance", p.arc_tolerance);
@@ -323,8 +333,10 @@ std::string to_json(const Profile& p) {
                           {"length", t.length},
                           {"length_x", t.length_x},
                           {"nose", t.nose},
+                          {"nose_width", t.nose_width},
                           {"offset", t.offset}});
   }
+  if (!p.data.empty()) j["data"] = p.data;
   for (const auto& [row, values] : p.work_offsets) {
     auto& out = j["work_offsets"][std::to_string(row)] = json::object();
     for (const auto& [axis, value] : values) {

@@ -42,12 +42,13 @@ std::optional<Value> coordinate(const HoleCycle& c, const Level& l) {
 
 bool plain_hole(const HoleCycle& c) {
   return !c.has_feed && !c.has_feed_out && !c.dwell_in_revolutions && zero(c.dwell_top) && c.axis == ir::axis::none &&
-         !c.approach_by_retract && !c.reference_may_be_below && zero(c.pecks.dwell) && !c.pecks.has_first_feed_factor;
+         !c.approach_by_retract && !c.reference_may_be_below && !c.pecks.has_first_feed_factor;
 }
 
 /// Equal pecks, and the control's own 1 mm above the last bottom: G83.
 bool equal_pecks(const HoleCycle& c, CycleWords& w) {
   const ir::Pecks& p = c.pecks;
+  if (!zero(p.dwell)) return false;
   const bool usual_gap = !p.reapproach_automatic && (p.reapproach.is(1) || p.reapproach.is(1 / 25.4));
   if (c.kind != ir::HoleKind::peck_full || !usual_gap || !zero(c.dwell_bottom) || p.first_to.given) return false;
   if (p.law == ir::PeckLaw::count && (!c.bottom.given || c.bottom.base == LevelBase::from_reference)) {
@@ -71,6 +72,49 @@ bool equal_pecks(const HoleCycle& c, CycleWords& w) {
   w.depth = Value(-n->up * sizes.front());
   w.count = Value(static_cast<double>(sizes.size()));
   return true;
+}
+
+/// G69: pecks by a factor, dwell after every one, from the surface D below the reference plane (25.3).
+bool variable_pecks(const HoleCycle& c, CycleWords& w) {
+  const ir::Pecks& p = c.pecks;
+  const bool geometric = p.law == ir::PeckLaw::geometric;
+  if (c.kind != ir::HoleKind::peck_full || (p.law != ir::PeckLaw::constant && !geometric)) return false;
+  if (p.reapproach_automatic || p.first_to.given || !c.bottom.given || !ir::equal(p.dwell, c.dwell_bottom))
+    return false;
+  if (!p.reapproach.literal() || p.reapproach.number <= 0) return false;
+  const auto bottom = coordinate(c, c.bottom);
+  if (!bottom) return false;
+  w.depth = *bottom;
+  w.more.emplace_back('B', p.first);
+  const bool usual_gap = p.reapproach.is(1) || p.reapproach.is(1 / 25.4);
+  if (!usual_gap || !p.reapproach.text.empty()) w.more.emplace_back('C', p.reapproach);
+  if (c.surface.given) {
+    const bool below = c.surface.base == LevelBase::from_reference && c.surface.value.literal();
+    if (!p.first_from_surface || !below) return false;
+    w.more.emplace_back('D', Value(std::fabs(c.surface.value.number)));
+  }
+  if (!zero(c.dwell_bottom)) {
+    w.dwell = c.dwell_bottom;
+    w.dwell_scale = c.dwell_scale;
+  }
+  if (geometric) {
+    if (!zero(p.minimum)) w.more.emplace_back('L', p.minimum);
+    w.more.emplace_back('R', p.degression);
+  }
+  w.code = "G69";
+  return true;
+}
+
+/// Cycles of one feed to the bottom that differ in how the tool leaves (25.3). G84: the pitch is F over S.
+std::string_view one_stroke(const HoleCycle& c) {
+  switch (c.kind) {
+    case ir::HoleKind::tap_floating: return zero(c.pitch) ? "G84" : "";
+    case ir::HoleKind::tap: return zero(c.pitch) && c.rigid ? "G84" : "";
+    case ir::HoleKind::ream: return "G85";
+    case ir::HoleKind::bore_stop: return "G86";
+    case ir::HoleKind::bore: return "G89";
+    default: return "";
+  }
 }
 
 bool reference_word(const HoleCycle& c, CycleWords& w) {
@@ -114,8 +158,23 @@ std::optional<CycleWords> cycle_words(const ir::Cycle& cycle) {
     }
     return w;
   }
-  if (!equal_pecks(*c, w)) return std::nullopt;
-  w.code = "G83";
+  if (const auto code = one_stroke(*c); !code.empty()) {
+    const auto bottom = c->bottom.given ? coordinate(*c, c->bottom) : std::nullopt;
+    if (!bottom || c->pecks.law != ir::PeckLaw::none) return std::nullopt;
+    w.depth = *bottom;
+    w.code = code;
+    if (!zero(c->dwell_bottom)) {
+      w.dwell = c->dwell_bottom;
+      w.dwell_scale = c->dwell_scale;
+    }
+    if (c->kind == ir::HoleKind::tap) w.more.emplace_back('R', Value(1.0));
+    return w;
+  }
+  if (equal_pecks(*c, w)) {
+    w.code = "G83";
+    return w;
+  }
+  if (!variable_pecks(*c, w)) return std::nullopt;
   return w;
 }
 

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ir/cycle.h"
 #include "ir/modal.h"
@@ -13,13 +15,14 @@ namespace cnctrans::backends::fagor {
 struct CycleWords {
   std::string_view code;
   bool has_reference = false;
-  ir::Value reference;             ///< word of the longitudinal axis
-  ir::Value depth;                 ///< I: bottom, or one peck with its sign
-  std::optional<ir::Value> dwell;  ///< K, seconds times 100
-  double dwell_scale = 1;          ///< value times this is seconds
-  std::optional<ir::Value> count;  ///< J
-  bool retract_given = false;      ///< the tool leaves to `retract`, else by the retract plane setting
-  ir::Value retract;               ///< absolute
+  ir::Value reference;                           ///< word of the longitudinal axis
+  ir::Value depth;                               ///< I: bottom, or one peck with its sign
+  std::optional<ir::Value> dwell;                ///< K, seconds times 100
+  double dwell_scale = 1;                        ///< value times this is seconds
+  std::optional<ir::Value> count;                ///< J
+  std::vector<std::pair<char, ir::Value>> more;  ///< further letters, in the printed order
+  bool retract_given = false;                    ///< the tool leaves to `retract`, else by the retract plane setting
+  ir::Value retract;                             ///< absolute
   bool retract_is_reference = false;
 };
 

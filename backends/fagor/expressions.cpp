@@ -226,12 +226,14 @@ std::string Printer::variable(const ExprPtr& e, const ir::VarRef& v) {
 
 std::string Printer::system(const ExprPtr& e, const ir::SystemRef& s) {
   std::string name = system_name(s, lathe_);
+  if (name.empty() && program_.dialect == dialect_name) name = s.text;  // unknown to the manuals
   if (name.empty()) {
     problem(e, "the machine datum '" + (s.text.empty() ? std::string(ir::name(s.datum)) : s.text) +
                    "' has no counterpart there");
     return s.text;
   }
   if (s.args.empty()) return name;
+  if (s.datum == Datum::active_modal || s.datum == Datum::spindle_state) return name + index(s.args[0]);
   if (s.args.size() > 1) {
     name += '(';
     name += arguments(s.args);

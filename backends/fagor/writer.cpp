@@ -223,6 +223,13 @@ std::string Writer::action_text(const ir::Body& statements) {
   return text;
 }
 
+/// An IF whose action is kept as text is kept whole.
+void Writer::unread_structure(const ir::Statement& s, const ir::Opaque& text) {
+  const auto* i = std::get_if<ir::If>(&s.node);
+  if (!same_dialect() || i == nullptr || !i->one_line) return ProgramWriter::unread_structure(s, text);
+  opaque(text);
+}
+
 void Writer::if_else(const ir::If& i) {
   for (const auto* statements : {&i.then_body, &i.else_body}) {
     for (const ir::Statement& s : *statements) {

@@ -33,6 +33,7 @@ class Writer : public ProgramWriter {
   void block(const ir::Block& b) override;
   void assign(const ir::Assign& a) override;
   void if_else(const ir::If& i) override;
+  void unread_structure(const ir::Statement& s, const ir::Opaque& text) override;
   void jump(const ir::Jump& j) override;
   void repeat(const ir::Repeat& r) override;
   void call(const ir::CallRoutine& c) override;
@@ -106,13 +107,15 @@ class Writer : public ProgramWriter {
   // cycles
   [[nodiscard]] std::string cycle_retract(const ir::Action& a, const CycleWords& w);
   void cycle_approach(const CycleWords& w);
+  bool machining_cycle(const ir::Action& a, const ir::CycleDefine& c);
   [[nodiscard]] bool absolute_center(const ir::CenterWord& c);
 
   bool lathe_;
   Printer printer_;
   const ir::Block* block_ = nullptr;
-  bool after_offset_ = false;   ///< the last thing written is a work offset
-  bool offset_before_ = false;  ///< the same, for the block at hand
+  ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written
+  bool after_offset_ = false;                ///< the last thing written is a work offset
+  bool offset_before_ = false;               ///< the same, for the block at hand
 };
 
 }  // namespace cnctrans::backends::fagor

@@ -5,6 +5,7 @@
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "base/text.h"
+#include "dialects/fagor/cycles.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -275,7 +276,27 @@ void Writer::cycle_approach(const CycleWords& w) {
   further_line({});
 }
 
+/// A cycle of the lathe in the letters of its own (ch. 9), in the order of its words.
+bool Writer::machining_cycle(const ir::Action& a, const ir::CycleDefine& c) {
+  const auto* named = std::get_if<ir::NamedCycle>(&c.cycle->node);
+  const auto* row = named != nullptr && lathe_ ? dialects::fagor::find_cycle(named->name) : nullptr;
+  if (row == nullptr) return false;
+  std::string text = same_dialect() && !a.text.empty() ? std::string(a.text) : "G" + std::to_string(row->code);
+  for (const auto& [parameter, v] : named->words) {
+    const auto* letter = std::find_if(row->letters.begin(), row->letters.end(),
+                                      [&p = parameter](const auto& l) { return l.parameter == p; });
+    if (letter == row->letters.end()) {
+      refuse(no_cycle, a.pos, "this cycle has no word for its " + parameter + " there");
+      return true;
+    }
+    text += ' ' + word(std::string(1, letter->letter), v, a.pos);
+  }
+  add(std::move(text), Rank::motion_code, a.pos);
+  return true;
+}
+
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
+  if (machining_cycle(a, c)) return;
   const auto words = lathe_ ? std::nullopt : cycle_words(*c.cycle);
   if (!words) return ProgramWriter::cycle_define(a, c);
   const auto& hole = std::get<ir::HoleCycle>(c.cycle->node);
@@ -285,9 +306,12 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const auto distance = known<ir::Distance>(ir::Setting::distance);
   if (const auto problem = level_problem(hole, distance); !problem.empty())
     return refuse(no_cycle, a.pos, std::string(problem));
-  const auto plane = known<ir::Plane>(ir::Setting::plane);
+  auto plane = known<ir::Plane>(ir::Setting::plane);
+  if (!plane && same_dialect()) plane = plane_by_text_;  // as the reader took it
   if (!plane) return refuse(no_cycle, a.pos, "the plane of this cycle is not known here");
-  const bool peck = words->code == "G83";
+  const bool has_gap =
+      std::any_of(words->more.begin(), words->more.end(), [](const auto& m) { return m.first == 'C'; });
+  const bool peck = words->code == "G83" || (words->code == "G69" && !has_gap);
   if (peck && !same_dialect()) {
     const auto units = known<ir::Units>(ir::Setting::units);
     if (!hole.pecks.reapproach.is(units == ir::Units::inch ? 1 / 25.4 : 1)) {
@@ -303,6 +327,12 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   add(code + cycle_retract(a, *words), Rank::frame, a.pos);
   if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::center);
   add(word("I", words->depth, a.pos), Rank::radius);
+  const auto further = [&](bool before_dwell) {  // in the order of the alphabet, as the manual prints them
+    for (const auto& [letter, v] : words->more) {
+      if ((letter < 'K') == before_dwell) add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
+    }
+  };
+  further(true);
   if (words->dwell) {
     ir::Value k = *words->dwell;
     if (words->dwell_scale != 0.01) {
@@ -314,6 +344,7 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
     add(word("K", k, a.pos), Rank::motion_extra);
   }
   if (words->count) add(word("J", *words->count, a.pos), Rank::motion_extra);
+  further(false);
   if (c.modal) return;
   further_line(a.pos);
   add(std::string(g(Use::cycle_cancel)), Rank::setting);

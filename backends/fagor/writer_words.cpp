@@ -112,6 +112,12 @@ bool Writer::implied(const ir::Action& a) {
   if (const ir::FrameChange* f = frame_change(a); f != nullptr && f->combine == ir::FrameCombine::clear && offset) {
     return f->slot == ir::FrameSlot::preset || (same_dialect() && f->slot == ir::FrameSlot::shift);
   }
+  const auto machining = [](const ir::Action& other) {
+    const auto* d = std::get_if<ir::CycleDefine>(&other.data);
+    return d != nullptr && d->cycle && std::holds_alternative<ir::NamedCycle>(d->cycle->node);
+  };
+  if (std::any_of(block_->actions.begin(), block_->actions.end(), machining))
+    return sets(a, ir::Setting::comp) || sets(a, ir::Setting::distance);  // ch. 9: how the cycle leaves
   if (holds<ir::PoleSet>(a)) return plane && !stands_alone(a);
   const bool home = block_->has_motion && block_->motion.kind == ir::MotionKind::reference_point;
   return home && (sets(a, ir::Setting::comp) || sets(a, ir::Setting::length_comp));
@@ -133,6 +139,7 @@ void Writer::action(const ir::Action& a) {
 // ---- settings ------------------------------------------------------------------------------------------------------
 
 void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  if (m.setting == ir::Setting::plane) plane_by_text_ = static_cast<ir::Plane>(m.value);
   const bool neutral =
       (m.setting == ir::Setting::diameter && !lathe_ && m.value == 0) ||
       (m.setting == ir::Setting::spindle_mode && !lathe_ && m.value == code_value(ir::SpindleMode::rpm)) ||

@@ -63,11 +63,12 @@ enum class Use : std::uint8_t {
   scale,                ///< G72
   rotation,             ///< G73
   home,                 ///< G74
-  hole_cycle,           ///< `value`: 81, 82, 83
+  hole_cycle,           ///< `value`: the code: letters in hole_cycles
   cycle_cancel,
-  call,     ///< G180..G189, G380..G399: subroutine of the same number
-  no_path,  ///< no effect on the path: carried with a note; `feature`
-  refused   ///< not translated yet; `feature` is the key in the missing-features registry
+  machining,  ///< a cycle of the lathe; letters in cycle_rows
+  call,       ///< G180..G189, G380..G399: subroutine of the same number
+  no_path,    ///< no effect on the path: carried with a note; `feature`
+  refused     ///< not translated yet; `feature` is the key in the missing-features registry
 };
 
 struct GCode {
@@ -85,6 +86,18 @@ struct GCode {
 };
 
 inline constexpr int max_g_code = 399;
+
+/// Letters of a hole cycle of the mill besides the point, the reference plane and I (25.3, 28.6).
+struct HoleLetters {
+  int code;
+  std::string_view mandatory;
+  std::string_view optional;
+  std::string_view kept;  ///< read, but without a sure meaning: a block with one of them is kept as text
+};
+inline constexpr HoleLetters hole_letters[] = {
+    {69, "B", "CDKLR", "HJ"}, {81, "", "K", ""}, {82, "K", "", ""},    {83, "J", "", ""},
+    {84, "", "KR", "J"},      {85, "", "K", ""}, {86, "", "K", "QDE"}, {89, "", "K", ""},
+};
 
 std::span<const GCode> g_codes();
 /// Row of a G function of a model; nullptr when the model has no such function.

@@ -13,6 +13,22 @@ namespace cnctrans::dialects::fagor {
 enum class Index : std::uint8_t { none, maybe, always };
 enum class Access : std::uint8_t { none, read, write, read_write };  ///< from the part program
 
+/// What its value is counted in. Lengths and feeds follow G70/G71, coordinates of X also diameter programming.
+enum class Unit : std::uint8_t {
+  none,
+  length,
+  angle,  ///< degrees (NOSEA, CUTA: 1/10000)
+  feed,
+  feed_per_rev,
+  inverse_time,
+  percent,
+  rpm,
+  cutting_speed,  ///< m/min or feet/min
+  time,           ///< seconds; CYTIME 1/100 s, TIME hhmmss
+  volts,
+  temperature
+};
+
 struct VariableInfo {
   std::string_view name;  ///< without axis letter and index
   bool axis = false;      ///< one of X Y Z U V W A B C follows
@@ -20,6 +36,8 @@ struct VariableInfo {
   Access access = Access::read;
   bool stops_preparation = false;
   ir::Datum datum = ir::Datum::other;
+  Unit unit = Unit::none;
+  ir::Type type = ir::Type::integer;  ///< of its values; bit patterns are integers
 };
 std::span<const VariableInfo> variables();
 
@@ -27,6 +45,7 @@ struct VariableName {
   const VariableInfo* info = nullptr;  ///< null: no variable of the manual
   ir::AxisId axis = ir::axis::none;
 };
+std::string_view name(Unit u);
 /// `name` in capitals with its axis letter, without its index: "ORGX", "PLCM".
 VariableName find_variable(std::string_view name);
 

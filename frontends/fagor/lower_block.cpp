@@ -19,6 +19,12 @@ namespace facts = dialects::fagor;
 using facts::Use;
 using ir::Order;
 
+/// Its words follow an order of their own, not that of a plain block.
+bool has_own_words(const facts::GCode& row) {
+  return row.use == Use::refused || row.use == Use::no_path || row.use == Use::call || row.use == Use::hole_cycle ||
+         row.use == Use::machining;
+}
+
 std::string word_name(const syntax::Word& w) {
   return std::string(word_text(w));
 }
@@ -43,8 +49,10 @@ ir::Value BlockLowerer::value_of(char c) {
 
 void BlockLowerer::gather_g(const Word& w) {
   if (w.expr >= 0) {
-    state_.error("FAG-012", w.pos, "a G function computed by a parameter can't be translated",
-                 "write the function's number");
+    state_.warning("FAG-012", w.pos, "a G function computed by a parameter: the block is kept as text",
+                   "a run stops here; write the function's number");
+    result_->opaque = "block.word";
+    result_->needs_program = true;
     return;
   }
   const GCode* row = w.number >= 0 && w.number == std::floor(w.number) && w.number <= facts::max_g_code
@@ -60,6 +68,7 @@ void BlockLowerer::gather_g(const Word& w) {
     state_.error("FAG-006", w.pos, "too many G functions in one block");
     return;
   }
+  if (row->use == Use::machining) cycle_row_ = facts::find_cycle(row->code);
   g_[g_count_++] = {row, &w};
 }
 
@@ -76,6 +85,9 @@ void BlockLowerer::gather(const syntax::Block& in) {
   seen_ = unused_ = 0;
   coords_taken_ = cycle_ = has_after_ = false;
   motion_code_ = nullptr;
+  argument_ = nullptr;
+  cycle_row_ = nullptr;
+  cycle_word_count_ = 0;
   absolute_centre_ = tangent_arc_ = three_points_ = machine_coords_ = home_ = nullptr;
   if (has_extra_) {
     extra_ = ir::MotionExtra{};
@@ -86,10 +98,12 @@ void BlockLowerer::gather(const syntax::Block& in) {
   bool lower_case = false;
   for (const Word& w : in.words) {
     const char c = word_letter(w);
+    if (cycle_row_ && gather_cycle_word(w, c)) continue;
     const std::uint32_t mask = bit(c);
     const LetterInfo& info = letter_info[index(c)];
     lower_case = lower_case || w.address[0] != c;
-    const bool angle = c == 'S' && m_count_ != 0 && m_[m_count_ - 1]->number == 19;  // M19 S30
+    const bool angle =
+        c == 'S' && m_count_ != 0 && (m_[m_count_ - 1]->number == 19 || m_[m_count_ - 1]->number == 45);  // M19 S30
     if (info.rank != 0 && !angle) {
       if (info.rank < rank) unordered = &w;
       rank = info.rank;
@@ -107,6 +121,10 @@ void BlockLowerer::gather(const syntax::Block& in) {
       if (++radius_count_ > 2) state_.error("FAG-005", w.pos, "the word R stands too often in the block");
       continue;
     }
+    if (c == 'P' && w.extension >= 0) {  // P3=2: only calls take it, see lower_g_call
+      argument_ = &w;
+      continue;
+    }
     if ((seen_ & mask) != 0) {
       state_.error("FAG-005", w.pos, std::string("the word ") + c + " stands twice in the block");
       continue;
@@ -118,7 +136,9 @@ void BlockLowerer::gather(const syntax::Block& in) {
     else
       unused_ |= mask;
   }
-  if (unordered) {
+  const bool own_order = std::any_of(g_.begin(), g_.begin() + static_cast<std::ptrdiff_t>(g_count_),
+                                     [](const GWord& g) { return has_own_words(*g.row); });
+  if (unordered && !own_order) {
     state_.warning("FAG-010", unordered->pos,
                    "the control wants G functions, axes, F, S, T, D and M functions in this order",
                    "it reports an error for the block; the translation reads it as written");
@@ -166,11 +186,14 @@ void BlockLowerer::lower(const syntax::Block& in, ir::Block& out, BlockResult& r
     for (std::size_t i = 0; i < g_count_ && result.opaque.empty() && !result.call; ++i) apply(g_[i]);
   }
   if (result.call) return;
+  if (argument_ && result.opaque.empty())
+    state_.error("FAG-004", argument_->pos, "the word " + word_name(*argument_) + " has no meaning in this block");
   if (result.opaque.empty()) {
     if ((unused_ & technology_letters) != 0 || m_count_ != 0) {
       technology();
       machine_functions();
     }
+    if (!result.opaque.empty()) return;
     if (has_after_) after_motion_last();
     motion();
     if (unused_ != 0 || radius_count_ != 0) {
@@ -196,8 +219,10 @@ void BlockLowerer::technology() {
     live = live || (m_[i]->expr < 0 && m_[i]->number == 45);
   }
   if (live) {
-    state_.error("FAG-007", {}, "the driven tool (M45) is not translated yet");
+    state_.warning("FAG-007", {}, "a block with the driven tool (M45) is kept as text",
+                   "a run stops here; only a program for this control can be written with it");
     result_->opaque = "block.word";
+    result_->needs_program = true;
     return;
   }
   if (!orients) {
@@ -215,8 +240,11 @@ void BlockLowerer::technology() {
 
 void BlockLowerer::machine_function(const Word& w) {
   if (w.expr >= 0 || w.number < 0 || w.number != std::floor(w.number) || w.number > 9999) {
-    state_.error("FAG-012", w.pos, "an M function computed by a parameter, or with decimals, can't be translated",
-                 "write the function's number");
+    state_.warning("FAG-012", w.pos,
+                   "an M function computed by a parameter, or with decimals: the block is kept as text",
+                   "a run stops here; write the function's number");
+    result_->opaque = "block.word";
+    result_->needs_program = true;
     return;
   }
   const auto code = saturate<std::int32_t>(w.number);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "dialects/fagor/cycles.h"
 #include "frontends/common/syntax.h"
 #include "frontends/fagor/lower_state.h"
 #include "ir/block.h"
@@ -64,8 +65,16 @@ class BlockLowerer {
   void rotation(const GWord& g);
   void look_ahead(const GWord& g);
   void hole_cycle(const GWord& g);
+  void machining_cycle(const GWord& g);
+  bool gather_cycle_word(const Word& w, char c);
+  const Word* take_coordinate(ir::AxisId axis);
+  const Word* take_cycle_word(char c, const Word& depth);
+  bool equal_pecks(const GWord& g, const Word& count, ir::HoleCycle& c);
+  bool variable_pecks(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c);
+  [[nodiscard]] ir::Value one_millimetre() const;
   void home(const GWord& g);
   void give_up(const GWord& g);
+  void keep(const GWord& g, std::string_view feature, std::string message);
   std::shared_ptr<const ir::FrameChange> frame_of(ir::FrameSlot slot, ir::FrameKind kind, ir::FrameCombine combine);
   void take_coordinates_into(ir::FrameChange& change);
   void own_words_noted(const GWord& g);
@@ -105,6 +114,10 @@ class BlockLowerer {
   bool coords_taken_ = false;
 
   const GWord* motion_code_ = nullptr;
+  const dialects::fagor::CycleRow* cycle_row_ = nullptr;  ///< a machining cycle of the lathe: its letters are its own
+  std::array<const Word*, 26> cycle_words_{};             ///< in the written order
+  std::size_t cycle_word_count_ = 0;
+  const Word* argument_ = nullptr;
   const Word* absolute_centre_ = nullptr;
   const Word* tangent_arc_ = nullptr;
   const Word* three_points_ = nullptr;

@@ -71,6 +71,7 @@ void BlockLowerer::apply_special(const GWord& g) {
     case Use::look_ahead: look_ahead(g); return;
     case Use::home: home(g); return;
     case Use::hole_cycle: hole_cycle(g); return;
+    case Use::machining: machining_cycle(g); return;
     case Use::cycle_cancel:
       act(ir::CycleCancel{}, g.word);
       result_->needs_program = true;
@@ -90,8 +91,15 @@ void BlockLowerer::give_up(const GWord& g) {
                     ") has no effect on the path; the block is kept as text");
     return;
   }
-  state_.error("FAG-007", g.word->pos,
-               the_function(*g.word) + " (" + std::string(g.row->title) + ") is not translated yet");
+  keep(g, g.row->feature, the_function(*g.word) + " (" + std::string(g.row->title) + ") is kept as text");
+}
+
+/// The whole block stays as text; a run stops there.
+void BlockLowerer::keep(const GWord& g, std::string_view feature, std::string message) {
+  state_.warning("FAG-007", g.word->pos, std::move(message),
+                 "a run stops here; only a program for this control can be written with it");
+  result_->opaque = feature;
+  result_->needs_program = true;
 }
 
 void BlockLowerer::setting(const GWord& g, Order order) {
@@ -147,8 +155,7 @@ void BlockLowerer::plane_axes(const GWord& g) {
   } else if (pair(ir::axis::y, ir::axis::z)) {
     plane(g, ir::Plane::yz);
   } else {
-    state_.error("FAG-007", g.word->pos, "a plane of other axes than XY, ZX or YZ is not translated yet");
-    result_->opaque = "motion.transformation";
+    keep(g, "motion.transformation", "a plane of other axes than XY, ZX or YZ is kept as text");
   }
   out_->actions.empty() ? void()
                         : void(out_->actions.back().text = {});  // the axes belong to the code: not written as one word
@@ -230,9 +237,7 @@ void BlockLowerer::look_ahead(const GWord& g) {
 void BlockLowerer::home(const GWord& g) {
   result_->needs_program = true;
   if (coord_count_ == 0) {
-    state_.error("FAG-007", g.word->pos,
-                 "G74 without axes runs a subroutine that only the machine knows; it is not translated yet");
-    result_->opaque = "block.word";
+    keep(g, "block.word", "G74 without axes runs a subroutine that only the machine knows; it is kept as text");
     return;
   }
   home_ = g.word;
@@ -245,64 +250,6 @@ void BlockLowerer::home(const GWord& g) {
   off.setting = ir::Setting::length_comp;
   off.value = static_cast<std::uint8_t>(ir::OnOff::off);
   act(off, nullptr);
-}
-
-/// G81 G82 G83 of the mill (25.2, 25.3): the word of the longitudinal axis is the reference plane, I the bottom (or one
-/// peck), K the dwell, J the number of pecks.
-void BlockLowerer::hole_cycle(const GWord& g) {
-  cycle_ = true;
-  result_->needs_program = true;
-  const ir::AxisId normal = ir::plane_axes(state_.plane_by_text()).w;
-  ir::HoleCycle c;
-  c.reference.given = true;
-  c.reference.base = ir::LevelBase::from_initial;
-  for (std::size_t i = 0; i < coord_count_; ++i) {
-    if (axis_of(*coords_[i]) != normal) continue;
-    c.reference.base = ir::LevelBase::distance_mode;
-    c.reference.otherwise = ir::LevelBase::from_initial;
-    c.reference.value = value(*coords_[i]);
-    std::copy(coords_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-              coords_.begin() + static_cast<std::ptrdiff_t>(coord_count_),
-              coords_.begin() + static_cast<std::ptrdiff_t>(i));
-    --coord_count_;
-    break;
-  }
-  const Word* depth = take('I');
-  const Word* dwell = g.row->value == 83 ? nullptr : take('K');
-  const Word* count = g.row->value == 83 ? take('J') : nullptr;
-  if (!depth || !depth->has_value) {
-    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the depth I");
-    return;
-  }
-  c.bottom.given = true;
-  c.bottom.value = value(*depth);
-  if (g.row->value == 82 && !dwell) state_.error("FAG-014", g.word->pos, "G82 needs the dwell K");
-  if (dwell) {
-    c.dwell_bottom = value(*dwell);
-    c.dwell_scale = 0.01;
-  }
-  if (g.row->value != 83) {
-    c.bottom.base = ir::LevelBase::distance_mode;
-    c.bottom.otherwise = ir::LevelBase::from_reference;
-  } else if (!count || (count->expr < 0 && (count->number < 1 || count->number != std::floor(count->number)))) {
-    state_.error("FAG-014", g.word->pos, "G83 needs the number of pecks J, a whole number from 1");
-    return;
-  } else {  // bottom = reference + J * I; the tool feeds again from 1 mm above the last depth
-    const ir::Value peck = c.bottom.value, pecks = value(*count);
-    c.kind = ir::HoleKind::peck_full;
-    c.bottom.base = ir::LevelBase::from_reference;
-    c.bottom.value = peck.literal() && pecks.literal()
-                         ? ir::Value(peck.number * pecks.number)
-                         : ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(peck), ir::as_expr(pecks)));
-    c.pecks.law = ir::PeckLaw::count;
-    c.pecks.first =
-        peck.literal() ? ir::Value(std::fabs(peck.number)) : ir::Value(ir::call(ir::Function::abs, {peck.expr}));
-    c.pecks.count = pecks;
-    c.pecks.reapproach = ir::Value(state_.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
-  }
-  ir::CycleDefine define;
-  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
-  act(std::move(define), g.word);
 }
 
 }  // namespace cnctrans::fagor

@@ -40,65 +40,124 @@ ir::VarRef parameter(const Expr& e, LowerState& state) {
   return {parameter_space, {}, ir::number(n), {}};
 }
 
+bool one_fixed_index(const Expr& e) {
+  return e.args.size() == 1 && e.args[0].kind == ExprKind::number;
+}
+
 /// Data the IR has a name for, and that this frontend knows how to index.
 Datum known_datum(const facts::VariableInfo& info, const Expr& e) {
   switch (info.datum) {
-    case Datum::programmed_position:
-    case Datum::machine_position:
-    case Datum::work_position:
-    case Datum::programmed_shift:
-    case Datum::active_offset:
-    case Datum::tool_number:
-    case Datum::next_tool:
-    case Datum::offset_number:
-    case Datum::feed:
-    case Datum::spindle_speed:
-    case Datum::part_count: return info.datum;
     case Datum::tool_length:
-    case Datum::tool_radius: return e.args.size() == 1 ? info.datum : Datum::other;
+    case Datum::tool_nose:
+    case Datum::tool_nose_width: return e.args.size() == 1 ? info.datum : Datum::other;
+    case Datum::tool_radius:
+    case Datum::tool_wear: return e.args.size() <= 1 ? info.datum : Datum::other;
     case Datum::work_offset:
-      return e.args.size() == 1 && e.args[0].kind == ExprKind::number ? info.datum : Datum::other;
-    default: return Datum::other;
+      if (e.args.empty()) return Datum::active_shift;
+      return one_fixed_index(e) ? info.datum : Datum::other;
+    case Datum::active_modal:
+    case Datum::spindle_state: return one_fixed_index(e) ? info.datum : Datum::other;
+    default: return e.args.empty() ? info.datum : Datum::other;
   }
 }
 
-/// TOX, TOZ, TOL speak of an axis that is not written as the variable's axis letter.
+/// TOX, TOZ, TOL and their wear speak of an axis that is not written as the variable's axis letter.
 ir::AxisId tool_axis(std::string_view name) {
-  if (name == "TOX") return ir::axis::x;
-  return name == "TOZ" || name == "TOL" ? ir::axis::z : ir::axis::none;
+  if (name == "TOX" || name == "TOI") return ir::axis::x;
+  return name == "TOZ" || name == "TOL" || name == "TOK" ? ir::axis::z : ir::axis::none;
 }
 
-/// `written`: it is the target of an assignment. nullopt: no variable of the control; reported.
+/// GS of a G function that is a setting, the motion or an offset: its own number, the setting, the value. Else false.
+bool modal_arguments(int code, LowerState& state, ir::SystemRef& ref) {
+  const auto* row = state.g(code);
+  if (!row) return false;
+  int setting = static_cast<int>(row->setting), value = row->value;
+  switch (row->use) {
+    case facts::Use::setting:
+    case facts::Use::setting_after:
+    case facts::Use::compensation: break;
+    case facts::Use::plane: setting = static_cast<int>(ir::Setting::plane); break;
+    case facts::Use::motion:
+      setting = static_cast<int>(ir::setting_count);
+      value = static_cast<int>(row->motion);
+      break;
+    case facts::Use::work_offset: setting = static_cast<int>(ir::setting_count) + 1; break;
+    default: return false;
+  }
+  for (const int n : {code, setting, value}) ref.args.push_back(ir::number(n));
+  return true;
+}
+
+/// MS of a function that turns or stops the spindle.
+bool spindle_arguments(int code, LowerState& state, ir::SystemRef& ref) {
+  const auto* row = state.m(code);
+  using machine::MMeaning;
+  if (!row) return false;
+  auto value = ir::SpindleState::off;
+  switch (row->meaning) {
+    case MMeaning::spindle_cw: value = ir::SpindleState::cw; break;
+    case MMeaning::spindle_ccw: value = ir::SpindleState::ccw; break;
+    case MMeaning::spindle_stop: break;
+    default: return false;
+  }
+  ref.args.push_back(ir::number(code));
+  ref.args.push_back(ir::number(static_cast<int>(value)));
+  return true;
+}
+
+void offset_index(const Expr& e, LowerState& state, ir::SystemRef& ref) {
+  const int row = facts::offset_row(static_cast<int>(e.args[0].number));
+  if (row == 0)
+    state.error("FAG-013", e.args[0].pos, "the zero offset table has no row " + e.args[0].text,
+                "rows are 54 to 59 and 1 to 20");
+  ref.args.push_back(ir::number(row));
+}
+
+void arguments(const Expr& e, LowerState& state, ir::SystemRef& ref) {
+  if (ref.datum == Datum::work_offset) return offset_index(e, state, ref);
+  const int code = one_fixed_index(e) ? static_cast<int>(e.args[0].number) : 0;
+  if (ref.datum == Datum::active_modal && modal_arguments(code, state, ref)) return;
+  if (ref.datum == Datum::spindle_state && spindle_arguments(code, state, ref)) return;
+  if (ref.datum == Datum::active_modal || ref.datum == Datum::spindle_state) ref.datum = Datum::other;
+  for (const auto& a : e.args) ref.args.push_back(lower_expr(a, state));
+}
+
+/// What only the machine knows is kept under its name; said once for every name.
+void note_machine_datum(const Expr& e, LowerState& state) {
+  if (!state.facts.machine_data.insert(e.text).second) return;
+  state.note("FAG-020", e.pos, "the value of " + e.text + " is known to the machine only",
+             "a run takes it from the profile (\"data\") or from --set, else it stops where the value is needed; "
+             "no other control can be told it");
+}
+
+/// Target of an assignment when `written`. nullopt: it may not be used like this; reported.
 std::optional<ir::SystemRef> system_variable(const Expr& e, LowerState& state, bool written) {
   const auto [info, axis] = facts::find_variable(e.text);
-  if (!info) {
-    state.error("FAG-019", e.pos, "there is no variable " + e.text, "a parameter is P and a number, or one letter");
-    return std::nullopt;
-  }
   using facts::Access;
-  if (written ? info->access == Access::read || info->access == Access::none : info->access == Access::write) {
-    state.error(
-        "FAG-021", e.pos,
-        "the variable " + e.text + (written ? " can't be written by a program" : " can't be read by a program"));
-    return std::nullopt;
+  const bool no_write = info && (info->access == Access::read || info->access == Access::none);
+  const bool no_read = info && (info->access == Access::write || info->access == Access::none);
+  if (written ? no_write : no_read) {
+    state.warning("FAG-021", e.pos,
+                  "by the manual the variable " + e.text +
+                      (written ? " can't be written by a program" : " can't be read by a program"),
+                  "the control may stop here (error 74, 75 or 76); it is kept under its name");
+    ir::SystemRef kept;
+    kept.text = e.text;
+    for (const auto& a : e.args) kept.args.push_back(lower_expr(a, state));
+    return kept;
   }
   ir::SystemRef ref;
   ref.text = e.text;
+  if (!info) {
+    state.warning("FAG-019", e.pos, "the manuals know no variable " + e.text,
+                  "it is kept under this name; a run stops where its value is needed, unless --set gives it");
+    for (const auto& a : e.args) ref.args.push_back(lower_expr(a, state));
+    return ref;
+  }
   ref.datum = known_datum(*info, e);
   ref.axis = axis != ir::axis::none ? axis : tool_axis(info->name);
-  if (ref.datum == Datum::work_offset) {
-    const int row = facts::offset_row(static_cast<int>(e.args[0].number));
-    if (row == 0)
-      state.error("FAG-013", e.args[0].pos, "the zero offset table has no row " + e.args[0].text,
-                  "rows are 54 to 59 and 1 to 20");
-    ref.args.push_back(ir::number(row));
-  } else {
-    for (const auto& a : e.args) ref.args.push_back(lower_expr(a, state));
-  }
-  if (ref.datum == Datum::other) {
-    state.error("FAG-020", e.pos,
-                "the value of " + e.text + " is known to the machine only; it can't be run or translated yet");
-  }
+  arguments(e, state, ref);
+  if (ref.datum == Datum::other) note_machine_datum(e, state);
   return ref;
 }
 

@@ -144,10 +144,8 @@ void BlockLowerer::apply_frame(const GWord& g) {
     case Use::scale: {
       const Word* s = take('S');
       if (coord_count_ != 0) {
-        state_.error(
-            "FAG-007", g.word->pos,
-            "a scale factor of single axes acts on the compensated path and on the feed; it is not translated yet");
-        result_->opaque = "motion.transformation";
+        keep(g, "motion.transformation",
+             "a scale factor of single axes acts on the compensated path and on the feed; it is kept as text");
         return;
       }
       if (!s) {

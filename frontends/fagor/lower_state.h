@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,7 @@ struct FileFacts {
   std::array<bool, 2> units{};   ///< programmed by G71 [0], G70 [1]
   Span first_table_shift, first_machine_move;
   std::vector<PlaneUse> plane_uses;
+  std::set<std::string> machine_data;  ///< variables reported as known to the machine only
 };
 
 class LowerState {

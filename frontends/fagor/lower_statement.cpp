@@ -68,7 +68,8 @@ Node StatementLowerer::kept(const syntax::Statement& s, std::string_view feature
   if (harmless) {
     state_.note("FAG-023", s.pos, "the statement " + s.keyword + " has no effect on the path; it is kept as text");
   } else {
-    state_.error("FAG-022", s.pos, "the statement " + s.keyword + " is not translated yet");
+    state_.warning("FAG-022", s.pos, "the statement " + s.keyword + " is kept as text",
+                   "a run stops here; only a program for this control can be written with it");
   }
   return ir::Opaque{std::string(text_), std::string(feature), harmless};
 }

@@ -10,6 +10,14 @@ namespace cnctrans::fagor {
 
 namespace {
 
+/// The statement with its brackets and what follows it, without the comment.
+std::string_view statement_text(const syntax::Block& b, std::string_view text) {
+  const std::size_t open = text.rfind('(', b.statements.front().pos.column - 1);
+  const std::size_t end = b.comments.empty() ? text.size() : b.comments.front().pos.column - 1;
+  const std::size_t first = open == std::string_view::npos ? b.statements.front().pos.column - 1 : open;
+  return trim(text.substr(first, end - first));
+}
+
 bool is_trivia(const syntax::Block& b) {
   return b.words.empty() && b.statements.empty() && b.number.empty();
 }
@@ -36,6 +44,13 @@ ir::Program ProgramReader::read(const SourcePtr& source, frontends::ReadStats* s
   if (local_group_) {
     state_.error("FAG-032", {}, "the local subroutines are not followed by the line that starts the main part",
                  "write a line that begins with % after the last (RET)");
+  }
+  if (lost_blocks_ != 0) {
+    state_.set_line(first_lost_block_);
+    state_.warning("FAG-036", {},
+                   "an earlier conversion from another control left " + std::to_string(lost_blocks_) +
+                       " comments for blocks that it did not understand; this is the first",
+                   "compare with the original program: what stood there is not in this file");
   }
   settle_main();
   finish_program(program_, state_);
@@ -159,8 +174,7 @@ void ProgramReader::block(std::string_view text) {
     open_subroutine(block_.statements.front());
   } else {
     ir::Statement s = fresh();
-    const WordPos pos = block_.statements.front().pos;
-    lower_statement(block_, text.substr(pos.column - 1, pos.length), state_, s);
+    lower_statement(block_, statement_text(block_, text), state_, s);
     add(std::move(s));
   }
   if (state_.errors() == errors) ++stats_.blocks_read;
@@ -194,7 +208,18 @@ void ProgramReader::iso_block(std::string_view text) {
   add(std::move(s));
 }
 
+/// The maker's converter from older controls leaves such a comment for every block that it did not understand (there is
+/// no manual section; the programs say so).
+void ProgramReader::look_for_lost_blocks() {
+  for (const auto& c : block_.comments) {
+    if (to_upper_ascii(trim(c.text)).starts_with("BLOQUE CNC8025 INCORRECTO")) {
+      if (lost_blocks_++ == 0) first_lost_block_ = state_.line();
+    }
+  }
+}
+
 void ProgramReader::add_trivia() {
+  look_for_lost_blocks();
   ir::Statement s = fresh();
   s.node = ir::Block{};
   pending_.push_back(std::move(s));

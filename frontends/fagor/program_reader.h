@@ -25,6 +25,7 @@ class ProgramReader {
   void iso_block(std::string_view text);
   void add(ir::Statement statement);
   void add_trivia();
+  void look_for_lost_blocks();
   void unread(std::string_view text, const ParseError& error);
   void describe_file(const SourceText& source);
   void settle_main();
@@ -46,6 +47,8 @@ class ProgramReader {
   ir::Body pending_;  ///< comments and blank lines that wait for the block they belong to
   std::set<std::pair<bool, std::int64_t>> numbers_;
   frontends::ReadStats stats_;
+  std::size_t lost_blocks_ = 0;  ///< comments of an earlier conversion
+  Span first_lost_block_;
 };
 
 /// Completes what depends on the whole file: pole and frame resets, planes, units of machine moves.

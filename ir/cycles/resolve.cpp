@@ -42,6 +42,14 @@ class WordReader {
 
 /// Surface and reference plane may lean on each other; either may be left out.
 void read_planes(const HoleCycle& c, WordReader& read, HoleNumbers& n) {
+  if (c.surface.given && c.surface.base == LevelBase::from_reference) {
+    if (c.reference.given)
+      n.reference = read.level(c.reference, n.initial, n.initial);
+    else
+      n.reference = n.initial;
+    n.surface = read.level(c.surface, n.initial, n.reference);
+    return;
+  }
   if (c.surface.given) n.surface = read.level(c.surface, n.initial, n.initial);
   n.reference = n.initial;
   if (c.reference.given) {

@@ -99,6 +99,12 @@ class ControlPass {
   }
 
   void if_else(Statement&& s, Body& out) {
+    const If& source = std::get<If>(s.node);
+    const bool own = !editor_.program.dialect.empty() && editor_.program.dialect == target_.dialect;
+    if (own && source.one_line && !(single_jump(source.then_body) && source.else_body.empty())) {
+      out.push_back(std::move(s));
+      return;
+    }
     If node = std::move(std::get<If>(s.node));
     if (const Jump* j = single_jump(node.then_body)) {  // IF c GOTO n [ELSE ...]
       Jump jump = *j;

@@ -110,10 +110,10 @@ TEST(FagorCycles, EqualPecksAreG83) {  // 25.3: I one peck with sign, J their nu
   c.pecks.reapproach = Value(1);
   EXPECT_EQ(written(actions({define(c)})), "G83 G98 Z2 I-5 J4\n");
   c.pecks.first = Value(6);  // 6+6+6+2
-  EXPECT_FALSE(native(c));
+  EXPECT_EQ(written(actions({define(c)})), "G69 G98 Z2 I-18 B6\n");
   c.pecks.first = Value(5);
   c.pecks.reapproach = Value(0.6);
-  EXPECT_FALSE(native(c));
+  EXPECT_EQ(written(actions({define(c)})), "G69 G98 Z2 I-18 B5 C0.6\n");
   c.pecks.reapproach = Value(1);
   c.pecks.law = PeckLaw::count;
   c.pecks.first = Value(-5);
@@ -130,7 +130,8 @@ TEST(FagorCycles, WhatHasOtherMovesIsNotNative) {
   };
   EXPECT_TRUE(with([](ir::HoleCycle&) {}));
   EXPECT_FALSE(with([](ir::HoleCycle& c) { c.kind = HoleKind::peck_break; }));
-  EXPECT_FALSE(with([](ir::HoleCycle& c) { c.kind = HoleKind::ream; }));
+  EXPECT_TRUE(with([](ir::HoleCycle& c) { c.kind = HoleKind::ream; }));
+  EXPECT_FALSE(with([](ir::HoleCycle& c) { c.kind = HoleKind::bore_shift; }));
   EXPECT_FALSE(with([](ir::HoleCycle& c) { c.has_feed = true; }));
   EXPECT_FALSE(with([](ir::HoleCycle& c) { c.has_feed_out = true; }));
   EXPECT_FALSE(with([](ir::HoleCycle& c) { c.dwell_top = Value(1); }));

@@ -155,5 +155,42 @@ TEST(FagorBlock, Order) {
   EXPECT_FALSE(test::read("G54 G0 X5").diagnostics.has_errors());
 }
 
+TEST(FagorBlock, HoleCyclesOfTheMill) {  // 25.3, 28.6
+  EXPECT_EQ(
+      line("G69 Z2 I-20 B5"),
+      "block cycle hole peck_full reference distance_mode 2 bottom distance_mode otherwise from_reference -20 pecks "
+      "constant first 5 reapproach #1 as \"G69\"");
+  EXPECT_EQ(
+      line("G69 Z2 I-20 B5 C0.5 D2 K30 L1 R.8"),
+      "block cycle hole peck_full surface from_reference #-2 reference distance_mode 2 bottom distance_mode otherwise "
+      "from_reference -20 dwell_bottom 30 dwell_scale 0.01 pecks geometric first 5 degression .8 minimum 1 reapproach "
+      "0.5 first_from_surface dwell 30 as \"G69\"");
+  EXPECT_EQ(line("G69 Z2 I-20"), "opaque \"G69 Z2 I-20\" feature \"text.unread\" | FAG-014");
+  EXPECT_EQ(line("G69 Z2 I-20 B5 H4"), "opaque \"G69 Z2 I-20 B5 H4\" feature \"cycle.hole\" | FAG-007");
+  EXPECT_EQ(line("G69 Z2 I-20 B0"), "opaque \"G69 Z2 I-20 B0\" feature \"text.unread\" | FAG-013");
+  EXPECT_EQ(line("G84 X10 Z2 I-15 K20 F500 S500"),
+            "block cycle hole tap_floating reference distance_mode 2 bottom distance_mode otherwise from_reference -15 "
+            "dwell_bottom 20 dwell_scale 0.01 as \"G84\", feed 500 zero_is_maximum as \"F500\", spindle 500 as "
+            "\"S500\", rapid "
+            "once X 10");
+  EXPECT_EQ(line("G84 Z2 I-15 R1").substr(0, 20), "block cycle hole tap");
+  EXPECT_EQ(line("G84 Z2 I-15 R2"), "opaque \"G84 Z2 I-15 R2\" feature \"cycle.hole\" | FAG-007");
+  EXPECT_EQ(line("G85 Z2 I-15").substr(0, 21), "block cycle hole ream");
+  EXPECT_EQ(line("G86 Z2 I-15 K5").substr(0, 26), "block cycle hole bore_stop");
+  EXPECT_EQ(line("G89 Z2 I-15 K5").substr(0, 22), "block cycle hole bore ");
+}
+
+TEST(FagorBlock, KeptAsText) {  // understood, not carried out: no error, and the text is whole
+  EXPECT_EQ(line("G72 X1 Y1.5"), "opaque \"G72 X1 Y1.5\" feature \"motion.transformation\" | FAG-007");
+  EXPECT_EQ(line("G29 X ; back"), "opaque \"G29 X\" feature \"language.synchronised\" ; \" back\" | FAG-007");
+  EXPECT_EQ(line("M45 S0"), "opaque \"M45 S0\" feature \"block.word\" | FAG-007");
+  EXPECT_EQ(line("GP101 X5"), "opaque \"GP101 X5\" feature \"block.word\" | FAG-012");
+  EXPECT_EQ(line("( WKEY ) ; waits"), "opaque \"( WKEY )\" feature \"language.statement\" ; \" waits\" | FAG-022");
+  EXPECT_EQ(line("(PROBE 3,X50,Z0,B5,F100)"), "opaque \"(PROBE 3,X50,Z0,B5,F100)\" feature \"motion.probe\" | FAG-022");
+  EXPECT_EQ(line("(ESBLK)"), "opaque \"(ESBLK)\" feature \"language.statement\" harmless | FAG-023");
+  EXPECT_EQ(line("G1 X5 P3=2"), "opaque \"G1 X5 P3=2\" feature \"text.unread\" | FAG-004");
+  EXPECT_EQ(read("M30\n(SUB 183)\nX1\n(RET)\n(SUB 1)\nG183 P1=12.3 P2=6\n(RET)\n").codes(), "");
+}
+
 }  // namespace
 }  // namespace cnctrans::fagor

@@ -1,0 +1,259 @@
+// Canned cycles: hole cycles of the mill (25.2, 25.3), machining cycles of the lathe (ch. 9).
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "dialects/fagor/limits.h"
+#include "frontends/fagor/lower_block.h"
+#include "frontends/fagor/lower_expr.h"
+#include "ir/cycles/machining.h"
+
+namespace cnctrans::fagor {
+
+namespace {
+
+namespace facts = dialects::fagor;
+using syntax::Word;
+
+ir::AxisId axis_of(const Word& w) {
+  return ir::fixed_axis(word_letter(w));
+}
+std::string the_function(const Word& w) {
+  return "the function " + std::string(word_text(w));
+}
+const facts::HoleLetters& letters_of(int code) {
+  return *std::find_if(std::begin(facts::hole_letters), std::end(facts::hole_letters),
+                       [code](const facts::HoleLetters& l) { return l.code == code; });
+}
+bool whole_from_one(const Word& w) {
+  return w.expr >= 0 || (w.number >= 1 && w.number == std::floor(w.number));
+}
+ir::Value magnitude(const ir::Value& v) {
+  return v.literal() ? ir::Value(std::fabs(v.number)) : ir::Value(ir::call(ir::Function::abs, {v.expr}));
+}
+
+}  // namespace
+
+/// Takes the word of the longitudinal axis out of the block's coordinates.
+const Word* BlockLowerer::take_coordinate(ir::AxisId axis) {
+  for (std::size_t i = 0; i < coord_count_; ++i) {
+    if (axis_of(*coords_[i]) != axis) continue;
+    const Word* w = coords_[i];
+    std::copy(coords_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+              coords_.begin() + static_cast<std::ptrdiff_t>(coord_count_),
+              coords_.begin() + static_cast<std::ptrdiff_t>(i));
+    --coord_count_;
+    return w;
+  }
+  return nullptr;
+}
+
+/// A letter of a cycle: axis letters, R and D are its own only behind the depth I, D only before T.
+const Word* BlockLowerer::take_cycle_word(char c, const Word& depth) {
+  const auto behind = [&depth](const Word& w) { return w.pos.column > depth.pos.column; };
+  if (c == 'R') {
+    for (std::size_t i = 0; i < std::min<std::size_t>(radius_count_, radii_.size()); ++i) {
+      if (!behind(*radii_[i])) continue;
+      if (i == 1) std::swap(radii_[0], radii_[1]);
+      radii_taken_ = 1;
+      return radii_[0];
+    }
+    return nullptr;
+  }
+  const ir::AxisId axis = ir::fixed_axis(c);
+  if (axis != ir::axis::none) {
+    const bool there = std::any_of(coords_.begin(), coords_.begin() + static_cast<std::ptrdiff_t>(coord_count_),
+                                   [&](const Word* w) { return axis_of(*w) == axis && behind(*w); });
+    return there ? take_coordinate(axis) : nullptr;
+  }
+  const Word* w = letter(c);
+  if (!w || !behind(*w)) return nullptr;
+  if (c == 'D' && letter('T') && letter('T')->pos.column < w->pos.column) return nullptr;
+  return take(c);
+}
+
+/// The word of the longitudinal axis is the reference plane, I the bottom (G83: one peck with its sign); K is the
+/// dwell.
+void BlockLowerer::hole_cycle(const GWord& g) {
+  cycle_ = true;
+  result_->needs_program = true;
+  const int code = g.row->value;
+  const facts::HoleLetters& letters = letters_of(code);
+  const Word* depth = take('I');
+  if (!depth || !depth->has_value) {
+    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the depth I");
+    return;
+  }
+  for (const char c : letters.kept) {
+    if (!take_cycle_word(c, *depth)) continue;
+    keep(g, "cycle.hole", the_function(*g.word) + " with the word " + c + " is kept as text");
+    return;
+  }
+  std::array<const Word*, 26> words{};
+  for (const std::string_view list : {letters.mandatory, letters.optional}) {
+    for (const char c : list) {
+      words[index(c)] = take_cycle_word(c, *depth);
+      if (words[index(c)] || list.data() == letters.optional.data()) continue;
+      state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the word " + c);
+      return;
+    }
+  }
+  ir::HoleCycle c;
+  c.reference.given = true;
+  c.reference.base = ir::LevelBase::from_initial;
+  if (const Word* z = take_coordinate(ir::plane_axes(state_.plane_by_text()).w)) {
+    c.reference.base = ir::LevelBase::distance_mode;
+    c.reference.otherwise = ir::LevelBase::from_initial;
+    c.reference.value = value(*z);
+  }
+  c.bottom.given = true;
+  c.bottom.value = value(*depth);
+  c.bottom.base = ir::LevelBase::distance_mode;
+  c.bottom.otherwise = ir::LevelBase::from_reference;
+  if (const Word* k = words[index('K')]) {
+    c.dwell_bottom = value(*k);
+    c.dwell_scale = 0.01;
+  }
+  switch (code) {
+    case 69:
+      if (!variable_pecks(g, words, c)) return;
+      break;
+    case 83:
+      if (!equal_pecks(g, *words[index('J')], c)) return;
+      break;
+    case 84:
+      c.kind = ir::HoleKind::tap_floating;
+      if (const Word* r = words[index('R')]; r && (r->expr >= 0 || r->number != 0)) {
+        c.kind = ir::HoleKind::tap;
+        c.rigid = true;
+        if (r->expr >= 0 || r->number != 1) {
+          keep(g, "cycle.hole", the_function(*g.word) + " with another R than 0 or 1 is kept as text");
+          return;
+        }
+      }
+      break;
+    case 85: c.kind = ir::HoleKind::ream; break;
+    case 86: c.kind = ir::HoleKind::bore_stop; break;
+    case 89: c.kind = ir::HoleKind::bore; break;
+    default: break;
+  }
+  ir::CycleDefine define;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
+  act(std::move(define), g.word);
+}
+
+/// G83: bottom = reference + J * I; the tool feeds again from 1 mm above the last depth.
+bool BlockLowerer::equal_pecks(const GWord& g, const Word& count, ir::HoleCycle& c) {
+  if (!whole_from_one(count)) {
+    state_.error("FAG-014", g.word->pos, "G83 needs the number of pecks J, a whole number from 1");
+    return false;
+  }
+  const ir::Value peck = c.bottom.value, pecks = value(count);
+  c.kind = ir::HoleKind::peck_full;
+  c.bottom.base = ir::LevelBase::from_reference;
+  c.bottom.otherwise = ir::LevelBase::from_initial;
+  c.bottom.value = peck.literal() && pecks.literal()
+                       ? ir::Value(peck.number * pecks.number)
+                       : ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(peck), ir::as_expr(pecks)));
+  c.pecks.law = ir::PeckLaw::count;
+  c.pecks.first = magnitude(peck);
+  c.pecks.count = pecks;
+  c.pecks.reapproach = one_millimetre();
+  return true;
+}
+
+ir::Value BlockLowerer::one_millimetre() const {
+  return ir::Value(state_.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
+}
+
+/// G69: pecks B, R*B, R*R*B ... not below L (with R), from the surface D below the reference plane; dwell K after each.
+bool BlockLowerer::variable_pecks(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c) {
+  const auto word = [&words](char letter) { return words[index(letter)]; };
+  for (const char letter : std::string_view("BC")) {
+    const Word* w = word(letter);
+    if (w && w->expr < 0 && w->number <= 0) {
+      state_.error("FAG-013", w->pos, std::string("the ") + letter + " of G69 must be greater than zero (error 1042)");
+      return false;
+    }
+  }
+  c.kind = ir::HoleKind::peck_full;
+  c.pecks.law = ir::PeckLaw::constant;
+  c.pecks.first = value(*word('B'));
+  if (const Word* r = word('R'); r && (r->expr >= 0 || (r->number != 0 && r->number != 1))) {
+    c.pecks.law = ir::PeckLaw::geometric;
+    c.pecks.degression = value(*r);
+    if (const Word* l = word('L')) c.pecks.minimum = value(*l);
+  }
+  c.pecks.reapproach = word('C') ? value(*word('C')) : one_millimetre();
+  c.pecks.dwell = c.dwell_bottom;
+  const Word* d = word('D');
+  if (!d || (d->expr < 0 && d->number == 0)) return true;
+  // The surface lies D from the reference plane toward the bottom: downward, unless the words say otherwise.
+  const bool literal = d->expr < 0 && c.bottom.value.literal() && c.reference.value.literal();
+  if (!literal || c.reference.base != ir::LevelBase::distance_mode) {
+    keep(g, "cycle.hole", "the D of G69 beside a depth that only the run knows: the block is kept as text");
+    return false;
+  }
+  c.surface.given = true;
+  c.surface.base = ir::LevelBase::from_reference;
+  c.surface.value = ir::Value(c.bottom.value.number < c.reference.value.number ? -d->number : d->number);
+  c.pecks.first_from_surface = true;
+  return true;
+}
+
+// --- the lathe ------------------------------------------------------------------------------------------------------
+
+/// Behind the code of a machining cycle its letters are its own, whatever they mean elsewhere.
+bool BlockLowerer::gather_cycle_word(const Word& w, char c) {
+  if (w.extension >= 0 || !facts::find_letter(*cycle_row_, c)) return false;
+  const auto begin = cycle_words_.begin(), end = begin + static_cast<std::ptrdiff_t>(cycle_word_count_);
+  if (std::any_of(begin, end, [c](const Word* other) { return word_letter(*other) == c; })) {
+    state_.error("FAG-005", w.pos, std::string("the word ") + c + " stands twice in the block");
+    return true;
+  }
+  cycle_words_[cycle_word_count_++] = &w;
+  return true;
+}
+
+/// Ch. 9: runs once, where it is programmed. Most of them end the radius compensation.
+void BlockLowerer::machining_cycle(const GWord& g) {
+  cycle_ = true;
+  result_->needs_program = true;
+  ir::NamedCycle c;
+  c.name = std::string(cycle_row_->cycle);
+  std::uint32_t there = 0;
+  for (std::size_t i = 0; i < cycle_word_count_; ++i) {
+    const Word& w = *cycle_words_[i];
+    const auto* row = facts::find_letter(*cycle_row_, word_letter(w));
+    there |= bit(word_letter(w));
+    const bool label = row->parameter.ends_with("_label");
+    if (label &&
+        (w.expr >= 0 || w.number < 0 || w.number != std::floor(w.number) || w.number > facts::max_profile_label))
+      state_.error("FAG-015", w.pos, "a label of a profile is a fixed number from 0 to 9999");
+    c.words.emplace_back(std::string(row->parameter), value(w));
+  }
+  for (const auto& l : cycle_row_->letters) {
+    if (l.letter == 0 || !l.mandatory || (there & bit(l.letter)) != 0) continue;
+    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the word " + l.letter);
+    return;
+  }
+  const auto* machining = ir::cycles::find_machining(c.name);
+  ir::CycleDefine define;
+  define.modal = false;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
+  act(std::move(define), g.word);
+  if (!machining->ends_comp) return;
+  ir::ModalSet off;
+  off.setting = ir::Setting::comp;
+  off.value = static_cast<std::uint8_t>(ir::CompSide::off);
+  act(off, nullptr, ir::Order::after);
+  state_.comp_by_text = ir::CompSide::off;
+  if (!machining->ends_modes) return;
+  off.setting = ir::Setting::distance;
+  off.value = static_cast<std::uint8_t>(ir::Distance::absolute);
+  act(off, nullptr, ir::Order::after);
+}
+
+}  // namespace cnctrans::fagor

@@ -1,0 +1,212 @@
+// Machine data that a program can read and write.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "interpreter/block_machine.h"
+#include "interpreter/run_codes.h"
+
+namespace cnctrans::interpreter {
+
+namespace {
+
+using ir::Datum;
+
+std::string datum_key(const ir::SystemRef& ref, std::span<const double> args) {
+  std::string key = ref.text;
+  if (args.empty()) return key;
+  key += '[';
+  for (std::size_t i = 0; i < args.size(); ++i) key += (i == 0 ? "" : ",") + shortest(args[i]);
+  return key + "]";
+}
+const machine::Tool* tool_of(const machine::Profile& p, double number) {
+  const auto it = std::find_if(p.tools.begin(), p.tools.end(), [number](const auto& t) { return t.number == number; });
+  return it == p.tools.end() ? nullptr : &*it;
+}
+std::size_t slot_of(ir::FrameSlot s) {
+  return static_cast<std::size_t>(s);
+}
+double value_of(const ir::ModalState& state, int setting) {
+  if (setting == static_cast<int>(ir::setting_count)) return static_cast<double>(state.motion);
+  if (setting == static_cast<int>(ir::setting_count) + 1) return state.work_offset;
+  return setting >= 0 && setting < static_cast<int>(ir::setting_count)
+             ? static_cast<double>(state.get(static_cast<ir::Setting>(setting)))
+             : -1;
+}
+
+}  // namespace
+
+/// What the program wrote, what --set gave, what the profile says; a name with an index may be set without brackets.
+const double* BlockMachine::given_datum(const ir::SystemRef& ref, std::span<const double> args) const {
+  if (written_.empty() && profile_.data.empty()) return nullptr;
+  const std::string keys[] = {datum_key(ref, args), args.empty() ? ref.text : ref.text + shortest(args[0])};
+  for (const auto& k : keys) {
+    if (const auto it = written_.find(k); it != written_.end()) return &it->second;
+  }
+  for (const auto& k : keys) {
+    if (const auto it = profile_.data.find(k); it != profile_.data.end()) return &it->second;
+  }
+  return nullptr;
+}
+
+bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
+  if (const double* given = given_datum(ref, args)) {
+    out = *given;
+    return true;
+  }
+  if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length) {
+    // Another name of the control may have written the same datum.
+    const auto it = written_tools_.find({ref.datum, ref.axis, {args.begin(), args.end()}});
+    if (it != written_tools_.end()) {
+      out = it->second;
+      return true;
+    }
+  }
+  if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
+  return failure_.fail(code::no_datum,
+                       "the value of " + datum_key(ref, args) +
+                           " is known to the machine only; the profile's \"data\" or --set gives it one");
+}
+
+bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
+  const bool has_axis = ref.axis < ir::axis::count_max && axis_[ref.axis].present;
+  const double length = policy_.data_modal ? unit() : 1;
+  const auto along = [&](const Frame& f) { return (f.t[ref.axis]) / (axis_[ref.axis].rotary ? 1 : length); };
+  switch (ref.datum) {
+    case Datum::programmed_position:
+    case Datum::work_position:
+      if (!has_axis) return false;
+      out = p_[ref.axis] / axis_[ref.axis].scale_absolute;
+      return true;
+    case Datum::machine_position:
+      if (!has_axis) return false;
+      out = frame_.apply(p_)[ref.axis] / (policy_.data_modal || policy_.position_as_words ? axis_[ref.axis].scale_absolute : 1);
+      return true;
+    case Datum::work_offset: {
+      const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]));
+      out = 0;
+      if (row != work_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis) / length;
+      return true;
+    }
+    case Datum::active_offset: out = modal_.work_offset; return true;
+    case Datum::active_shift:
+      if (!has_axis) return false;
+      out = along(compose(offset_frame(), slots_[slot_of(ir::FrameSlot::preset)]));
+      return true;
+    case Datum::programmed_shift:
+      if (!has_axis) return false;
+      out = (frame_.t[ref.axis] - offset_frame().t[ref.axis]) / length;
+      return true;
+    case Datum::pole_first: out = pole_.u / axis_[ir::plane_axes(modal_.plane).u].scale_absolute; return true;
+    case Datum::pole_second: out = pole_.v / axis_[ir::plane_axes(modal_.plane).v].scale_absolute; return true;
+    default: return false;
+  }
+}
+
+bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
+  const auto* tool = tool_of(profile_, args.empty() ? tool_in_spindle_ : args[0]);
+  const double length = policy_.data_modal ? unit() : 1;
+  const auto feed = [&](ir::FeedMode m) {
+    const bool inch = m != ir::FeedMode::inverse_time && modal_.units == ir::Units::inch && modal_.units_feed_too;
+    return feed_[static_cast<std::size_t>(m)] / (inch ? 25.4 : 1);
+  };
+  const auto speed = [&](ir::SpindleMode m) { return spindles_[1].value[static_cast<std::size_t>(m)]; };
+  switch (ref.datum) {
+    case Datum::tool_number: out = tool_in_spindle_; return true;
+    case Datum::next_tool: out = tool_; return true;
+    case Datum::offset_number: out = offset_; return true;
+    case Datum::tool_length:
+      out = tool == nullptr ? 0 : (ref.axis == ir::axis::x ? tool->length_x : tool->length) / length;
+      return true;
+    case Datum::tool_radius: out = tool == nullptr ? 0 : tool->radius / length; return true;
+    case Datum::tool_nose: out = tool == nullptr ? 0 : tool->nose; return true;
+    case Datum::tool_nose_width: out = tool == nullptr ? 0 : tool->nose_width / length; return true;
+    case Datum::tool_wear:
+    case Datum::part_count:
+    case Datum::cycle_time: out = 0; return true;
+    case Datum::feed: out = feed_now() / feed_unit(); return true;
+    case Datum::feed_per_minute: out = feed(ir::FeedMode::per_minute); return true;
+    case Datum::feed_per_rev: out = feed(ir::FeedMode::per_rev); return true;
+    case Datum::feed_inverse_time: out = feed(ir::FeedMode::inverse_time); return true;
+    case Datum::spindle_speed: out = speed(spindles_[1].mode); return true;
+    case Datum::rpm: out = speed(ir::SpindleMode::rpm); return true;
+    case Datum::cutting_speed: out = speed(ir::SpindleMode::css); return true;
+    case Datum::spindle_limit: out = spindles_[1].has_limit ? spindles_[1].limit : 0; return true;
+    case Datum::spindle_state: {
+      const auto& s = spindles_[1];
+      out = args.size() == 2 && !s.oriented && static_cast<double>(s.state) == args[1] ? 1 : 0;
+      return true;
+    }
+    case Datum::feed_override: out = 100; return true;
+    default: return false;
+  }
+}
+
+bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
+  const auto order = [this](ir::AxisId a) { return std::find(axes_.begin(), axes_.end(), a) - axes_.begin(); };
+  const Frame& scale = slots_[slot_of(ir::FrameSlot::scale)];
+  const Frame& rotation = slots_[slot_of(ir::FrameSlot::rotation)];
+  const Frame& mirror = slots_[slot_of(ir::FrameSlot::mirror)];
+  const auto factor = [](const Frame& f, ir::AxisId a) { return a < 3 ? f.m[a][a] : f.d[a]; };
+  const auto plane = ir::plane_axes(modal_.plane);
+  switch (ref.datum) {
+    case Datum::call_has_argument:
+      out = static_cast<double>(args.empty() ? arguments_given
+                                             : ((arguments_given >> static_cast<unsigned>(args[0])) & 1U));
+      return true;
+    case Datum::active_modal:
+      if (args.size() != 3) return false;
+      out = value_of(modal_, static_cast<int>(args[1])) == args[2] ? 1 : 0;
+      return true;
+    case Datum::active_plane: out = static_cast<double>(16 * (order(plane.u) + 1) + order(plane.v) + 1); return true;
+    case Datum::mirrored_axes:
+      out = 0;
+      for (const auto a : axes_) out += factor(mirror, a) < 0 ? static_cast<double>(1U << order(a)) : 0;
+      return true;
+    case Datum::scale_factor: out = scale.m[0][0]; return true;
+    case Datum::axis_scale:
+      if (ref.axis >= ir::axis::count_max || !axis_[ref.axis].present) return false;
+      out = factor(scale, ref.axis);
+      return true;
+    case Datum::rotation_angle: {
+      const double angle =
+          std::atan2(rotation.m[plane.v][plane.u], rotation.m[plane.u][plane.u]) * 180 / std::acos(-1.0);
+      out = angle < -1e-12 ? angle + 360 : std::abs(angle);
+      return true;
+    }
+    case Datum::diameter_on: out = modal_.diameter == ir::DiameterMode::radius ? 0 : 1; return true;
+    default: return false;
+  }
+}
+
+bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
+  switch (ref.datum) {
+    case Datum::work_offset: {
+      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]);
+      const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
+      work_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
+      if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
+      active_offset_ = work_offsets_[row];
+      return rebuild_frame();
+    }
+    case Datum::diameter_on:
+      modal_.diameter = v != 0 ? ir::DiameterMode::diameter : ir::DiameterMode::radius;
+      set_units();
+      return true;
+    case Datum::programmed_position:
+    case Datum::machine_position:
+    case Datum::work_position:
+    case Datum::programmed_shift:
+    case Datum::active_shift:
+    case Datum::active_offset:
+      return failure_.fail(code::no_datum,
+                           "writing " + datum_key(ref, args) + " would move the machine's zero; it is not carried");
+    default: break;
+  }
+  written_[datum_key(ref, args)] = v;
+  if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length)
+    written_tools_[{ref.datum, ref.axis, {args.begin(), args.end()}}] = v;
+  return true;
+}
+
+}  // namespace cnctrans::interpreter

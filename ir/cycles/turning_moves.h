@@ -1,0 +1,88 @@
+// What the expansions of lathe cycles share: the two axes by their role, and the list of moves.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ir/cycles/machining.h"
+
+namespace cnctrans::ir::cycles::detail {
+
+inline constexpr double tiny = 1e-9;
+inline double sign(double v) {
+  return v < 0 ? -1 : 1;
+}
+
+/// A point by role: `p` along the infeed, `q` along the pass.
+struct RolePoint {
+  double p = 0, q = 0;
+};
+
+/// Writes moves given by roles. Moves that go nowhere are left out.
+class Roles {
+ public:
+  Roles(const MachiningCycle& cycle, const TurnNumbers& numbers, const TurnContext& context)
+      : face_(cycle.face), numbers_(numbers), at_(role(context.start)) {}
+
+  [[nodiscard]] bool has(std::string_view name) const { return numbers_.contains(name); }
+  [[nodiscard]] double number(std::string_view name, double otherwise = 0) const {
+    const auto it = numbers_.find(name);
+    return it == numbers_.end() ? otherwise : it->second;
+  }
+  [[nodiscard]] RolePoint point(std::string_view x, std::string_view z) const { return role({number(x), number(z)}); }
+  [[nodiscard]] RolePoint here() const { return at_; }
+
+  void rapid(RolePoint to) { go(TurnStep::rapid, to); }
+  void feed(RolePoint to, double f = 0) {
+    if (auto* m = go(TurnStep::feed, to)) set_feed(*m, f);
+  }
+  void arc(RolePoint to, RolePoint centre, double f = 0) {
+    const RolePoint from = at_;
+    auto* m = go(TurnStep::arc, to);
+    if (m == nullptr) return;
+    m->centre = plain(centre);
+    const TurnPoint a = plain(from);
+    m->ccw = (a.z - m->centre.z) * (m->to.x - m->centre.x) - (a.x - m->centre.x) * (m->to.z - m->centre.z) > 0;
+    set_feed(*m, f);
+  }
+  TurnMove* thread(RolePoint to) { return go(TurnStep::thread, to); }
+  void dwell(double seconds) {
+    if (seconds > 0) act(TurnStep::dwell).seconds = seconds;
+  }
+  TurnMove& act(TurnStep step) {
+    TurnMove m;
+    m.step = step;
+    m.to = plain(at_);
+    moves_.push_back(m);
+    return moves_.back();
+  }
+  std::vector<TurnMove> take() { return std::move(moves_); }
+
+ private:
+  [[nodiscard]] RolePoint role(TurnPoint t) const { return face_ ? RolePoint{t.z, t.x} : RolePoint{t.x, t.z}; }
+  [[nodiscard]] TurnPoint plain(RolePoint r) const { return face_ ? TurnPoint{r.q, r.p} : TurnPoint{r.p, r.q}; }
+  static void set_feed(TurnMove& m, double f) {
+    m.has_feed = f > 0;
+    m.feed = f;
+  }
+  TurnMove* go(TurnStep step, RolePoint to) {
+    if (std::abs(to.p - at_.p) < tiny && std::abs(to.q - at_.q) < tiny) return nullptr;
+    at_ = to;
+    return &act(step);
+  }
+
+  bool face_;
+  const TurnNumbers& numbers_;
+  RolePoint at_;
+  std::vector<TurnMove> moves_;
+};
+
+/// Each returns false with a sentence when the cycle makes no sense from here.
+bool straight_or_arc(bool arc, Roles& r, std::string* error);
+bool thread(Roles& r, std::string* error);
+bool groove(Roles& r, double nose_width, std::string* error);
+bool axial_drill(Roles& r, std::string* error);
+
+}  // namespace cnctrans::ir::cycles::detail
