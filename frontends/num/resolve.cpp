@@ -161,12 +161,13 @@ void Lowering::resolve_motion() {
   auto& m = out_->motion;
   if (marks_.cycle != nullptr) return define_cycle(*marks_.cycle);
   if (state_.cycle) {
-    if (marks_.motion && marks_.dwell == nullptr) {
-      report_.refuse("NUM-026", m.code_pos, "a motion function while a drilling cycle is active",
-                     "write G80 before it");
-      return;
-    }
-    if ((present_ & cycle_slots) != 0) return change_cycle();
+    if (marks_.motion && marks_.dwell == nullptr)
+      return report_.refuse("NUM-026", m.code_pos, "a motion function while a drilling cycle is active",
+                            "write G80 before it");
+    const bool moves_tool = m.frame == ir::FrameUse::normal &&
+                            std::any_of(m.coords.begin(), m.coords.end(),
+                                        [this](const ir::CoordWord& c) { return c.axis == cycle_axis(); });
+    if (moves_tool || (present_ & cycle_slots) != 0) return change_cycle();
   }
   if (marks_.three_points != nullptr) return through_points();
   if (marks_.thread != nullptr) return thread_segment();
