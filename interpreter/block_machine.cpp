@@ -20,6 +20,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
     return profile.option(option) == value;
   };
   policy_.cycle_rapid = is("cycle.positioning", "rapid");
+  policy_.modal_words = is("call.modal_words", "yes");
   policy_.rotary_triggers = is("cycle.rotary_triggers", "yes");
   policy_.keeps_programmed = is("frame.change_keeps", "programmed");
   policy_.centre_through_frame = is("frame.rotation_centre", "scaled_and_mirrored");
@@ -85,8 +86,17 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   path_event_.file = event_.file = where.file;
   path_event_.line = event_.line = where.line;
   block_moves_ = false;
+  // On some machines a word of the tool axis under a cycle would be the depth, which can't change there.
+  const auto axis_word = [&] {
+    if (!hole_ || !b.has_motion || b.motion.frame != ir::FrameUse::normal) return false;
+    const bool there = std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                                   [this](const ir::CoordWord& w) { return w.axis == hole_axis_; });
+    if (!there || profile_.option("cycle.axis_word") != "refused") return false;
+    failure_.fail(code::bad_cycle, "a word of the tool axis in a block while a drilling cycle is active");
+    return true;
+  };
   if (b.actions.empty()) {
-    if (b.has_motion && !motion(b, with_cycle)) return false;
+    if (axis_word() || (b.has_motion && !motion(b, with_cycle))) return false;
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;
   }
@@ -94,6 +104,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
+  if (!(cycle_defined_here_ && cycle_waits_) && axis_word()) return false;
   if (b.has_motion && !motion(b, with_cycle)) return false;
   if (block_corner_) {
     block_corner_.reset();

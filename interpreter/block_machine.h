@@ -46,6 +46,10 @@ class BlockMachine final : public SystemData {
   bool block(const ir::Block& b, const Span& where, bool with_cycle = true);
   /// The block just carried out was a path motion (for modal calls).
   [[nodiscard]] bool moved() const { return block_moves_; }
+  /// The block runs a modal subprogram: it moves, or has words that do the same on this machine.
+  [[nodiscard]] bool runs_modal_call(const ir::Block& b) const {
+    return block_moves_ || (policy_.modal_words && path_words(b));
+  }
   /// A cycle that runs after every later block with path motion; null ends it.
   bool modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here);
   void cancel_cycle() { hole_.reset(); }
@@ -82,7 +86,8 @@ class BlockMachine final : public SystemData {
   };
   /// Options of the profile, looked up once.
   struct Policies {
-    bool cycle_rapid = false, rotary_triggers = false, keeps_programmed = false, centre_through_frame = false;
+    bool cycle_rapid = false, rotary_triggers = false, modal_words = false, keeps_programmed = false,
+         centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
          start_angle_stays = false, position_as_words = false, machine_absolute = false, offsets_at_once = false;
     bool data_modal = false;  ///< machine data in the units of the program
@@ -196,6 +201,7 @@ class BlockMachine final : public SystemData {
   bool cycle_path(const ir::cycles::CycleMove& m, const Axes& hole);
   bool cycle_pitch(const ir::cycles::CycleMove& m, double& pitch);
   [[nodiscard]] bool cycle_triggers(const ir::Block& b) const;
+  [[nodiscard]] bool path_words(const ir::Block& b) const;
 
   const machine::Profile& profile_;
   Emitter& emitter_;

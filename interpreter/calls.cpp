@@ -125,7 +125,13 @@ void Runner::modal_call(const ir::ModalCall& m) {
 }
 
 void Runner::run_modal_call() {
+  const bool goes_on = modal_.keeps_locals;
   if (!enter(*modal_.flow, modal_.arguments, modal_.call->level, at_ + 1, 1)) return;
+  if (goes_on && calls_.back().opened_level) {
+    auto& level = variables_.level();
+    level.value = modal_.left_behind.value;
+    level.set = modal_.left_behind.set;
+  }
   calls_.back().modal = true;
   ++in_modal_;
   at_ = 0;
@@ -241,6 +247,7 @@ bool Runner::enter(Flow& callee, const std::vector<Bound>& arguments, ir::CallLe
   if (callee.routine->saves_modals) a.saved = machine_.modal();
   for (const auto& shape : callee.locals) a.locals.push_back({shape, false, {}});
   enter_top();
+  if (count > 1) a.arguments = arguments;
   const bool done = hand_over(arguments);
   machine_.arguments_given = variables_.level().arguments;
   return done;
@@ -308,12 +315,14 @@ void Runner::leave(bool returned) {
     state_ = State::ended;
     return;
   }
-  if (--a.left > 0) {
+  if (--a.left > 0) {  // what the last pass made of its parameters is gone
     enter_top();
-    at_ = a.entry;
+    const std::vector<Bound> arguments = a.arguments;
+    if (hand_over(arguments)) at_ = a.entry;
     return;
   }
   variables_.leave(a.locals, static_cast<std::uint32_t>(calls_.size() - 1));
+  if (a.modal && a.opened_level) modal_.left_behind = variables_.level();
   if (a.opened_level) variables_.pop_level();
   if (a.modal) --in_modal_;
   if (a.saved) machine_.restore_modal(*a.saved);

@@ -65,17 +65,21 @@ bool BlockMachine::modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigg
   return !here || run_cycle();
 }
 
+/// F, S or a bare motion code while rapid or linear motion is in force.
+bool BlockMachine::path_words(const ir::Block& b) const {
+  if (modal_.motion != ir::MotionKind::rapid && modal_.motion != ir::MotionKind::linear) return false;
+  if (b.has_motion && b.motion.explicit_code) return true;
+  for (const auto& a : b.actions) {
+    if (std::holds_alternative<ir::SetFeed>(a.data) || std::holds_alternative<ir::SetSpindle>(a.data)) return true;
+  }
+  return false;
+}
+
 bool BlockMachine::cycle_triggers(const ir::Block& b) const {
   const auto& m = b.motion;
   if (b.has_motion && m.frame != ir::FrameUse::normal) return false;
   if (trigger_ == ir::CycleTrigger::path_motion) {
-    if (b.has_motion && m.moves()) return true;
-    if (modal_.motion != ir::MotionKind::rapid && modal_.motion != ir::MotionKind::linear) return false;
-    if (b.has_motion && m.explicit_code) return true;
-    for (const auto& a : b.actions) {
-      if (std::holds_alternative<ir::SetFeed>(a.data) || std::holds_alternative<ir::SetSpindle>(a.data)) return true;
-    }
-    return false;
+    return (b.has_motion && m.moves()) || path_words(b);
   }
   if (!b.has_motion) return false;
   const auto plane = ir::plane_axes(modal_.plane);

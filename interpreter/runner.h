@@ -38,7 +38,8 @@ class Runner {
     std::int64_t left = 1;  ///< passes still to be done, this one included
     bool opened_level = false, modal = false;
     std::optional<ir::ModalState> saved;
-    std::size_t repeats = 0;  ///< open repeats below belong to callers
+    std::size_t repeats = 0;       ///< open repeats below belong to callers
+    std::vector<Bound> arguments;  ///< kept while passes are left: each starts from them
   };
   struct RepeatFrame {
     std::uint32_t begin = 0, end = 0, return_to = 0;
@@ -50,6 +51,8 @@ class Runner {
     const ir::CallRoutine* call = nullptr;
     Flow* flow = nullptr;
     std::vector<Bound> arguments;
+    bool keeps_locals = false;  ///< the run is a further one of a repeated block: it goes on with `left_behind`
+    Level left_behind;          ///< local parameters as the last run left them
   };
   enum class State : std::uint8_t { running, ended, failed, event_limit, step_limit };
 

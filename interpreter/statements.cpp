@@ -12,10 +12,10 @@ void Runner::block(Instruction& in) {
   const auto& b = std::get<ir::Block>(in.statement->node);
   const auto& where = in.statement->line.span;
   ++blocks_;
-  bool cycle = true;
+  bool cycle = true, again = false;
   if (b.repeat_given != 0) {
-    const bool again = !repeats_.empty() && repeats_.size() > calls_.back().repeats && repeats_.back().block &&
-                       repeats_.back().begin == at_;
+    again = !repeats_.empty() && repeats_.size() > calls_.back().repeats && repeats_.back().block &&
+            repeats_.back().begin == at_;
     if (!again) {
       const double n = std::round(b.repeat.expr ? evaluator_.number_of(b.repeat.expr) : b.repeat.number);
       if (failure_.set) return;
@@ -38,7 +38,8 @@ void Runner::block(Instruction& in) {
     state_ = State::event_limit;
     return;
   }
-  if (modal_.active && cycle && in_modal_ == 0 && machine_.moved()) {
+  if (modal_.active && cycle && in_modal_ == 0 && machine_.runs_modal_call(b)) {
+    modal_.keeps_locals = again;
     run_modal_call();
     return;
   }

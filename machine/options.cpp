@@ -11,6 +11,11 @@ constexpr std::array specs{
     // Read by the interpreter, whatever the control.
     OptionSpec{"calls.local_levels", "number", "0",
                "levels of own local parameters that may be open at once; 0: no limit"},
+    OptionSpec{"call.modal_words", "no|yes", "no",
+               "under a modal call of a subprogram, F, S and a bare G0 or G1 run it as well, without motion"},
+    OptionSpec{"call.saves_modals", "no|yes", "no", "a subprogram can give its caller the modal state back (SAVE)"},
+    OptionSpec{"cycle.axis_word", "moves|refused", "moves",
+               "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
     OptionSpec{"cycle.rotary_triggers", "no|yes", "no", "a rotary axis word alone runs the modal hole cycle too"},

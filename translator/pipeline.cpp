@@ -106,6 +106,29 @@ verifier::Verdict judge(const Replayed& source, const Replayed& target) {
   return verdict;
 }
 
+/// Two outputs of one name would overwrite each other. Case does not count: neither on the controls nor on many disks.
+bool names_differ(const std::vector<OutputText>& outputs, Diagnostics& diagnostics) {
+  std::set<std::string> seen;
+  bool good = true;
+  for (const auto& out : outputs) {
+    if (seen.insert(to_upper_ascii(out.name)).second) continue;
+    diagnostics.error("TRN-093", Span{}, "two parts of the translation would have the same name: " + out.name,
+                      "give one of the programs another name or number");
+    good = false;
+  }
+  return good;
+}
+
+/// A name that two routines of the translation share; empty: none. Only one of them could be reached.
+std::string shared_name(const ir::Program& program) {
+  for (const auto& r : program.routines) {
+    const auto* found = r.kind == ir::RoutineKind::sub && !r.name.empty() ? program.find(r.name) : &r;
+    if (found == nullptr || found == &r) continue;
+    return r.name.text.empty() ? std::to_string(r.name.number) : r.name.text;
+  }
+  return {};
+}
+
 void verify_outputs(TranslateResult& result, const ir::Program& source, const machine::Profile& source_profile,
                     Loader& loader, const Dialect& to, const machine::Profile& target_profile,
                     const TranslateOptions& options) {
@@ -137,6 +160,10 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
   b.start = verifier::start_of(target_profile);
   result.verified = true;
   result.verdict = judge(a, b);
+  if (const auto twice = shared_name(target); !twice.empty()) {
+    result.verdict.status = verifier::Status::not_replayable;
+    result.verdict.reason = "two programs of the translation have the same name: " + twice;
+  }
   result.target_files = target_loader.files();
   if (options.keep_traces) {
     result.source_trace = std::move(a.events);
@@ -252,6 +279,11 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
         encode_output(f.text, options.encoding.value_or(source->encoding()), options.eol.value_or(source->main_eol()),
                       source->has_bom() && !options.encoding, result.diagnostics);
     result.outputs.push_back(std::move(out));
+  }
+  if (!names_differ(result.outputs, result.diagnostics) && refused(result.diagnostics, options)) {
+    result.refused = true;
+    result.outputs.clear();
+    return result;
   }
   std::stable_partition(result.outputs.begin(), result.outputs.end(), [](const OutputText& o) { return o.main; });
   if (options.verify) verify_outputs(result, source_program, *source_profile, loader, *to, *target_profile, options);

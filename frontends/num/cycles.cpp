@@ -17,6 +17,14 @@ ir::AxisId Lowering::cycle_axis() const {
 }
 
 void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here) {
+  const auto below = [&cycle](const ir::Level& l) {
+    return l.given && l.base == ir::LevelBase::absolute && l.value.literal() && cycle->bottom.value.literal() &&
+           l.value.number < cycle->bottom.value.number;
+  };
+  if (below(cycle->retract) || below(cycle->reference)) {
+    report_.warn("NUM-041", at.pos,
+                 "a plane of this cycle lies below its depth: the tool goes there in rapid and drills upwards");
+  }
   ir::CycleDefine define;
   define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{*cycle});
   define.here = here;

@@ -112,6 +112,26 @@ bool axis_of_hole(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordP
   return true;
 }
 
+/// The dwells of CYCLE83: after a peck (DTB), before the next one (DTS), at the final depth (DTD, else DTB). Each is in
+/// seconds when positive and in revolutions when negative; one cycle carries one unit.
+bool dwells(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  const ir::Value peck = a.get("DTB"), top = a.get("DTS"), bottom = a.says("DTD") ? a.get("DTD") : a.get("DTB");
+  bool seconds = false, revolutions = false;
+  for (const ir::Value* v : {&peck, &top, &bottom}) {
+    seconds = seconds || !v->literal() || v->number > 0;
+    revolutions = revolutions || (v->literal() && v->number < 0);
+  }
+  if (seconds && revolutions) {
+    c.error("SIN-021", pos, "a dwell in revolutions next to dwells in seconds is not carried yet");
+    return false;
+  }
+  hole.pecks.dwell = absolute_value(peck);
+  hole.dwell_top = absolute_value(top);
+  hole.dwell_bottom = absolute_value(bottom);
+  hole.dwell_in_revolutions = revolutions;
+  return true;
+}
+
 bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
   const ir::Value vari = a.get("VARI");
   if (!vari.literal() || (vari.number != 0 && vari.number != 1)) {
@@ -139,8 +159,6 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
   if (!dam.literal())
     c.note("SIN-021", pos, "DAM is taken as an amount, not as a factor: its sign is known only when the program runs");
   p.minimum = a.get("MDEP");
-  p.dwell = a.get("DTB");
-  hole.dwell_top = a.get("DTS");
   if (hole.kind == ir::HoleKind::peck_break) {
     p.lift = a.says("VRT") ? a.get("VRT") : ir::Value(1);
   } else {
@@ -151,15 +169,7 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     p.has_first_feed_factor = true;
     p.first_feed_factor = a.get("FRF");
   }
-  if (a.says("DTD")) {
-    const ir::Value dtd = a.get("DTD");
-    if (dtd.literal() && dtd.number < 0) {
-      c.error("SIN-021", pos, "a final dwell in revolutions next to dwells in seconds is not carried yet");
-      return false;
-    }
-    hole.dwell_bottom = dtd;
-    hole.dwell_in_revolutions = false;
-  }
+  if (!dwells(a, hole, c, pos)) return false;
   return axis_of_hole(a, hole, c, pos);
 }
 
@@ -178,7 +188,7 @@ bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     hole.bottom = level(ir::negate(absolute_value(a.get("DP"))), ir::LevelBase::from_surface);
   }
   if (time == 2) {
-    hole.dwell_bottom = absolute_value(a.get("DTB"));
+    hole.dwell_bottom = absolute_value(hole.dwell_bottom);
     hole.dwell_in_revolutions = true;
   }
   return true;

@@ -89,7 +89,7 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     if (!native(*made)) return std::nullopt;
     return CyclePtr(std::move(made));
   };
-  HoleCycle h = with_absolute_levels(*hole, b, facts);
+  HoleCycle h = with_absolute_levels(*hole, b, facts, initial);
   if (h.retract.given && h.retract.base == h.reference.base && equal(h.retract.value, h.reference.value)) {
     h.approach_by_retract = false;  // both are one plane
   }
@@ -171,10 +171,11 @@ bool ToolHeight::keeps(const Statement& s) {
   const auto* m = std::get_if<ModalCall>(&s.node);
   return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
          std::holds_alternative<Label>(s.node) || std::holds_alternative<Declare>(s.node) ||
-         (m != nullptr && m->cycle != nullptr);
+         (m != nullptr && (m->cycle != nullptr || m->off));
 }
 
-void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless) {
+void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,
+                        std::optional<double> initial) {
   for (const auto& l : labels_on(s.line)) {
     if (uses_.is_target(l)) value_.reset();
   }
@@ -201,7 +202,7 @@ void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& 
   value_.reset();
   if (!w || !units) return;
   axis_ = *w;
-  const HoleCycle h = with_absolute_levels(*hole, *b, facts);
+  const HoleCycle h = with_absolute_levels(*hole, *b, facts, initial);
   if (h.retract.given && h.retract.base == LevelBase::absolute && h.retract.value.literal()) {
     value_ = h.retract.value.number * (*units == Units::inch ? 25.4 : 1);
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "ir/passes/early_passes.h"
 #include "ir/passes/passes.h"
 
 namespace cnctrans::ir {
@@ -17,6 +18,8 @@ struct Pass {
 constexpr std::array pipeline{
     Pass{"headings", passes::move_headings, false},
     Pass{"returns", passes::normalise_returns, false},
+    Pass{"range_ends", passes::mark_range_ends, false},
+    Pass{"saved_modals", passes::restore_modals, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},

@@ -118,17 +118,19 @@ class Levels {
       for (std::size_t v = 0; v < count_; ++v) {
         if (!mentioned_[r][v]) continue;
         Class& c = classes_[find(node(r, v))];
-        if (c.mentions.size() != 1) {
-          const bool in_main = std::any_of(c.members.begin(), c.members.end(), [this](std::size_t m) {
-            return program_.routines[m].kind == RoutineKind::main;
-          });
-          c.owner = in_main ? main_index() : *(c.roots.empty() ? c.mentions : c.roots).begin();
+        if (c.mentions.size() == 1) {
+          // Shared with callers that do not use it: still its own when nothing of the last call is looked at.
+          const bool alone = c.members.size() == 1 || (is_root(r) && !calls_.called_with(r, CallLevel::shared));
+          c.local = alone || !reads_first_(r, source_variable(v));
+        }
+        if (c.local) {
+          c.owner = r;
           continue;
         }
-        c.owner = r;
-        // Shared with callers that do not use it: still its own when nothing of the last call is looked at.
-        const bool alone = c.members.size() == 1 || (is_root(r) && !calls_.called_with(r, CallLevel::shared));
-        c.local = alone || !reads_first_(r, source_variable(v));
+        const bool in_main = std::any_of(c.members.begin(), c.members.end(), [this](std::size_t m) {
+          return program_.routines[m].kind == RoutineKind::main;
+        });
+        c.owner = in_main ? main_index() : *(c.roots.empty() ? c.mentions : c.roots).begin();
       }
     }
   }

@@ -1,8 +1,10 @@
 // Named variables of a routine and formal parameters, for a target without them: local parameters by letter where the
 // target has levels, else variables of the whole program, one for each routine (there is no recursion).
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "ir/passes/lower_calls.h"
 
@@ -27,6 +29,7 @@ class NamedLocals {
     for (std::size_t r = 0; r < infos_.size(); ++r) collect(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) place(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) rename(r);
+    find_changed();
     for (std::size_t r = 0; r < infos_.size(); ++r) rewrite(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) finish_signature(r);
   }
@@ -285,6 +288,7 @@ class NamedLocals {
                               ? &call.arguments[i]
                               : nullptr;
       ExprPtr value = a == nullptr ? p.default_value : a->value ? a->value : variable(a->reference);
+      if (p.type == Type::integer && !p.by_reference) value = whole(value);
       const VarRef& place = info.places.at(p.variable.name);
       if (place.space == program_.space(level_prefix)) {
         Argument letter;
@@ -306,13 +310,55 @@ class NamedLocals {
       out.push_back(std::move(s));
       return;
     }
-    if (call.count && !before.empty()) {
-      context_.diagnostics.warning(
-          "TRN-126", s.line.span, "the arguments are set once before all repetitions; the source sets them before each",
-          "make sure that the subprogram does not change its parameters");
+    const bool changed = std::any_of(before.begin(), before.end(),
+                                     [this](const auto& item) { return changed_.count(item.first.name) != 0; });
+    if (call.count && (changed || !behind.empty())) {
+      return each_pass(std::move(s), call, std::move(before), std::move(behind), out);
     }
     const LineInfo like = s.line;
     surround(out, assign_in_parallel(program_, like, std::move(before)), std::move(s), std::move(behind));
+  }
+
+  /// A parameter of whole numbers rounds what it is given.
+  static ExprPtr whole(const ExprPtr& value) {
+    if (!value || value->type == Type::integer || value->type == Type::boolean) return value;
+    if (const auto n = constant_value(value)) return number(std::round(*n));
+    Expr e;
+    e.type = Type::integer;
+    e.node = Call{Function::to_integer, {value}, RoundHalf::away};
+    return std::make_shared<const Expr>(std::move(e));
+  }
+  /// The subprogram changes a parameter: it is set before each pass, as in the source.
+  void each_pass(Statement&& s, CallRoutine& call, std::vector<std::pair<VarRef, ExprPtr>>&& values, Body&& behind,
+                 Body& out) {
+    const LineInfo like = s.line;
+    For loop;
+    loop.counter = VarRef{frame_space(program_), "N" + std::to_string(++passes_) + "@arguments", nullptr, {}};
+    loop.from = number(1);
+    loop.to = std::exchange(call.count, nullptr);
+    Statement inner = made(like, std::move(call));
+    surround(loop.body, assign_in_parallel(program_, like, std::move(values)), std::move(inner), std::move(behind));
+    s.node = std::move(loop);
+    out.push_back(std::move(s));
+  }
+  /// Parameters that some routine writes, directly or by handing them on by reference.
+  void find_changed() {
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        each_target(s, [this](const VarRef& v) {
+          if (!v.name.empty()) changed_.insert(v.name);
+        });
+        if (const auto* c = std::get_if<CallRoutine>(&s.node)) handed_on(*c);
+        if (const auto* m = std::get_if<ModalCall>(&s.node)) handed_on(m->call);
+      });
+    }
+  }
+  void handed_on(const CallRoutine& c) {
+    for (const auto& a : c.arguments) {
+      if (a.by_reference) changed_.insert(a.reference.name);
+      const auto* v = a.value ? as_variable(a.value) : nullptr;
+      if (v != nullptr) changed_.insert(v->name);  // the callee may take it by reference
+    }
   }
 
   /// Place of a parameter among those that become letters.
@@ -341,6 +387,8 @@ class NamedLocals {
   std::size_t level_size_ = 0;
   std::vector<Info> infos_;
   std::map<std::string, std::vector<std::int64_t>> sizes_;
+  std::set<std::string> changed_;
+  int passes_ = 0;
 };
 
 }  // namespace

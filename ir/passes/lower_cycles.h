@@ -32,8 +32,9 @@ class ToolHeight {
   explicit ToolHeight(LabelUses uses) : uses_(std::move(uses)) {}
   /// Statements other than blocks that leave the tool where it is and control in the text.
   static bool keeps(const Statement& s);
-  /// `ran`: the cycle that the block ran; null: none.
-  void follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless);
+  /// `ran`: the cycle that the block ran; null: none. `initial`: height at its definition in program units.
+  void follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,
+              std::optional<double> initial);
   [[nodiscard]] std::optional<double> at(AxisId axis) const { return axis == axis_ ? value_ : std::nullopt; }  ///< mm
 
  private:
@@ -50,6 +51,37 @@ std::optional<CycleDefine> take_definition(Block& b, WordPos& pos);
 bool take_cancel(Block& b);
 /// A block without a point at which a modal cycle by call runs all the same, on the controls that have it.
 bool disturbs_call(const Block& b);
+/// The cycle with its levels absolute or incremental by the mode at its definition, whatever holds at later points.
+CyclePtr with_fixed_bases(const CyclePtr& cycle, std::optional<Distance> distance);
+/// A height in the program's unit at the block.
+std::optional<double> in_units(std::optional<double> mm, const Block& b, const Facts& facts);
+/// A block with the count 0 under a cycle goes to its point and runs nothing.
+bool position_only(const Block& b);
+/// Something of a defining block stands before the new cycle is called: F, S, or a move that is no point.
+bool runs_old(const Block& b, bool point_here, bool here);
+/// The motion function by which the source goes to the point of the block.
+std::optional<MotionKind> way_to_hole(const Block& b, const Facts& facts, const LegaliseContext& context);
+/// Height of the tool along `w` before the block in mm, where the dataflow knows it.
+std::optional<double> height_mm(const Block& b, const Facts& facts, AxisId w);
+/// The tool axis of the cycle at the block; nullopt: no hole cycle, or the plane is not known.
+std::optional<AxisId> tool_axis(const CyclePtr& cycle, const Block& b, const Facts& facts);
+/// A word of the axis in a block that moves.
+bool moves_along(const Block& b, AxisId w);
+/// Height of the tool along `w` after the block in mm, where its words say it.
+std::optional<double> height_after(const Block& b, const Facts& facts, AxisId w);
+bool sets_retract_plane(const Block& b);
+/// The way to a hole: rapid on controls that always position so.
+void position_kind(Block& b, const LegaliseContext& context);
+/// The target's cycle positions in rapid by itself, and takes no motion code beside it.
+void by_itself(Block& b);
+/// A cycle that starts over its retract plane makes no detour: the tool stands there, or there is one plane only.
+/// `height` and the levels in program units.
+bool stands_right(const HoleCycle& c, std::optional<double> height);
+/// Writes the rapid out by which the source positions without a code.
+void position_rapid(Block& b, const LegaliseContext& context);
+/// Reports a word of the tool axis under a cycle, on a source machine where it would be the depth. `source`: the
+/// active cycle; null: not known by the text.
+void check_axis_word(const Statement& s, const Facts& facts, const CyclePtr& source, const LegaliseContext& context);
 /// Ends, starts and runs the target's cycle.
 Statement off_statement(const LineInfo& like, bool by_call);
 Statement on_statement(const LineInfo& like, const CyclePtr& cycle);

@@ -1,12 +1,11 @@
-// Repetitions (equivalences 20.4): ranges in place, blocks with a count, counts of calls, modal calls that the target
-// runs in another way.
+// Repetitions (equivalences 20.4): ranges in place, blocks with a count, counts of calls.
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "ir/passes/call_graph.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
+#include "ir/passes/lower_cycles.h"
 #include "ir/passes/passes.h"
 
 namespace cnctrans::ir::passes {
@@ -188,6 +187,7 @@ class RepeatPass {
 
   void block(Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
+    if (b.repeat.is(0) && uses_cycles(editor_.program)) return out.push_back(std::move(s));  // the cycles pass sees it
     const Value repeat = b.repeat;
     b.repeat_given = 0;
     b.repeat = Value{};
@@ -213,90 +213,7 @@ class RepeatPass {
   const Capabilities& target_;
 };
 
-/// Modal calls (a subprogram after every block with motion) for a target that has none, or runs them elsewhere.
-class ModalCalls {
- public:
-  ModalCalls(const LegaliseContext& context, const CallGraph& calls) : context_(context), calls_(calls) {}
-
-  void run(Body& body) {
-    Body out;
-    out.reserve(body.size());
-    for (auto& s : body) {
-      each_body(s, [this](Body& inner) { run(inner); });
-      one(std::move(s), out);
-    }
-    body = std::move(out);
-  }
-
- private:
-  void one(Statement&& s, Body& out) {
-    auto* m = std::get_if<ModalCall>(&s.node);
-    if (m != nullptr && !m->cycle) return definition(std::move(s), out);
-    const auto* b = std::get_if<Block>(&s.node);
-    const bool runs = active_ && b != nullptr && b->has_motion && b->motion.moves();
-    const LineInfo like = s.line;
-    out.push_back(std::move(s));
-    if (runs) out.push_back(made(like, *active_));
-  }
-
-  void definition(Statement&& s, Body& out) {
-    ModalCall m = std::get<ModalCall>(s.node);
-    if (m.off) {
-      if (!active_) {
-        out.push_back(std::move(s));
-        return;
-      }
-      active_.reset();
-      leave_line(std::move(s), out);
-      return;
-    }
-    const bool modal = context_.target.modal_call && !shared_too(m.call);
-    if (modal && context_.target.modal_call_here == m.here) {
-      active_.reset();
-      out.push_back(std::move(s));
-      return;
-    }
-    if (modal && m.here) {  // run once, then modal
-      const LineInfo like = s.line;
-      s.node = m.call;
-      out.push_back(std::move(s));
-      m.here = false;
-      active_.reset();
-      out.push_back(made(like, std::move(m)));
-      return;
-    }
-    active_ = m.call;
-    if (m.here) {
-      s.node = m.call;
-      out.push_back(std::move(s));
-    } else {
-      leave_line(std::move(s), out);
-    }
-  }
-  /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each
-  /// call.
-  bool shared_too(const CallRoutine& call) const {
-    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
-    return callee && !call.arguments.empty() && calls_.called_with(*callee, CallLevel::shared) &&
-           call.level == CallLevel::new_level;
-  }
-  static void leave_line(Statement&& s, Body& out) {
-    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
-    s.node = Label{};
-    out.push_back(std::move(s));
-  }
-
-  const LegaliseContext& context_;
-  const CallGraph& calls_;
-  std::optional<CallRoutine> active_;
-};
-
 }  // namespace
-
-void lower_modal_calls(Program& program, const LegaliseContext& context) {
-  const CallGraph calls(program);
-  for (auto& r : program.routines) ModalCalls(context, calls).run(r.body);
-}
 
 void lower_repeats(Program& program, const LegaliseContext& context) {
   for (auto& r : program.routines) {

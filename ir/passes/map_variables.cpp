@@ -234,6 +234,11 @@ class VariableMap {
         }))
       return false;
     if (plain[0] >= '0' && plain[0] <= '9') return false;
+    const std::size_t user = *info.routines.begin();
+    if (program_.routines[user].kind == RoutineKind::sub) {  // a name of its own would start anew with each call
+      const CallGraph calls(program_);
+      if (ReadFirst(program_, calls, false)(user, VarRef{key.first, key.second, nullptr, {}})) return false;
+    }
     if (plain.size() < 3 || !(plain[1] >= 'A' && plain[1] <= 'Z')) plain = "_" + plain;  // X1, R5: addresses
     SpaceId locals = 0;
     while (!(context_.target.spaces[locals].named() && context_.target.spaces[locals].scope == Scope::routine))

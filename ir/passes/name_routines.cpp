@@ -23,6 +23,35 @@ class RoutineNames {
  public:
   RoutineNames(Program& program, const LegaliseContext& context) : program_(program), context_(context) {}
 
+  /// Two subprograms of one name (a local and a global one): calls reach the first; the other gets a free number, so
+  /// that it can't take the first one's place.
+  void part_namesakes() {
+    for (const auto& r : program_.routines) {
+      if (r.name.number >= 0) used_.insert(r.name.number);
+      if (const auto n = digits_of(r.name.text); n >= 0) used_.insert(n);
+    }
+    for (auto& r : program_.routines) {
+      const Routine* reached = r.kind == RoutineKind::sub ? program_.find(r.name) : nullptr;
+      if (reached == nullptr || reached == &r || reached->kind != RoutineKind::sub) continue;
+      const std::int64_t n = free_number();
+      if (n < 0) {
+        context_.diagnostics.error("TRN-194", r.header.span, "no number is free for this subprogram");
+        continue;
+      }
+      context_.diagnostics.warning("TRN-186", r.header.span,
+                                   "a subprogram with a name that another one has already: calls reach the other "
+                                   "one; this one is written as " +
+                                       std::to_string(n),
+                                   "give one of them another number");
+      used_.insert(n);
+      if (context_.report != nullptr) {
+        context_.report->renamed.push_back({Renamed::Kind::routine, shown(r.name), std::to_string(n), {}});
+      }
+      r.name = RoutineName{n, {}};
+    }
+    used_.clear();
+  }
+
   void run() {
     std::set<std::int64_t> seen;
     for (auto& r : program_.routines) {
@@ -114,7 +143,9 @@ class RoutineNames {
 }  // namespace
 
 void name_routines(Program& program, const LegaliseContext& context) {
-  if (!context.target.named_routines) RoutineNames(program, context).run();
+  RoutineNames names(program, context);
+  names.part_namesakes();
+  if (!context.target.named_routines) names.run();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -31,6 +31,7 @@ class LabelPass {
     std::size_t position = 0;
     LabelRef label;
     bool used = false, range = false;
+    bool hidden = false;  ///< another block with the same label is found first
     std::optional<LabelRef> renamed;
   };
   struct Use {
@@ -46,7 +47,7 @@ class LabelPass {
     for_each_statement(routine_.body, [&](Statement& s) {
       ++position;
       positions_[&s] = position;
-      for (const auto& l : labels_on(s.line)) marks_.push_back({&s, position, l, false, false, std::nullopt});
+      for (const auto& l : labels_on(s.line)) marks_.push_back({&s, position, l, false, false, false, std::nullopt});
     });
     for_each_statement(routine_.body, [&](Statement& s) {
       each_label_ref(s, [&](LabelRef& l, bool) {
@@ -143,6 +144,7 @@ class LabelPass {
       Mark& m = marks_[i];
       const auto key = std::make_pair(m.label.is_number, m.label.text);
       const bool duplicate = !seen.emplace(key, i).second;
+      m.hidden = duplicate;
       if (!m.used && !(computed_ && m.label.is_number)) {
         drop_if_needed(m, duplicate);
         continue;
@@ -194,7 +196,9 @@ class LabelPass {
       const bool dropped = m.renamed->text.empty();
       if (m.label.is_number) {
         // The number of a block that got a name as well stays for the eye where the target numbers its blocks freely.
-        if (dropped || m.renamed->is_number || !target_.duplicate_labels) line.number = {};
+        // Not so where a computed jump would find it instead of the first one.
+        const bool found_too = m.hidden && computed_;
+        if (dropped || m.renamed->is_number || !target_.duplicate_labels || found_too) line.number = {};
       } else {
         std::erase_if(line.labels,
                       [&](std::string_view l) { return same_label(label_of(std::string(l), false), m.label); });

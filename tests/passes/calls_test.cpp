@@ -46,6 +46,62 @@ TEST(Calls, SharedLevelSeesTheCallersVariables) {
   EXPECT_EQ(difference(text, structured_target()), "");
 }
 
+TEST(Calls, NamesakesArePartedAndCallsReachTheFirst) {
+  // A local and a global subprogram 10: X10 comes from the first, the other keeps a place of its own.
+  const std::string text = letters_source + R"(routine main 1 {
+    call 10
+    call 20
+    end_program
+  }
+  routine sub 10 {
+    block rapid X 10
+    return
+  }
+  routine sub 10 {
+    block rapid X 99
+    return
+  }
+  routine sub 20 {
+    call 10
+    block rapid Y 5
+    return
+  })";
+  for (const auto& target : {chain_target(), structured_target()}) {
+    EXPECT_EQ(difference(text, target), "");
+    const auto r = legalise(text, target);
+    EXPECT_TRUE(has_code(r.diagnostics, "TRN-186"));
+    for (const auto& routine : r.program.routines) EXPECT_EQ(r.program.find(routine.name), &routine);
+  }
+}
+
+TEST(Calls, VariableOfTheCallersLevelOutlivesTheCalledRoutine) {
+  // 5 counts P3 on the main program's level: Y1, Y2. 7 does so on its own level for 6: Y1, Y2, and again Y1, Y2.
+  EXPECT_EQ(difference(letters_source + R"(routine main 1 {
+    call 5
+    call 5
+    call 7 new_level
+    call 7 new_level
+    end_program
+  }
+  routine sub 5 {
+    set P[3] = P[3] + 1
+    block rapid Y (P[3])
+    return
+  }
+  routine sub 7 {
+    call 6
+    call 6
+    return
+  }
+  routine sub 6 {
+    set P[4] = P[4] + 1
+    block rapid Y (P[4])
+    return
+  })",
+                       structured_target()),
+            "");
+}
+
 TEST(Calls, TwoLevelsShareOneHelper) {
   // 6 works once on the main program's P3 and once on that of 5: the outer one must survive.
   const std::string text = letters_source + R"(routine main 1 {

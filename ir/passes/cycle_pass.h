@@ -1,0 +1,275 @@
+// One run of the cycle pass over a routine.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "ir/passes/blocks.h"
+#include "ir/passes/lower_cycles.h"
+
+namespace cnctrans::ir::passes {
+
+class CyclePass {
+ public:
+  CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
+      : program_(program),
+        context_(context),
+        facts_(facts),
+        editor_(program, routine, context),
+        height_(label_uses(program, routine)) {
+    by_call_ = context.target.modal_cycle_by_call;
+  }
+
+  void run() {
+    Body out;
+    walk(editor_.routine.body, out);
+    editor_.routine.body = std::move(out);
+  }
+
+ private:
+  struct Active {
+    CyclePtr source;
+    CyclePtr native;  ///< null: written out
+    CycleTrigger trigger = CycleTrigger::plane_axis_word;
+    bool on_target = false;            ///< the target's own cycle is in force
+    std::optional<double> defined_at;  ///< height of the tool at the definition, mm
+    std::optional<double> height;      ///< of the tool over the holes, mm
+  };
+
+  void walk(Body& body, Body& out) {
+    out.reserve(body.size());
+    for (auto& s : body) {
+      each_body(s, [this](Body& inner) {
+        Body nested;
+        walk(inner, nested);
+        inner = std::move(nested);
+      });
+      one(std::move(s), out);
+    }
+  }
+
+  void one(Statement&& s, Body& out) {
+    const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
+    const bool harmless = ToolHeight::keeps(s);
+    const std::size_t first = out.size();
+    ran_.reset();
+    const auto* source = std::get_if<Block>(&seen.node);
+    lower(std::move(s), out);
+    for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
+    const auto* b = std::get_if<Block>(&seen.node);
+    if (!ran_ && active_ && b != nullptr && !position_only(*b) && triggers(*b, facts_.before(seen))) ran_ = active_;
+    std::optional<double> initial;
+    if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
+    height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
+  }
+  void lower(Statement&& s, Body& out) {
+    if (auto* m = std::get_if<ModalCall>(&s.node)) {
+      if (m->off && active_) return cancel_statement(std::move(s), out);
+      if (m->off && !by_call_ && !context_.target.modal_call && facts_.before(s).modal_call == 0) {
+        // Only a cycle can be meant, or nothing.
+        const bool nothing = facts_.before(s).cycle_active_known && !facts_.before(s).cycle_active;
+        const bool bare = s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
+        if (nothing && bare) return;
+        if (nothing) {
+          s.node = Label{};
+        } else {
+          Block b;
+          b.actions.push_back(action(CycleCancel{}));
+          s.node = std::move(b);
+        }
+        out.push_back(std::move(s));
+        return;
+      }
+      if (!m->off && m->cycle) return modal_call(std::move(s), out);
+    }
+    if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
+    if (active_ && !active_->native &&
+        (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
+      context_.diagnostics.error(
+          "TRN-331", s.line.span,
+          "a call or a repeated part while a cycle is active that the target lacks: which holes it drills "
+          "can't be seen here",
+          "cancel the cycle before the call");
+    }
+    out.push_back(std::move(s));
+  }
+
+  void put(Body& out, Body&& pieces, Statement&& s) {
+    const std::size_t main = pieces.size();
+    pieces.push_back(std::move(s));
+    put_group(out, std::move(pieces), main);
+  }
+  void put_group(Body& out, Body&& pieces, std::size_t main) {
+    if (!late_.empty()) {
+      Block behind;
+      behind.actions = std::exchange(late_, {});
+      pieces.push_back(made(pieces[main].line, std::move(behind)));
+    }
+    editor_.put_group(out, std::move(pieces), main);
+  }
+  /// What acts after the motion acts after the hole: behind all its pieces.
+  void hold_back(Block& b, bool native) {
+    const bool stays = native && (!by_call_ || std::none_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+                         return a.order == Order::after && makes_event(a);
+                       }));
+    if (!stays) late_ = take_after(b);
+  }
+
+  // --- definitions ----------------------------------------------------------------------------------------------
+
+  Active define(const CyclePtr& cycle, CycleTrigger trigger, const Block& b, const Facts& facts) const {
+    Active a;
+    a.source = with_fixed_bases(cycle, setting_in<Distance>(b, facts, Setting::distance));
+    a.trigger = trigger;
+    const auto w = tool_axis(cycle, b, facts);
+    if (w) a.height = height_mm(b, facts, *w);
+    if (!a.height && w) a.height = height_.at(*w);
+    a.defined_at = a.height;
+    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts))) a.native = *native;
+    return a;
+  }
+  void cancel_statement(Statement&& s, Body& out) {
+    const bool on = active_->on_target;
+    active_.reset();
+    if (on) {
+      if (!by_call_) {
+        Block b;
+        b.actions.push_back(action(CycleCancel{}));
+        s.node = std::move(b);
+      }
+      out.push_back(std::move(s));
+      return;
+    }
+    leave_line(std::move(s), out);
+  }
+
+  static void leave_line(Statement&& s, Body& out) {
+    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+    s.node = Label{};
+    out.push_back(std::move(s));
+  }
+
+  /// `MCALL CYCLE..`: the cycle runs at later points.
+  void modal_call(Statement&& s, Body& out) {
+    const ModalCall m = std::get<ModalCall>(s.node);
+    active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
+    if (by_call_ && active_->native) {
+      std::get<ModalCall>(s.node).cycle = active_->native;
+      active_->on_target = true;
+      out.push_back(std::move(s));
+      return;
+    }
+    // The target defines and runs in one: each point gets its own.
+    leave_line(std::move(s), out);
+  }
+
+  // --- blocks ---------------------------------------------------------------------------------------------------
+
+  void block(Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    WordPos pos;
+    if (position_only(b)) return position(std::move(s), out);
+    check_axis_word(s, facts_.before(s), active_ ? active_->source : nullptr, context_);
+    const bool cancelled = take_cancel(b);
+    const auto definition = take_definition(b, pos);
+    Body pieces;
+    if (cancelled) cancel(s, b, definition.has_value(), pieces);
+    if (definition) {
+      define_in_block(std::move(s), *definition, std::move(pieces), out);
+      return;
+    }
+    if (active_) {
+      point(std::move(s), std::move(pieces), out);
+      return;
+    }
+    if (b.empty() && !pieces.empty()) {
+      pieces.back().line = s.line;
+      out.push_back(std::move(pieces.back()));
+      return;
+    }
+    put(out, std::move(pieces), std::move(s));
+  }
+
+  /// The move to a point without the cycle.
+  void position(Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    b.repeat_given = 0;
+    b.repeat = Value{};
+    const Facts& facts = facts_.before(s);
+    const bool none = facts.cycle_active_known && !facts.cycle_active;
+    if (!active_ && !none) {
+      refuse(s, program_, context_, "TRN-199",
+             "a block that only positions and leaves the active cycle out: which cycle that is can't be seen here",
+             "cancel the cycle before the block");
+      out.push_back(std::move(s));
+      return;
+    }
+    Body pieces;
+    const LineInfo like = s.line;
+    const bool on = active_ && active_->on_target;
+    if (on) pieces.push_back(off_statement(like, by_call_));
+    const std::size_t main = pieces.size();
+    pieces.push_back(std::move(s));
+    if (on && by_call_)
+      pieces.push_back(on_statement(like, active_->native));
+    else if (on)
+      active_->on_target = false;  // the next point defines it again
+    put_group(out, std::move(pieces), main);
+  }
+
+  void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
+    // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
+    const Facts& facts = facts_.before(s);
+    const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
+    const bool on = active_ ? active_->on_target : !defines_again && !written_out_ && !none;
+    active_.reset();
+    if (!on || defines_again) return;
+    if (by_call_)
+      pieces.push_back(off_statement(s.line, true));
+    else
+      b.actions.insert(b.actions.begin(), action(CycleCancel{}));
+  }
+
+  void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
+  void define_by_call(Statement&& s, const CycleDefine& d, Active&& a, bool point_here, Body&& pieces, Body& out);
+
+  bool triggers(const Block& b, const Facts& facts) const {
+    if (active_->trigger == CycleTrigger::path_motion) {
+      if (b.has_motion && b.motion.frame != FrameUse::normal) return false;
+      if (b.has_motion && b.motion.moves()) return true;
+      const auto kind = motion_in(b, facts);  // a bare G0 or G1, and F or S under one of them, run it as well
+      if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return false;
+      return disturbs_call(b);
+    }
+    if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
+    const auto w = tool_axis(active_->source, b, facts);
+    return !w || has_plane_word(b, *w);
+  }
+
+  /// A block while a cycle is active.
+  void point(Statement&& s, Body&& pieces, Body& out);
+
+  /// A point on a target that defines the cycle in the block of its first point.
+  void native_point(Statement&& s, Body&& pieces, Body& out);
+
+  void plain(Statement&& s, Body&& pieces, Body& out);
+
+  /// A new retract plane while the cycle is active is a new cycle. True: the target's own one has changed.
+  bool follow_retract_plane(const Block& b, const Facts& facts);
+
+  // --- written out ----------------------------------------------------------------------------------------------
+
+  void write_out(Statement&& s, Body&& pieces, Body& out);
+  Program& program_;
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  Editor editor_;
+  ToolHeight height_;
+  bool by_call_ = false;
+  bool written_out_ = false;
+  std::optional<Active> active_;
+  std::vector<Action> late_;   ///< of the block at hand, behind the hole
+  std::optional<Active> ran_;  ///< what the block at hand runs by its definition
+};
+
+}  // namespace cnctrans::ir::passes

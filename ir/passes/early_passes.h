@@ -1,0 +1,13 @@
+// Passes that say plainly, before all others, what the source leaves to its control.
+#pragma once
+
+#include "ir/passes/legalise.h"
+
+namespace cnctrans::ir::passes {
+
+/// The end of a repeated range stands on the last statement that its source line became.
+void mark_range_ends(Program& program, const LegaliseContext& context);
+/// A routine that saves the modal state of its caller writes it back before its returns, for a target without that.
+void restore_modals(Program& program, const LegaliseContext& context);
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,285 @@
+// Modal calls of subprograms (equivalences 21.2): where the target has none, runs them at other blocks, or starts them
+// otherwise.
+#include <algorithm>
+
+#include "ir/passes/call_graph.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// On this machine F, S and a bare motion code run a modal subprogram as well.
+bool words_run(const machine::Profile& machine) {
+  return machine.option("call.modal_words") == "yes";
+}
+
+class ModalCalls {
+ public:
+  ModalCalls(Program& program, const LegaliseContext& context, const CallGraph& calls, const FactsOf& facts)
+      : program_(program), context_(context), calls_(calls), facts_(facts), reads_first_(program, calls, false) {
+    for (const auto& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* m = std::get_if<ModalCall>(&s.node);
+        by_calls_ = by_calls_ || (m != nullptr && m->cycle != nullptr);
+      });
+    }
+  }
+
+  void run(Routine& routine) {
+    active_.reset();
+    on_target_.reset();
+    Editor editor(program_, routine, context_);
+    editor_ = &editor;
+    uses_ = label_uses(program_, routine);
+    walk(routine.body);
+  }
+
+ private:
+  void walk(Body& body) {
+    Body out;
+    out.reserve(body.size());
+    for (auto& s : body) {
+      each_body(s, [this](Body& inner) { walk(inner); });
+      one(std::move(s), out);
+    }
+    body = std::move(out);
+  }
+  bool is_target(const Statement& s) const {
+    const auto labels = labels_on(s.line);
+    return std::any_of(labels.begin(), labels.end(), [this](const LabelRef& l) { return uses_.is_target(l); });
+  }
+  /// The last statement switched the target's call on again, and nothing has run since: it is taken back.
+  bool take_back_on(const Statement& next, Body& out) {
+    if (wrapped_in_ != &out || out.size() != wrapped_size_ || is_target(next)) return false;
+    out.pop_back();
+    return true;
+  }
+
+  /// Whether the block runs the subprogram, on a machine where words alone do so or not.
+  bool runs(const Block& b, const Facts& facts, bool by_words) const {
+    if (b.has_motion && b.motion.moves()) return true;
+    if (!by_words) return false;
+    const auto kind = motion_in(b, facts);
+    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return false;
+    if (b.has_motion && b.motion.explicit_code) return true;
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+    });
+  }
+
+  void one(Statement&& s, Body& out) {
+    auto* m = std::get_if<ModalCall>(&s.node);
+    if (m != nullptr && !m->cycle) return definition(std::move(s), out);
+    auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr || (!active_ && !on_target_)) {
+      out.push_back(std::move(s));
+      return;
+    }
+    const bool only_moves = b->repeat_given != 0 && b->repeat.is(0);
+    if (only_moves) {
+      b->repeat_given = 0;
+      b->repeat = Value{};
+    }
+    const bool in_source = !only_moves && runs(*b, facts_.before(s), words_run(context_.source_machine));
+    if (b->repeat_given != 0 && in_source) goes_on_with_locals(s, active_ ? *active_ : on_target_->call);
+    if (active_) return in_source ? written_out(std::move(s), out) : out.push_back(std::move(s));
+    const bool in_target = runs(*b, facts_.before(s), words_run(context_.target_machine));
+    if (in_source || !in_target) {
+      out.push_back(std::move(s));
+      return;
+    }
+    // The target would run the subprogram here.
+    if (!fixed_arguments(on_target_->call)) {
+      context_.diagnostics.error("TRN-188", s.line.span,
+                                 "the target would run the modal subprogram at this block too, and its arguments are "
+                                 "computed: it can't be switched off and on again here",
+                                 "write the block before the modal call or after its end");
+    }
+    const LineInfo like = s.line;
+    if (!take_back_on(s, out)) {
+      Statement off = made(like, off_call());
+      move_head(s.line, off.line);
+      out.push_back(std::move(off));
+    }
+    out.push_back(std::move(s));
+    out.push_back(made(like, *on_target_));
+    wrapped_in_ = &out;
+    wrapped_size_ = out.size();
+  }
+  static ModalCall off_call() {
+    ModalCall off;
+    off.off = true;
+    return off;
+  }
+  static bool fixed_arguments(const CallRoutine& call) {
+    return std::all_of(call.arguments.begin(), call.arguments.end(),
+                       [](const Argument& a) { return !a.by_reference && (!a.value || constant_value(a.value)); });
+  }
+
+  /// A block with its call behind it; a repeat count repeats both.
+  void written_out(Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const LineInfo like = s.line;
+    Body pieces;
+    if (b.repeat_given == 0) {
+      pieces.push_back(std::move(s));
+      pieces.push_back(made(like, *active_));
+      return editor_->put_group(out, std::move(pieces), 0);
+    }
+    const Value count = b.repeat;
+    b.repeat_given = 0;
+    b.repeat = Value{};
+    constexpr double most_copies = 5;
+    if (count.literal() && count.number <= most_copies) {
+      const Block copy = b;
+      pieces.push_back(std::move(s));
+      pieces.push_back(made(like, *active_));
+      for (double i = 1; i < count.number; ++i) {
+        pieces.push_back(made(like, copy));
+        pieces.push_back(made(like, *active_));
+      }
+      return editor_->put_group(out, std::move(pieces), 0);
+    }
+    For loop;
+    loop.counter = VarRef{frame_space(program_), "N" + std::to_string(++loops_) + "@modal", nullptr, {}};
+    loop.from = number(1);
+    loop.to = count.literal() ? number(count.number) : count.expr;
+    loop.body.push_back(made(like, std::move(b)));
+    loop.body.back().line.comments = s.line.comments;
+    loop.body.push_back(made(like, *active_));
+    s.line.comments.clear();
+    s.node = std::move(loop);
+    out.push_back(std::move(s));
+  }
+
+  /// The runs of a repeated block go on with the local parameters as the last run left them: that can't be said by
+  /// calls that each start from the arguments.
+  void goes_on_with_locals(const Statement& s, const CallRoutine& call) {
+    const auto& b = std::get<Block>(s.node);
+    if (call.level != CallLevel::new_level || (b.repeat.literal() && b.repeat.number < 2)) return;
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    if (!callee) return;
+    bool found = false;
+    for_each_statement(program_.routines[*callee].body, [&](const Statement& inner) {
+      each_target(inner, [&](const VarRef& v) {
+        const auto* segment = segment_of(program_, v);
+        found = found || (segment != nullptr && segment->scope == Scope::level && reads_first_(*callee, v));
+      });
+    });
+    if (!found) return;
+    context_.diagnostics.error("TRN-187", s.line.span,
+                               "the repetitions of this block run the modal subprogram with the local parameters that "
+                               "the run before left; in the target each run starts from the arguments",
+                               "write the repetitions as calls with their own arguments");
+  }
+
+  void definition(Statement&& s, Body& out) {
+    ModalCall m = std::get<ModalCall>(s.node);
+    if (m.off) {
+      if (!active_) {
+        on_target_.reset();
+        if (take_back_on(s, out)) return leave_line(std::move(s), out);
+        out.push_back(std::move(s));
+        return;
+      }
+      active_.reset();
+      leave_line(std::move(s), out);
+      return;
+    }
+    const bool modal = context_.target.modal_call && !shared_too(m.call);
+    const LineInfo like = s.line;
+    if (take_back_on(s, out)) on_target_.reset();
+    end_cycle(s, modal && (m.here || context_.target.modal_call_here == m.here), out);
+    if (modal && context_.target.modal_call_here == m.here) {
+      active_.reset();
+      on_target_ = m;
+      out.push_back(std::move(s));
+      return;
+    }
+    // Another subprogram may still be modal on the target: the motions of this run would run it.
+    const bool ends_other = m.here && context_.target.modal_call && on_target_;
+    if (ends_other) {
+      Statement off = made(like, off_call());
+      move_head(s.line, off.line);
+      out.push_back(std::move(off));
+    }
+    on_target_.reset();
+    if (modal && m.here) {  // run once, then modal
+      s.node = m.call;
+      out.push_back(std::move(s));
+      m.here = false;
+      active_.reset();
+      on_target_ = m;
+      out.push_back(made(like, std::move(m)));
+      return;
+    }
+    active_ = m.call;
+    if (m.here) {
+      s.node = m.call;
+      out.push_back(std::move(s));
+    } else {
+      leave_line(std::move(s), out);
+    }
+  }
+  /// A modal subprogram ends a modal cycle; written out it leaves no word that would.
+  void end_cycle(Statement& s, bool stays_modal, Body& out) const {
+    const Facts& facts = facts_.before(s);
+    if (stays_modal || (facts.cycle_active_known && !facts.cycle_active) || !by_calls_) return;
+    Statement off = made(s.line, off_call());
+    move_head(s.line, off.line);
+    out.push_back(std::move(off));
+  }
+  /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each
+  /// call.
+  bool shared_too(const CallRoutine& call) const {
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    return callee && !call.arguments.empty() && calls_.called_with(*callee, CallLevel::shared) &&
+           call.level == CallLevel::new_level;
+  }
+  static void leave_line(Statement&& s, Body& out) {
+    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+    s.node = Label{};
+    out.push_back(std::move(s));
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const CallGraph& calls_;
+  const FactsOf& facts_;
+  ReadFirst reads_first_;
+  Editor* editor_ = nullptr;
+  LabelUses uses_;
+  std::optional<CallRoutine> active_;   ///< written out after each block
+  std::optional<ModalCall> on_target_;  ///< the target's own one is in force
+  const Body* wrapped_in_ = nullptr;    ///< where the target's call was last switched on again
+  std::size_t wrapped_size_ = 0;
+  bool by_calls_ = false;  ///< the program has cycles that are modal by call
+  int loops_ = 0;
+};
+
+bool has_modal_calls(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      found = found || (m != nullptr && !m->off && !m->cycle);
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void lower_modal_calls(Program& program, const LegaliseContext& context) {
+  if (!has_modal_calls(program)) return;
+  const FactsOf facts(program, context);
+  const CallGraph calls(program);
+  ModalCalls pass(program, context, calls, facts);
+  for (auto& r : program.routines) pass.run(r);
+}
+
+}  // namespace cnctrans::ir::passes
