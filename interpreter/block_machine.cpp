@@ -160,6 +160,7 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
   if (!written_.empty()) {
     if (const auto it = written_.find(datum_key(ref, args)); it != written_.end()) {
       out = it->second;
+      if (!unread_.empty()) unread_.erase(it->first);
       return true;
     }
   }

@@ -75,6 +75,7 @@ class StreamTranslation {
     source_encoding_ = windows.encoding;
     if (encoding_ != source_encoding_) return give_up();
     const FileId file = result_.files.add_name(path);
+    if (windows.encoding != Encoding::utf8) note_encoding(windows.first, 1, file, diagnostics_);
     const frontends::ReadOptions read{options_.reader, &source_};
     reader_ = from_.frontend->stream(file, read, path);
     backends::WriteOptions write;
@@ -328,7 +329,12 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   std::string_view window = windows.first;
   std::uint32_t number = 0;
   bool going = true;
+  bool utf8 = true;
   while (!window.empty()) {
+    if (utf8 && !valid_utf8(window)) {
+      utf8 = false;
+      note_encoding(window, number + 1, file, run.diagnostics);
+    }
     SourceLine line;
     while (take_line(window, line)) {
       line.number = ++number;
