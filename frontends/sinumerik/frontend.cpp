@@ -176,13 +176,14 @@ void FileReading::unread(const syntax::Block& block, ir::LineInfo info) {
 
 void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
   if (!WordLowering::is_motion_block(block)) {
-    if (statements_.lower(block, std::move(info))) ++stats_.blocks_read;
+    if (statements_.lower(block, std::move(info)) || context_.only_kept()) ++stats_.blocks_read;
     return;
   }
   ir::Statement s;
   auto& node = s.node.emplace<ir::Block>();
   if (!words_.lower(block, node)) {
     statements_.add_opaque(block, std::move(info), words_.feature(), false);
+    if (context_.only_kept()) ++stats_.blocks_read;
     return;
   }
   ++stats_.blocks_read;
@@ -212,7 +213,7 @@ void FileReading::take(const SourceLine& line) {
   }
   context_.line = line_span(context_.file, line);
   context_.text = line.text;
-  context_.errors = 0;
+  context_.errors = context_.kept = 0;
   const LineReader::Result result = reader_.read(line.text, block_);
   if (reader_.scanned()) ++stats_.scanner_blocks;
   if (!reader_.difference().empty()) {
@@ -237,7 +238,7 @@ void FileReading::take(const SourceLine& line) {
   ++stats_.blocks;
   if (result == LineReader::Result::unread) return unread(block_, info_);
   if (result == LineReader::Result::plain) return take_words(block_, info_);
-  if (statements_.lower(block_, info_)) ++stats_.blocks_read;
+  if (statements_.lower(block_, info_) || context_.only_kept()) ++stats_.blocks_read;
 }
 
 // --- streams ----------------------------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
     }
     if (statement(s, block, info) && c_.errors == before) continue;
     ok = false;
-    if (c_.errors == before) c_.error("SIN-008", s.pos, s.keyword + " is not carried yet");
+    if (c_.errors == before) c_.keep("SIN-008", s.pos, s.keyword + " is not carried yet");
     add_opaque(block, info, feature_, false);
     break;
   }
@@ -232,6 +232,14 @@ bool StatementLowering::if_statement(const Statement& s, ir::LineInfo& info) {
 bool StatementLowering::for_statement(const Statement& s, ir::LineInfo& info) {
   ir::For node;
   ir::Type type = ir::Type::real;
+  if (exprs_.is_undefined(s.args[0]) && s.args[0].args.empty()) {
+    c_.warning("SIN-006", s.args[0].pos,
+               s.args[0].text + " is not defined in this program: from here on it is an INT that this loop counts with");
+    Symbol symbol;
+    symbol.type = ir::Type::integer;
+    symbol.space = *space_of(ir::Type::integer, true);
+    c_.symbols.emplace(s.args[0].text, symbol);
+  }
   auto counter = exprs_.variable(s.args[0], type);
   node.from = exprs_.lower_as(s.args[1], ir::Type::integer);
   node.to = exprs_.lower_as(s.args[2], type == ir::Type::real ? ir::Type::real : ir::Type::integer);

@@ -42,6 +42,7 @@ class StatementLowering {
   bool sort_assignment(const syntax::Statement& s, Parts& parts);
   bool assign(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_set(const ir::VarRef& target, ir::Type type, const syntax::Expr& value, WordPos pos, Parts& parts);
+  bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos,
