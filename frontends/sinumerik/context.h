@@ -52,6 +52,8 @@ struct FileContext {
   std::uint32_t kept = 0;                              ///< of those, constructs that are read but not carried
   std::set<std::string, std::less<>> said{};           ///< names of unknown meaning that were reported, capitals
 
+  std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
+
   /// All that is the matter with the line is that something is not carried: it is read and kept as text.
   [[nodiscard]] bool only_kept() const { return errors != 0 && errors == kept; }
   /// A construct of the language that is read but not carried: the block stays as text, a run or a translation that

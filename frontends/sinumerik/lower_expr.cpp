@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/text.h"
+#include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/limits.h"
 #include "dialects/sinumerik/operators.h"
 
@@ -93,6 +94,10 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
   if (!e || e->type == type || is_unknown_datum(e)) return e;
   const bool from_string = e->type == ir::Type::string;
   const bool to_string = type == ir::Type::string;
+  if (to_string && (e->type == ir::Type::real || e->type == ir::Type::integer || e->type == ir::Type::boolean)) {
+    c_.keep("SIN-012", pos, "a number for a text or a CHAR is not carried yet", "use `<<` to make a text of a number");
+    return nullptr;
+  }
   if (from_string != to_string || e->type == ir::Type::axis || type == ir::Type::axis) {
     c_.error("SIN-012", pos,
              "a value of type " + std::string(ir::name(e->type)) + " can't become " + std::string(ir::name(type)),
@@ -143,6 +148,10 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
   }
   const Symbol* symbol = c_.symbol(e.text);
   if (symbol == nullptr) {
+    if (is_reserved(e.text)) {
+      c_.keep("SIN-007", e.pos, "the value of " + e.text + " is not carried yet");
+      return std::nullopt;
+    }
     if (!c_.machine.undefined_names_are_global) {
       c_.keep("SIN-006", e.pos, e.text + " is not defined in this program; a variable of the program is needed here");
       return std::nullopt;
@@ -166,6 +175,10 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
     c_.keep("SIN-007", e.pos, "access to one character of a text is not carried yet", "use SUBSTR()");
     return std::nullopt;
   }
+  if (symbol != nullptr && e.args.empty() && symbol->dimensions != 0) {
+    c_.keep("SIN-008", e.pos, "the array " + e.text + " as a whole is not carried yet");
+    return std::nullopt;
+  }
   if (symbol != nullptr && e.args.size() != symbol->dimensions) {
     c_.error("SIN-017", e.pos,
              e.text + " has " + std::to_string(symbol->dimensions) + " dimensions, but " +
@@ -182,8 +195,8 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
 /// A name that nothing here defines: a global user variable, a macro or an axis of the machine. It is known by its name
 /// only, like a datum of the machine; a run stops where its value is needed, unless --set or the program gave it one.
 bool ExprLowering::is_undefined(const Expr& e) const {
-  return (e.text.empty() || e.text[0] != '$') && e.text != "R" && c_.symbol(e.text) == nullptr &&
-         !c_.machine.undefined_names_are_global;
+  return e.text.size() > 1 && e.text[0] != '$' && c_.symbol(e.text) == nullptr &&
+         !c_.machine.undefined_names_are_global && !is_reserved(e.text);
 }
 
 ir::SystemRef ExprLowering::undefined(const Expr& e) {
@@ -401,8 +414,10 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
       copy.type = type;
       return std::make_shared<const ir::Expr>(std::move(copy));
     };
-    if (is_unknown_datum(left)) left = as(left, right->type);
-    else right = as(right, left->type);
+    if (is_unknown_datum(left))
+      left = as(left, right->type);
+    else
+      right = as(right, left->type);
   }
   const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
   const ir::Compare compare = relation && reals ? ir::Compare::relative_1e12 : ir::Compare::exact;
@@ -460,7 +475,7 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
     out = attribute(e.text);
     if (out == Attribute::unsupported || e.text.empty()) {
       c_.keep("SIN-008", e.pos,
-               "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
+              "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
       return ir::Value{};
     }
     if (out != Attribute::none) {

@@ -241,6 +241,9 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
     target.kind = ExprKind::name;
     return assign(target, expression(), w.pos, parts);
   }
+  const std::string whole = w.extension >= 0 ? name + std::to_string(w.extension) : name;
+  if (w.has_value && c_.symbol(whole) == nullptr && is_predefined(whole))
+    return refuse("language.statement", w.pos, whole + " is not carried yet");
   if (name == "P" && w.has_value && w.extension < 0) {
     parts.has_count = true;
     parts.count = exprs_.lower_as(expression(), ir::Type::integer);
