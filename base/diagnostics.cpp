@@ -26,8 +26,11 @@ void Diagnostics::add(Diagnostic d) {
   errors_ += d.severity == Severity::error ? 1 : 0;
   warnings_ += d.severity == Severity::warning ? 1 : 0;
   auto& kept = kept_[d.code];
-  if (kept < limit_) {
-    ++kept;
+  const bool same_line = d.span.known() && d.span.file == kept.line.file && d.span.line == kept.line.line;
+  kept.on_line = same_line ? kept.on_line + 1 : 1;
+  kept.line = d.span;
+  if (kept.count < limit_ && kept.on_line <= line_limit) {
+    ++kept.count;
     list_.push_back(std::move(d));
     return;
   }

@@ -45,10 +45,13 @@ struct MoreDiagnostics {
   void add_lines(const Lines& range);
 };
 
-/// Collects diagnostics in order. Never throws. Keeps all of them up to `limit` of each code; further ones of that
-/// code are counted with their lines, and the renderers say how many and where. The counts count all.
+/// Collects diagnostics in order. Never throws. Keeps all of them up to `limit` of each code, and up to `line_limit` of
+/// each code on one line; further ones of that code are counted with their lines, and the renderers say how many and
+/// where. The counts count all.
 class Diagnostics {
  public:
+  static constexpr std::size_t line_limit = 10;
+
   explicit Diagnostics(std::size_t limit = 200) : limit_(limit) {}
   void add(Diagnostic d);
   void error(std::string_view code, Span span, std::string message, std::string hint = {});
@@ -68,7 +71,12 @@ class Diagnostics {
  private:
   std::size_t limit_;
   std::deque<Diagnostic> list_;
-  std::map<std::string, std::size_t, std::less<>> kept_;
+  struct Kept {
+    std::size_t count = 0;
+    Span line;                ///< of the last one
+    std::size_t on_line = 0;  ///< in a row on that line
+  };
+  std::map<std::string, Kept, std::less<>> kept_;
   std::map<std::string, MoreDiagnostics, std::less<>> more_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;

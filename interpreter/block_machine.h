@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -64,7 +65,11 @@ class BlockMachine final : public SystemData {
   bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) override;
   bool write(const ir::SystemRef& ref, std::span<const double> args, double value) override;
   /// --set of a machine datum by its name.
-  void preset_datum(const std::string& name, double value) { written_[name] = value; }
+  void preset_datum(const std::string& name, double value) {
+    written_[name] = value;
+    unread_.insert(name);
+  }
+  [[nodiscard]] bool preset_unread(const std::string& name) const { return unread_.count(name) != 0; }
   std::uint64_t arguments_given = 0;  ///< of the present call level
 
  private:
@@ -253,6 +258,7 @@ class BlockMachine final : public SystemData {
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
+  std::set<std::string> unread_;           ///< of those, what --set gave and nothing has asked for
 };
 
 }  // namespace cnctrans::interpreter

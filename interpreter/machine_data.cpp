@@ -52,6 +52,10 @@ const double* BlockMachine::given_datum(const ir::SystemRef& ref, std::span<cons
 bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
   if (const double* given = given_datum(ref, args)) {
     out = *given;
+    if (!unread_.empty()) {
+      unread_.erase(datum_key(ref, args));
+      if (!args.empty()) unread_.erase(ref.text + shortest(args[0]));
+    }
     return true;
   }
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length) {

@@ -81,6 +81,7 @@ Result Runner::finish(EndReason reason, const Span& where) {
     r.error_span = failure_.span;
     diagnostics_.error(failure_.code, failure_.span, failure_.text);
   }
+  report_settings();
   machine_.end_event(reason, failure_, where);
   r.steps = steps_;
   r.blocks = blocks_;
@@ -101,6 +102,19 @@ bool Runner::apply_settings() {
     if (!apply_setting(name, value)) return false;
   }
   return true;
+}
+
+/// What --set gave and the run had no use for: most often a name with a typing error.
+void Runner::report_settings() {
+  for (const auto& p : variables_.presets()) {
+    const std::string text = "--set " + p.name + "=" + p.value;
+    if (p.found && !p.fits) {
+      diagnostics_.warning(code::unused_set, {}, text + ": the value is no number; the variable keeps its own");
+    } else if (!p.found && (!preset_number(p.value) || machine_.preset_unread(p.name))) {
+      diagnostics_.warning(code::unused_set, {}, text + ": this run has no variable of that name; nothing is set",
+                           "names are written as in the program: P100, L1, R5, DEPTH");
+    }
+  }
 }
 
 bool Runner::apply_setting(const std::string& name, const std::string& value) {

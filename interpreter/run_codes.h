@@ -44,5 +44,6 @@ inline constexpr std::string_view opaque = "RUN-103";
 inline constexpr std::string_view no_program = "RUN-104";
 inline constexpr std::string_view exit_outside = "RUN-105";
 inline constexpr std::string_view bad_set = "RUN-106";
+inline constexpr std::string_view unused_set = "RUN-107";
 
 }  // namespace cnctrans::interpreter::code

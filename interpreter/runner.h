@@ -69,6 +69,7 @@ class Runner {
   Result finish(EndReason reason, const Span& where);
   Result refuse();
   void keep_locals();
+  void report_settings();
 
   // statements.cpp
   void block(Instruction& in);

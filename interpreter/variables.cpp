@@ -108,14 +108,15 @@ std::string_view bare(std::string_view name) {
 }  // namespace
 
 void Variables::preset(const std::string& name, const std::string& value) {
-  presets_.emplace_back(name, value);
+  presets_.push_back({name, value, false, true});
   for (auto& v : globals_) apply_presets(v);
 }
 
-void Variables::apply_presets(NamedVariable& v) const {
-  for (const auto& [name, value] : presets_) {
+void Variables::apply_presets(NamedVariable& v) {
+  for (auto& [name, value, found, fits] : presets_) {
     for (std::size_t i = 0; i < v.set.size(); ++i) {
       if (!iequals_ascii(bare(element_name(v, i)), bare(name))) continue;
+      found = true;
       Place p;
       p.named = &v;
       p.index = static_cast<std::uint32_t>(i);
@@ -125,6 +126,8 @@ void Variables::apply_presets(NamedVariable& v) const {
         assign(p, value);
       } else if (x) {
         assign(p, *x);
+      } else {
+        fits = false;
       }
     }
   }

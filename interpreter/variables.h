@@ -94,7 +94,13 @@ class Variables {
   /// Value of a named variable or array element from outside: holds at once, or as soon as there is such a variable.
   void preset(const std::string& name, const std::string& value);
   /// Gives a variable just made or declared what was preset for it.
-  void apply_presets(NamedVariable& v) const;
+  void apply_presets(NamedVariable& v);
+  struct Preset {
+    std::string name, value;
+    bool found = false;  ///< a variable of this name came up
+    bool fits = true;    ///< the value is one for its type
+  };
+  [[nodiscard]] const std::vector<Preset>& presets() const { return presets_; }
 
   /// The place of number `n` of a space as seen from the present level. Fails with no_variable.
   bool place(NumberedSpace& space, double n, Place& out);
@@ -120,7 +126,7 @@ class Variables {
   std::deque<NumberedSpace> spaces_;
   std::deque<NamedVariable> globals_;
   std::map<std::string, NamedVariable*, std::less<>> global_names_;
-  std::vector<std::pair<std::string, std::string>> presets_;
+  std::vector<Preset> presets_;
   std::uint32_t level_size_ = 0;
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::unique_ptr<Level>> spare_;

@@ -81,6 +81,19 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
   return machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
 }
 
+void note_encoding(std::string_view text, std::uint32_t first_line, FileId file, Diagnostics& diagnostics) {
+  SourceLine l;
+  for (l.number = first_line - 1; take_line(text, l);) {
+    if (valid_utf8(l.text)) continue;
+    std::string_view rest = l.text;
+    while (const std::size_t n = utf8_length(rest)) rest.remove_prefix(n);
+    const auto column = static_cast<std::uint32_t>(l.text.size() - rest.size() + 1);
+    diagnostics.note("CNC-ENCODING", {file, l.number, column, l.number, column + 1},
+                     "the text is no UTF-8; it is read as Windows-1252");
+    return;
+  }
+}
+
 Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
                std::vector<std::string> libraries)
     : dialect_(dialect), profile_(profile), reader_(reader), folders_(std::move(libraries)) {}
@@ -97,6 +110,7 @@ const ir::Program* Loader::read_main(const std::string& path, Diagnostics& diagn
 
 const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
   const FileId id = files_.add(source);
+  if (source->encoding() != Encoding::utf8) note_encoding(source->text(), 1, id, diagnostics);
   const frontends::ReadOptions options{reader_, &profile_};
   mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));
   ir::Program& program = *mains_.back();
@@ -127,7 +141,7 @@ void Loader::list_candidates() {
     std::sort(names.begin(), names.end());
     for (auto& n : names) {
       if (!seen.insert(fs::weakly_canonical(n, ignored).string()).second) continue;
-      candidates_.push_back({n, to_upper_ascii(fs::path(n).stem().string()), nullptr, nullptr, false});
+      candidates_.push_back({n, to_upper_ascii(fs::path(n).stem().string()), nullptr, nullptr, Diagnostics{}, false});
     }
   }
 }
@@ -155,8 +169,8 @@ ir::Program* Loader::load(Candidate& c) {
   if (!c.program) {
     const FileId id = files_.add(c.source);
     const frontends::ReadOptions options{reader_, &profile_};
-    c.program =
-        std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, library_diagnostics_, nullptr));
+    if (c.source->encoding() != Encoding::utf8) note_encoding(c.source->text(), 1, id, c.diagnostics);
+    c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, c.diagnostics, nullptr));
     c.program->texts->hold(c.source);
     ir::number_statements(*c.program);
   }
@@ -165,14 +179,18 @@ ir::Program* Loader::load(Candidate& c) {
 
 const ir::Program* Loader::find(const ir::RoutineName& name) {
   list_candidates();
-  const auto use = [this](ir::Program* p) -> const ir::Program* {
-    if (std::find(called_.begin(), called_.end(), p) == called_.end()) called_.push_back(p);
+  // What a file has to report counts only when something of it is called.
+  const auto use = [this](Candidate& c) -> const ir::Program* {
+    const ir::Program* p = c.program.get();
+    if (std::find(called_.begin(), called_.end(), p) != called_.end()) return p;
+    called_.push_back(p);
+    library_diagnostics_.append(c.diagnostics);
     return p;
   };
   for (auto& c : candidates_) {
     if (!may_hold(c, name)) continue;
     ir::Program* p = load(c);
-    if (p->find(name) != nullptr) return use(p);
+    if (p->find(name) != nullptr) return use(c);
   }
   for (auto& c : candidates_) {
     const bool stem = !name.text.empty()
@@ -188,11 +206,11 @@ const ir::Program* Loader::find(const ir::RoutineName& name) {
     ir::Program* p = load(c);
     // The file is the routine: its first routine answers to the stem's name.
     if (!p->routines.empty() && p->routines.front().name.empty()) p->routines.front().name = name;
-    if (p->find(name) != nullptr) return use(p);
+    if (p->find(name) != nullptr) return use(c);
     for (auto& r : p->routines) {
       if (r.kind == ir::RoutineKind::main) {
         r.name = name;
-        return use(p);
+        return use(c);
       }
     }
   }

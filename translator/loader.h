@@ -23,6 +23,10 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
 /// True when the text can only be for a lathe. Comments are skipped by the dialect's marks.
 bool looks_like_lathe(std::string_view text, char comment_open, char comment_close);
 
+/// A text that is no UTF-8 is taken for Windows-1252, with a note at its first such byte. `text` starts with line
+/// `first_line` of the file.
+void note_encoding(std::string_view text, std::uint32_t first_line, FileId file, Diagnostics& diagnostics);
+
 /// Owns the files of one job. Programs found in libraries are read once.
 class Loader {
  public:
@@ -48,6 +52,7 @@ class Loader {
     std::string stem;  ///< capitals
     SourcePtr source;
     std::unique_ptr<ir::Program> program;
+    Diagnostics diagnostics;  ///< of reading it
     bool unreadable = false;
   };
   void list_candidates();

@@ -267,6 +267,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   write.annotate = options.annotate;
   write.single_output = options.single_output;
   write.main_stem = source->stem();
+  write.taken = options.taken;
   auto files = to->backend->write(work, write, result.diagnostics);
   result.files = loader.files();
   if (refused(result.diagnostics, options)) {
@@ -274,7 +275,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
     return result;
   }
   for (auto& f : files) {
-    OutputText out{f.name, {}, std::move(f.map), f.main};
+    OutputText out{f.name, f.program, {}, std::move(f.map), f.main};
     out.bytes =
         encode_output(f.text, options.encoding.value_or(source->encoding()), options.eol.value_or(source->main_eol()),
                       source->has_bom() && !options.encoding, result.diagnostics);
@@ -312,6 +313,7 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
     if (!with_set) run.set.clear();
     replayed.result = replay(*program, *profile, run, loader, diagnostics, replayed.events);
     replayed.start = verifier::start_of(*profile);
+    diagnostics.append(loader.library_diagnostics());
     files = loader.files();
     return true;
   };
@@ -337,7 +339,7 @@ RunResult run(
   if (!source) return result;
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
   if (!profile) return result;
-  if (options.may_stream) {
+  if (options.may_stream && options.run.set.empty()) {
     FileTable files;
     const auto counter = make_sink(files, {});
     StreamRun streamed = run_stream(path, *dialect, *profile, options, *counter, files);
@@ -356,6 +358,7 @@ RunResult run(
   interpreter::Options run_options = options.run;
   run_options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
   result.result = interpreter::run(*program, *profile, run_options, *sink, result.diagnostics);
+  result.diagnostics.append(loader.library_diagnostics());
   result.files = loader.files();
   return result;
 }

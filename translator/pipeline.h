@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,9 @@ struct TranslateOptions {
   std::int32_t number_step = 10;
   bool annotate = false;
   bool verify = false;
-  bool keep_traces = false;    ///< with `verify`: both traces stay in the result, for a report
-  bool single_output = false;  ///< everything in one file (standard output): as an archive where the target has one
+  bool keep_traces = false;     ///< with `verify`: both traces stay in the result, for a report
+  bool single_output = false;   ///< everything in one file (standard output): as an archive where the target has one
+  std::set<std::string> taken;  ///< names that other translations of the job have: see backends::WriteOptions
   ir::CycleWriting cycles = ir::CycleWriting::native;
   std::optional<Encoding> encoding;  ///< of the output; else as the input
   std::optional<Eol> eol;
@@ -41,6 +43,7 @@ struct TranslateOptions {
 /// One file of the result, ready to be written: encoded, with line ends.
 struct OutputText {
   std::string name;
+  std::string program;  ///< of a main program: its name in the control where that is not the file's
   std::string bytes;
   backends::SourceMap map;
   bool main = false;

@@ -360,7 +360,12 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   std::string_view window = windows.first;
   std::uint32_t number = 0;
   bool going = true;
+  bool utf8 = true;
   while (!window.empty()) {
+    if (utf8 && !valid_utf8(window)) {
+      utf8 = false;
+      note_encoding(window, number + 1, file, run.diagnostics);
+    }
     SourceLine line;
     while (take_line(window, line)) {
       line.number = ++number;

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/diagnostics.h"
 #include "base/source.h"
+#include "base/text.h"
 #include "ir/passes/capabilities.h"
 #include "ir/program.h"
 #include "machine/profile.h"
@@ -27,6 +29,10 @@ struct WriteOptions {
   bool annotate = false;       ///< the source line as a comment beside its translation
   bool single_output = false;  ///< one file for everything: subprograms in the same file, or an archive
   std::string main_stem;       ///< file stem wanted for the main program (where legal)
+  /// Capitals: names of files and programs that other translations of the same job have already. The main program gets
+  /// another one, with a note.
+  std::set<std::string> taken;
+  [[nodiscard]] bool is_taken(std::string_view name) const { return taken.count(to_upper_ascii(name)) != 0; }
 };
 
 /// Target line -> source span, for reports and for verification messages. Index 0 is line 1.
@@ -34,8 +40,9 @@ struct SourceMap {
   std::vector<Span> lines;
 };
 struct OutputFile {
-  std::string name;  ///< as the target control wants it, with extension
-  std::string text;  ///< UTF-8 where the program's texts are, LF line ends; the translator encodes
+  std::string name;     ///< as the target control wants it, with extension
+  std::string program;  ///< of a main program: how the control calls it where that is not the file's name ("%12")
+  std::string text;     ///< UTF-8 where the program's texts are, LF line ends; the translator encodes
   SourceMap map;
   bool main = false;
 };

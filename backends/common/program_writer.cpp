@@ -75,10 +75,23 @@ void ProgramWriter::resolve_numbers() {
 
 // ---- files and lines -----------------------------------------------------------------------------------------------
 
-void ProgramWriter::open_file(std::string name, bool main) {
+std::string ProgramWriter::free_stem(const std::string& stem, std::string_view extension) {
+  std::string name = stem;
+  for (int n = 2; options_.is_taken(name + std::string(extension)); ++n) name = stem + '_' + std::to_string(n);
+  if (name != stem) note_taken(stem + std::string(extension), name + std::string(extension));
+  return name;
+}
+
+void ProgramWriter::note_taken(const std::string& name, const std::string& instead) {
+  diagnostics_.note("TRN-219", {},
+                    "the name " + name + " is taken by another program of this job; this one is called " + instead);
+}
+
+void ProgramWriter::open_file(std::string name, bool main, std::string program) {
   finish_line();
   OutputFile file;
   file.name = std::move(name);
+  file.program = std::move(program);
   file.main = main;
   files_.push_back(std::move(file));
   next_number_ = 0;

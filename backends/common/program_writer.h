@@ -106,7 +106,10 @@ class ProgramWriter {
   virtual bool spelling_is_whole_word(const ir::Action& a) const;
 
   // ---- files and lines ------------------------------------------------------------------------------------------
-  void open_file(std::string name, bool main);
+  void open_file(std::string name, bool main, std::string program = {});
+  /// `stem`, or `stem_2`, `stem_3`... when `stem` + `extension` is taken; with a note.
+  std::string free_stem(const std::string& stem, std::string_view extension);
+  void note_taken(const std::string& name, const std::string& instead);
   /// A line of text made here, without number or comment.
   void raw_line(std::string_view text, const Span& span = {});
   void start_routine(std::size_t index);

@@ -59,6 +59,16 @@ std::string file_name(const ir::Program& program, const WriteOptions& options, b
   return number_name(std::move(digits)) + extension;
 }
 
+std::string free_file_name(const std::string& wanted, const WriteOptions& options) {
+  std::string name = wanted;
+  std::uint32_t tries = 0;
+  for (auto n = std::stoul(wanted); options.is_taken(name) && tries <= 999'999; ++tries) {
+    n = n == 999'999 ? 1 : n + 1;
+    name = number_name(std::to_string(n)) + wanted.substr(name_digits);
+  }
+  return name;
+}
+
 std::string header_line(const ir::Program& program, const WriteOptions& options) {
   const ir::Routine* r = first_routine(program);
   if (program.dialect == dialect_name) {

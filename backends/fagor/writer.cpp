@@ -43,7 +43,10 @@ Writer::Writer(const ir::Program& program, const WriteOptions& options, const St
 // ---- file frame ----------------------------------------------------------------------------------------------------
 
 void Writer::write_program() {
-  open_file(file_name(program(), options(), lathe_), true);
+  const std::string wanted = file_name(program(), options(), lathe_);
+  const std::string name = free_file_name(wanted, options());
+  if (name != wanted) note_taken(wanted, name);
+  open_file(name, true);
   if (program().routines.empty()) return;
   const ir::Routine& first = program().routines[0];
   const bool has_main = first.kind == ir::RoutineKind::main;

@@ -15,6 +15,8 @@ namespace cnctrans::backends::fagor {
 
 /// The file's name: six digits. The stem when it is that; else the program's number, else the digits in the stem.
 std::string file_name(const ir::Program& program, const WriteOptions& options, bool lathe);
+/// `wanted`, or the next program number whose name is not taken in this job.
+std::string free_file_name(const std::string& wanted, const WriteOptions& options);
 /// `%TITLE ,MX,`; empty when a program of this language has no header.
 std::string header_line(const ir::Program& program, const WriteOptions& options);
 

@@ -21,11 +21,12 @@ Writer::Writer(const ir::Program& program, const WriteOptions& options, Diagnost
 std::int64_t Writer::main_number() const {
   const ir::Routine* main = program().main();
   if (main != nullptr && main->name.number >= facts::program_min && main->name.number <= facts::program_max)
-    return main->name.number;
+    if (same_dialect() || !options().is_taken('%' + std::to_string(main->name.number))) return main->name.number;
   std::int64_t n = 0;
   const std::string& stem = options().main_stem;
   std::from_chars(stem.data(), stem.data() + stem.size(), n);
   const auto taken = [this](std::int64_t number) {
+    if (options().is_taken('%' + std::to_string(number))) return true;
     for (const auto& r : program().routines) {
       if (r.name.number == number) return true;
     }
@@ -39,7 +40,8 @@ std::int64_t Writer::main_number() const {
 }
 
 void Writer::write_program() {
-  open_file((options().main_stem.empty() ? std::to_string(main_number()) : options().main_stem) + ".xpi", true);
+  const std::string stem = options().main_stem.empty() ? std::to_string(main_number()) : options().main_stem;
+  open_file(free_stem(stem, ".xpi") + ".xpi", true, '%' + std::to_string(main_number()));
   const ir::Routine* main = program().main();
   for (std::size_t i = 0; i < program().routines.size(); ++i) {
     const ir::Routine& r = program().routines[i];

@@ -121,8 +121,8 @@ void Writer::write_program() {
   for (std::size_t i = 0; i < routines.size(); ++i) {
     const ir::Routine& r = routines[i];
     const bool main = r.kind == ir::RoutineKind::main;
-    const std::string name = main ? main_name() : sub_name(r.name);
     const std::string extension = main ? "MPF" : "SPF";
+    const std::string name = main ? free_stem(main_name(), "." + extension) : sub_name(r.name);
     const bool bundle = archive && routines.size() > 1;
     if (!archive || first) open_file(name + '.' + (bundle ? "ARC" : extension), main || first);
     if (archive) {

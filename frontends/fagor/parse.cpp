@@ -4,6 +4,7 @@
 
 #include "fagor/FagorLexer.h"
 #include "fagor/FagorParser.h"
+#include "frontends/common/control_bytes.h"
 #include "frontends/fagor/tree_reader.h"
 
 namespace cnctrans::fagor {
@@ -166,6 +167,10 @@ BlockParser::~BlockParser() = default;
 
 bool BlockParser::parse_block(std::string_view line, syntax::Block& out, ParseError& error) {
   out.clear();
+  if (const std::size_t at = frontends::find_control_byte(line, ';', '"', '"'); at != std::string_view::npos) {
+    error = {{static_cast<std::uint32_t>(at + 1), 1}, describe_byte(line[at])};
+    return false;
+  }
   Impl& p = *impl_;
   fold_line(line, p.folded);
   p.errors.reset();

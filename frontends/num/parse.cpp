@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "frontends/common/control_bytes.h"
 #include "frontends/num/tree.h"
 
 namespace cnctrans::frontends::num {
@@ -166,6 +167,10 @@ bool BlockParser::parse(std::string_view line, syntax::Block& out, ParseError& e
   out.clear();
   if (line.size() > longest_block) {
     error = {{longest_block + 1, 1}, "the block is far longer than the 118 characters that the control takes"};
+    return false;
+  }
+  if (const std::size_t at = find_control_byte(line, '$', '(', ')'); at != std::string_view::npos) {
+    error = {{static_cast<std::uint32_t>(at + 1), 1}, "a byte that is no character of the control"};
     return false;
   }
   State& s = *state_;

@@ -83,7 +83,7 @@ void WordLowering::sort_actions() {
 void WordLowering::refuse(std::string_view feature, WordPos pos, std::string message, std::string hint) {
   failed_ = true;
   feature_ = feature;
-  c_.error("SIN-008", pos, std::move(message), std::move(hint));
+  c_.keep("SIN-008", pos, std::move(message), std::move(hint));
 }
 
 bool WordLowering::lower(const syntax::Block& block, ir::Block& out) {
@@ -264,8 +264,8 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   }
   std::string name(1, address);
   if (w.extension >= 0) name += std::to_string(w.extension);
-  c_.error("SIN-003", w.pos, "the machine " + c_.machine.profile->name + " has no axis or function " + name,
-           "choose the machine with --machine, or add the axis to its profile");
+  c_.keep("SIN-003", w.pos, "the machine " + c_.machine.profile->name + " has no axis or function " + name,
+          "choose the machine with --machine, or add the axis to its profile; the block is kept as text");
 }
 
 void WordLowering::coordinate(ir::AxisId axis, const Word& w, ir::Value value, Attribute attribute) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontends/common/control_bytes.h"
 #include "frontends/sinumerik/tree.h"
 #include "sinumerik/SinumerikLexer.h"
 #include "sinumerik/SinumerikParser.h"
@@ -256,6 +257,11 @@ bool BlockParser::parse_block(std::string_view line, syntax::Block& out, ParseEr
     error.column = static_cast<std::uint32_t>(max_block_bytes) + 1;
     error.message =
         "the block is longer than " + std::to_string(max_block_bytes) + " bytes; the control takes 512 characters";
+    return false;
+  }
+  if (const std::size_t at = frontends::find_control_byte(line, ';', '"', '"'); at != std::string_view::npos) {
+    error.column = static_cast<std::uint32_t>(at + 1);
+    error.message = "a byte with code " + std::to_string(line[at]) + " has no meaning in a block";
     return false;
   }
   s.load(line);

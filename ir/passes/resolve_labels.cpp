@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 
+#include "ir/labels.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 
@@ -87,12 +88,35 @@ class LabelPass {
     return first;
   }
 
+  /// The mark of one end of a repeated range, as the table of labels finds it.
+  std::optional<std::size_t> end_of_range(const Use& u, const Repeat& r, const LabelTable& table) const {
+    std::optional<LabelSite> site;
+    if (r.last.text.empty() || r.last.computed || r.first.computed) {
+      site = table.find(*u.ref, r.search, table.order(u.s->id));
+    } else if (const auto range = table.range(r, table.order(u.s->id))) {
+      const auto has = [&](const LabelSite& at) {
+        const auto& all = table.all(u.ref->text, u.ref->is_number);
+        return std::find(all.begin(), all.end(), at) != all.end();
+      };
+      const bool first = u.ref == &r.first ? has(range->first) : !has(range->second);
+      site = first ? range->first : range->second;
+    }
+    if (!site) return std::nullopt;
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+      if (marks_[i].s->id == site->statement && same_label(marks_[i].label, *u.ref)) return i;
+    }
+    return std::nullopt;
+  }
+
   void resolve_all() {
+    const LabelTable table(routine_);
     for (auto& u : uses_) {
       Search search = search_of(*u.s);
       if (const auto* sw = std::get_if<Switch>(&u.s->node)) search = search_in_switch(*sw, u.ref);
       if (search == Search::to_start) continue;
-      const auto mark = find(*u.ref, u.position, search);
+      const auto* repeat = std::get_if<Repeat>(&u.s->node);
+      const auto mark = repeat != nullptr && !repeat->has_program ? end_of_range(u, *repeat, table)
+                                                                  : find(*u.ref, u.position, search);
       if (!mark) continue;  // reported when the source is checked
       u.mark = *mark;
       u.found = true;
@@ -239,7 +263,13 @@ class LabelPass {
       const Mark& m = marks_[u.mark];
       if (m.renamed) *u.ref = *m.renamed;
       const Search search = target_search(u);
-      if (auto* j = std::get_if<Jump>(&u.s->node)) j->search = search;
+      if (auto* j = std::get_if<Jump>(&u.s->node)) {
+        // A jump that would pass over a missing label has one: where it must search both ways to be quiet it may, else
+        // it is a plain jump.
+        if (j->quiet && j->search == Search::forward_then_backward && target_.searches.count(j->search) != 0) continue;
+        j->quiet = false;
+        j->search = search;
+      }
       if (auto* r = std::get_if<Repeat>(&u.s->node))
         r->search =
             target_.searches.count(Search::whole_first) != 0 ? Search::whole_first : Search::forward_then_backward;
@@ -255,6 +285,10 @@ class LabelPass {
     for_each_statement(routine_.body, [this](Statement& s) {
       auto* j = std::get_if<Jump>(&s.node);
       if (j == nullptr) return;
+      if (j->quiet && !j->target.computed && target_.searches.count(Search::forward_then_backward) == 0) {
+        s.node = Block{};  // its label is missing: the source goes on with the next block
+        return;
+      }
       if (j->target.computed && target_.searches.count(j->search) == 0) {
         j->search = target_.searches.count(Search::forward_then_backward) != 0 ? Search::forward_then_backward
                                                                                : Search::whole_first;
@@ -290,6 +324,7 @@ class LabelPass {
 }  // namespace
 
 void resolve_labels(Program& program, const LegaliseContext& context) {
+  number_statements(program);
   for (auto& r : program.routines) LabelPass(program, r, context).run();
 }
 
