@@ -12,6 +12,11 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// Without the last bits of sines and cosines.
+double clean(double x) {
+  return std::round(x * 1e9) / 1e9 + 0.0;
+}
+
 struct Point2 {
   double u = 0, v = 0;
 };
@@ -198,7 +203,7 @@ class PolePass {
     const auto word = [&](AxisId axis, double to, double from, double factor) {
       CoordWord w;
       w.axis = axis;
-      w.value = Value{(inc ? to - from : to) / factor};
+      w.value = Value{clean((inc ? to - from : to) / factor)};
       m.coords.push_back(w);
     };
     word(axes.u, end.u, start->u, f->u);
