@@ -1,5 +1,8 @@
 #include "dialects/sinumerik/addresses.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
@@ -219,6 +222,30 @@ constexpr std::string_view keywords[] = {
     "APW",    "APX",     "APRP",    "APRB",     "APWP",    "APWB",     "POS",     "POSA",      "POSP",    "FA",
     "FL",     "AX",      "IP",      "PO",       "MEASA",   "MEAWA",    "MEAC"};
 
+/// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
+/// of these is never a variable.
+constexpr std::string_view predefined[] = {
+    "ADDFRAME", "AXCTSWE",   "AXCTSWED",   "AXNAME",     "AXSTRING",  "AXTOSPI",    "BLSYNC",    "CALCPOSI",
+    "CFINE",    "CHECKSUM",  "CHKDM",      "CHKDNO",     "CMIRROR",   "CORROF",     "COUPRES",   "CROT",
+    "CROTS",    "CRPL",      "CSCALE",     "CTAB",       "CTABDEL",   "CTABEXISTS", "CTABFNO",   "CTABFPOL",
+    "CTABFSEG", "CTABID",    "CTABINV",    "CTABISLOCK", "CTABLOCK",  "CTABMEMTYP", "CTABMPOL",  "CTABMSEG",
+    "CTABNO",   "CTABNOMEM", "CTABPERIOD", "CTABPOL",    "CTABPOLID", "CTABSEG",    "CTABSEGID", "CTABSEV",
+    "CTABSSV",  "CTABTEP",   "CTABTEV",    "CTABTMAX",   "CTABTMIN",  "CTABTSP",    "CTABTSV",   "CTABUNLOCK",
+    "CTRANS",   "DELDTG",    "DELTOOLENV", "DIACYCOFA",  "DIAM90A",   "DIAMCHAN",   "DIAMCHANA", "DIAMOFA",
+    "DIAMONA",  "DILF",      "EGDEF",      "EGDEL",      "EGOFC",     "EGOFS",      "EGON",      "EGONSYN",
+    "EGONSYNE", "FDA",       "FILEDATE",   "FILEINFO",   "FILESIZE",  "FILESTAT",   "FILETIME",  "FMA",
+    "FOCOF",    "FOCON",     "FPO",        "FPR",        "FPRAOF",    "FTOC",       "FXST",      "FXSW",
+    "GETACTT",  "GETACTTD",  "GETDNO",     "GETFREELOC", "GETT",      "GETTCOR",    "GETTENV",   "GWPSOF",
+    "GWPSON",   "ICYCOF",    "ICYCON",     "INVFRAME",   "ISAXIS",    "ISVAR",      "LENTOAX",   "LIFTFAST",
+    "MASLDEF",  "MASLDEL",   "MASLOF",     "MASLOFS",    "MASLON",    "MEAFRAME",   "MEASURE",   "MINDEX",
+    "MODAXVAL", "MOV",       "MVTOOL",     "NEWT",       "OMA1",      "OMA2",       "OMA3",      "OMA4",
+    "OMA5",     "ORIS",      "OS",         "OSB",        "OSCILL",    "OSCTRL",     "OSE",       "OSNSC",
+    "OSP1",     "OSP2",      "OST1",       "OST2",       "POLF",      "POLFA",      "POLFMASK",  "POLFMLIN",
+    "POSM",     "POSRANGE",  "PUNCHACC",   "QECLRNOF",   "QECLRNON",  "RDISABLE",   "RESETMON",  "RINDEX",
+    "SCC",      "SETDNO",    "SETMTH",     "SETTA",      "SETTCOR",   "SETTIA",     "SIRELAY",   "SIRELIN",
+    "SIRELOUT", "SIRELTIME", "SPI",        "SR",         "SRA",       "ST",         "STA",       "STOPREOF",
+    "STRINGIS", "SYNFCT",    "TFGREF",     "TOOLENV",    "WALCS"};
+
 char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
@@ -291,7 +318,12 @@ Procedure procedure(std::string_view capitals) {
   return Procedure::none;
 }
 
+bool is_predefined(std::string_view capitals) {
+  return std::binary_search(std::begin(predefined), std::end(predefined), capitals);
+}
+
 bool is_reserved(std::string_view capitals) {
+  if (is_predefined(capitals)) return true;
   for (const auto& k : keywords) {
     if (k == capitals) return true;
   }

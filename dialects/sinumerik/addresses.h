@@ -65,5 +65,7 @@ Procedure procedure(std::string_view capitals);
 
 /// True when a user variable, label or subprogram may not have this name (capitals).
 bool is_reserved(std::string_view capitals);
+/// A function, procedure or address of the control that is not carried yet.
+bool is_predefined(std::string_view capitals);
 
 }  // namespace cnctrans::sinumerik

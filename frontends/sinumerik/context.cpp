@@ -32,6 +32,12 @@ void FileContext::error(std::string_view code, WordPos pos, std::string message,
   ++errors;
   diagnostics.error(code, word_span(line, pos), std::move(message), std::move(hint));
 }
+void FileContext::keep(std::string_view code, WordPos pos, std::string message, std::string hint) {
+  ++errors;
+  ++kept;
+  if (hint.empty()) hint = "the block is kept as text; a run or a translation that comes here stops";
+  diagnostics.warning(code, word_span(line, pos), std::move(message), std::move(hint));
+}
 void FileContext::warning(std::string_view code, WordPos pos, std::string message, std::string hint) {
   diagnostics.warning(code, word_span(line, pos), std::move(message), std::move(hint));
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -47,7 +48,19 @@ struct FileContext {
   ir::MotionKind motion = ir::MotionKind::linear;      ///< G group 1 as the text has it so far
   Span line;                                           ///< the line being lowered
   std::string_view text;                               ///< its text
-  std::uint32_t errors = 0;                            ///< errors reported so far in this line
+  std::uint32_t errors = 0;                            ///< faults of this line so far, kept constructs included
+  std::uint32_t kept = 0;                              ///< of those, constructs that are read but not carried
+  std::set<std::string, std::less<>> said{};           ///< names of unknown meaning that were reported, capitals
+
+  std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
+
+  /// All that is the matter with the line is that something is not carried: it is read and kept as text.
+  [[nodiscard]] bool only_kept() const { return errors != 0 && errors == kept; }
+  /// A construct of the language that is read but not carried: the block stays as text, a run or a translation that
+  /// comes there is refused. A warning here.
+  void keep(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  /// True the first time this is asked for a name of the file.
+  [[nodiscard]] bool first_time(std::string_view name) { return said.emplace(name).second; }
 
   [[nodiscard]] const Symbol* symbol(std::string_view capitals) const {
     const auto it = symbols.find(capitals);

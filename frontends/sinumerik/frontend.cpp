@@ -1,6 +1,8 @@
 #include "frontends/sinumerik/frontend.h"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
 #include <utility>
 
 #include "base/text.h"
@@ -8,6 +10,7 @@
 #include "frontends/sinumerik/line_reader.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/lower_words.h"
+#include "frontends/sinumerik/macros.h"
 
 namespace cnctrans::frontends::sinumerik {
 
@@ -98,6 +101,8 @@ class FileReading {
   void take_header(const syntax::Block& block, const SourceLine& line);
   void take_words(const syntax::Block& block, ir::LineInfo info);
   void unread(const syntax::Block& block, ir::LineInfo info);
+  SourceLine written_out(const SourceLine& line);
+  bool reads_with_macros(const ParseError& first);
   void close_blank();
 
   SourcePtr source_;
@@ -107,6 +112,7 @@ class FileReading {
   WordLowering words_;
   StatementLowering statements_;
   LineReader reader_;
+  std::optional<BlockParser> macro_parser_;
   ReadStats& stats_;
   ir::FileLook look_;
   ir::Routine routine_;
@@ -168,21 +174,52 @@ void FileReading::close_blank() {
   statements_.add(std::move(s));
 }
 
+/// A macro may stand for an operator with its operand (DEFINE TENS AS DIV 10 MOD 10). True when the line can be read
+/// with each name that is in the way of one replaced by such a text.
+bool FileReading::reads_with_macros(const ParseError& first) {
+  constexpr int most = 4;
+  std::string text(context_.text);
+  ParseError at = first;
+  for (int n = 0; n < most; ++n) {
+    if (at.column == 0 || at.column + at.length - 1 > text.size()) return false;
+    const std::string_view name = std::string_view(text).substr(at.column - 1, at.length);
+    const auto of_name = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0 ||
+        !std::all_of(name.begin(), name.end(), of_name) || is_reserved(to_upper_ascii(name))) {
+      return false;
+    }
+    text.replace(at.column - 1, at.length, "MOD 1");
+    syntax::Block scratch;
+    if (!macro_parser_) macro_parser_.emplace();
+    if (macro_parser_->parse_block(text, scratch, at)) return !scratch.statements.empty();
+  }
+  return false;
+}
+
 void FileReading::unread(const syntax::Block& block, ir::LineInfo info) {
   const ParseError& e = reader_.error();
-  context_.error("SIN-001", WordPos{e.column, e.length}, "the block can't be read: " + e.message);
-  statements_.add_opaque(block, std::move(info), "text.unread", false);
+  const WordPos pos{e.column, e.length};
+  if (reads_with_macros(e)) {
+    context_.keep(
+        "SIN-024", pos,
+        std::string(context_.slice(pos)) + " stands where an operator belongs: a macro that another file defines");
+    ++stats_.blocks_read;
+  } else {
+    context_.error("SIN-001", pos, "the block can't be read: " + e.message);
+  }
+  statements_.add_unread(block, std::move(info));
 }
 
 void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
   if (!WordLowering::is_motion_block(block)) {
-    if (statements_.lower(block, std::move(info))) ++stats_.blocks_read;
+    if (statements_.lower(block, std::move(info)) || context_.only_kept()) ++stats_.blocks_read;
     return;
   }
   ir::Statement s;
   auto& node = s.node.emplace<ir::Block>();
   if (!words_.lower(block, node)) {
     statements_.add_opaque(block, std::move(info), words_.feature(), false);
+    if (context_.only_kept()) ++stats_.blocks_read;
     return;
   }
   ++stats_.blocks_read;
@@ -204,7 +241,16 @@ void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
   statements_.add(std::move(s));
 }
 
-void FileReading::take(const SourceLine& line) {
+/// With macros written out; the columns of such a line are those of the text made.
+SourceLine FileReading::written_out(const SourceLine& line) {
+  SourceLine out = line;
+  if (context_.macros.empty()) return out;
+  if (auto text = expand_macros(line.text, context_.macros)) out.text = program_.keep(std::move(*text));
+  return out;
+}
+
+void FileReading::take(const SourceLine& source_line) {
+  const SourceLine line = written_out(source_line);
   ++stats_.lines;
   if (is_trailer(line.text)) {
     look_.trailer += line.text;
@@ -212,7 +258,7 @@ void FileReading::take(const SourceLine& line) {
   }
   context_.line = line_span(context_.file, line);
   context_.text = line.text;
-  context_.errors = 0;
+  context_.errors = context_.kept = 0;
   const LineReader::Result result = reader_.read(line.text, block_);
   if (reader_.scanned()) ++stats_.scanner_blocks;
   if (!reader_.difference().empty()) {
@@ -237,7 +283,7 @@ void FileReading::take(const SourceLine& line) {
   ++stats_.blocks;
   if (result == LineReader::Result::unread) return unread(block_, info_);
   if (result == LineReader::Result::plain) return take_words(block_, info_);
-  if (statements_.lower(block_, info_)) ++stats_.blocks_read;
+  if (statements_.lower(block_, info_) || context_.only_kept()) ++stats_.blocks_read;
 }
 
 // --- streams ----------------------------------------------------------------------------------------------------

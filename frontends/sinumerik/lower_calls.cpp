@@ -179,6 +179,18 @@ bool StatementLowering::extern_declaration(const Statement& s, const Block& bloc
   return true;
 }
 
+/// The text is put in the place of the name from the next line on (8.6).
+bool StatementLowering::macro(const Statement& s, const Block& block, ir::LineInfo& info) {
+  const std::string name = to_upper_ascii(s.args[0].text);
+  if (!c_.macros.emplace(name, std::string(trim(s.text))).second) {
+    c_.error("SIN-022", s.args[0].pos, name + " is defined twice");
+    return false;
+  }
+  c_.note("SIN-009", s.pos, "DEFINE is kept as text; the macro " + name + " is written out where it is used");
+  add_opaque(block, info, "language.macro", true);
+  return true;
+}
+
 /// The program that a text names. Also `"L"<<R10`: the number is computed.
 bool StatementLowering::program_name(const Expr& e, ir::CallRoutine& call) {
   if (e.kind == ExprKind::string) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/text.h"
+#include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/limits.h"
 #include "dialects/sinumerik/operators.h"
 
@@ -93,6 +94,10 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
   if (!e || e->type == type || is_unknown_datum(e)) return e;
   const bool from_string = e->type == ir::Type::string;
   const bool to_string = type == ir::Type::string;
+  if (to_string && (e->type == ir::Type::real || e->type == ir::Type::integer || e->type == ir::Type::boolean)) {
+    c_.keep("SIN-012", pos, "a number for a text or a CHAR is not carried yet", "use `<<` to make a text of a number");
+    return nullptr;
+  }
   if (from_string != to_string || e->type == ir::Type::axis || type == ir::Type::axis) {
     c_.error("SIN-012", pos,
              "a value of type " + std::string(ir::name(e->type)) + " can't become " + std::string(ir::name(type)),
@@ -143,15 +148,21 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
   }
   const Symbol* symbol = c_.symbol(e.text);
   if (symbol == nullptr) {
-    if (!c_.machine.undefined_names_are_global) {
-      undefined(e);
+    if (is_reserved(e.text)) {
+      c_.keep("SIN-007", e.pos, "the value of " + e.text + " is not carried yet");
       return std::nullopt;
     }
-    c_.warning("SIN-006", e.pos,
-               e.text + " is not defined in this program: taken as a global user variable that starts at 0");
+    if (!c_.machine.undefined_names_are_global) {
+      c_.keep("SIN-006", e.pos, e.text + " is not defined in this program; a variable of the program is needed here");
+      return std::nullopt;
+    }
+    if (c_.first_time(e.text)) {
+      c_.warning("SIN-006", e.pos,
+                 e.text + " is not defined in this program: taken as a global user variable that starts at 0");
+    }
   }
   if (symbol != nullptr && symbol->frame) {
-    c_.error("SIN-008", e.pos, "frame variables are not carried yet");
+    c_.keep("SIN-008", e.pos, "frame variables are not carried yet");
     return std::nullopt;
   }
   ir::VarRef ref;
@@ -161,7 +172,11 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
   const bool character =
       symbol != nullptr && symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U;
   if (character) {
-    c_.error("SIN-007", e.pos, "access to one character of a text is not carried yet", "use SUBSTR()");
+    c_.keep("SIN-007", e.pos, "access to one character of a text is not carried yet", "use SUBSTR()");
+    return std::nullopt;
+  }
+  if (symbol != nullptr && e.args.empty() && symbol->dimensions != 0) {
+    c_.keep("SIN-008", e.pos, "the array " + e.text + " as a whole is not carried yet");
     return std::nullopt;
   }
   if (symbol != nullptr && e.args.size() != symbol->dimensions) {
@@ -177,12 +192,6 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
   return ref;
 }
 
-ir::ExprPtr ExprLowering::undefined(const Expr& e) {
-  c_.error("SIN-006", e.pos, e.text + " is not defined: no DEF, no parameter and no axis has this name",
-           "define it in this program, or set the profile option sinumerik.undefined_names to global");
-  return nullptr;
-}
-
 ir::ExprPtr ExprLowering::named(const Expr& e) {
   if (!e.text.empty() && e.text[0] == '$') return system_operand(e);
   if (e.kind == ExprKind::name && c_.symbol(e.text) == nullptr) {
@@ -192,6 +201,12 @@ ir::ExprPtr ExprLowering::named(const Expr& e) {
     if (const ir::AxisId id = c_.machine.axis(e.text); id != ir::axis::none) {
       return make(ir::AxisName{id}, ir::Type::axis, e.pos);
     }
+  }
+  if (is_undefined(e)) {
+    const std::uint32_t before = c_.errors;
+    ir::SystemRef ref = undefined(e);
+    if (c_.errors != before) return nullptr;
+    return make(std::move(ref), ir::Type::real, e.pos);
   }
   ir::Type type = ir::Type::real;
   auto ref = variable(e, type);
@@ -285,7 +300,7 @@ ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
   const std::uint32_t before = c_.errors;
   ir::SystemRef ref = system(e);
   if (c_.errors != before) return nullptr;
-  if (ref.datum == ir::Datum::other) {
+  if (ref.datum == ir::Datum::other && c_.first_time(e.text)) {
     c_.warning("SIN-015", e.pos, e.text + " is known only to the machine: a run stops where it is read");
   }
   const ir::Type type = ref.datum == ir::Datum::call_has_argument ? ir::Type::boolean : ir::Type::real;
@@ -354,7 +369,7 @@ ir::ExprPtr ExprLowering::concat(const Expr& e) {
 ir::ExprPtr ExprLowering::binary(const Expr& e) {
   if (e.text == "<<") return concat(e);
   if (e.text == ":") {
-    c_.error("SIN-008", e.pos, "chains of frames are not carried yet");
+    c_.keep("SIN-008", e.pos, "chains of frames are not carried yet");
     return nullptr;
   }
   warn_priority(e);
@@ -376,6 +391,18 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
                  std::string(ir::name(right->type)));
     return nullptr;
   }
+  if (relation && unknown && left->type != right->type && (texts || axes)) {
+    // The unknown side is of the type of the other.
+    const auto as = [](const ir::ExprPtr& e2, ir::Type type) {
+      ir::Expr copy = *e2;
+      copy.type = type;
+      return std::make_shared<const ir::Expr>(std::move(copy));
+    };
+    if (is_unknown_datum(left))
+      left = as(left, right->type);
+    else
+      right = as(right, left->type);
+  }
   const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
   const ir::Compare compare = relation && reals ? ir::Compare::relative_1e12 : ir::Compare::exact;
   const ir::Type type = arithmetic_type(row->op, left->type, right->type);
@@ -386,9 +413,11 @@ ir::ExprPtr ExprLowering::call(const Expr& e) {
   const FunctionRow* row = expression_function(e.text);
   if (row == nullptr) {
     const bool attribute_word = attribute(e.text) != Attribute::none;
-    c_.error("SIN-007", e.pos,
-             attribute_word ? e.text + "() may stand only right of an address"
-                            : "the function " + e.text + "() is not carried yet");
+    if (attribute_word) {
+      c_.error("SIN-007", e.pos, e.text + "() may stand only right of an address");
+    } else {
+      c_.keep("SIN-007", e.pos, "the function " + e.text + "() is not carried yet");
+    }
     return nullptr;
   }
   if (e.args.size() < row->arguments_min || e.args.size() > row->arguments_max) {
@@ -406,7 +435,8 @@ ir::ExprPtr ExprLowering::call(const Expr& e) {
     ir::ExprPtr arg = lower(a);
     if (!arg) return nullptr;
     const bool text_expected = wants_texts && (args.empty() || row->function == ir::Function::index_of);
-    if ((arg->type == ir::Type::string) != text_expected || arg->type == ir::Type::axis) {
+    const bool fits = (arg->type == ir::Type::string) == text_expected && arg->type != ir::Type::axis;
+    if (!fits && !is_unknown_datum(arg)) {
       c_.error("SIN-012", a.pos, e.text + "() needs a " + (text_expected ? "text" : "number") + " here");
       return nullptr;
     }
@@ -428,8 +458,8 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
   if (e.kind == ExprKind::call) {
     out = attribute(e.text);
     if (out == Attribute::unsupported || e.text.empty()) {
-      c_.error("SIN-008", e.pos,
-               "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
+      c_.keep("SIN-008", e.pos,
+              "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
       return ir::Value{};
     }
     if (out != Attribute::none) {

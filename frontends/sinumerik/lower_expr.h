@@ -29,6 +29,10 @@ class ExprLowering {
   ir::VarRef r_parameter(const syntax::Expr& index, bool& ok);
   /// A system variable; true for those the control evaluates to a constant in a plain run.
   ir::SystemRef system(const syntax::Expr& e);
+  /// True for a name (or array) that nothing in this file defines.
+  [[nodiscard]] bool is_undefined(const syntax::Expr& e) const;
+  /// Such a name as a datum known by its name only; warned about once a file.
+  ir::SystemRef undefined(const syntax::Expr& e);
 
  private:
   ir::ExprPtr named(const syntax::Expr& e);
@@ -39,7 +43,6 @@ class ExprLowering {
   ir::ExprPtr as_string(ir::ExprPtr e);
   ir::ExprPtr system_operand(const syntax::Expr& e);
   void warn_priority(const syntax::Expr& e);
-  ir::ExprPtr undefined(const syntax::Expr& e);
 
   FileContext& c_;
 };

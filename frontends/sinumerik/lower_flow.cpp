@@ -20,6 +20,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   externs_.clear();
   executable_seen_ = false;
   c_.symbols.clear();
+  c_.macros.clear();
   c_.motion = c_.machine.profile->power_on.motion;
 }
 
@@ -69,6 +70,32 @@ void StatementLowering::add_opaque(const Block& block, ir::LineInfo info, std::s
   emit(info, std::move(o));
 }
 
+void StatementLowering::add_unread(const Block& block, ir::LineInfo info) {
+  const std::string text = to_upper_ascii(code_text(c_.text, block));
+  const std::size_t end = std::min(text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_"), text.size());
+  const std::string_view word = std::string_view(text).substr(0, end);
+  const bool jumps = text.find("GOTO") != std::string::npos;
+  ir::Statement s;
+  s.line = info;
+  if (word == "IF" && !jumps) {
+    ir::If node;
+    node.condition = ir::number(0);
+    s.node = std::move(node);
+  } else if (word == "WHILE") {
+    ir::While node;
+    node.condition = ir::number(0);
+    s.node = std::move(node);
+  } else if (word == "UNTIL") {
+    structure_->close_until(ir::number(0), info);
+    return add_opaque(block, std::move(info), "text.unread", false);
+  } else {
+    return add_opaque(block, std::move(info), "text.unread", false);
+  }
+  executable_seen_ = true;
+  structure_->open(std::move(s));
+  add_opaque(block, std::move(info), "text.unread", false);
+}
+
 bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
   feature_ = {};
   for (const auto& l : block.labels) labels_.push_back(to_upper_ascii(l));
@@ -91,7 +118,7 @@ bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
     }
     if (statement(s, block, info) && c_.errors == before) continue;
     ok = false;
-    if (c_.errors == before) c_.error("SIN-008", s.pos, s.keyword + " is not carried yet");
+    if (c_.errors == before) c_.keep("SIN-008", s.pos, s.keyword + " is not carried yet");
     add_opaque(block, info, feature_, false);
     break;
   }
@@ -128,7 +155,7 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
   if (k == "SYNC")
     return refuse("language.synchronised", s.pos,
                   "synchronised actions are not carried yet: this one could move the machine or change its state");
-  if (k == "DEFINE") return refuse("language.macro", s.pos, "macros are not expanded yet");
+  if (k == "DEFINE") return macro(s, block, info);
   if (k == "ISOCALL") return refuse("language.statement", s.pos, "calling a program in ISO mode is not carried yet");
   return false;
 }
@@ -232,10 +259,24 @@ bool StatementLowering::if_statement(const Statement& s, ir::LineInfo& info) {
 bool StatementLowering::for_statement(const Statement& s, ir::LineInfo& info) {
   ir::For node;
   ir::Type type = ir::Type::real;
+  if (exprs_.is_undefined(s.args[0]) && s.args[0].args.empty()) {
+    c_.warning(
+        "SIN-006", s.args[0].pos,
+        s.args[0].text + " is not defined in this program: from here on it is an INT that this loop counts with");
+    Symbol symbol;
+    symbol.type = ir::Type::integer;
+    symbol.space = *space_of(ir::Type::integer, true);
+    c_.symbols.emplace(s.args[0].text, symbol);
+  }
   auto counter = exprs_.variable(s.args[0], type);
   node.from = exprs_.lower_as(s.args[1], ir::Type::integer);
   node.to = exprs_.lower_as(s.args[2], type == ir::Type::real ? ir::Type::real : ir::Type::integer);
-  if (counter) node.counter = std::move(*counter);
+  if (counter) {
+    node.counter = std::move(*counter);
+  } else {  // kept as text
+    node.counter.space = *space_of(ir::Type::integer, true);
+    node.counter.name = s.args[0].text;
+  }
   ir::Statement out;
   out.line = info;
   if (!node.from) node.from = ir::number(0);

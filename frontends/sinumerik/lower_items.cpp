@@ -44,7 +44,7 @@ ir::RoutineName routine_name(std::string_view text) {
 
 bool StatementLowering::refuse(std::string_view feature, WordPos pos, std::string message, std::string hint) {
   feature_ = feature;
-  c_.error("SIN-008", pos, std::move(message), std::move(hint));
+  c_.keep("SIN-008", pos, std::move(message), std::move(hint));
   return false;
 }
 
@@ -105,6 +105,27 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   return true;
 }
 
+/// A name that is not defined here gets a value: from there on it is known.
+bool StatementLowering::assign_undefined(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
+  if (value.kind == ExprKind::call && attribute(value.text) != Attribute::none) {
+    return refuse("language.statement", pos,
+                  target.text + " is an axis that the machine " + c_.machine.profile->name + " does not have");
+  }
+  const std::uint32_t before = c_.errors;
+  ir::Assign::Item item;
+  item.system = exprs_.undefined(target);
+  item.to_system = true;
+  item.pos = pos;
+  item.value = exprs_.lower(value);
+  if (!item.value || c_.errors != before) return false;
+  if (item.value->type == ir::Type::string || item.value->type == ir::Type::axis) {
+    return refuse("language.system_variable", pos,
+                  "a text or an axis for " + target.text + ", which is not defined here, is not carried yet");
+  }
+  parts.assign.items.push_back(std::move(item));
+  return true;
+}
+
 bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
   if (target.text.size() > 1 && target.text[0] == '$') {
     const bool r_cell = target.text[1] == 'R' && target.text.find_first_not_of("0123456789", 2) == std::string::npos;
@@ -121,6 +142,8 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
     }
     return assign(cell, value, pos, parts);
   }
+  const bool list = value.kind == ExprKind::call && (value.text == "SET" || value.text == "REP" || value.text.empty());
+  if (exprs_.is_undefined(target) && !list) return assign_undefined(target, value, pos, parts);
   ir::Type type = ir::Type::real;
   auto ref = exprs_.variable(target, type);
   if (!ref) return false;
@@ -222,6 +245,9 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
     target.kind = ExprKind::name;
     return assign(target, expression(), w.pos, parts);
   }
+  const std::string whole = w.extension >= 0 ? name + std::to_string(w.extension) : name;
+  if (w.has_value && c_.symbol(whole) == nullptr && is_predefined(whole))
+    return refuse("language.statement", w.pos, whole + " is not carried yet");
   if (name == "P" && w.has_value && w.extension < 0) {
     parts.has_count = true;
     parts.count = exprs_.lower_as(expression(), ir::Type::integer);
@@ -339,6 +365,11 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
       if (!a.value) return false;
       a.by_reference = external != externs_.end() && i < external->second.size() && external->second[i];
       if (const auto* v = std::get_if<ir::VarRef>(&a.value->node)) a.reference = *v;
+      const auto* datum = std::get_if<ir::SystemRef>(&a.value->node);
+      if (a.by_reference && datum != nullptr) {
+        return refuse("language.system_variable", args[i].pos,
+                      name + " wants a variable of the program here, and " + datum->text + " is not defined in it");
+      }
       if (a.by_reference && !std::holds_alternative<ir::VarRef>(a.value->node)) {
         c_.error("SIN-012", args[i].pos, name + " wants a variable here (VAR parameter)");
         return false;
@@ -402,9 +433,15 @@ bool StatementLowering::items(const Block& block, ir::LineInfo info) {
   }
   const Tail tail = has_words ? words_.tail() : Tail::none;
   if (ok && !parts.assign.items.empty() && !words.motion.coords.empty()) {
-    c_.error("SIN-011", words.motion.coords.front().pos,
-             "an assignment can't share a block with axis words (alarm 12080)",
-             "write the assignment in the block before");
+    if (parts.assign.items.front().to_system) {
+      c_.keep("SIN-011", parts.assign.items.front().pos,
+              parts.assign.items.front().system.text + " shares a block with axis words: an axis that the machine " +
+                  c_.machine.profile->name + " does not have");
+    } else {
+      c_.error("SIN-011", words.motion.coords.front().pos,
+               "an assignment can't share a block with axis words (alarm 12080)",
+               "write the assignment in the block before");
+    }
     ok = false;
   }
   if (ok && parts.has_count) {

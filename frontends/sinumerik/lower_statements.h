@@ -31,6 +31,9 @@ class StatementLowering {
   void add(ir::Statement statement);
   /// Adds the block as Opaque text.
   void add_opaque(const syntax::Block& block, ir::LineInfo info, std::string_view feature, bool harmless);
+  /// Adds a block that can't be read as Opaque text; when it opens or closes a structure by its first word, the
+  /// structure is opened or closed all the same, so that the lines between keep their place.
+  void add_unread(const syntax::Block& block, ir::LineInfo info);
 
  private:
   struct Parts;  ///< what a row of items holds: assignments, words, calls, a count
@@ -42,6 +45,7 @@ class StatementLowering {
   bool sort_assignment(const syntax::Statement& s, Parts& parts);
   bool assign(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_set(const ir::VarRef& target, ir::Type type, const syntax::Expr& value, WordPos pos, Parts& parts);
+  bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos,
@@ -72,6 +76,7 @@ class StatementLowering {
   bool initial_values(const syntax::Expr& e, ir::Type type, std::size_t elements, std::vector<ir::ExprPtr>& out);
   bool proc(const syntax::Statement& s, ir::LineInfo& info);
   bool extern_declaration(const syntax::Statement& s, const syntax::Block& block, ir::LineInfo& info);
+  bool macro(const syntax::Statement& s, const syntax::Block& block, ir::LineInfo& info);
   bool text_call(const syntax::Statement& s, ir::LineInfo& info);
   bool path_call(const syntax::Statement& s, ir::LineInfo& info);
   bool modal_call(const syntax::Statement& s, ir::LineInfo& info);
