@@ -243,7 +243,17 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   result.diagnostics.append(loader.library_diagnostics());
   interpreter::Options checks = options.run;
   checks.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
-  interpreter::check_program(source_program, checks, result.diagnostics);
+  if (from == to) {
+    // Into its own language a program keeps what can't be run here: only a run would stop there.
+    Diagnostics found;
+    interpreter::check_program(source_program, checks, found);
+    for (Diagnostic d : found.all()) {
+      if (d.severity == Severity::error) d.severity = Severity::warning;
+      result.diagnostics.add(std::move(d));
+    }
+  } else {
+    interpreter::check_program(source_program, checks, result.diagnostics);
+  }
   result.files = loader.files();
 
   ir::Program work = source_program;

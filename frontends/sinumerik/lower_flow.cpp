@@ -271,7 +271,12 @@ bool StatementLowering::for_statement(const Statement& s, ir::LineInfo& info) {
   auto counter = exprs_.variable(s.args[0], type);
   node.from = exprs_.lower_as(s.args[1], ir::Type::integer);
   node.to = exprs_.lower_as(s.args[2], type == ir::Type::real ? ir::Type::real : ir::Type::integer);
-  if (counter) node.counter = std::move(*counter);
+  if (counter) {
+    node.counter = std::move(*counter);
+  } else {  // kept as text
+    node.counter.space = *space_of(ir::Type::integer, true);
+    node.counter.name = s.args[0].text;
+  }
   ir::Statement out;
   out.line = info;
   if (!node.from) node.from = ir::number(0);

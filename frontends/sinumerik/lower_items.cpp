@@ -107,6 +107,10 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
 
 /// A name that is not defined here gets a value: from there on it is known.
 bool StatementLowering::assign_undefined(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
+  if (value.kind == ExprKind::call && attribute(value.text) != Attribute::none) {
+    return refuse("language.statement", pos,
+                  target.text + " is an axis that the machine " + c_.machine.profile->name + " does not have");
+  }
   const std::uint32_t before = c_.errors;
   ir::Assign::Item item;
   item.system = exprs_.undefined(target);

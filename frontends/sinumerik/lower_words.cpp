@@ -98,6 +98,7 @@ bool WordLowering::lower(const syntax::Block& block, const std::vector<std::pair
   g_words(block);
   for (const auto& [g, pos] : indirect) g_function(*g, pos);
   words(block);
+  if (c_.errors != before && c_.only_kept()) return false;  // what else fits or not can't be told
   return finish() && !failed_ && c_.errors == before;
 }
 
@@ -238,7 +239,12 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
       centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
   if (centre_letter) return center(axis, w, std::move(value), attribute);
   if (axis != ir::axis::none && w.extension < 0) return coordinate(axis, w, std::move(value), attribute);
-  if (attribute != Attribute::none) {
+  if (attribute == Attribute::unsupported) {  // said already
+    failed_ = true;
+    return;
+  }
+  const bool function = address == 'F' || address == 'S' || address == 'D' || address == 'H';
+  if (attribute != Attribute::none && function) {
     failed_ = true;
     c_.error("SIN-012", w.pos, "AC(), IC() and their like belong to axes and arc centres");
     return;
@@ -392,6 +398,10 @@ void WordLowering::t_word(const syntax::Block& block, const Word& w) {
     const WordPos place = block.exprs[static_cast<std::size_t>(w.expr)].pos;
     tool.name = c_.slice(WordPos{place.column + 1, place.length - 2});
   } else {
+    const syntax::Expr* name = w.is_expression ? &block.exprs[static_cast<std::size_t>(w.expr)] : nullptr;
+    const Symbol* symbol = name != nullptr && name->kind == syntax::ExprKind::name ? c_.symbol(name->text) : nullptr;
+    if (symbol != nullptr && symbol->type == ir::Type::string)
+      return refuse("language.statement", w.pos, "a tool whose name is in a variable is not carried yet");
     Attribute attribute = Attribute::none;
     tool.number = exprs_.value(block, w, attribute);
   }
