@@ -258,7 +258,7 @@ class BlockMachine final : public SystemData {
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
-  std::set<std::string> unread_;           ///< of those, what --set gave and nothing has asked for
+  std::set<std::string> unread_;  ///< of those, what --set gave and nothing has asked for
 };
 
 }  // namespace cnctrans::interpreter

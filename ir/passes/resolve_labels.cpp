@@ -286,7 +286,7 @@ class LabelPass {
       auto* j = std::get_if<Jump>(&s.node);
       if (j == nullptr) return;
       if (j->quiet && !j->target.computed && target_.searches.count(Search::forward_then_backward) == 0) {
-        s.node = Block{};  // its label is missing: the source goes on with the next block
+        s.node = Label{};  // its label is missing: the source goes on with the next block
         return;
       }
       if (j->target.computed && target_.searches.count(j->search) == 0) {

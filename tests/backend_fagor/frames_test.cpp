@@ -121,7 +121,8 @@ TEST(FagorFrames, PoleByAbscissaAndOrdinate) {  // 8.6
   b.add(actions({set(ir::Setting::plane, ir::Plane::zx)}));
   b.add(actions({action(ir::PoleSet{std::make_shared<const ir::FrameChange>(at)})}));
   b.add(actions({action(ir::PoleSet{std::make_shared<const ir::FrameChange>(ir::FrameChange{})})}));
-  EXPECT_EQ(b.lines(), "G18\nG93 I60 J90\nG93\n");
+  b.add(actions({action(ir::PoleSet{})}));  // the present point
+  EXPECT_EQ(b.lines(), "G18\nG93 I60 J90\nG93 I0 J0\nG93\n");
 }
 
 TEST(FagorFrames, WordsThatAreRadiusOrDiameterByThemselvesFollowTheMode) {  // 6.4

@@ -205,10 +205,17 @@ TEST(FagorWords, MachineCoordinatesWithoutLength) {  // 8.2
 TEST(FagorWords, DirectionOfARotaryMoveIsItsSign) {  // 6.7
   auto c = coord(axis::c, Value(90));
   c.direction = ir::RotaryDirection::negative;
-  EXPECT_EQ(lines_of(move(MotionKind::rapid, {c})), "G0 C-90\n");
+  EXPECT_EQ(refused(move(MotionKind::rapid, {c})), "TRN-202");  // no rollover axis
+  const auto on_rollover = [](const ir::Block& b) {
+    Build build;
+    build.profile.options["fagor.rotary_rollover"] = "yes";
+    build.add(b);
+    return build.lines();
+  };
+  EXPECT_EQ(on_rollover(move(MotionKind::rapid, {c})), "G0 C-90\n");
   c.direction = ir::RotaryDirection::positive;
   c.value = Value(-90);
-  EXPECT_EQ(lines_of(move(MotionKind::rapid, {c})), "G0 C270\n");
+  EXPECT_EQ(on_rollover(move(MotionKind::rapid, {c})), "G0 C270\n");
   c.direction = ir::RotaryDirection::shortest;
   EXPECT_EQ(refused(move(MotionKind::rapid, {c})), "TRN-202");
 }
