@@ -64,6 +64,10 @@ class FeedPass {
 
   void block(Statement& s, Block& b) {
     const auto& facts = facts_.before(s);
+    if (sets_units(b)) {  // the numbers seen so far are of another unit
+      known_.fill(std::nullopt);
+      other_unit_ = true;
+    }
     if (const auto* set = feed_mode_set(b)) {
       const auto before = setting<Mode>(facts, Setting::feed_mode);
       if (before != std::optional<Mode>(set->value) && differs(set->feed_memory)) {
@@ -71,11 +75,12 @@ class FeedPass {
         lost_ = false;
         memory_ = set->feed_memory;
         mode_ = set->value;
-        shared_ = facts.feed;
+        shared_ = other_unit_ ? std::nullopt : facts.feed;
       }
     }
     if (const auto* f = feed_set(b)) {
       waiting_ = false;
+      other_unit_ = false;
       const auto mode = setting_in<Mode>(b, facts, Setting::feed_mode);
       if (mode && *mode < known_.size()) known_[*mode] = f->value;
     }
@@ -83,6 +88,13 @@ class FeedPass {
     const auto kind = motion_in(b, facts);
     if (kind && !needs_feed(*kind)) return;
     give(s, b);
+  }
+
+  static bool sets_units(const Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::units;
+    });
   }
 
   [[nodiscard]] bool differs(FeedMemory source) const {
@@ -93,7 +105,7 @@ class FeedPass {
     waiting_ = false;
     std::optional<Value> value;
     if (!lost_ && memory_ == FeedMemory::per_mode && mode_ < known_.size()) value = known_[mode_];
-    if (memory_ == FeedMemory::shared && shared_) value = Value{*shared_};
+    if (!lost_ && !other_unit_ && memory_ == FeedMemory::shared && shared_) value = Value{*shared_};
     if (value && value->literal()) {
       value->text = {};
       b.actions.insert(b.actions.begin(), action(SetFeed{*value, false}));
@@ -109,6 +121,7 @@ class FeedPass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   bool waiting_ = false, lost_ = false;
+  bool other_unit_ = false;  ///< the unit was set since the last F
   FeedMemory memory_ = FeedMemory::shared;
   Mode mode_ = 0;
   std::optional<double> shared_;

@@ -73,9 +73,35 @@ bool has_illegal_switch(const Program& program, const Capabilities& target) {
   return found;
 }
 
+/// Moves in machine coordinates: the source reads them in the machine's own unit, the target in that of the program.
+void machine_moves(Program& program, const LegaliseContext& context) {
+  const std::string option = "machine_move.units", own = "machine";
+  if (context.source_machine.option(option) != own || context.target_machine.option(option) == own) return;
+  const FactsOf facts(program, context);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::machine || b->motion.coords.empty()) return;
+      const auto units = setting_in<Units>(*b, facts.before(s), Setting::units);
+      if (units == Units::metric) return;
+      if (!units) {
+        context.diagnostics.error("TRN-171", s.line.span,
+                                  "the unit in force is not known here; the source takes this machine position in "
+                                  "millimetres, the target in the unit in force",
+                                  "write the unit (inch or metric) before this block on every path");
+        return;
+      }
+      for (auto& c : b->motion.coords) {
+        if (!is_rotary_letter(c.axis)) c.value = ir::scale(c.value, 1 / 25.4);
+      }
+    });
+  }
+}
+
 }  // namespace
 
 void convert_units(Program& program, const LegaliseContext& context) {
+  machine_moves(program, context);
   if (!has_illegal_switch(program, context.target)) return;
   const FactsOf facts(program, context);
   for (auto& r : program.routines) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
@@ -75,7 +76,10 @@ class SafeStart {
         continue;
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) open = false;
-      if (b == nullptr && feed_open && !std::holds_alternative<End>(s.node)) return;  // what follows is not known
+      if (b == nullptr && feed_open && !std::holds_alternative<End>(s.node)) {
+        needs_feed_ = !has_feed();  // what follows is not known, unless there is no F at all
+        return;
+      }
       if (b == nullptr) break;
       const bool moves = b->has_motion && b->motion.moves();
       for (const auto& a : b->actions) {
@@ -96,8 +100,21 @@ class SafeStart {
     }
   }
 
+  bool has_feed() const {
+    bool found = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&found](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        for (const auto& a : b->actions) found = found || std::holds_alternative<SetFeed>(a.data);
+      });
+    }
+    return found;
+  }
+
   /// The first move says its function. False: it stands behind a statement that may lead elsewhere.
   bool first_motion() {
+    const LabelUses uses = label_uses(program_, main_);
     for (auto& s : main_.body) {
       auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Declare>(s.node) &&
@@ -106,6 +123,9 @@ class SafeStart {
       if (b == nullptr || !b->has_motion) continue;
       if (b->motion.kind != MotionKind::modal) return true;
       if (!b->motion.moves() || !b->motion.centers.empty()) continue;
+      for (const auto& l : labels_on(s.line)) {
+        if (uses.is_target(l)) return false;  // comes here again with another function
+      }
       b->motion.kind = context_.source_machine.power_on.motion;
       b->motion.explicit_code = true;
       return true;
