@@ -35,6 +35,7 @@ struct Move {
   ir::FeedMode feed_mode = ir::FeedMode::per_minute;
   double pitch = 0, pitch_change = 0, start_angle = 0;
   bool toward = true;
+  bool in_machine = false;  ///< programmed in machine coordinates
   FileId file = 0;
   std::uint32_t line = 0;
 };

@@ -255,6 +255,7 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
   Move move = move_from_here();
   move.kind = kind == ir::MotionKind::rapid ? Move::Kind::rapid : Move::Kind::linear;
   move.to = inverse_.apply(machine);
+  move.in_machine = true;
   return send(move);
 }
 

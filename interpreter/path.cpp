@@ -188,6 +188,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   e.line = move.line;
   e.feed = move.feed;
   e.feed_mode = move.feed_mode;
+  e.in_machine = move.in_machine;
   switch (move.kind) {
     case Move::Kind::rapid: e.kind = EventKind::rapid; break;
     case Move::Kind::linear: e.kind = EventKind::linear; break;

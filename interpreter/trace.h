@@ -56,6 +56,7 @@ struct Event {
   // dwell
   double amount = 0;
   bool revolutions = false;
+  bool in_machine = false;  ///< a move programmed in machine coordinates (not printed)
   // spindle, tool, offset, comp, coolant, m, stop
   std::int32_t number = 0;
   std::string state;  ///< cw ccw off oriented / off left right / coolant state

@@ -64,9 +64,14 @@ bool message_with_gaps(std::string_view source, std::string_view target) {
 /// Walks two normalised traces side by side.
 class Comparison {
  public:
-  Comparison(std::vector<const Event*> a, std::vector<const Event*> b, const Options& options, Verdict& verdict)
-      : a_(std::move(a)),
-        b_(std::move(b)),
+  Comparison(const std::vector<Event>& source, const std::vector<Event>& target, bool selections,
+             const Options& options, Verdict& verdict)
+      : a_(normalise(source, options.offset_numbers, selections)),
+        b_(normalise(target, options.offset_numbers, selections)),
+        first_a_(source.data()),
+        first_b_(target.data()),
+        offsets_a_(offset_states(source)),
+        offsets_b_(offset_states(target)),
         options_(options),
         verdict_(verdict),
         from_a_(options.source_start),
@@ -157,7 +162,8 @@ class Comparison {
       if (negligible(b, from_b_)) return take_b();
       return differ(end_difference(a, b), i_, j_);
     }
-    const std::string what = motion_difference(a, b);
+    std::string what = motion_difference(a, b);
+    if (what.empty()) what = offset_difference(a, b);
     if (!what.empty() && a.kind == EventKind::arc && negligible(a, from_a_)) return take_a();
     if (!what.empty() && a.kind == EventKind::arc && negligible(b, from_b_)) return take_b();
     if (!what.empty()) return differ(what, i_, j_);
@@ -290,6 +296,17 @@ class Comparison {
                        here);
   }
 
+  /// A move made with a tool offset on one side and with none on the other ends elsewhere on a real machine.
+  std::string offset_difference(const Event& a, const Event& b) const {
+    if (a.in_machine || b.in_machine) return {};
+    const auto there = offsets_a_[static_cast<std::size_t>(&a - first_a_)];
+    const auto here = offsets_b_[static_cast<std::size_t>(&b - first_b_)];
+    if (there == here || there == OffsetState::unknown || here == OffsetState::unknown) return {};
+    const auto text = [](OffsetState s) { return s == OffsetState::on ? "with a tool offset" : "without tool offset"; };
+    return fmt::format("the {} move is made {} in the source, {} in the translation", interpreter::name(a.kind),
+                       text(there), text(here));
+  }
+
   std::string motion_difference(const Event& a, const Event& b) {
     if (a.kind != EventKind::rapid && a.kind != EventKind::thread && !same_feed(a, b)) {
       return fmt::format("feed {} ({}) in the source, {} ({}) in the translation", shortest(a.feed),
@@ -378,6 +395,8 @@ class Comparison {
   }
 
   std::vector<const Event*> a_, b_;
+  const Event *first_a_, *first_b_;  ///< of the traces before normalisation
+  std::vector<OffsetState> offsets_a_, offsets_b_;
   const Options& options_;
   Verdict& verdict_;
   std::size_t i_ = 0, j_ = 0;
@@ -408,9 +427,7 @@ Verdict compare(const std::vector<Event>& source, const std::vector<Event>& targ
   Verdict verdict;
   verdict.status = Status::verified;
   const bool selections = has_selections(source) && has_selections(target);
-  Comparison(normalise(source, options.offset_numbers, selections),
-             normalise(target, options.offset_numbers, selections), options, verdict)
-      .run();
+  Comparison(source, target, selections, options, verdict).run();
   if (verdict.status != Status::verified) return verdict;
   // An empty trace never verifies: nothing was proved.
   const auto moved = [](const std::vector<Event>& events) {

@@ -63,6 +63,18 @@ bool has_selections(const std::vector<Event>& events) {
                      [](const Event& e) { return e.kind == EventKind::tool && !e.change; });
 }
 
+std::vector<OffsetState> offset_states(const std::vector<Event>& events) {
+  std::vector<OffsetState> states;
+  states.reserve(events.size());
+  OffsetState now = OffsetState::unknown;
+  for (const auto& e : events) {
+    if (e.kind == EventKind::tool && e.change) now = OffsetState::unknown;
+    if (e.kind == EventKind::offset) now = e.number == 0 ? OffsetState::off : OffsetState::on;
+    states.push_back(now);
+  }
+  return states;
+}
+
 std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections) {
   std::vector<const Event*> out;
   out.reserve(events.size());

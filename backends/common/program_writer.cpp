@@ -273,6 +273,7 @@ void ProgramWriter::nested_body(const ir::Body& statements) {
 }
 
 void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* before, const ir::Statement* after) {
+  if (!s.line.joined) before_statement(s);
   current_ = &s;
   if (s.line.joined && before != nullptr && line_open_ && !refused()) {
     if (!joins(*before, s)) next_line();

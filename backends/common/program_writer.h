@@ -97,6 +97,8 @@ class ProgramWriter {
 
   // ---- decisions ------------------------------------------------------------------------------------------------
   /// The statement goes on on the line of the one before it (it stood there in the source).
+  /// Called before the line of a statement is begun; a line of its own may be written here.
+  virtual void before_statement(const ir::Statement& /*next*/) {}
   virtual bool joins(const ir::Statement& before, const ir::Statement& next);
   /// The action stands on a line of its own. Default: when the target would carry it out on another side of the motion.
   virtual bool own_line(const ir::Action& a, const ir::Block& b);

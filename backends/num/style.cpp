@@ -106,6 +106,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later) {
   c.frames[ir::FrameSlot::shift] = {ir::FrameCombine::replace, ir::FrameCombine::replace_named, ir::FrameCombine::add,
                                     ir::FrameCombine::clear};
   c.frames[ir::FrameSlot::rotation] = {ir::FrameCombine::replace, ir::FrameCombine::clear};
+  c.frames[ir::FrameSlot::scale] = {ir::FrameCombine::replace, ir::FrameCombine::clear};
   c.frames[ir::FrameSlot::mirror] = {ir::FrameCombine::replace_named, ir::FrameCombine::clear};
   c.frames[ir::FrameSlot::preset] = {ir::FrameCombine::preset};
   c.work_offset_rows = 1;

@@ -1,4 +1,6 @@
 // Words of NUM blocks: motion, frames, cycles.
+#include <cmath>
+
 #include "backends/num/style.h"
 #include "backends/num/writer.h"
 #include "base/text.h"
@@ -150,6 +152,15 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   }
   if (c.slot == ir::FrameSlot::scale && clear) return add("G73", Rank::setting, a.pos);
   if (c.slot == ir::FrameSlot::scale && same_dialect()) return add("G74", Rank::setting, a.pos);
+  if (c.slot == ir::FrameSlot::scale && c.uniform_scale && c.words.size() == 1) {  // thousandths in E69000
+    const ir::Value& factor = c.words[0].value;
+    const double thousandths = std::round(factor.number * 1000);
+    if (!factor.literal() || std::fabs(thousandths - factor.number * 1000) > 1e-6 || thousandths < 1 ||
+        thousandths > 9999)
+      return refuse(no_word, a.pos, "a scale factor that is not a fixed number of thousandths (0.001 to 9.999)");
+    add("E69000=" + std::to_string(static_cast<int>(thousandths)), Rank::head, a.pos);
+    return add("G74", Rank::setting, a.pos);
+  }
   if (c.slot == ir::FrameSlot::preset && c.combine == ir::FrameCombine::preset) {
     std::string text = "G92";
     for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);

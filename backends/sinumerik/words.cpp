@@ -31,9 +31,6 @@ std::string numbered(std::string_view address, std::uint8_t number) {
 
 void Writer::block(const ir::Block& b) {
   block_has_offset_ = has<ir::ToolOffset>(b) || has<ir::ToolSelect>(b);
-  const ir::LineInfo& line = current().line;
-  if (!line.labels.empty() || (!line.number.empty() && labels().is_target(routine_index(), line.number)))
-    offset_uncertain();
   feed_and_spindle_mode(b);
   offset_again(b);
   ProgramWriter::block(b);
@@ -72,19 +69,44 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
     refuse("TRN-202", {}, "inverse-time feed with constant cutting speed has no counterpart here");
 }
 
-/// After a move in machine coordinates without tool length (SUPA D0) the offset is selected again.
+/// After a move in machine coordinates without tool length (SUPA D0) the offset is selected again, in the first block
+/// that needs it.
 void Writer::offset_again(const ir::Block& b) {
   if (!offset_pending_) return;
   if (b.has_motion && b.motion.frame == ir::FrameUse::machine) return;
-  if (b.empty()) return;
+  if (!b.has_motion && !has<ir::CycleDefine>(b) && !block_has_offset_) return;
   offset_pending_ = false;
   if (block_has_offset_ || !offset_in_force()) return;
   add(offset_word_, Rank::offset);
 }
 
+/// The offset comes back before the program can go on elsewhere, and before a place that is reached from elsewhere.
+void Writer::before_statement(const ir::Statement& next) {
+  const ir::LineInfo& line = next.line;
+  const bool entered =
+      !line.labels.empty() || (!line.number.empty() && labels().is_target(routine_index(), line.number));
+  const auto* block = std::get_if<ir::Block>(&next.node);
+  const auto* text = std::get_if<ir::Opaque>(&next.node);
+  const bool stays = block != nullptr || std::holds_alternative<ir::Assign>(next.node) ||
+                     std::holds_alternative<ir::Message>(next.node) || std::holds_alternative<ir::Label>(next.node) ||
+                     std::holds_alternative<ir::Declare>(next.node) || std::holds_alternative<ir::End>(next.node) ||
+                     (text != nullptr && text->harmless);
+  if (offset_pending_ && (entered || !stays)) offset_line(line.span);
+  if (entered || !stays) {
+    straight_ = false;
+    offset_uncertain();
+  }
+}
+
+void Writer::offset_line(const Span& span) {
+  offset_pending_ = false;
+  if (offset_in_force()) raw_line(offset_word_, span);
+}
+
 /// The offset before the move in machine coordinates as `offset_word_`. False: none was in force, or refused.
 bool Writer::offset_in_force() {
   const bool in_main = program().main() == &program().routines[routine_index()];
+  if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return false;  // none since the start
   const char* select = "select the offset in the source after such a move";
   bool guess = several_offsets_ && !offset_certain_;
   if (offset_word_.empty() && several_offsets_) {
@@ -239,6 +261,7 @@ void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
 }
 
 void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
+  tool_selected_ = true;
   if (!t.name.empty()) return add("T=\"" + std::string(t.name) + '"', Rank::tool, a.pos);
   add(word("T", t.number, a.pos), Rank::tool, a.pos);
 }

@@ -137,7 +137,8 @@ void Writer::write_program() {
 void Writer::routine_text(std::size_t index, const std::string& name) {
   start_routine(index);
   offset_word_.clear();
-  offset_pending_ = offset_certain_ = false;
+  offset_pending_ = offset_certain_ = tool_selected_ = false;
+  straight_ = true;
   const ir::Routine& r = routine();
   const bool proc = r.has_signature || !r.parameters.empty();
   const bool title = !r.title.empty() && !same_dialect();
@@ -219,6 +220,7 @@ bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
 void Writer::nested(const ir::Body& statements) {
   offset_uncertain();
   nested_body(statements);
+  if (offset_pending_) offset_line(current().line.span);
   offset_uncertain();
 }
 

@@ -26,6 +26,7 @@ class Writer final : public ProgramWriter {
   std::string word(std::string_view address, const ir::Value& value, WordPos pos) override;
   std::string label_text(const ir::LineInfo& info) override;
   bool joins(const ir::Statement& before, const ir::Statement& next) override;
+  void before_statement(const ir::Statement& next) override;
 
   // statements (statements.cpp)
   void assign(const ir::Assign& a) override;
@@ -94,6 +95,7 @@ class Writer final : public ProgramWriter {
   std::string cycle_text(const ir::Cycle& cycle, WordPos pos);
   void feed_and_spindle_mode(const ir::Block& b);
   void offset_again(const ir::Block& b);
+  void offset_line(const Span& span);
   bool offset_in_force();
   void offset_uncertain() { offset_certain_ = false; }
   void nested(const ir::Body& statements);
@@ -113,6 +115,8 @@ class Writer final : public ProgramWriter {
   bool selects_tools_ = false;            ///< the program selects tools
   std::optional<ir::Value> only_offset_;  ///< the one offset other than 0 that the program selects
   bool offset_pending_ = false;           ///< D0 was written for a move in machine coordinates
+  bool straight_ = true;                  ///< no jump, call or label since the start of the routine
+  bool tool_selected_ = false;            ///< the routine has selected a tool
 };
 
 }  // namespace cnctrans::backends::sinumerik

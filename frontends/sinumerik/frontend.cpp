@@ -99,6 +99,7 @@ class FileReading {
   void end_routine();
   void take(const SourceLine& line);
   void take_header(const syntax::Block& block, const SourceLine& line);
+  void next_file();
   void take_words(const syntax::Block& block, ir::LineInfo info);
   void unread(const syntax::Block& block, ir::LineInfo info);
   SourceLine written_out(const SourceLine& line);
@@ -163,6 +164,17 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
   routine_.header.blank_lines_before = blank_;
   blank_ = 0;
   look_.archive = true;
+}
+
+/// PROC behind the end of a program: somebody has put several files one behind the other.
+void FileReading::next_file() {
+  const auto& proc = block_.statements.front();
+  context_.warning("SIN-040", proc.pos,
+                   "PROC behind the end of the program: read as the next file, " + proc.text +
+                       ".SPF; on the control each program has a file of its own",
+                   "save it as " + proc.text + ".SPF");
+  end_routine();
+  begin_routine(proc.text, true);
 }
 
 void FileReading::close_blank() {
@@ -271,6 +283,7 @@ void FileReading::take(const SourceLine& source_line) {
     return;
   }
   if (!block_.statements.empty() && block_.statements.front().keyword == "%") return take_header(block_, line);
+  if (!block_.statements.empty() && block_.statements.front().keyword == "PROC" && statements_.ended()) next_file();
   fill_line_info(block_, context_.line, info_);
   info_.blank_lines_before = std::exchange(blank_, std::uint16_t{0});
   if (empty) {

@@ -18,7 +18,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   structure_.emplace(routine.body);
   labels_.clear();
   externs_.clear();
-  executable_seen_ = false;
+  executable_seen_ = ended_ = false;
   c_.symbols.clear();
   c_.macros.clear();
   c_.motion = c_.machine.profile->power_on.motion;
@@ -36,7 +36,11 @@ void StatementLowering::end_routine() {
 
 void StatementLowering::add(ir::Statement statement) {
   const auto* block = std::get_if<ir::Block>(&statement.node);
-  if (block == nullptr || !block->empty()) executable_seen_ = true;
+  if (block == nullptr || !block->empty()) {
+    executable_seen_ = true;
+    const bool end = std::holds_alternative<ir::End>(statement.node) || std::holds_alternative<ir::Return>(statement.node);
+    ended_ = end && structure_->depth() == 0 && statement.line.skip_mask == 0;
+  }
   for (const auto& l : statement.line.labels) labels_.push_back(to_upper_ascii(l));
   structure_->add(std::move(statement));
 }

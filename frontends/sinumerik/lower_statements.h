@@ -24,6 +24,8 @@ class StatementLowering {
   void begin_routine(ir::Routine& routine);
   /// The routine ends: structures that are still open are reported and closed.
   void end_routine();
+  /// The last block so far ends the routine, whatever leads to it (M30, M17, RET outside all structures).
+  [[nodiscard]] bool ended() const { return ended_; }
 
   /// Lowers one block and adds its statements. True when all of it was understood.
   bool lower(const syntax::Block& block, ir::LineInfo info);
@@ -92,6 +94,7 @@ class StatementLowering {
   std::optional<frontends::StructureBuilder> structure_;
   std::vector<std::string> labels_;                                ///< of the routine so far, in text order, capitals
   std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
+  bool ended_ = false;
   bool executable_seen_ = false;
   std::string_view feature_;  ///< why the block in work could not be carried
 };

@@ -1,12 +1,12 @@
 // Work offsets and the programmable frame (equivalences 17): shift and rotation are followed along the program and said
 // again in the target's own slots.
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
-#include "ir/passes/frame_state.h"
+#include "ir/passes/frame_rebuild.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
 
@@ -17,9 +17,10 @@ namespace {
 class FramePass {
  public:
   FramePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts), states_(program, facts, context) {}
+      : program_(program), context_(context), facts_(facts), states_(program, facts, context), target_(program, context) {}
 
   void routine(Routine& r) {
+    find_groups(r.body, label_uses(program_, r));
     Editor editor(program_, r, context_);
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       auto* b = std::get_if<Block>(&s.node);
@@ -55,20 +56,30 @@ class FramePass {
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
         const FrameState before = state;
         state.apply(*f->change, facts_.before(s), b, context_.source_machine);
-        const bool silent = a.pos.column == 0 && before.known() && before == state;
-        if (legal(*f->change))
+        const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
+        const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
+        auto same = pending_ ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
+        const bool said_otherwise = same && same->by_distance_mode != f->change->by_distance_mode;
+        if (same && !(said_otherwise && target_.part(state).known())) {
+          if (same->combine != f->change->combine || same->by_distance_mode != f->change->by_distance_mode)
+            a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*same))};
           actions.push_back(std::move(a));
-        else if (silent)
+        } else if (silent) {
           continue;  // a reset of what is not there, made by the reader
-        else if (!rebuild(s, a, *f->change, before, state, actions)) {
+        } else if (waiting_.count(s.id) != 0) {
+          pending_ = true;
+        } else if (!rebuild(s, a, *f->change, before, state, actions)) {
           out.push_back(std::move(s));
           return;
+        } else {
+          pending_ = false;
         }
       } else {
         actions.push_back(std::move(a));
       }
     }
     b.actions = std::move(actions);
+    settle(s);
     editor.put(out, {}, std::move(s));
   }
 
@@ -77,13 +88,21 @@ class FramePass {
     Body before;
     const bool needed =
         context_.target.shift_survives_end && program_.dialect != context_.target.dialect && !state.neutral();
-    if (needed && can(FrameSlot::shift, FrameCombine::clear)) {
+    if (needed && target_.can(FrameSlot::shift, FrameCombine::clear)) {
       s.line.joined = false;
-      before.push_back(make_block(s.line, make(FrameSlot::shift, FrameKind::translate, FrameCombine::clear)));
-      if (can(FrameSlot::rotation, FrameCombine::clear) && !(state.angle() && state.angle()->is(0)))
-        before.push_back(make_block(s.line, make(FrameSlot::rotation, FrameKind::rotate, FrameCombine::clear)));
+      before.push_back(make_block(s.line, neutral(FrameSlot::shift, FrameKind::translate)));
+      if (target_.can(FrameSlot::rotation, FrameCombine::clear) && target_.part(state).turns())
+        before.push_back(make_block(s.line, neutral(FrameSlot::rotation, FrameKind::rotate)));
     }
     editor.put(out, std::move(before), std::move(s));
+  }
+
+  static Action neutral(FrameSlot slot, FrameKind kind) {
+    auto change = std::make_shared<FrameChange>();
+    change->slot = slot;
+    change->kind = kind;
+    change->combine = FrameCombine::clear;
+    return action(FrameOp{std::move(change)});
   }
 
   bool machine_move(Statement& s, Block& b) {
@@ -149,132 +168,90 @@ class FramePass {
     }
   }
 
-  bool legal(const FrameChange& c) const {
-    const auto slot = context_.target.frames.find(c.slot);
-    if (slot == context_.target.frames.end() || slot->second.count(c.combine) == 0) return false;
-    if (c.by_distance_mode && context_.target.dialect != program_.dialect)
-      return slot->second.count(FrameCombine::add) != 0;
-    return true;
-  }
-
-  static Action make(FrameSlot slot, FrameKind kind, FrameCombine combine, std::vector<FrameWord> words = {}) {
-    auto change = std::make_shared<FrameChange>();
-    change->slot = slot;
-    change->kind = kind;
-    change->combine = combine;
-    change->words = std::move(words);
-    return action(FrameOp{std::move(change)});
-  }
-  static Action rotation(FrameSlot slot, FrameCombine combine, const Value& angle) {
-    auto change = std::make_shared<FrameChange>();
-    change->slot = slot;
-    change->kind = FrameKind::rotate;
-    change->combine = combine;
-    change->has_angle = true;
-    change->angle = angle;
-    return action(FrameOp{std::move(change)});
-  }
-
-  bool can(FrameSlot slot, FrameCombine combine) const {
-    const auto it = context_.target.frames.find(slot);
-    return it != context_.target.frames.end() && it->second.count(combine) != 0;
-  }
-
   /// The whole programmable frame in the target's slots. False: refused.
   bool rebuild(Statement& s, const Action& a, const FrameChange& c, const FrameState& before, const FrameState& after,
                std::vector<Action>& out) {
-    if (!after.known()) {
-      const std::string what = after.foreign()
-                                   ? "a mirror, a scale or a rotation that the passes do not carry over yet"
-                                   : "what the programmable frame holds here depends on the path that leads here";
-      refuse(s, program_, context_, "TRN-325", "frame: " + what, "set the whole frame in one place", a.pos);
-      return false;
-    }
-    const bool chain = can(FrameSlot::chain, FrameCombine::replace);
-    const std::size_t first = out.size();
-    const bool done = chain ? to_chain(before, after, out) : to_slots(c, before, after, out);
-    if (!done) {
+    const auto& b = std::get<Block>(s.node);
+    const auto plane = setting_in<Plane>(b, facts_.before(s), Setting::plane);
+    std::optional<PlanarFrame> held;
+    if (!pending_) held = target_.part(before);
+    const auto result = target_.rebuild(c, held, target_.part(after), target_.kept_by(c, before, after), plane, out);
+    using Result = FrameTarget::Result;
+    if (result == Result::done) return true;
+    if (result == Result::impossible) {
       refuse(s, program_, context_, "TRN-326", "the target can't hold this frame",
              "transform the coordinates of the part", a.pos);
       return false;
     }
-    for (std::size_t i = first; i < out.size(); ++i) out[i].pos = {};
-    return true;
+    const std::string what = result == Result::foreign
+                                 ? "a scale of single axes, a rotation in space or a preset that is not carried over"
+                                 : "what the programmable frame holds here depends on the path that leads here";
+    refuse(s, program_, context_, "TRN-325", "frame: " + what, "set the whole frame in one place", a.pos);
+    return false;
   }
 
-  bool to_chain(const FrameState& before, const FrameState& f, std::vector<Action>& out) const {
-    const auto words = f.shift_words(true);
-    const bool turn_alone = before.known() && before.angle()->is(0) && !f.angle()->is(0) && same_shift(before, f);
-    if (turn_alone) {
-      // The shift is in force already.
-    } else if (words.empty())
-      out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::clear));
-    else
-      out.push_back(make(FrameSlot::chain, FrameKind::translate, FrameCombine::replace, words));
-    if (!f.angle()->is(0)) {
-      if (!can(FrameSlot::chain, FrameCombine::compose)) return false;
-      out.push_back(rotation(FrameSlot::chain, FrameCombine::compose, *f.angle()));
-    }
-    return true;
-  }
+  // ---- statements that build one frame together
 
-  bool to_slots(const FrameChange& c, const FrameState& before, const FrameState& after,
-                std::vector<Action>& out) const {
-    if (!same_shift(before, after) || c.kind == FrameKind::translate || c.combine == FrameCombine::clear) {
-      const auto words = after.shift_words(true);
-      if (words.empty() && can(FrameSlot::shift, FrameCombine::clear)) {
-        out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::clear));
-      } else if (can(FrameSlot::shift, FrameCombine::replace_named)) {
-        out.push_back(
-            make(FrameSlot::shift, FrameKind::translate, FrameCombine::replace_named, named_words(before, after)));
-      } else if (can(FrameSlot::shift, FrameCombine::replace)) {
-        out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::replace, words));
-      } else {
-        return false;
+  /// Frame statements that follow one another without motion and without a way into their midst build one frame: where
+  /// only the last of them leaves it known, the others wait for it.
+  void find_groups(Body& body, const LabelUses& uses) {
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      std::size_t last = 0;
+      if (only_frames(body[i]) && !known_after(body[i]) && !is_range_end(body[i], uses)) {
+        for (std::size_t j = i + 1; j < body.size(); ++j) {
+          if (is_remark(body[j])) continue;
+          if (!only_frames(body[j]) || is_target(body[j], uses)) break;
+          if (known_after(body[j])) {
+            last = j;
+            break;
+          }
+          if (is_range_end(body[j], uses)) break;
+        }
       }
+      for (; i < last; ++i) {
+        if (only_frames(body[i])) waiting_.insert(body[i].id);
+      }
+      each_body(body[i], [this, &uses](Body& inner) { find_groups(inner, uses); });
     }
-    if (before.angle() && equal(*before.angle(), *after.angle())) return true;
-    return rotate_slot(before, after, out);
   }
 
-  bool rotate_slot(const FrameState& before, const FrameState& after, std::vector<Action>& out) const {
-    const FrameSlot slot = FrameSlot::rotation;
-    const bool neutral = after.angle()->is(0), was_neutral = before.angle() && before.angle()->is(0);
-    if (can(slot, FrameCombine::replace)) {
-      out.push_back(rotation(slot, FrameCombine::replace, *after.angle()));
-      return true;
-    }
-    if (!can(slot, FrameCombine::add) || !can(slot, FrameCombine::clear)) return neutral && was_neutral;
-    if (!was_neutral) out.push_back(make(slot, FrameKind::rotate, FrameCombine::clear));
-    if (!neutral) out.push_back(rotation(slot, FrameCombine::add, *after.angle()));
-    return true;
+  /// A block of nothing but frame statements that holds for every run.
+  static bool only_frames(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    return b != nullptr && !b->has_motion && !b->actions.empty() && s.line.skip_mask == 0 &&
+           std::all_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+             const auto* f = std::get_if<FrameOp>(&a.data);
+             return f != nullptr && f->change && f->change->combine != FrameCombine::preset;
+           });
   }
-
-  static bool same_shift(const FrameState& a, const FrameState& b) {
-    for (std::size_t i = 0; i < FrameState::axes; ++i) {
-      if (!a.shift(i) || !b.shift(i) || !equal(*a.shift(i), *b.shift(i))) return false;
-    }
-    return true;
+  template <class Test>
+  static bool any_label(const Statement& s, const Test& test) {
+    const auto labels = labels_on(s.line);
+    return std::any_of(labels.begin(), labels.end(), test);
   }
-
-  /// Words for every axis whose shift changes or is not known to be right already.
-  static std::vector<FrameWord> named_words(const FrameState& before, const FrameState& after) {
-    std::vector<FrameWord> words;
-    for (std::size_t i = 0; i < FrameState::axes; ++i) {
-      const auto& to = *after.shift(i);
-      if (before.shift(i) && equal(*before.shift(i), to) && (to.is(0) || !after.named(i))) continue;
-      words.push_back(after.word(i));
+  static bool is_target(const Statement& s, const LabelUses& uses) {
+    return any_label(s, [&uses](const LabelRef& l) { return uses.is_target(l); });
+  }
+  static bool is_range_end(const Statement& s, const LabelUses& uses) {
+    return any_label(s, [&uses](const LabelRef& l) { return uses.is_end(l); });
+  }
+  bool known_after(const Statement& s) const {
+    const auto& b = std::get<Block>(s.node);
+    FrameState state = states_.before(s);
+    for (const auto& a : b.actions) {
+      if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
+        state.apply(*f->change, facts_.before(s), b, context_.source_machine);
     }
-    if (words.empty()) {
-      for (std::size_t i = 0; i < 3; ++i) words.push_back(after.word(i));
-    }
-    return words;
+    return target_.part(state).known();
   }
 
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
   const FrameStates states_;
+  const FrameTarget target_;
+  std::set<std::uint32_t> waiting_;
+  bool pending_ = false;  ///< statements before this one wait to be said here
 };
 
 bool uses_frames(const Program& program) {

@@ -4,152 +4,253 @@
 
 namespace cnctrans::ir::passes {
 
-FrameState::FrameState() {
-  shift_.fill(Value{0.0});
-  angle_ = Value{0.0};
-}
+namespace {
 
-bool FrameState::known() const {
-  return !foreign_ && angle_ && std::all_of(shift_.begin(), shift_.end(), [](const auto& v) { return v.has_value(); });
-}
+constexpr std::size_t axes = PlanarFrame::axes;
 
-FrameWord FrameState::word(std::size_t a) const {
-  FrameWord w;
-  w.axis = static_cast<AxisId>(a);
-  w.value = preset_[a] == 0 ? *shift_[a] : add(*shift_[a], Value{preset_[a]});
-  return w;
-}
-
-std::vector<FrameWord> FrameState::shift_words(bool drop_zero) const {
-  std::vector<FrameWord> words;
-  for (std::size_t a = 0; a < axes; ++a) {
-    if (shift_[a] && !(drop_zero && word(a).value.is(0))) words.push_back(word(a));
+std::optional<Plane> plane_of_normal(AxisId normal) {
+  for (const Plane p : {Plane::xy, Plane::zx, Plane::yz}) {
+    if (plane_axes(p).w == normal) return p;
   }
-  return words;
+  return std::nullopt;
+}
+
+Value plain(Value v) {
+  v.text = {};
+  return v;
+}
+
+}  // namespace
+
+PlanarFrame FrameState::whole(const machine::Profile& machine, bool preset) const {
+  PlanarFrame f;
+  for (const auto s : machine.frame_order) {
+    if (s != FrameSlot::preset || preset) f = compose(f, slot(s));
+  }
+  return f;
+}
+
+PlanarFrame FrameState::inner_of(FrameSlot slot_of, const machine::Profile& machine) const {
+  PlanarFrame f;
+  bool inside = false;
+  for (const auto s : machine.frame_order) {
+    if (inside) f = compose(f, slot(s));
+    inside = inside || s == slot_of;
+  }
+  return f;
 }
 
 bool FrameState::neutral() const {
-  return known() && angle_->is(0) && shift_words(true).empty();
-}
-
-void FrameState::limit(std::uint32_t axes_touched, bool rotates) {
-  touched_ = axes_touched;
-  rotates_ = rotates;
+  return std::all_of(slots_.begin(), slots_.end(), [](const PlanarFrame& f) { return f.neutral(); });
 }
 
 void FrameState::forget() {
-  for (std::size_t a = 0; a < axes; ++a) {
-    if ((touched_ >> a & 1U) != 0) shift_[a].reset();
+  for (std::size_t i = 0; i < frame_slots; ++i) {
+    auto& f = slots_[i];
+    for (std::size_t a = 0; a < axes; ++a) {
+      if ((uses_[i].axes >> a & 1U) != 0) f.shift[a].reset();
+    }
+    if (uses_[i].turns) f.angle.reset();
+    if (uses_[i].scales) f.factor.reset();
+    if (uses_[i].mirrors) f.mirror.reset();
   }
-  if (rotates_) angle_.reset();
 }
 
 void FrameState::forget_expressions() {
-  for (auto& s : shift_) {
-    if (s && s->expr) s.reset();
+  for (auto& f : slots_) {
+    f.each_value([](std::optional<Value>& v) {
+      if (v && v->expr) v.reset();
+    });
   }
-  if (angle_ && angle_->expr) angle_.reset();
 }
 
-void FrameState::forget(const VarRef& v) {
-  for (auto& s : shift_) {
-    if (s && s->expr && reads(s->expr, v)) s.reset();
+void FrameState::forget(const VarRef& var) {
+  for (auto& f : slots_) {
+    f.each_value([&var](std::optional<Value>& v) {
+      if (v && v->expr && reads(v->expr, var)) v.reset();
+    });
   }
-  if (angle_ && angle_->expr && reads(angle_->expr, v)) angle_.reset();
 }
 
 void FrameState::join(const FrameState& other) {
-  for (std::size_t a = 0; a < axes; ++a) {
-    if (shift_[a] && (!other.shift_[a] || !equal(*shift_[a], *other.shift_[a]))) shift_[a].reset();
-  }
-  if (angle_ && (!other.angle_ || !equal(*angle_, *other.angle_))) angle_.reset();
-  foreign_ = foreign_ || other.foreign_ || preset_ != other.preset_;
+  for (std::size_t i = 0; i < frame_slots; ++i) slots_[i].join(other.slots_[i]);
 }
 
-bool FrameState::operator==(const FrameState& o) const {
-  const auto same = [](const std::optional<Value>& a, const std::optional<Value>& b) {
-    return a.has_value() == b.has_value() && (!a || equal(*a, *b));
-  };
-  for (std::size_t a = 0; a < axes; ++a) {
-    if (!same(shift_[a], o.shift_[a])) return false;
+void FrameState::follow_units(const Block& b, const Facts& facts, const machine::Profile& machine) {
+  for (const auto& a : b.actions) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    if (m == nullptr || (m->setting != Setting::units && m->setting != Setting::diameter)) continue;
+    const auto before = facts.settings[static_cast<std::size_t>(m->setting)];
+    if (before && *before == m->value) continue;
+    for (auto& f : slots_) {
+      for (std::size_t i = 0; i < axes; ++i) {
+        if (!f.shift[i] || f.shift[i]->is(0)) continue;
+        const auto id = static_cast<AxisId>(i);
+        const bool counts_otherwise = m->setting == Setting::units
+                                          ? !is_rotary_letter(id)
+                                          : is_diameter_axis(machine, id) && f.shift_scale[i] == WordScale::modal;
+        if (counts_otherwise) f.shift[i].reset();
+      }
+    }
   }
-  return same(angle_, o.angle_) && foreign_ == o.foreign_ && preset_ == o.preset_;
-}
-
-void FrameState::clear(FrameSlot slot) {
-  if (slot == FrameSlot::shift || slot == FrameSlot::chain) shift_.fill(Value{0.0});
-  if (slot == FrameSlot::rotation || slot == FrameSlot::chain) angle_ = Value{0.0};
-  if (slot == FrameSlot::preset) preset_.fill(0);
-  if (slot == FrameSlot::chain) foreign_ = false;
 }
 
 void FrameState::translate(const FrameChange& c, const Facts& facts, const Block& b) {
+  auto& f = at(c.slot);
   FrameCombine combine = c.combine;
   if (c.by_distance_mode) {
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    if (!distance) return forget();
+    if (!distance) {
+      for (const auto& w : c.words) {
+        if (w.axis < axes) f.shift[w.axis].reset();
+      }
+      return;
+    }
     combine = *distance == Distance::incremental ? FrameCombine::add : FrameCombine::replace_named;
   }
-  if (combine == FrameCombine::replace && c.slot == FrameSlot::chain) clear(FrameSlot::chain);
-  if (combine == FrameCombine::replace) shift_.fill(Value{0.0});
-  if (combine == FrameCombine::compose && !(angle_ && angle_->is(0))) {  // inside a rotation: by numbers only
-    foreign_ = true;
-    return;
-  }
+  PlanarFrame moved;
   for (const auto& w : c.words) {
     if (w.axis >= axes) continue;
-    Value v = w.value;
-    v.text = {};
-    const bool adds = combine == FrameCombine::add || combine == FrameCombine::compose;
-    if (!adds)
-      shift_[w.axis] = w.value;
-    else if (shift_[w.axis])
-      shift_[w.axis] = add(*shift_[w.axis], v);
+    moved.shift[w.axis] = combine == FrameCombine::replace || combine == FrameCombine::replace_named ? w.value
+                                                                                                     : plain(w.value);
+    moved.shift_scale[w.axis] = w.scale;
+  }
+  if (combine == FrameCombine::replace) {
+    f = moved;
+  } else if (combine == FrameCombine::compose) {
+    f = compose(f, moved);
+  } else if (combine == FrameCombine::add) {
+    f = compose(moved, f);
+  } else {
+    for (const auto& w : c.words) {
+      if (w.axis >= axes) continue;
+      f.shift[w.axis] = moved.shift[w.axis];
+      f.shift_scale[w.axis] = w.scale;
+    }
   }
 }
 
-void FrameState::rotate(const FrameChange& c) {
-  if (!c.words.empty() || c.rotation_axis != axis::none || !c.has_angle) {
-    foreign_ = true;
+void FrameState::rotate(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine) {
+  auto& f = at(c.slot);
+  std::optional<Plane> plane = setting_in<Plane>(b, facts, Setting::plane);
+  Value angle = c.angle;
+  PlanarFrame centre;
+  if (!c.has_angle) {  // words are angles about the axes
+    if (c.words.size() == 1) {
+      plane = plane_of_normal(c.words[0].axis);
+      angle = c.words[0].value;
+    } else {
+      plane.reset();
+    }
+  } else {
+    if (c.rotation_axis != axis::none) plane = plane_of_normal(c.rotation_axis);
+    for (const auto& w : c.words) {
+      if (w.axis >= axes) continue;
+      centre.shift[w.axis] = plain(w.value);
+      centre.shift_scale[w.axis] = is_diameter_axis(machine, w.axis) ? WordScale::diameter : w.scale;
+    }
+    if (machine.option("frame.rotation_centre") == "scaled_and_mirrored" && centre.has_shift()) {
+      const PlanarFrame inner = inner_of(c.slot, machine);
+      centre = compose(inner, centre);
+    }
+  }
+  if (!plane) {
+    f.foreign = true;
     return;
   }
-  if (c.combine == FrameCombine::replace) {
-    if (c.slot == FrameSlot::chain) clear(FrameSlot::chain);
-    angle_ = c.angle;
-  } else if (angle_) {
-    angle_ = add(*angle_, c.angle);
+  PlanarFrame turn = rotation_about(centre, angle, *plane);
+  if (c.combine == FrameCombine::add)
+    f = compose(turn, f);
+  else if (c.combine == FrameCombine::compose)
+    f = compose(f, turn);
+  else
+    f = turn;
+}
+
+/// Scale and mirror.
+void FrameState::stretch(const FrameChange& c, const machine::Profile& machine) {
+  auto& f = at(c.slot);
+  PlanarFrame g;
+  std::uint32_t named = 0, on = 0;
+  for (const auto& w : c.words) {
+    if (w.axis < axes) named |= 1U << w.axis;
+    if (w.axis < axes && !w.value.is(0)) on |= 1U << w.axis;
   }
+  const bool keeps = c.combine == FrameCombine::replace_named || c.combine == FrameCombine::add;
+  if (c.kind == FrameKind::mirror) {
+    const bool fixed = std::all_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.value.literal(); });
+    g.mirror = on;
+    if (!fixed) g.mirror.reset();
+    if (keeps) {
+      if (f.mirror && fixed)
+        f.mirror = (*f.mirror & ~named) | on;
+      else
+        f.mirror.reset();
+      return;
+    }
+  } else {
+    const bool equal_words = !c.words.empty() && std::all_of(c.words.begin(), c.words.end(), [&c](const auto& w) {
+      return equal(w.value, c.words[0].value);
+    });
+    const bool all_axes = std::all_of(machine.axes.begin(), machine.axes.end(), [named](const auto& a) {
+      return a.rotary || (a.id < axes && (named >> a.id & 1U) != 0);
+    });
+    if (equal_words && (c.uniform_scale || all_axes || c.words[0].value.is(1)))
+      g.factor = plain(c.words[0].value);
+    else
+      g.foreign = true;
+    if (keeps) {
+      if (!c.uniform_scale && !all_axes)
+        f.foreign = true;
+      else if (c.combine == FrameCombine::add)
+        f = compose(f, g);
+      else
+        f.factor = g.factor;
+      return;
+    }
+  }
+  f = c.combine == FrameCombine::compose ? compose(f, g) : g;
 }
 
 /// The present point gets new coordinates: the origin moves by the difference. Positions by numbers only.
 void FrameState::preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine) {
-  if (!(angle_ && angle_->is(0))) foreign_ = true;
+  auto& f = at(FrameSlot::preset);
+  const PlanarFrame inner = inner_of(FrameSlot::preset, machine);
+  if (inner.foreign || inner.turns() || inner.scales() || inner.mirrors()) f.foreign = true;
   for (const auto& w : c.words) {
-    const auto& at = facts.position[w.axis];
+    if (w.axis >= axes) continue;
+    const auto& point = facts.position[w.axis];
     const auto factor = to_radius(w.axis, w.scale, Distance::absolute, b, facts, machine);
-    if (w.axis >= axes || !at || !factor || !w.value.literal()) {
-      foreign_ = true;
+    if (!point || !factor || !w.value.literal()) {
+      f.foreign = true;
       return;
     }
-    preset_[w.axis] += *at / *factor - w.value.number;
+    f.shift_scale[w.axis] = w.scale;
+    const Value by{*point / *factor - w.value.number};
+    if (f.shift[w.axis]) f.shift[w.axis] = add(*f.shift[w.axis], by);
   }
 }
 
 void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine) {
-  if (c.combine == FrameCombine::clear) return clear(c.slot);
+  if (c.combine == FrameCombine::clear) {
+    at(c.slot) = PlanarFrame{};
+    if (c.slot != FrameSlot::chain) return;
+    for (const auto s : machine.frame_order) {
+      if (s != FrameSlot::preset) at(s) = PlanarFrame{};
+    }
+    return;
+  }
   if (c.combine == FrameCombine::preset) return preset(c, facts, b, machine);
   if (c.slot == FrameSlot::preset) {
-    foreign_ = true;
+    at(c.slot).foreign = true;
     return;
   }
   switch (c.kind) {
     case FrameKind::translate: return translate(c, facts, b);
-    case FrameKind::rotate: return rotate(c);
+    case FrameKind::rotate: return rotate(c, facts, b, machine);
     case FrameKind::scale:
-    case FrameKind::mirror: break;
+    case FrameKind::mirror: return stretch(c, machine);
   }
-  if (c.combine == FrameCombine::replace && c.slot == FrameSlot::chain) clear(FrameSlot::chain);
-  foreign_ = true;
 }
 
 }  // namespace cnctrans::ir::passes

@@ -1,4 +1,4 @@
-// The programmable frame along a routine: a shift of each axis and a rotation in the plane, as far as they are known.
+// The programmable frame along a routine, slot by slot, as far as it is known.
 #pragma once
 
 #include <array>
@@ -7,47 +7,46 @@
 #include <vector>
 
 #include "ir/passes/facts.h"
+#include "ir/passes/planar_frame.h"
 #include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
 
+/// What a program ever puts into a slot: the rest of it stays neutral whatever is not known.
+struct SlotUse {
+  std::uint32_t axes = 0;  ///< bit n: axis n may have a shift
+  bool turns = false, scales = false, mirrors = false;
+};
+constexpr std::size_t frame_slots = 6;
+using SlotUses = std::array<SlotUse, frame_slots>;
+
 class FrameState {
  public:
-  static constexpr std::size_t axes = axis::first_extra;
-  FrameState();
-  [[nodiscard]] bool known() const;
-  [[nodiscard]] bool foreign() const { return foreign_; }  ///< scale, mirror, rotation about a point or another axis
-  [[nodiscard]] const std::optional<Value>& shift(std::size_t a) const { return shift_[a]; }
-  [[nodiscard]] double preset(std::size_t a) const { return preset_[a]; }
+  [[nodiscard]] const PlanarFrame& slot(FrameSlot s) const { return slots_[static_cast<std::size_t>(s)]; }
+  /// All slots as the machine applies them, outermost first; `preset`: with the slot of the preset.
+  [[nodiscard]] PlanarFrame whole(const machine::Profile& machine, bool preset = true) const;
   [[nodiscard]] bool neutral() const;
-  [[nodiscard]] const std::optional<Value>& angle() const { return angle_; }
-  [[nodiscard]] bool named(std::size_t a) const { return scale_named_[a]; }
-  [[nodiscard]] FrameWord word(std::size_t a) const;
-  /// Words of the axes with a shift (the preset included); `drop_zero`: without those that are 0.
-  [[nodiscard]] std::vector<FrameWord> shift_words(bool drop_zero) const;
   void apply(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
-  /// Nothing is known any more of the axes that can have a shift, and of the rotation when there can be one.
+  /// The words of the shifts are in another unit, or their X words count otherwise, after this block.
+  void follow_units(const Block& b, const Facts& facts, const machine::Profile& machine);
+  /// Nothing is known any more of what the program ever changes.
   void forget();
   void forget(const VarRef& v);
   /// Values that are expressions: their variables may mean something else now.
   void forget_expressions();
-  /// Bit n: axis n may have a shift; `rotates`: there may be a rotation. What can't be stays at zero.
-  void limit(std::uint32_t axes_touched, bool rotates);
+  void limit(const SlotUses& uses) { uses_ = uses; }
   void join(const FrameState& other);
-  bool operator==(const FrameState& other) const;
+  bool operator==(const FrameState& other) const { return slots_ == other.slots_; }
 
  private:
+  PlanarFrame& at(FrameSlot s) { return slots_[static_cast<std::size_t>(s)]; }
   void translate(const FrameChange& c, const Facts& facts, const Block& b);
-  void rotate(const FrameChange& c);
+  void rotate(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
+  void stretch(const FrameChange& c, const machine::Profile& machine);
   void preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
-  void clear(FrameSlot slot);
-  std::array<std::optional<Value>, axes> shift_;
-  std::array<double, axes> preset_{};  ///< of the slot outside the shift, in the scale of the words
-  std::array<bool, axes> scale_named_{};
-  std::optional<Value> angle_;
-  bool foreign_ = false;
-  std::uint32_t touched_ = ~0U;  ///< no part of the state's value
-  bool rotates_ = true;
+  [[nodiscard]] PlanarFrame inner_of(FrameSlot slot, const machine::Profile& machine) const;
+  std::array<PlanarFrame, frame_slots> slots_;
+  SlotUses uses_;  ///< no part of the state's value
 };
 
 /// States before each statement of a program. Calls are followed: a subprogram starts with what all its callers agree
@@ -64,7 +63,8 @@ class FrameStates {
     bool changes_frames = false;            ///< itself or what it calls
     bool open = false;                      ///< to be followed again
   };
-  void look(const LegaliseContext& context);
+  [[nodiscard]] SlotUses anything() const;
+  void look();
   void enter(std::size_t routine, FrameState state);
   void follow(std::size_t routine);
   /// State after the statement; none: the callee has not come back yet.

@@ -35,15 +35,13 @@ bool leaves_by(const Statement& s) {
 
 FrameStates::FrameStates(const Program& program, const FactsOf& facts, const LegaliseContext& context)
     : program_(program), facts_(facts), machine_(context.source_machine), routines_(program.routines.size()) {
-  look(context);
+  look();
   const CallGraph calls(program);
   for (std::size_t i = 0; i < routines_.size(); ++i) {
     if (program.routines[i].kind == RoutineKind::main) enter(i, neutral_);
     if (program.routines[i].kind == RoutineKind::sub && !calls.called(i)) {
       FrameState any;
-      std::uint32_t all = 0;
-      for (const auto& a : machine_.axes) all |= 1U << a.id;
-      any.limit(all, true);
+      any.limit(anything());
       any.forget();
       enter(i, any);
     }
@@ -64,18 +62,35 @@ FrameStates::FrameStates(const Program& program, const FactsOf& facts, const Leg
   }
 }
 
-/// Which axes are ever shifted, who changes frames.
-void FrameStates::look(const LegaliseContext& context) {
-  std::uint32_t touched = 0;
-  bool rotates = false;
+/// A program that is not here may use every slot but the preset.
+SlotUses FrameStates::anything() const {
+  SlotUse any{0, true, true, true};
+  for (const auto& a : machine_.axes) any.axes |= 1U << a.id;
+  SlotUses uses;
+  for (const auto s : machine_.frame_order) {
+    if (s != FrameSlot::preset) uses[static_cast<std::size_t>(s)] = any;
+  }
+  return uses;
+}
+
+/// What is ever put into the slots, who changes frames.
+void FrameStates::look() {
+  SlotUses uses;
   for (std::size_t i = 0; i < routines_.size(); ++i) {
     const Routine& r = program_.routines[i];
     routines_[i].flow = control_flow(program_, r);
     each_frame_change(r, [&](const FrameChange& c) {
       routines_[i].changes_frames = true;
-      rotates = rotates || c.kind == FrameKind::rotate;
+      auto& u = uses[static_cast<std::size_t>(c.slot)];
+      u.turns = u.turns || c.kind == FrameKind::rotate;
+      u.scales = u.scales || c.kind == FrameKind::scale;
+      u.mirrors = u.mirrors || c.kind == FrameKind::mirror;
       for (const auto& w : c.words) {
-        if (w.axis < FrameState::axes) touched |= 1U << w.axis;
+        const bool shifts = c.kind == FrameKind::translate || (c.kind == FrameKind::rotate && c.has_angle);
+        if (w.axis < PlanarFrame::axes && shifts) u.axes |= 1U << w.axis;
+      }
+      if (c.slot == FrameSlot::chain && (u.turns || u.mirrors)) {  // turned shifts reach the other axes of the plane
+        if ((u.axes & 7U) != 0) u.axes |= 7U;
       }
     });
   }
@@ -91,13 +106,18 @@ void FrameStates::look(const LegaliseContext& context) {
   for (const auto& site : calls.sites()) {
     const bool modal = std::holds_alternative<ModalCall>(site.statement->node);
     if (!site.callee) {  // a program that is not here may shift any axis
-      for (const auto& a : context.source_machine.axes) touched |= 1U << a.id;
-      rotates = true;
+      const SlotUses any = anything();
+      for (std::size_t i = 0; i < frame_slots; ++i) {
+        uses[i].axes |= any[i].axes;
+        uses[i].turns = uses[i].turns || any[i].turns;
+        uses[i].scales = uses[i].scales || any[i].scales;
+        uses[i].mirrors = uses[i].mirrors || any[i].mirrors;
+      }
     }
     modal_calls_change_ = modal_calls_change_ || (modal && (!site.callee || routines_[*site.callee].changes_frames));
   }
-  neutral_.limit(touched, rotates);
-  unknown_.limit(touched, rotates);
+  neutral_.limit(uses);
+  unknown_.limit(uses);
   unknown_.forget();
 }
 
@@ -166,6 +186,7 @@ void FrameStates::follow(std::size_t routine) {
 
 std::optional<FrameState> FrameStates::after(std::size_t routine, const Statement& s, FrameState state) {
   if (const auto* b = std::get_if<Block>(&s.node)) {
+    state.follow_units(*b, facts_.before(s), machine_);
     for (const auto& a : b->actions) {
       if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
         state.apply(*f->change, facts_.before(s), *b, machine_);

@@ -1,0 +1,294 @@
+#include "ir/passes/frame_rebuild.h"
+
+#include <algorithm>
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+Action make(FrameSlot slot, FrameKind kind, FrameCombine combine, std::vector<FrameWord> words = {}) {
+  auto change = std::make_shared<FrameChange>();
+  change->slot = slot;
+  change->kind = kind;
+  change->combine = combine;
+  change->words = std::move(words);
+  return action(FrameOp{std::move(change)});
+}
+Action turn(FrameSlot slot, FrameCombine combine, const PlanarFrame& f, std::optional<Plane> plane) {
+  auto change = std::make_shared<FrameChange>();
+  change->slot = slot;
+  change->kind = FrameKind::rotate;
+  change->combine = combine;
+  change->has_angle = true;
+  change->angle = *f.angle;
+  if (plane != f.plane) change->rotation_axis = plane_axes(f.plane).w;
+  return action(FrameOp{std::move(change)});
+}
+Action stretch(FrameSlot slot, FrameCombine combine, const Value& factor) {
+  auto change = std::make_shared<FrameChange>();
+  change->slot = slot;
+  change->kind = FrameKind::scale;
+  change->combine = combine;
+  change->uniform_scale = true;
+  change->words.push_back({axis::x, factor, WordScale::radius, {}});
+  return action(FrameOp{std::move(change)});
+}
+std::vector<FrameWord> mirror_words(std::uint32_t axes, std::uint32_t on) {
+  std::vector<FrameWord> words;
+  for (AxisId a = 0; a < PlanarFrame::axes; ++a) {
+    if ((axes >> a & 1U) == 0) continue;
+    FrameWord w;
+    w.axis = a;
+    w.value = Value{(on >> a & 1U) != 0 ? 1.0 : 0.0};
+    words.push_back(w);
+  }
+  return words;
+}
+
+/// Words for every axis whose shift changes or is not known to be right already.
+std::vector<FrameWord> changed_words(const PlanarFrame* before, const PlanarFrame& after) {
+  std::vector<FrameWord> words;
+  for (std::size_t i = 0; i < PlanarFrame::axes; ++i) {
+    const auto& to = *after.shift[i];
+    if (before != nullptr && before->shift[i] && equal(*before->shift[i], to) &&
+        (to.is(0) || before->shift_scale[i] == after.shift_scale[i]))
+      continue;
+    words.push_back(after.word(i));
+  }
+  return words;
+}
+
+}  // namespace
+
+bool FrameTarget::can(FrameSlot slot, FrameCombine combine) const {
+  const auto it = context_.target.frames.find(slot);
+  return it != context_.target.frames.end() && it->second.count(combine) != 0;
+}
+
+/// The slots that hold something apply in the same order on both machines.
+bool FrameTarget::same_order(const FrameState& before, const FrameState& after, FrameSlot changed) const {
+  const auto used = [&](const std::vector<FrameSlot>& order) {
+    std::vector<FrameSlot> list;
+    std::copy_if(order.begin(), order.end(), std::back_inserter(list), [&](FrameSlot s) {
+      return s == changed || !before.slot(s).neutral() || !after.slot(s).neutral();
+    });
+    return list;
+  };
+  return used(context_.source_machine.frame_order) == used(context_.target_machine.frame_order);
+}
+
+std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const FrameState& before,
+                                                 const FrameState& after, std::optional<Distance> distance) const {
+  FrameChange change = c;
+  const bool same_dialect = context_.target.dialect == program_.dialect;
+  if (c.by_distance_mode && !(same_dialect || can(c.slot, FrameCombine::add))) {
+    if (!distance) return std::nullopt;
+    change.by_distance_mode = false;
+    change.combine = *distance == Distance::incremental ? FrameCombine::add : FrameCombine::replace_named;
+  }
+  if (!can(c.slot, change.combine)) return std::nullopt;
+  if (same_dialect) return change;
+  if (c.combine != FrameCombine::preset && !same_order(before, after, c.slot)) return std::nullopt;
+  if (c.kind == FrameKind::rotate && (!c.words.empty() || after.slot(c.slot).has_shift())) return std::nullopt;
+  return change;
+}
+
+FrameTarget::Parts FrameTarget::kept_by(const FrameChange& c, const FrameState& before, const FrameState& after) const {
+  if (c.kind == FrameKind::rotate && !c.words.empty()) return {};
+  if (c.slot == FrameSlot::chain) {  // one element inside what is there
+    if (c.combine != FrameCombine::compose) return {};
+    return {c.kind != FrameKind::translate, c.kind != FrameKind::rotate, c.kind != FrameKind::scale,
+            c.kind != FrameKind::mirror};
+  }
+  if (c.slot != FrameSlot::shift && (before.slot(c.slot).has_shift() || after.slot(c.slot).has_shift())) return {};
+  Parts kept;
+  // A slot outside of others acts on their shift and rotation as well.
+  const auto& order = context_.source_machine.frame_order;
+  const auto place = std::find(order.begin(), order.end(), c.slot);
+  bool shift_inside = false, turn_inside = false;
+  for (auto it = place; it != order.end(); ++it) {
+    if (it == place) continue;
+    shift_inside = shift_inside || before.slot(*it).has_shift() || after.slot(*it).has_shift();
+    turn_inside = turn_inside || before.slot(*it).turns() || after.slot(*it).turns();
+  }
+  kept.shift = c.slot != FrameSlot::shift && !shift_inside;
+  kept.turn = c.slot != FrameSlot::rotation && !(c.slot == FrameSlot::mirror && turn_inside);
+  kept.factor = c.slot != FrameSlot::scale;
+  kept.mirror = c.slot != FrameSlot::mirror;
+  return kept;
+}
+
+FrameTarget::Result FrameTarget::rebuild(const FrameChange& c, const std::optional<PlanarFrame>& before,
+                                         const PlanarFrame& after, const Parts& kept, std::optional<Plane> plane,
+                                         std::vector<Action>& out) const {
+  if (after.foreign) return Result::foreign;
+  if (!after.known()) {
+    const bool done = before && !before->foreign &&
+                      (chains() ? inside(*before, after, kept, plane, out) : beside(*before, after, kept, plane, out));
+    return done ? Result::done : Result::unknown;
+  }
+  const std::size_t first = out.size();
+  const bool shift = c.kind == FrameKind::translate || c.combine == FrameCombine::clear;
+  const bool done = chains() ? to_chain(before, after, shift, plane, out) : to_slots(before, after, shift, plane, out);
+  if (!done) return Result::impossible;
+  for (std::size_t i = first; i < out.size(); ++i) out[i].pos = {};
+  return Result::done;
+}
+
+/// Of a frame that is not known as a whole: what is new stands inside all of it.
+bool FrameTarget::inside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept,
+                         std::optional<Plane> plane, std::vector<Action>& out) const {
+  if (!kept.shift || before.scales() || before.mirrors() || (!kept.turn && before.turns())) return false;
+  if (!after.angle || !after.factor || !after.mirror || !can(FrameSlot::chain, FrameCombine::compose)) return false;
+  if (!kept.turn && after.turns()) out.push_back(turn(FrameSlot::chain, FrameCombine::compose, after, plane));
+  if (after.scales()) out.push_back(stretch(FrameSlot::chain, FrameCombine::compose, *after.factor));
+  if (after.mirrors())
+    out.push_back(make(FrameSlot::chain, FrameKind::mirror, FrameCombine::compose,
+                       mirror_words(*after.mirror, *after.mirror)));
+  return true;
+}
+
+/// Of a frame that is not known as a whole: the slots that change, where none acts on another.
+bool FrameTarget::beside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept,
+                         std::optional<Plane> plane, std::vector<Action>& out) const {
+  const bool plain = !before.mirrors() && !before.scales() && !after.mirrors() && !after.scales();
+  const auto& order = context_.target_machine.frame_order;
+  const auto shift = std::find(order.begin(), order.end(), FrameSlot::shift);
+  if (!plain || std::find(order.begin(), shift, FrameSlot::rotation) != shift) return false;
+  if (!kept.turn && (!after.angle || (after.turns() && plane != after.plane))) return false;
+  if (!kept.shift && std::any_of(after.shift.begin(), after.shift.end(), [](const auto& v) { return !v; }))
+    return false;
+  return (kept.shift || shift_slot(&before, after, out)) && (kept.turn || turn_slot(&before, after, out));
+}
+
+/// Shift, rotation, scale, mirror, each inside the one before: only what comes after the part that is in force already.
+bool FrameTarget::to_chain(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift,
+                           std::optional<Plane> plane, std::vector<Action>& out) const {
+  const FrameSlot slot = FrameSlot::chain;
+  if (f.neutral()) {
+    if (before && before->neutral() && !shift) return true;
+    out.push_back(make(slot, FrameKind::translate, FrameCombine::clear));
+    return true;
+  }
+  const bool mirror_same = before && same_mirror(*before, f), factor_same = before && same_factor(*before, f),
+             turn_same = before && same_turn(*before, f), shift_same = before && same_shift(*before, f);
+  // The number of parts that stand already: those after them must have been neutral.
+  int kept = 0;
+  if (before && !before->foreign && !before->neutral() && shift_same) {
+    const bool no_mirror = !before->mirrors(), no_factor = !before->scales(), no_turn = !before->turns();
+    if (no_turn && no_factor && no_mirror) kept = 1;
+    if (turn_same && no_factor && no_mirror) kept = 2;
+    if (turn_same && factor_same && no_mirror) kept = 3;
+    const bool all_same = turn_same && factor_same && mirror_same;
+    if (all_same && !shift) return true;
+    if (all_same) kept = 0;
+  }
+  bool inside = kept > 0;
+  const auto combine = [&inside, this]() -> std::optional<FrameCombine> {
+    if (inside && !can(FrameSlot::chain, FrameCombine::compose)) return std::nullopt;
+    const auto c = inside ? FrameCombine::compose : FrameCombine::replace;
+    inside = true;
+    return c;
+  };
+  if (kept < 1 && f.has_shift())
+    out.push_back(make(slot, FrameKind::translate, *combine(), f.shift_words(true)));
+  if (kept < 2 && f.turns()) {
+    const auto c = combine();
+    if (!c) return false;
+    out.push_back(turn(slot, *c, f, plane));
+  }
+  if (kept < 3 && f.scales()) {
+    const auto c = combine();
+    if (!c) return false;
+    out.push_back(stretch(slot, *c, *f.factor));
+  }
+  if (f.mirrors()) {
+    const auto c = combine();
+    if (!c) return false;
+    out.push_back(make(slot, FrameKind::mirror, *c, mirror_words(*f.mirror, *f.mirror)));
+  }
+  return true;
+}
+
+bool FrameTarget::to_slots(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift,
+                           std::optional<Plane> plane, std::vector<Action>& out) const {
+  const auto& order = context_.target_machine.frame_order;
+  const auto to = in_slots(f, order);
+  if (!to) return false;
+  const auto from = before ? in_slots(*before, order) : std::nullopt;
+  const PlanarFrame* was = from ? &*from : nullptr;
+  if (f.turns() && plane != f.plane && !(was != nullptr && same_turn(*was, *to))) return false;
+  const bool say = shift || was == nullptr || !same_shift(*was, *to);
+  return (!say || shift_slot(was, *to, out)) && turn_slot(was, *to, out) && scale_slot(was, *to, out) &&
+         mirror_slot(was, *to, out);
+}
+
+bool FrameTarget::shift_slot(const PlanarFrame* before, const PlanarFrame& f, std::vector<Action>& out) const {
+  const FrameSlot slot = FrameSlot::shift;
+  if (!f.has_shift() && can(slot, FrameCombine::clear)) {
+    out.push_back(make(slot, FrameKind::translate, FrameCombine::clear));
+  } else if (can(slot, FrameCombine::replace_named)) {
+    auto words = changed_words(before, f);
+    if (words.empty()) words = {f.word(0), f.word(1), f.word(2)};
+    out.push_back(make(slot, FrameKind::translate, FrameCombine::replace_named, std::move(words)));
+  } else if (can(slot, FrameCombine::replace)) {
+    out.push_back(make(slot, FrameKind::translate, FrameCombine::replace, f.shift_words(true)));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool FrameTarget::turn_slot(const PlanarFrame* before, const PlanarFrame& f, std::vector<Action>& out) const {
+  if (before != nullptr && same_turn(*before, f)) return true;
+  const FrameSlot slot = FrameSlot::rotation;
+  const bool neutral = !f.turns(), was_neutral = before != nullptr && !before->turns();
+  if (neutral && was_neutral) return true;
+  if (can(slot, FrameCombine::replace)) {
+    out.push_back(turn(slot, FrameCombine::replace, f, f.plane));
+    return true;
+  }
+  if (can(slot, FrameCombine::add) && can(slot, FrameCombine::clear)) {
+    if (!was_neutral) out.push_back(make(slot, FrameKind::rotate, FrameCombine::clear));
+    if (!neutral) out.push_back(turn(slot, FrameCombine::add, f, f.plane));
+    return true;
+  }
+  // A slot that was never touched is neutral: the reset of what is not there.
+  return neutral && context_.target.frames.count(slot) == 0;
+}
+
+bool FrameTarget::scale_slot(const PlanarFrame* before, const PlanarFrame& f, std::vector<Action>& out) const {
+  if (before != nullptr && same_factor(*before, f)) return true;
+  const FrameSlot slot = FrameSlot::scale;
+  if (!f.scales() && can(slot, FrameCombine::clear)) {
+    out.push_back(make(slot, FrameKind::scale, FrameCombine::clear));
+  } else if (can(slot, FrameCombine::replace)) {
+    out.push_back(stretch(slot, FrameCombine::replace, *f.factor));
+  } else {
+    return !f.scales() && context_.target.frames.count(slot) == 0;
+  }
+  return true;
+}
+
+bool FrameTarget::mirror_slot(const PlanarFrame* before, const PlanarFrame& f, std::vector<Action>& out) const {
+  if (before != nullptr && same_mirror(*before, f)) return true;
+  const FrameSlot slot = FrameSlot::mirror;
+  const std::uint32_t on = *f.mirror;
+  std::uint32_t maybe = 0;  // axes that can be mirrored now
+  for (const auto& a : context_.target_machine.axes) {
+    if (!a.rotary && a.id < axis::u) maybe |= 1U << a.id;
+  }
+  if (before != nullptr && before->mirror) maybe = *before->mirror;
+  const auto put = [&](FrameCombine combine, std::uint32_t named) {
+    out.push_back(make(slot, FrameKind::mirror, combine, mirror_words(named, on)));
+    return true;
+  };
+  if (on == 0 && can(slot, FrameCombine::clear)) return put(FrameCombine::clear, 0);
+  const bool only_more = before != nullptr && before->mirror && (maybe & ~on) == 0;
+  if (only_more && can(slot, FrameCombine::replace_named)) return put(FrameCombine::replace_named, on & ~maybe);
+  if (can(slot, FrameCombine::replace)) return put(FrameCombine::replace, on);
+  if (can(slot, FrameCombine::replace_named)) return put(FrameCombine::replace_named, on | maybe);
+  return on == 0 && context_.target.frames.count(slot) == 0;
+}
+
+}  // namespace cnctrans::ir::passes
