@@ -89,6 +89,7 @@ class Analysis {
       if (callee.known) modal_targets_.push_back(callee.routine);
       modal_unknown_ |= !callee.known;
     }
+    framed_ = framed_axes(program_, power_on_);
     probes_ = probes(cycles_);
     find_changes();
   }
@@ -182,7 +183,7 @@ class Analysis {
     if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
       return of(range_of(find_routine(r->program), *r));
     }
-    FactSet set = changed_by(s, probes_);
+    FactSet set = changed_by(s, probes_, framed_);
     if (moves(s)) {
       for (const auto target : modal_targets_) set |= routines_[target].changes;
       if (modal_unknown_) set = all;
@@ -304,7 +305,7 @@ class Analysis {
     }
     if (const auto* m = std::get_if<ModalCall>(&s.node)) return modal_call(s, *m, f);
     if (moves(s) && f.modal_call != 0) return block_with_modal_call(s, f);
-    apply(s, f);
+    apply(s, f, framed_);
     return true;
   }
 
@@ -394,7 +395,7 @@ class Analysis {
       f.forget();  // a cycle that runs at once
     }
     const Facts before = f;
-    apply(s, f);
+    apply(s, f, framed_);
     if (m.off || m.cycle) return true;
     take(f, before, ~FactSet(1ULL << cycle_bit | 1ULL << modal_call_bit));
     const Callee callee = called(m.call);
@@ -404,7 +405,7 @@ class Analysis {
 
   bool block_with_modal_call(const Statement& s, Facts& f) {
     const std::int32_t active = std::exchange(f.modal_call, 0);
-    apply(s, f);
+    apply(s, f, framed_);
     if (active < 0) {
       for (const auto target : modal_targets_) enter(target, f);
       f.forget();
@@ -436,6 +437,7 @@ class Analysis {
   std::vector<std::size_t> modal_targets_;
   CyclesUsed cycles_;
   std::array<Facts, 4> probes_;
+  std::uint32_t framed_ = ~0U;
   bool modal_unknown_ = false;
 };
 

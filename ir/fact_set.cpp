@@ -52,14 +52,47 @@ std::array<Facts, 4> probes(const CyclesUsed& cycles) {
   return all;
 }
 
-FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states) {
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, std::uint32_t framed) {
   FactSet set;
   for (const Facts& before : states) {
     Facts after = before;
-    apply(s, after);
+    apply(s, after, framed);
     set |= differing(before, after);
   }
   return set;
+}
+
+std::uint32_t framed_axes(const Program& program, const ModalState& power_on) {
+  constexpr std::uint32_t all = ~0U;
+  std::uint32_t axes = 0, planes = 0;
+  bool turns = false;
+  const auto in_plane = [](Plane p) {
+    const auto a = plane_axes(p);
+    return 1U << a.u | 1U << a.v;
+  };
+  const auto note = [&](const FrameChange& c) {
+    if (c.combine == FrameCombine::preset) return;  // says where the tool is
+    if (c.kind == FrameKind::rotate && c.rotation_axis == axis::none && c.has_angle) {
+      turns = true;
+    } else if (c.kind == FrameKind::rotate || (c.kind == FrameKind::scale && c.uniform_scale)) {
+      axes = all;
+    } else {
+      for (const auto& w : c.words) axes |= w.axis < axis::count_max ? 1U << w.axis : 0U;
+    }
+  };
+  planes |= in_plane(power_on.plane);
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) note(*f->change);
+        if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane)
+          planes |= in_plane(static_cast<Plane>(m->value));
+      }
+    });
+  }
+  return turns ? axes | planes : axes;
 }
 
 }  // namespace cnctrans::ir::detail

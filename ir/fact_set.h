@@ -24,6 +24,11 @@ struct CyclesUsed {
   bool other_than_holes = false;
 };
 
+/// Bit n: some frame statement of the program can move coordinates of axis n.
+std::uint32_t framed_axes(const Program& program, const ModalState& power_on);
+/// ir::apply() in a program where frame statements reach these axes only.
+void apply(const Statement& statement, Facts& facts, std::uint32_t framed);
+
 /// Which facts differ.
 FactSet differing(const Facts& a, const Facts& b);
 /// The facts of `from` that are in `set` replace those of `facts`.
@@ -31,6 +36,6 @@ void take(Facts& facts, const Facts& from, const FactSet& set);
 /// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
 std::array<Facts, 4> probes(const CyclesUsed& cycles);
 /// What a statement can change, carried out under any of these states.
-FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states);
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, std::uint32_t framed);
 
 }  // namespace cnctrans::ir::detail

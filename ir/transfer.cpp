@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ir/dataflow.h"
+#include "ir/fact_set.h"
 
 namespace cnctrans::ir {
 namespace {
@@ -12,7 +13,7 @@ std::optional<double> known(const Value& v) {
 
 class Transfer {
  public:
-  explicit Transfer(Facts& facts) : f_(facts) {}
+  explicit Transfer(Facts& facts, std::uint32_t framed = ~0U) : f_(facts), framed_(framed) {}
 
   void block(const Block& b) {
     for (const auto& a : b.actions) {
@@ -58,7 +59,12 @@ class Transfer {
   }
   /// Presetting says where the tool is; any other frame change moves the coordinates under it.
   void operator()(const FrameOp& x) {
-    if (!x.change || x.change->combine != FrameCombine::preset) return forget_positions();
+    if (!x.change || x.change->combine != FrameCombine::preset) {
+      for (std::size_t i = 0; i < f_.position.size(); ++i) {
+        if ((framed_ >> i & 1U) != 0) f_.position[i].reset();
+      }
+      return;
+    }
     for (const auto& w : x.change->words) set_position(w.axis, resolved(w.axis, w.scale, true, known(w.value)));
   }
   void operator()(const CycleDefine& x) {
@@ -66,6 +72,7 @@ class Transfer {
     const bool plain_hole = hole != nullptr && hole->axis == axis::none;
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
+    if (x.here && plain_hole) leaves_at(*hole);
     if (!x.modal) return;
     f_.cycle_active = f_.cycle_active_known = true;
     f_.cycle_is_hole = plain_hole;
@@ -77,6 +84,12 @@ class Transfer {
   void operator()(const OpaqueWord&) { not_understood_ = true; }
   template <class T>
   void operator()(const T&) {}
+
+  /// Where a hole carried out here leaves the tool.
+  void leaves_at(const HoleCycle& hole) {
+    stays_ = !hole.retract.given && setting(Setting::retract_plane) == static_cast<std::uint8_t>(RetractPlane::initial);
+    if (hole.retract.given && hole.retract.base == LevelBase::absolute) left_at_ = known(hole.retract.value);
+  }
 
   void forget_positions() { f_.position.fill(std::nullopt); }
 
@@ -168,10 +181,17 @@ class Transfer {
     const bool holes_only = (!active || (f_.cycle_active_known && f_.cycle_is_hole)) && (!runs_here_ || here_is_hole_);
     const auto plane = setting(Setting::plane);
     if (!holes_only || !plane) return forget_positions();
-    set_position(plane_axes(static_cast<Plane>(*plane)).w, std::nullopt);
+    const AxisId w = plane_axes(static_cast<Plane>(*plane)).w;
+    if (active || !runs_here_)
+      set_position(w, std::nullopt);
+    else if (!stays_)
+      set_position(w, left_at_ ? resolved(w, WordScale::modal, true, left_at_) : std::nullopt);
   }
 
   Facts& f_;
+  std::uint32_t framed_;
+  std::optional<double> left_at_;  ///< height after the hole of this block
+  bool stays_ = false;             ///< the hole of this block ends where it began
   bool runs_here_ = false;
   bool here_is_hole_ = false;
   bool not_understood_ = false;
@@ -199,8 +219,12 @@ void Facts::forget() {
 }
 
 void apply(const Statement& statement, Facts& facts) {
+  detail::apply(statement, facts, ~0U);
+}
+
+void detail::apply(const Statement& statement, Facts& facts, std::uint32_t framed) {
   if (const auto* b = std::get_if<Block>(&statement.node)) {
-    Transfer(facts).block(*b);
+    Transfer(facts, framed).block(*b);
     if (facts.modal_call != 0 && b->has_motion && b->motion.moves()) facts.forget();
   } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
     assign(*a, facts);

@@ -38,7 +38,8 @@ void StatementLowering::add(ir::Statement statement) {
   const auto* block = std::get_if<ir::Block>(&statement.node);
   if (block == nullptr || !block->empty()) {
     executable_seen_ = true;
-    const bool end = std::holds_alternative<ir::End>(statement.node) || std::holds_alternative<ir::Return>(statement.node);
+    const bool end =
+        std::holds_alternative<ir::End>(statement.node) || std::holds_alternative<ir::Return>(statement.node);
     ended_ = end && structure_->depth() == 0 && statement.line.skip_mask == 0;
   }
   for (const auto& l : statement.line.labels) labels_.push_back(to_upper_ascii(l));

@@ -17,7 +17,11 @@ namespace {
 class FramePass {
  public:
   FramePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts), states_(program, facts, context), target_(program, context) {}
+      : program_(program),
+        context_(context),
+        facts_(facts),
+        states_(program, facts, context),
+        target_(program, context) {}
 
   void routine(Routine& r) {
     find_groups(r.body, label_uses(program_, r));
@@ -192,26 +196,25 @@ class FramePass {
 
   // ---- statements that build one frame together
 
-  /// Frame statements that follow one another without motion and without a way into their midst build one frame: where
-  /// only the last of them leaves it known, the others wait for it.
+  /// Frame statements that follow one another without motion and without a way into their midst build one frame. One
+  /// waits for the next where the frame is not known before that, or where a chained target would say it all again.
   void find_groups(Body& body, const LabelUses& uses) {
     for (std::size_t i = 0; i < body.size(); ++i) {
-      std::size_t last = 0;
-      if (only_frames(body[i]) && !known_after(body[i]) && !is_range_end(body[i], uses)) {
-        for (std::size_t j = i + 1; j < body.size(); ++j) {
-          if (is_remark(body[j])) continue;
-          if (!only_frames(body[j]) || is_target(body[j], uses)) break;
-          if (known_after(body[j])) {
-            last = j;
-            break;
-          }
-          if (is_range_end(body[j], uses)) break;
-        }
-      }
-      for (; i < last; ++i) {
-        if (only_frames(body[i])) waiting_.insert(body[i].id);
-      }
       each_body(body[i], [this, &uses](Body& inner) { find_groups(inner, uses); });
+      if (!only_frames(body[i])) continue;
+      std::vector<std::size_t> members{i};
+      for (std::size_t j = i + 1; j < body.size() && !is_range_end(body[members.back()], uses); ++j) {
+        if (is_remark(body[j])) continue;
+        if (!only_frames(body[j]) || is_target(body[j], uses)) break;
+        members.push_back(j);
+      }
+      // From the last member whose frame is known back: what comes before it may wait.
+      while (!members.empty() && !after(body[members.back()]).known()) members.pop_back();
+      for (std::size_t m = 0; m + 1 < members.size(); ++m) {
+        const PlanarFrame here = after(body[members[m]]), next = after(body[members[m + 1]]);
+        if (!here.known() || (target_.chains() && !target_.extends(here, next))) waiting_.insert(body[members[m]].id);
+      }
+      if (!members.empty()) i = members.back();
     }
   }
 
@@ -235,14 +238,14 @@ class FramePass {
   static bool is_range_end(const Statement& s, const LabelUses& uses) {
     return any_label(s, [&uses](const LabelRef& l) { return uses.is_end(l); });
   }
-  bool known_after(const Statement& s) const {
+  PlanarFrame after(const Statement& s) const {
     const auto& b = std::get<Block>(s.node);
     FrameState state = states_.before(s);
     for (const auto& a : b.actions) {
       if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
         state.apply(*f->change, facts_.before(s), b, context_.source_machine);
     }
-    return target_.part(state).known();
+    return target_.part(state);
   }
 
   Program& program_;

@@ -69,9 +69,8 @@ bool FrameTarget::can(FrameSlot slot, FrameCombine combine) const {
 bool FrameTarget::same_order(const FrameState& before, const FrameState& after, FrameSlot changed) const {
   const auto used = [&](const std::vector<FrameSlot>& order) {
     std::vector<FrameSlot> list;
-    std::copy_if(order.begin(), order.end(), std::back_inserter(list), [&](FrameSlot s) {
-      return s == changed || !before.slot(s).neutral() || !after.slot(s).neutral();
-    });
+    std::copy_if(order.begin(), order.end(), std::back_inserter(list),
+                 [&](FrameSlot s) { return s == changed || !before.slot(s).neutral() || !after.slot(s).neutral(); });
     return list;
   };
   return used(context_.source_machine.frame_order) == used(context_.target_machine.frame_order);
@@ -135,6 +134,24 @@ FrameTarget::Result FrameTarget::rebuild(const FrameChange& c, const std::option
   return Result::done;
 }
 
+namespace {
+/// The number of leading parts (shift, rotation, scale, mirror) of `f` that `before` holds and nothing else; 4: all.
+int kept_parts(const PlanarFrame& before, const PlanarFrame& f) {
+  if (before.foreign || before.neutral() || !same_shift(before, f)) return 0;
+  const bool turn_same = same_turn(before, f), factor_same = same_factor(before, f);
+  if (turn_same && factor_same && same_mirror(before, f)) return 4;
+  if (before.mirrors()) return 0;
+  if (turn_same && factor_same) return 3;
+  if (before.scales()) return 0;
+  if (turn_same) return 2;
+  return before.turns() ? 0 : 1;
+}
+}  // namespace
+
+bool FrameTarget::extends(const PlanarFrame& here, const PlanarFrame& next) {
+  return (here.neutral() && next.neutral()) || kept_parts(here, next) > 0;
+}
+
 /// Of a frame that is not known as a whole: what is new stands inside all of it.
 bool FrameTarget::inside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept,
                          std::optional<Plane> plane, std::vector<Action>& out) const {
@@ -143,8 +160,8 @@ bool FrameTarget::inside(const PlanarFrame& before, const PlanarFrame& after, co
   if (!kept.turn && after.turns()) out.push_back(turn(FrameSlot::chain, FrameCombine::compose, after, plane));
   if (after.scales()) out.push_back(stretch(FrameSlot::chain, FrameCombine::compose, *after.factor));
   if (after.mirrors())
-    out.push_back(make(FrameSlot::chain, FrameKind::mirror, FrameCombine::compose,
-                       mirror_words(*after.mirror, *after.mirror)));
+    out.push_back(
+        make(FrameSlot::chain, FrameKind::mirror, FrameCombine::compose, mirror_words(*after.mirror, *after.mirror)));
   return true;
 }
 
@@ -161,7 +178,7 @@ bool FrameTarget::beside(const PlanarFrame& before, const PlanarFrame& after, co
   return (kept.shift || shift_slot(&before, after, out)) && (kept.turn || turn_slot(&before, after, out));
 }
 
-/// Shift, rotation, scale, mirror, each inside the one before: only what comes after the part that is in force already.
+/// Shift, rotation, scale, mirror, each inside the one before: only what comes after the parts in force already.
 bool FrameTarget::to_chain(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift,
                            std::optional<Plane> plane, std::vector<Action>& out) const {
   const FrameSlot slot = FrameSlot::chain;
@@ -170,19 +187,9 @@ bool FrameTarget::to_chain(const std::optional<PlanarFrame>& before, const Plana
     out.push_back(make(slot, FrameKind::translate, FrameCombine::clear));
     return true;
   }
-  const bool mirror_same = before && same_mirror(*before, f), factor_same = before && same_factor(*before, f),
-             turn_same = before && same_turn(*before, f), shift_same = before && same_shift(*before, f);
-  // The number of parts that stand already: those after them must have been neutral.
-  int kept = 0;
-  if (before && !before->foreign && !before->neutral() && shift_same) {
-    const bool no_mirror = !before->mirrors(), no_factor = !before->scales(), no_turn = !before->turns();
-    if (no_turn && no_factor && no_mirror) kept = 1;
-    if (turn_same && no_factor && no_mirror) kept = 2;
-    if (turn_same && factor_same && no_mirror) kept = 3;
-    const bool all_same = turn_same && factor_same && mirror_same;
-    if (all_same && !shift) return true;
-    if (all_same) kept = 0;
-  }
+  int kept = before ? kept_parts(*before, f) : 0;
+  if (kept == 4 && !shift) return true;
+  if (kept == 4) kept = 0;
   bool inside = kept > 0;
   const auto combine = [&inside, this]() -> std::optional<FrameCombine> {
     if (inside && !can(FrameSlot::chain, FrameCombine::compose)) return std::nullopt;
@@ -190,8 +197,7 @@ bool FrameTarget::to_chain(const std::optional<PlanarFrame>& before, const Plana
     inside = true;
     return c;
   };
-  if (kept < 1 && f.has_shift())
-    out.push_back(make(slot, FrameKind::translate, *combine(), f.shift_words(true)));
+  if (kept < 1 && f.has_shift()) out.push_back(make(slot, FrameKind::translate, *combine(), f.shift_words(true)));
   if (kept < 2 && f.turns()) {
     const auto c = combine();
     if (!c) return false;

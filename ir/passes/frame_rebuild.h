@@ -33,16 +33,18 @@ class FrameTarget {
   /// Actions that make the target's frame equal to `after`. `before`: what it holds; empty: not known at all.
   Result rebuild(const FrameChange& c, const std::optional<PlanarFrame>& before, const PlanarFrame& after,
                  const Parts& kept, std::optional<Plane> plane, std::vector<Action>& out) const;
+  /// On a target whose frames are chained: `next` is `here` and more inside it, or the same.
+  [[nodiscard]] static bool extends(const PlanarFrame& here, const PlanarFrame& next);
   /// The part of a state that the rebuilt slots hold.
   [[nodiscard]] PlanarFrame part(const FrameState& state) const {
     return state.whole(context_.source_machine, !keeps_preset());
   }
 
  private:
-  bool to_chain(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift,
-                std::optional<Plane> plane, std::vector<Action>& out) const;
-  bool to_slots(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift,
-                std::optional<Plane> plane, std::vector<Action>& out) const;
+  bool to_chain(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift, std::optional<Plane> plane,
+                std::vector<Action>& out) const;
+  bool to_slots(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift, std::optional<Plane> plane,
+                std::vector<Action>& out) const;
   bool inside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept, std::optional<Plane> plane,
               std::vector<Action>& out) const;
   bool beside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept, std::optional<Plane> plane,

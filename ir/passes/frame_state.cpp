@@ -111,8 +111,8 @@ void FrameState::translate(const FrameChange& c, const Facts& facts, const Block
   PlanarFrame moved;
   for (const auto& w : c.words) {
     if (w.axis >= axes) continue;
-    moved.shift[w.axis] = combine == FrameCombine::replace || combine == FrameCombine::replace_named ? w.value
-                                                                                                     : plain(w.value);
+    moved.shift[w.axis] =
+        combine == FrameCombine::replace || combine == FrameCombine::replace_named ? w.value : plain(w.value);
     moved.shift_scale[w.axis] = w.scale;
   }
   if (combine == FrameCombine::replace) {

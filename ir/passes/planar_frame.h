@@ -22,7 +22,7 @@ struct PlanarFrame {
   Plane plane = Plane::xy;                    ///< of a rotation; without one of no meaning
   std::optional<Value> factor;                ///< uniform scale
   std::optional<std::uint32_t> mirror;        ///< bit n: axis n is mirrored
-  bool foreign = false;  ///< something else is in it: a scale of single axes, a rotation in space
+  bool foreign = false;                       ///< something else is in it: a scale of single axes, a rotation in space
 
   PlanarFrame();  ///< neutral
   [[nodiscard]] bool known() const;

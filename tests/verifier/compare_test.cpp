@@ -57,6 +57,31 @@ TEST(Compare, AMissingFirstMoveIsADifference) {
   EXPECT_EQ(verifier::compare({rapid(10), linear(20)}, {linear(20)}, {}).status, Status::differs);
 }
 
+Event offset(std::int32_t number) {
+  Event e;
+  e.kind = EventKind::offset;
+  e.number = number;
+  return e;
+}
+
+TEST(Compare, AMoveWithoutTheToolOffsetOfTheSourceDiffers) {
+  Event machine = rapid(0);
+  machine.in_machine = true;
+  const std::vector<Event> source{offset(1), rapid(10), machine, rapid(20)};
+  EXPECT_EQ(compare(source, {offset(1), rapid(10), offset(0), machine, offset(1), rapid(20)}).status, Status::verified);
+  const auto verdict = compare(source, {offset(1), rapid(10), offset(0), machine, rapid(20)});
+  EXPECT_EQ(verdict.status, Status::differs);
+  EXPECT_NE(verdict.difference.what.find("without tool offset"), std::string::npos) << verdict.difference.what;
+}
+
+TEST(Compare, OffsetsAreOnlyComparedWhereBothSidesSpeakOfThem) {
+  Event tool;
+  tool.kind = EventKind::tool;
+  tool.number = 1;
+  tool.change = true;
+  EXPECT_EQ(compare({tool, rapid(10)}, {tool, offset(1), rapid(10)}).status, Status::verified);
+}
+
 TEST(Compare, AMoveSplitInPartsIsOneMove) {
   EXPECT_EQ(compare({linear(30)}, {linear(10), linear(20), linear(30)}).status, Status::verified);
   EXPECT_EQ(compare({linear(10), linear(30)}, {linear(20), linear(30)}).status, Status::verified);
