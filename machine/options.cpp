@@ -14,6 +14,8 @@ constexpr std::array specs{
     OptionSpec{"call.modal_words", "no|yes", "no",
                "under a modal call of a subprogram, F, S and a bare G0 or G1 run it as well, without motion"},
     OptionSpec{"call.saves_modals", "no|yes", "no", "a subprogram can give its caller the modal state back (SAVE)"},
+    OptionSpec{"comp.rapid", "kept|suspended", "kept",
+               "a rapid move while radius compensation is on: compensated, or carried out without it"},
     OptionSpec{"cycle.axis_word", "moves|refused", "moves",
                "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",

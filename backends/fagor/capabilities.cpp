@@ -78,6 +78,7 @@ void expressions(ir::Capabilities& c) {  // 16.3, 16.4
   c.binary.insert({ir::BinaryOp::bit_and, ir::BinaryOp::bit_or, ir::BinaryOp::bit_xor, ir::BinaryOp::int_divide});
   c.functions = sayable_functions();
   c.compare = ir::Compare::exact;
+  c.constant_decimals = facts::constant_decimals;
   c.word_decimals = facts::decimals_mm;
   c.word_decimals_inch = facts::decimals_inch;
   c.spaces = spaces();

@@ -61,7 +61,6 @@ void expressions(ir::Capabilities& c) {  // reference-language 4
   c.compare = ir::Compare::relative_1e12;
   c.unary = {ir::UnaryOp::negate, ir::UnaryOp::logical_not, ir::UnaryOp::bit_not};
   for (const auto& row : dialect::operators) c.binary.insert(row.op);
-  c.binary.insert(ir::BinaryOp::power);  // POT, SQRT, products, EXP(b*LN(a))
   for (const auto& row : dialect::functions) c.functions.insert(row.function);
   // Said by others of its functions:
   c.functions.insert({ir::Function::atan, ir::Function::floor, ir::Function::log10, ir::Function::to_integer,

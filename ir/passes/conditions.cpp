@@ -1,6 +1,8 @@
 // Conditions: what one relation can't say becomes several jumps; comparisons with a tolerance.
+#include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/passes.h"
 
@@ -8,8 +10,16 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-/// The value that a control with tolerant comparison takes for equal; exact controls get this band.
-constexpr double band = 0.000001;
+/// The width that a control with tolerant comparison takes for equal; exact controls get this band, or the last place
+/// of their constants.
+double band_of(const Capabilities& target) {
+  return std::pow(10, -std::min(6, target.constant_decimals));
+}
+
+bool is_whole(const ExprPtr& e) {
+  const auto* n = as_number(e);
+  return e->type == Type::integer || (n != nullptr && std::nearbyint(n->value) == n->value);
+}
 
 /// A condition whose value is known: a number, or a relation between two of them.
 bool is_truth_literal(const ExprPtr& e, bool& value) {
@@ -46,7 +56,7 @@ std::string IntegerVariables::key(const VarRef& v) {
   return k;
 }
 
-IntegerVariables::IntegerVariables(const Program& program) {
+IntegerVariables::IntegerVariables(const Program& program, double grid) : grid_(grid) {
   std::vector<std::pair<std::string, ExprPtr>> writes;
   const auto unknown = [this](const VarRef& v) {
     assigned_.insert(key(v));
@@ -73,25 +83,35 @@ IntegerVariables::IntegerVariables(const Program& program) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const auto& [k, e] : writes) {
-      if (not_whole_.count(k) == 0 && !whole(e)) changed = not_whole_.insert(k).second || changed;
+      if (not_whole_.count(k) == 0 && !exact(e)) changed = not_whole_.insert(k).second || changed;
     }
   }
 }
 
-bool IntegerVariables::whole(const ExprPtr& e) const {
+bool IntegerVariables::exact(const ExprPtr& e) const {
   if (!e) return false;
   if (e->type == Type::integer || e->type == Type::boolean) return true;
-  if (const auto* n = as_number(e)) return std::nearbyint(n->value) == n->value;
+  if (const auto* n = as_number(e)) return std::nearbyint(n->value * grid_) == n->value * grid_;
   if (const auto* v = as_variable(e)) {
     const std::string k = key(*v);
     return assigned_.count(k) != 0 && not_whole_.count(k) == 0 &&
            not_whole_.count(std::to_string(v->space) + ":?") == 0;
   }
-  if (const auto* u = std::get_if<Unary>(&e->node)) return whole(u->operand);
+  if (const auto* u = std::get_if<Unary>(&e->node)) return exact(u->operand);
   if (const auto* b = std::get_if<Binary>(&e->node)) {
     if (is_comparison(b->op)) return true;
-    if (b->op == BinaryOp::divide || b->op == BinaryOp::power) return false;
-    return whole(b->left) && whole(b->right);
+    switch (b->op) {
+      case BinaryOp::add:
+      case BinaryOp::subtract: return exact(b->left) && exact(b->right);
+      case BinaryOp::multiply:
+        return exact(b->left) && exact(b->right) && (grid_ == 1 || is_whole(b->left) || is_whole(b->right));
+      case BinaryOp::modulo:
+      case BinaryOp::int_divide:
+      case BinaryOp::bit_and:
+      case BinaryOp::bit_or:
+      case BinaryOp::bit_xor: return exact(b->left) && exact(b->right);
+      default: return b->op == BinaryOp::logical_and || b->op == BinaryOp::logical_or || b->op == BinaryOp::logical_xor;
+    }
   }
   if (const auto* c = std::get_if<Call>(&e->node)) {
     switch (c->function) {
@@ -104,10 +124,9 @@ bool IntegerVariables::whole(const ExprPtr& e) const {
       case Function::abs:
       case Function::min:
       case Function::max:
-      case Function::bound:
-      case Function::square: {
+      case Function::bound: {
         for (const auto& a : c->args) {
-          if (!whole(a)) return false;
+          if (!exact(a)) return false;
         }
         return true;
       }
@@ -204,7 +223,8 @@ namespace {
 
 class ConditionPass {
  public:
-  ConditionPass(Program& program, const LegaliseContext& context) : context_(context), integers_(program) {}
+  ConditionPass(Program& program, const LegaliseContext& context)
+      : context_(context), band_(band_of(context.target)), integers_(program, 1), parts_(program, 1024) {}
 
   void routine(Program& program, Routine& r) {
     Editor editor(program, r, context_);
@@ -245,7 +265,7 @@ class ConditionPass {
     editor.put_group(out, std::move(pieces), main);
   }
 
-  /// Equality of computed values on a control that compares exactly: a band.
+  /// Comparisons of computed values on a control that compares exactly: a band around the bound.
   void tolerance(Statement& s) {
     if (context_.target.compare == Compare::relative_1e12) return;
     StatementVisitor visit;
@@ -253,33 +273,50 @@ class ConditionPass {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op) || b->compare == Compare::exact) return x;
-        if ((b->op != BinaryOp::eq && b->op != BinaryOp::ne) || b->left->type == Type::string ||
-            (integers_.whole(b->left) && integers_.whole(b->right)))
+        if (b->left->type == Type::string || (exact(b->left) && exact(b->right)))
           return binary(b->op, b->left, b->right);
         warn(s);
-        const ExprPtr difference = binary(BinaryOp::subtract, b->left, b->right);
-        if (context_.target.functions.count(Function::abs) != 0) {
-          return binary(b->op == BinaryOp::eq ? BinaryOp::le : BinaryOp::gt, call(Function::abs, {difference}),
-                        number(band));
-        }
-        const ExprPtr above = binary(BinaryOp::le, difference, number(band)),
-                      below = binary(BinaryOp::ge, difference, number(-band));
-        const ExprPtr inside = binary(BinaryOp::logical_and, above, below);
-        return b->op == BinaryOp::eq ? inside : negated_condition(inside);
+        return b->op == BinaryOp::eq || b->op == BinaryOp::ne ? within(*b) : beyond(*b);
       });
     };
     visit_statement(s, visit);
   }
+  /// Computed without rounding: whole numbers, halves, quarters... The comparison needs no tolerance then.
+  [[nodiscard]] bool exact(const ExprPtr& e) const { return integers_.exact(e) || parts_.exact(e); }
+  /// Equality: a difference of at most the band.
+  ExprPtr within(const Binary& b) const {
+    const ExprPtr difference = binary(BinaryOp::subtract, b.left, b.right);
+    if (context_.target.functions.count(Function::abs) != 0) {
+      return binary(b.op == BinaryOp::eq ? BinaryOp::le : BinaryOp::gt, call(Function::abs, {difference}),
+                    number(band_));
+    }
+    const ExprPtr above = binary(BinaryOp::le, difference, number(band_)),
+                  below = binary(BinaryOp::ge, difference, number(-band_));
+    const ExprPtr inside = binary(BinaryOp::logical_and, above, below);
+    return b.op == BinaryOp::eq ? inside : negated_condition(inside);
+  }
+  /// Order: what is equal within the band counts as equal, so `<` and `>` want more than it, `<=` and `>=` allow it.
+  ExprPtr beyond(const Binary& b) const {
+    const bool number_left = constant_value(b.left).has_value() && !constant_value(b.right);
+    const bool up = (b.op == BinaryOp::le || b.op == BinaryOp::gt) != number_left;
+    const auto moved = [this, up](const ExprPtr& bound) {
+      if (const auto c = constant_value(bound)) return number(*c + (up ? band_ : -band_));
+      return binary(up ? BinaryOp::add : BinaryOp::subtract, bound, number(band_));
+    };
+    return number_left ? binary(b.op, moved(b.left), b.right) : binary(b.op, b.left, moved(b.right));
+  }
   void warn(const Statement& s) {
     context_.diagnostics.warning(
         "TRN-115", s.line.span,
-        "the source takes values that differ by less than 1e-12 of their size for equal, the target "
-        "compares exactly: written as a difference of at most 0.000001",
+        std::string("the source takes values that differ by less than 1e-12 of their size for equal, the target "
+                    "compares exactly: written so that values within ") +
+            shortest(band_) + " count as equal",
         "count with whole numbers where you can");
   }
 
   const LegaliseContext& context_;
-  IntegerVariables integers_;
+  double band_;
+  IntegerVariables integers_, parts_;  ///< whole numbers, and multiples of 1/1024
 };
 
 }  // namespace

@@ -78,14 +78,16 @@ class ExpressionLowering {
   int depth_ = 0;
 };
 
-/// Variables that hold whole numbers whatever happens: every value assigned to them is one.
+/// Variables that are multiples of 1/grid whatever happens: every value assigned to them is one. Sums, differences and
+/// comparisons of such numbers have no rounding errors.
 class IntegerVariables {
  public:
-  explicit IntegerVariables(const Program& program);
-  [[nodiscard]] bool whole(const ExprPtr& e) const;
+  IntegerVariables(const Program& program, double grid);
+  [[nodiscard]] bool exact(const ExprPtr& e) const;
 
  private:
   static std::string key(const VarRef& v);
+  double grid_;
   std::set<std::string> not_whole_, assigned_;
 };
 

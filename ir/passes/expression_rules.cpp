@@ -53,9 +53,10 @@ ExprPtr ExpressionLowering::binary_rule(const Binary& b, const ExprPtr& e) {
 
 ExprPtr ExpressionLowering::power(const Binary& b, const ExprPtr& e) {
   const auto exponent = constant_value(b.right);
+  if (exponent && *exponent == 0) return number(1);
   if (exponent && *exponent == 0.5) return node(f1(Function::sqrt, b.left));
   if (exponent && *exponent == 2 && has(Function::square)) return call(Function::square, {node(b.left)});
-  if (exponent && std::nearbyint(*exponent) == *exponent && std::fabs(*exponent) <= 8 && *exponent != 0) {
+  if (exponent && std::nearbyint(*exponent) == *exponent && std::fabs(*exponent) <= 8) {
     const ExprPtr base = primary(b.left);
     ExprPtr product = base;
     for (int i = 1; i < static_cast<int>(std::fabs(*exponent)); ++i) product = mul(product, base);

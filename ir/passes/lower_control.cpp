@@ -330,7 +330,8 @@ class ComputedJumps {
     std::vector<LabelRef> labels;
     for_each_statement(editor_.routine.body, [&](const Statement& s) {
       for (const auto& l : labels_on(s.line)) {
-        if (l.is_number) labels.push_back(l);
+        const auto same = [&l](const LabelRef& have) { return same_label(have, l); };
+        if (l.is_number && std::none_of(labels.begin(), labels.end(), same)) labels.push_back(l);
       }
     });
     // The values are looked up now: while the body is rewritten the program is not whole.

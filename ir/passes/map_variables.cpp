@@ -370,23 +370,40 @@ class VariableMap {
     return list;
   }
 
-  /// Variables that keep values of earlier programs in the source and are empty in the target.
+  /// Variables whose values come from outside the program: from an earlier one, or from the control's own definitions.
   void report_persistence() {
     const CallGraph calls(program_);
     ReadFirst reads(program_, calls, true);
-    std::string names;
+    std::string lost, elsewhere;
+    const auto note = [&](const std::string& from, const VarRef& to) {
+      std::string& list = pools_.persistent(to) ? elsewhere : lost;
+      list += (list.empty() ? "" : ", ") + from + " (" + target_name(to) + ")";
+    };
+    if (program_.routines.empty()) return;
     for (const auto& [key, to] : places_) {
       const VarRef from{key.first, {}, number(static_cast<double>(key.second)), {}};
       const auto* segment = segment_of(program_, from);
-      if (segment == nullptr || !segment->persistent || pools_.persistent(to)) continue;
-      if (!program_.routines.empty() && reads(0, from))
-        names += (names.empty() ? "" : ", ") + variable_name(key.first, key.second);
+      if (segment != nullptr && segment->persistent && reads(0, from)) note(variable_name(key.first, key.second), to);
     }
-    if (names.empty()) return;
-    context_.diagnostics.warning("TRN-131", {},
-                                 "read before they are written: " + names +
-                                     "; the source takes the value of an earlier program, the target starts without it",
-                                 "set them at the start of the program");
+    for (const auto& [key, to] : named_places_) {
+      const auto& space = program_.spaces[key.first];
+      const bool outside = space.scope == Scope::global && key.second.find('@') == std::string::npos;
+      if (outside && reads(0, VarRef{key.first, key.second, nullptr, {}})) note(key.second, to);
+    }
+    if (!lost.empty()) {
+      context_.diagnostics.warning(
+          "TRN-131", {},
+          "read before they are written: " + lost +
+              "; the source takes the value of an earlier program, the target starts without it",
+          "set them at the start of the program");
+    }
+    if (!elsewhere.empty()) {
+      context_.diagnostics.note("TRN-131", {},
+                                "read before they are written: " + elsewhere +
+                                    "; the source takes the value that its variable has from earlier, the target the "
+                                    "one of the variable in brackets",
+                                "bring the values over, or set them at the start of the program");
+    }
   }
 
   void finish() {

@@ -5,6 +5,7 @@
 
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/feed_state.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
 
@@ -15,7 +16,9 @@ namespace {
 class SafeStart {
  public:
   SafeStart(Program& program, Routine& main, const LegaliseContext& context)
-      : program_(program), main_(main), context_(context) {}
+      : program_(program), main_(main), context_(context) {
+    head_feed_ = cuts_with_power_on_feed(program, context, FactsOf(program, context));
+  }
 
   void run() {
     look();
@@ -28,16 +31,7 @@ class SafeStart {
       if (s == Setting::feed_mode) set.feed_memory = context_.target.feed_memory;
       head.actions.push_back(action(set));
     }
-    if (needs_feed_ && context_.source_machine.power_on_feed > 0) {
-      head.actions.push_back(action(SetFeed{Value{context_.source_machine.power_on_feed}, false}));
-    }
-    if (needs_feed_ && context_.source_machine.power_on_feed <= 0 && context_.target_machine.power_on_feed > 0) {
-      context_.diagnostics.warning(
-          "TRN-159", main_.header.span,
-          "a move at feed before any F: the source stops with an alarm there, the target moves "
-          "with the feed it has after power-on",
-          "write F before the first move at feed");
-    }
+    if (head_feed_) head.actions.push_back(action(SetFeed{Value{context_.source_machine.power_on_feed}, false}));
     if (!first_motion() && motion_from_power_on()) {  // reached through a loop or a branch: said at the head
       head.has_motion = true;
       head.motion.kind = context_.source_machine.power_on.motion;
@@ -68,48 +62,22 @@ class SafeStart {
 
   /// Settings that stand before the first motion, call or branch.
   void look() {
-    bool open = true;
-    bool feed_open = true;
     for (const auto& s : main_.body) {
       if (std::holds_alternative<Assign>(s.node) || std::holds_alternative<Declare>(s.node) ||
           std::holds_alternative<Message>(s.node) || std::holds_alternative<Label>(s.node))
         continue;
       const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) open = false;
-      if (b == nullptr && feed_open && !std::holds_alternative<End>(s.node)) {
-        needs_feed_ = !has_feed();  // what follows is not known, unless there is no F at all
-        return;
-      }
       if (b == nullptr) break;
       const bool moves = b->has_motion && b->motion.moves();
       for (const auto& a : b->actions) {
-        if (std::holds_alternative<SetFeed>(a.data)) feed_open = false;
-        if (!open || s.line.skip_mask != 0 || (moves && a.order == Order::after)) continue;
+        if (s.line.skip_mask != 0 || (moves && a.order == Order::after)) continue;
         if (const auto* m = std::get_if<ModalSet>(&a.data)) said_[static_cast<std::size_t>(m->setting)] = true;
         if (std::holds_alternative<WorkOffset>(a.data)) offset_said_ = true;
         const auto* f = std::get_if<FrameOp>(&a.data);
         if (f != nullptr && f->change && f->change->combine == FrameCombine::clear) shift_cleared_ = true;
       }
-      if (!moves) continue;
-      open = false;
-      const MotionKind kind = b->motion.kind;
-      if (kind != MotionKind::modal) last_kind_ = kind;
-      if (feed_open && last_kind_.value_or(context_.source_machine.power_on.motion) != MotionKind::rapid)
-        needs_feed_ = true;
-      if (!feed_open || needs_feed_) return;
+      if (moves) return;
     }
-  }
-
-  bool has_feed() const {
-    bool found = false;
-    for (const auto& r : program_.routines) {
-      for_each_statement(r.body, [&found](const Statement& s) {
-        const auto* b = std::get_if<Block>(&s.node);
-        if (b == nullptr) return;
-        for (const auto& a : b->actions) found = found || std::holds_alternative<SetFeed>(a.data);
-      });
-    }
-    return found;
   }
 
   /// The first move says its function. False: it stands behind a statement that may lead elsewhere.
@@ -179,8 +147,8 @@ class SafeStart {
   Routine& main_;
   const LegaliseContext& context_;
   std::array<bool, setting_count> said_{};
-  bool offset_said_ = false, needs_feed_ = false, shift_cleared_ = false;
-  std::optional<MotionKind> last_kind_;
+  bool offset_said_ = false, shift_cleared_ = false;
+  bool head_feed_ = false;  ///< a cut may go by the feed of power-on
 };
 
 }  // namespace

@@ -44,7 +44,8 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       state_(source.power_on),
       places_(std::max(0, std::min(target.word_decimals, target.word_decimals_inch))),
       at_once_(passes::changes_on_select(target_machine)),
-      keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")) {
+      keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")),
+      rapid_differs_(source.option("comp.rapid") != target_machine.option("comp.rapid")) {
   const bool source_on = source.power_on.length_comp == OnOff::on;
   const bool target_on = target_machine.power_on.length_comp == OnOff::on;
   adds_length_ = target.length_comp_switch && source_on && !target_on;
@@ -69,7 +70,9 @@ bool StreamWatch::take_head(const Block& block) {
     const auto* units = set_of(a, Setting::units);
     if (units != nullptr && units->value != static_cast<std::uint8_t>(source_.power_on.units)) return false;
     if (set_of(a, Setting::diameter) != nullptr) return false;
-    const bool once = set_of(a, Setting::feed_mode) != nullptr || set_of(a, Setting::path_mode) != nullptr;
+    const auto* feed = set_of(a, Setting::feed_mode);
+    if (feed != nullptr && feed->value == static_cast<std::uint8_t>(FeedMode::inverse_time)) return false;
+    const bool once = feed != nullptr || set_of(a, Setting::path_mode) != nullptr;
     if (units == nullptr && !once && action_needs_whole(block, a)) return false;
   }
   if (block.has_motion && motion_needs_whole(block)) return false;
@@ -157,9 +160,15 @@ bool StreamWatch::takes_length(const Block& block) const {
   return std::any_of(coords.begin(), coords.end(), [w](const CoordWord& c) { return c.axis == w; });
 }
 
+bool StreamWatch::rapid_under_compensation(const Block& block) const {
+  if (state_.comp == CompSide::off || !block.has_motion || block.motion.coords.empty()) return false;
+  return (block.motion.kind == MotionKind::modal ? state_.motion : block.motion.kind) == MotionKind::rapid;
+}
+
 StreamWatch::Verdict StreamWatch::look(const Block& block) const {
   if (needs_whole(block)) return Verdict::whole;
   if (adds_length_ && takes_length(block)) return Verdict::local;
+  if (rapid_differs_ && rapid_under_compensation(block)) return Verdict::local;
   return plain_legal(block, target_, &target_machine_) ? Verdict::plain : Verdict::local;
 }
 

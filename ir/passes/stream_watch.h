@@ -38,6 +38,7 @@ class StreamWatch {
   [[nodiscard]] bool needs_whole(const Block& block) const;
   [[nodiscard]] bool action_needs_whole(const Block& block, const Action& action) const;
   [[nodiscard]] bool motion_needs_whole(const Block& block) const;
+  [[nodiscard]] bool rapid_under_compensation(const Block& block) const;
   [[nodiscard]] bool takes_length(const Block& block) const;
   [[nodiscard]] bool too_long(const Value& value) const;
   void follow_head(const Block& block);
@@ -49,6 +50,7 @@ class StreamWatch {
   int places_;              ///< of the target's coordinates, in the unit that has fewer
   bool at_once_;            ///< the target changes tools at T
   bool keeps_differ_;       ///< a change of the offsets keeps another point on the target
+  bool rapid_differs_;      ///< a rapid move under radius compensation is compensated on one machine only
   bool adds_length_;        ///< the target wants length compensation switched on, the source has it always
   bool never_on_;           ///< the source switches it, the target has it always
   bool head_done_ = false;  ///< from here on the head's

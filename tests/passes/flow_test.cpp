@@ -202,7 +202,7 @@ TEST(Conditions, WholeNumbersCompareExactly) {
                           "jump N10 if R[1] ==~ 5\n  set R[2] = R[1] / 3\n  jump N10 if R[2] ==~ 5\n}\n",
                           letters_target());
   EXPECT_NE(p.text.find("if R[1] == 5"), std::string::npos) << p.text;
-  EXPECT_NE(p.text.find("abs(R[2] - 5) <= #0.000001"), std::string::npos) << p.text;
+  EXPECT_NE(p.text.find("abs(R[2] - 5) <= #0.00001"), std::string::npos) << p.text;
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-115"));
 }
 

@@ -1,0 +1,65 @@
+// Rapid moves while radius compensation is on (equivalences 16): some controls suspend the compensation for such a
+// block and take it up again after it, others keep it. The programmed path is the same, the centre of the tool is not.
+#include <algorithm>
+
+#include "base/text.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+constexpr std::string_view option = "comp.rapid";
+
+bool program_compensates(const Program& program, const machine::Profile& machine) {
+  bool found = machine.power_on.comp != CompSide::off;
+  for (const auto& r : program.routines) {
+    if (found) break;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        found = found || (m != nullptr && m->setting == Setting::comp && m->value != 0);
+      }
+    });
+  }
+  return found;
+}
+
+/// Moves in the plane; without a plane: along any axis that a plane may have.
+bool moves_in_plane(const Block& b, const Facts& facts) {
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  return std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [plane](const CoordWord& c) {
+    return plane ? c.axis == plane_axes(*plane).u || c.axis == plane_axes(*plane).v : c.axis <= axis::z;
+  });
+}
+
+}  // namespace
+
+void check_compensation(Program& program, const LegaliseContext& context) {
+  const std::string source = context.source_machine.option(option), target = context.target_machine.option(option);
+  if (source == target || !program_compensates(program, context.source_machine)) return;
+  const FactsOf facts(program, context);
+  const bool suspends = source == "suspended";
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::normal) return;
+      const Facts& before = facts.before(s);
+      if (!before.reachable || motion_in(*b, before).value_or(MotionKind::rapid) != MotionKind::rapid) return;
+      const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
+      if (side == CompSide::off || now == CompSide::off || !moves_in_plane(*b, before)) return;
+      context.diagnostics.warning("TRN-144", word_span(s.line.span, b->motion.code_pos),
+                                  std::string("a rapid move while radius compensation is ") +
+                                      (side ? "on" : "on, on some way") +
+                                      (suspends ? ": the source suspends it for this move, the target keeps it"
+                                                : ": the source keeps it, the target suspends it for this move") +
+                                      "; the centre of the tool differs by up to the tool radius",
+                                  "end the compensation before this move and start it again after it");
+    });
+  }
+}
+
+}  // namespace cnctrans::ir::passes

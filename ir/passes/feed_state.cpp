@@ -1,0 +1,172 @@
+#include "ir/passes/feed_state.h"
+
+#include <algorithm>
+
+#include "ir/passes/flow_states.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+bool needs_feed(MotionKind k) {
+  return k == MotionKind::linear || k == MotionKind::arc_cw || k == MotionKind::arc_ccw ||
+         k == MotionKind::arc_through_point || k == MotionKind::arc_tangent || k == MotionKind::spline ||
+         k == MotionKind::polynomial;
+}
+
+const ModalSet* set_of(const Action& a, Setting s) {
+  const auto* m = std::get_if<ModalSet>(&a.data);
+  return m != nullptr && m->setting == s ? m : nullptr;
+}
+
+bool feeds_itself(const Cycle& c) {
+  const auto* hole = std::get_if<HoleCycle>(&c.node);
+  return hole == nullptr || hole->has_feed;
+}
+
+}  // namespace
+
+FeedState FeedDomain::start(const Routine& r, bool called) const {
+  FeedState s;
+  if (r.kind != RoutineKind::main || called) return s;  // the caller sees to it
+  const double own = context_.source_machine.power_on_feed, other = context_.target_machine.power_on_feed;
+  for (auto& slot : s.slots) {
+    slot.maybe_none = own <= 0;
+    slot.same = own <= 0 && other <= 0;
+  }
+  if (own > 0) {
+    auto& slot = s.slots[static_cast<std::size_t>(context_.source_machine.power_on.feed_mode)];
+    slot.value = own;
+    slot.maybe_power_on = true;
+    slot.same = own == other || head_feed_;
+  }
+  return s;
+}
+
+bool FeedDomain::touches(const Routine& r) {
+  bool found = false;
+  for_each_statement(r.body, [&found](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      found = found || std::holds_alternative<SetFeed>(a.data) || set_of(a, Setting::feed_mode) != nullptr ||
+              set_of(a, Setting::units) != nullptr;
+    }
+  });
+  return found;
+}
+
+void FeedDomain::unknown(FeedState& state) {
+  for (auto& s : state.slots) {
+    s.value.reset();
+    s.maybe_power_on = false;
+  }
+}
+
+bool FeedDomain::join(FeedState& a, const FeedState& b) {
+  const FeedState old = a;
+  for (std::size_t i = 0; i < a.slots.size(); ++i) {
+    auto& x = a.slots[i];
+    const auto& y = b.slots[i];
+    if (x.value != y.value) x.value.reset();
+    x.maybe_none = x.maybe_none || y.maybe_none;
+    x.maybe_power_on = x.maybe_power_on || y.maybe_power_on;
+    x.same = x.same && y.same;
+  }
+  return a.slots != old.slots;
+}
+
+void FeedDomain::change_mode(const ModalSet& set, std::optional<std::uint8_t> before, FeedState& state) const {
+  if (set.value >= state.slots.size() || before == set.value) return;
+  const FeedMemory own = set.feed_memory, other = context_.target.feed_memory;
+  auto& to = state.slots[set.value];
+  if (!before || *before >= state.slots.size()) {  // the mode may stay as it is
+    to.value.reset();
+    to.maybe_none = to.maybe_none || own == FeedMemory::cleared;
+    to.same = to.same && own == other;
+    return;
+  }
+  const FeedState::Slot from = state.slots[*before];
+  const bool target_kept = to.same;
+  if (own == FeedMemory::shared) to = from;
+  if (own == FeedMemory::cleared) to = FeedState::Slot{std::nullopt, true, false, true};
+  if (own == other)
+    to.same = own == FeedMemory::shared ? from.same : (own == FeedMemory::per_mode ? target_kept : true);
+  else
+    to.same = to.maybe_none && !to.value && other == FeedMemory::cleared;
+}
+
+void FeedDomain::settle(const Block& b, const Facts& facts, FeedState& state) const {
+  auto mode = setting<std::uint8_t>(facts, Setting::feed_mode);
+  for (const auto& a : b.actions) {
+    if (set_of(a, Setting::units) != nullptr) {  // the same number of another unit, on both controls
+      for (auto& s : state.slots) s.value.reset();
+    } else if (const auto* m = set_of(a, Setting::feed_mode)) {
+      change_mode(*m, mode, state);
+      mode = m->value;
+    } else if (const auto* f = std::get_if<SetFeed>(&a.data)) {
+      std::optional<double> value;
+      if (f->value.literal() && !(f->zero_is_maximum && f->value.number == 0)) value = f->value.number;
+      for (std::size_t i = 0; i < state.slots.size(); ++i) {
+        if (mode == i)
+          state.slots[i] = FeedState::Slot{value, false, false, true};
+        else if (!mode)
+          state.slots[i].value.reset();
+      }
+    }
+  }
+}
+
+bool FeedDomain::cuts(const Block& b, const Facts& facts) {
+  bool cycle = false;
+  for (const auto& a : b.actions) {
+    const auto* d = std::get_if<CycleDefine>(&a.data);
+    cycle = cycle || (d != nullptr && d->here && d->cycle && !feeds_itself(*d->cycle));
+  }
+  if (cycle) return true;
+  if (!b.has_motion || !b.motion.moves()) return false;
+  const auto kind = motion_in(b, facts);
+  return !kind || needs_feed(*kind);
+}
+
+void FeedDomain::transfer(const Statement& s, FeedState& state) const {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr) return;
+  const Facts& facts = facts_.before(s);
+  settle(*b, facts, state);
+  if (!cuts(*b, facts)) return;
+  // After the cut both controls have the same feed: the pass sees to it, or reports.
+  const auto mode = setting_in<std::uint8_t>(*b, facts, Setting::feed_mode);
+  for (std::size_t i = 0; i < state.slots.size(); ++i) {
+    if (mode && *mode != i) continue;
+    state.slots[i].same = true;
+    state.slots[i].maybe_none = false;  // said once
+  }
+  // Inverse time is a matter of each block.
+  if (mode == static_cast<std::uint8_t>(FeedMode::inverse_time)) state.slots[*mode].same = false;
+}
+
+bool cuts_with_power_on_feed(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
+  if (context.source_machine.power_on_feed <= 0) return false;
+  const FeedDomain domain(context, facts, false);
+  const FlowStates<FeedDomain> states(program, domain);
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      const auto* before = b != nullptr ? states.before(s) : nullptr;
+      if (before == nullptr) return;
+      const Facts& f = facts.before(s);
+      if (!FeedDomain::cuts(*b, f)) return;
+      FeedState now = *before;
+      domain.settle(*b, f, now);
+      const auto mode = setting_in<std::uint8_t>(*b, f, Setting::feed_mode);
+      for (std::size_t i = 0; i < now.slots.size(); ++i) {
+        if (!mode || *mode == i) found = found || now.slots[i].maybe_power_on;
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace cnctrans::ir::passes
