@@ -76,9 +76,18 @@ bool StreamWatch::take_head(const Block& block) {
     if (units == nullptr && !once && action_needs_whole(block, a)) return false;
   }
   if (block.has_motion && motion_needs_whole(block)) return false;
+  if (cuts_without_feed(block)) return false;
   follow_head(block);
   follow(block);
   return true;
+}
+
+/// A cut that the pass over feeds has to look at.
+bool StreamWatch::cuts_without_feed(const Block& block) const {
+  if (!block.has_motion || !block.motion.moves() || has<SetFeed>(block)) return false;
+  const MotionKind kind = block.motion.kind == MotionKind::modal ? state_.motion : block.motion.kind;
+  if (kind == MotionKind::rapid) return false;
+  return waits_for_feed_ || (!fed_ && source_.power_on_feed <= 0);
 }
 
 /// safe_start looks for the first motion function and the first feed, the pass over feeds for a feed after the last

@@ -39,6 +39,7 @@ class StreamWatch {
   [[nodiscard]] bool action_needs_whole(const Block& block, const Action& action) const;
   [[nodiscard]] bool motion_needs_whole(const Block& block) const;
   [[nodiscard]] bool rapid_under_compensation(const Block& block) const;
+  [[nodiscard]] bool cuts_without_feed(const Block& block) const;
   [[nodiscard]] bool takes_length(const Block& block) const;
   [[nodiscard]] bool too_long(const Value& value) const;
   void follow_head(const Block& block);
