@@ -304,7 +304,8 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
 void Writer::corner(const ir::Action& a, const ir::Corner& c) {
   if (c.modal || c.feed || c.kind == ir::CornerKind::chamfer_chord)
     return refuse(no_word, a.pos, "this corner has no counterpart here");
-  add(word(c.kind == ir::CornerKind::round ? "EB" : "EB-", c.value, a.pos), Rank::motion_extra, a.pos);
+  add(word(c.kind == ir::CornerKind::round ? "EB" : "EB-", c.value, a.pos), Rank::motion_extra,
+      same_dialect() ? a.pos : WordPos{});
 }
 
 // ---- cycles

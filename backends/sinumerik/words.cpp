@@ -324,7 +324,7 @@ void Writer::corner(const ir::Action& a, const ir::Corner& c) {
     return refuse("TRN-202", a.pos, "a modal chamfer has no counterpart here");
   std::string text = word(address, c.value, a.pos);
   if (c.feed) text += ' ' + word("FRC", *c.feed, a.pos);
-  add(std::move(text), Rank::motion_extra, a.pos);
+  add(std::move(text), Rank::motion_extra, same_dialect() ? a.pos : WordPos{});
 }
 
 // ---- motion --------------------------------------------------------------------------------------------------------
