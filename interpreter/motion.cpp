@@ -28,7 +28,7 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   if (kind == ir::MotionKind::reference_point || kind == ir::MotionKind::fixed_point) return reference_move(m);
   if (!m.moves()) return true;
   block_moves_ = true;
-  if (hole_ && policy_.cycle_rapid && !m.explicit_code && kind == ir::MotionKind::linear && with_cycle &&
+  if (hole_ && policy_.cycle_rapid && !m.explicit_code && kind != ir::MotionKind::rapid && with_cycle &&
       (cycle_defined_here_ || cycle_triggers(b))) {
     kind = ir::MotionKind::rapid;
   }

@@ -122,6 +122,17 @@ std::optional<double> constant_binary(BinaryOp op, double a, double b) {
     case BinaryOp::modulo: return b == 0 ? std::nullopt : std::optional(a - std::trunc(a / b) * b);
     case BinaryOp::int_divide: return b == 0 ? std::nullopt : std::optional(std::trunc(a / b));
     case BinaryOp::power: return std::pow(a, b);
+    default: break;
+  }
+  // Numbers that are nearly equal compare differently on different controls.
+  if (a != b && std::fabs(a - b) <= 1e-6 * std::max(std::fabs(a), std::fabs(b))) return std::nullopt;
+  switch (op) {
+    case BinaryOp::eq: return a == b ? 1 : 0;
+    case BinaryOp::ne: return a != b ? 1 : 0;
+    case BinaryOp::lt: return a < b ? 1 : 0;
+    case BinaryOp::le: return a <= b ? 1 : 0;
+    case BinaryOp::gt: return a > b ? 1 : 0;
+    case BinaryOp::ge: return a >= b ? 1 : 0;
     default: return std::nullopt;
   }
 }
@@ -130,6 +141,11 @@ std::optional<double> constant_call(const Call& c) {
   if (c.args.empty()) return std::nullopt;
   const auto a = constant_value(c.args[0]);
   if (!a) return std::nullopt;
+  if ((c.function == Function::min || c.function == Function::max) && c.args.size() == 2) {
+    const auto b = constant_value(c.args[1]);
+    if (!b) return std::nullopt;
+    return c.function == Function::min ? std::min(*a, *b) : std::max(*a, *b);
+  }
   switch (c.function) {
     case Function::sin: return std::sin(*a / degrees);
     case Function::cos: return std::cos(*a / degrees);

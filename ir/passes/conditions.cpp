@@ -191,26 +191,34 @@ void ExpressionLowering::jump_if(const ExprPtr& e, const LabelRef& target) {
   if (b != nullptr && b->op == BinaryOp::logical_xor) {
     return jump_if(binary(BinaryOp::ne, truth_value(b->left), truth_value(b->right)), target);
   }
-  if (b != nullptr && is_comparison(b->op)) return jump_if_relation(*b, target);
+  if (b != nullptr && is_comparison(b->op)) return jump_if_relation(e, target);
   jump_if(binary(BinaryOp::ne, e, number(0)), target);
 }
 
-void ExpressionLowering::jump_if_relation(const Binary& b, const LabelRef& target) {
-  static constexpr auto mirrored = [](BinaryOp op) {
-    switch (op) {
-      case BinaryOp::lt: return BinaryOp::gt;
-      case BinaryOp::le: return BinaryOp::ge;
-      case BinaryOp::gt: return BinaryOp::lt;
-      case BinaryOp::ge: return BinaryOp::le;
-      default: return op;
-    }
-  };
-  ExprPtr left = b.left, right = b.right;
-  BinaryOp op = b.op;
-  if (as_number(left) != nullptr && as_number(right) == nullptr) {  // the variable first
-    std::swap(left, right);
-    op = mirrored(op);
+ExprPtr variable_first(const ExprPtr& relation) {
+  const auto* b = std::get_if<Binary>(&relation->node);
+  if (b == nullptr || !is_comparison(b->op) || as_number(b->left) == nullptr || as_number(b->right) != nullptr)
+    return relation;
+  BinaryOp op = b->op;
+  switch (b->op) {
+    case BinaryOp::lt: op = BinaryOp::gt; break;
+    case BinaryOp::le: op = BinaryOp::ge; break;
+    case BinaryOp::gt: op = BinaryOp::lt; break;
+    case BinaryOp::ge: op = BinaryOp::le; break;
+    default: break;
   }
+  return binary(op, b->right, b->left, b->compare);
+}
+
+void ExpressionLowering::jump_if_relation(const ExprPtr& relation, const LabelRef& target) {
+  if (const auto fixed = constant_value(relation)) {
+    if (*fixed != 0) pre.push_back(make_jump(like_, target));
+    return;
+  }
+  const ExprPtr turned = variable_first(relation);
+  const auto& b = std::get<Binary>(turned->node);
+  const ExprPtr left = b.left, right = b.right;
+  const BinaryOp op = b.op;
   // The side that needs more goes first, so that its temporaries are free for the other.
   const ExprPtr r = editor_.target().condition_right_chain ? lower(right) : primary(right);
   const ExprPtr l = primary(left);

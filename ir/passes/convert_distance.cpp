@@ -105,7 +105,9 @@ class DistancePass {
     return std::nullopt;
   }
   bool wants_work(const Block& b) const {
-    if (!b.has_motion || context_.target.distance_per_word || context_.target.distance_inside_block) return false;
+    if (!b.has_motion || context_.target.distance_per_word) return false;
+    // Which of two modes in a block counts for the centre of an arc is nowhere said.
+    if (context_.target.distance_inside_block && b.motion.centers.empty()) return false;
     return std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
                        [](const CoordWord& c) { return c.mode != WordMode::modal; });
   }

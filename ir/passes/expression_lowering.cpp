@@ -86,6 +86,10 @@ void ExpressionLowering::label_here(const LabelRef& l) {
 }
 
 void ExpressionLowering::assign_if(const ExprPtr& relation, const VarRef& v, const ExprPtr& e) {
+  if (const auto fixed = constant_value(relation)) {
+    if (*fixed != 0) assign(v, e);
+    return;
+  }
   const auto& t = editor_.target();
   if ((t.structured_if || t.one_line_if_action) && like_.skip_mask == 0) {
     If i;
@@ -96,7 +100,7 @@ void ExpressionLowering::assign_if(const ExprPtr& relation, const VarRef& v, con
     return;
   }
   const LabelRef behind = editor_.fresh_label();
-  pre.push_back(make_jump(like_, behind, negated_condition(relation)));
+  pre.push_back(make_jump(like_, behind, variable_first(negated_condition(relation))));
   assign(v, e);
   label_here(behind);
 }

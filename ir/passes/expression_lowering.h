@@ -9,6 +9,8 @@ namespace cnctrans::ir::passes {
 bool expression_fits(const ExprPtr& e, const Capabilities& target);
 /// The opposite condition; relations are turned round, NOT disappears.
 ExprPtr negated_condition(const ExprPtr& e);
+/// A relation with the number on its right side.
+ExprPtr variable_first(const ExprPtr& relation);
 bool is_condition(const ExprPtr& e);
 
 /// Lowers the expressions of one statement. Temporaries are free again when it goes out of scope.
@@ -67,7 +69,7 @@ class ExpressionLowering {
   ExprPtr selection(const Call& c, const ExprPtr& e);
   ExprPtr logarithm(const Call& c, const ExprPtr& e);
   // conditions.cpp
-  void jump_if_relation(const Binary& b, const LabelRef& target);
+  void jump_if_relation(const ExprPtr& relation, const LabelRef& target);
   ExprPtr exact_comparison(const ExprPtr& e);
 
   Editor& editor_;

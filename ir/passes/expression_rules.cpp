@@ -223,9 +223,10 @@ ExprPtr ExpressionLowering::quadrants(const ExprPtr& y_in, const ExprPtr& x_in, 
     pre.push_back(make_jump(like_, end));
   }
   label_here(on_axis);
-  assign(*v, number(90));
-  pre.push_back(make_jump(like_, end, rel(BinaryOp::ge, y, 0)));
-  assign(*v, number(positive ? 270 : -90));
+  const auto up = constant_value(y);
+  if (!up || *up >= 0) assign(*v, number(90));
+  if (!up) pre.push_back(make_jump(like_, end, rel(BinaryOp::ge, y, 0)));
+  if (!up || *up < 0) assign(*v, number(positive ? 270 : -90));
   label_here(end);
   return variable(*v);
 }
@@ -257,6 +258,7 @@ ExprPtr ExpressionLowering::rounding(const Call& c, const ExprPtr& e) {
 ExprPtr ExpressionLowering::selection(const Call& c, const ExprPtr& e) {
   if (c.function == Function::bound)
     return node(call(Function::min, {c.args[1], call(Function::max, {c.args[0], c.args[2]})}));
+  if (const auto fixed = constant_value(e)) return number(*fixed);
   const ExprPtr x = primary(c.args[0]);
   const ExprPtr y = c.args.size() > 1 ? primary(c.args[1]) : nullptr;
   const auto v = temporary();
