@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "cli/common.h"
 #include "ir/text.h"
+#include "translator/readable.h"
 
 namespace cnctrans::cli {
 
@@ -45,9 +46,9 @@ int print_ir(const Arguments& a) {
   translator::RunOptions options;
   if (!run_options(a, options)) return usage;
   if (a.inputs.size() != 1) return usage_error("ir takes one program");
-  const auto* dialect = translator::find_dialect(a.dialect);
-  if (dialect == nullptr) return usage_error("unknown dialect '" + a.dialect + "'");
   std::string error;
+  const auto* dialect = translator::find_readable(a.dialect, &error);
+  if (dialect == nullptr) return usage_error(error);
   const auto source = SourceText::open(a.inputs.front(), &error);
   if (!source) return usage_error(error);
   const auto profile = translator::choose_profile(*dialect, a.machine, source.get(), &error);

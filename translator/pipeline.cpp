@@ -6,17 +6,12 @@
 #include "base/text.h"
 #include "ir/text.h"
 #include "translator/encode.h"
+#include "translator/readable.h"
 #include "translator/stream.h"
 
 namespace cnctrans::translator {
 
 namespace {
-
-std::string unknown_dialect(std::string_view name) {
-  std::string text = "unknown dialect '" + std::string(name) + "'; known:";
-  for (const auto& d : dialects()) text += " " + std::string(d.name);
-  return text;
-}
 
 /// Names of routines that statements of `program` call by a fixed name.
 void collect_calls(const ir::Program& program, std::vector<ir::RoutineName>& out) {
@@ -132,6 +127,12 @@ std::string shared_name(const ir::Program& program) {
 void verify_outputs(TranslateResult& result, const ir::Program& source, const machine::Profile& source_profile,
                     Loader& loader, const Dialect& to, const machine::Profile& target_profile,
                     const TranslateOptions& options) {
+  result.verified = true;
+  if (!readable(to)) {
+    result.verdict.status = verifier::Status::not_replayable;
+    result.verdict.reason = std::string(to.title) + ": nothing here reads the translation back";
+    return;
+  }
   Replayed a, b;
   Diagnostics source_diagnostics, target_diagnostics;
   a.result = replay(source, source_profile, options.run, loader, source_diagnostics, a.events);
@@ -158,7 +159,6 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
   b.result = replay(target, target_profile, target_run, target_loader, target_diagnostics, b.events);
   a.start = verifier::start_of(source_profile);
   b.start = verifier::start_of(target_profile);
-  result.verified = true;
   result.verdict = judge(a, b);
   if (const auto twice = shared_name(target); !twice.empty()) {
     result.verdict.status = verifier::Status::not_replayable;
@@ -211,10 +211,11 @@ bool refused(const Diagnostics& d, const TranslateOptions& options) {
 
 TranslateResult translate(const std::string& path, const TranslateOptions& options) {
   TranslateResult result;
-  const Dialect* from = find_dialect(options.from);
+  const Dialect* from = find_readable(options.from, &result.error);
+  if (from == nullptr) return result;
   const Dialect* to = find_dialect(options.to);
-  if (from == nullptr || to == nullptr) {
-    result.error = unknown_dialect(from == nullptr ? options.from : options.to);
+  if (to == nullptr) {
+    result.error = unknown_dialect(options.to);
     return result;
   }
   const SourcePtr source = SourceText::open(path, &result.error);
@@ -304,12 +305,9 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
 VerifyResult verify(const std::string& source, const std::vector<std::string>& targets,
                     const TranslateOptions& options) {
   VerifyResult result;
-  const Dialect* from = find_dialect(options.from);
-  const Dialect* to = find_dialect(options.to);
-  if (from == nullptr || to == nullptr) {
-    result.error = unknown_dialect(from == nullptr ? options.from : options.to);
-    return result;
-  }
+  const Dialect* from = find_readable(options.from, &result.error);
+  const Dialect* to = from == nullptr ? nullptr : find_readable(options.to, &result.error);
+  if (to == nullptr) return result;
   const auto side = [&options, &result](const Dialect& dialect, const std::string& machine, const std::string& path,
                                         Diagnostics& diagnostics, FileTable& files, Replayed& replayed, bool with_set) {
     const SourcePtr text = SourceText::open(path, &result.error);
@@ -340,11 +338,8 @@ RunResult run(
     const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&, const std::vector<std::string>&)>&
         make_sink) {
   RunResult result;
-  const Dialect* dialect = find_dialect(options.dialect);
-  if (dialect == nullptr) {
-    result.error = unknown_dialect(options.dialect);
-    return result;
-  }
+  const Dialect* dialect = find_readable(options.dialect, &result.error);
+  if (dialect == nullptr) return result;
   const SourcePtr source = SourceText::open(path, &result.error);
   if (!source) return result;
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
@@ -375,11 +370,8 @@ RunResult run(
 
 RewriteResult rewrite(const SourcePtr& source, const std::string& dialect_name, const std::string& machine) {
   RewriteResult result;
-  const Dialect* dialect = find_dialect(dialect_name);
-  if (dialect == nullptr) {
-    result.error = unknown_dialect(dialect_name);
-    return result;
-  }
+  const Dialect* dialect = find_readable(dialect_name, &result.error);
+  if (dialect == nullptr) return result;
   const auto profile = choose_profile(*dialect, machine, source.get(), &result.error);
   if (!profile) return result;
   Loader loader(*dialect, *profile, frontends::Reader::scanner, {});
@@ -395,11 +387,8 @@ RewriteResult rewrite(const SourcePtr& source, const std::string& dialect_name, 
 
 CheckResult check(const std::string& path, const RunOptions& options) {
   CheckResult result;
-  const Dialect* dialect = find_dialect(options.dialect);
-  if (dialect == nullptr) {
-    result.error = unknown_dialect(options.dialect);
-    return result;
-  }
+  const Dialect* dialect = find_readable(options.dialect, &result.error);
+  if (dialect == nullptr) return result;
   const SourcePtr source = SourceText::open(path, &result.error);
   if (!source) return result;
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);

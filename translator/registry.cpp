@@ -1,6 +1,7 @@
 #include "translator/registry.h"
 
 #include "backends/fagor/backend.h"
+#include "backends/linuxcnc/backend.h"
 #include "backends/num/backend.h"
 #include "backends/sinumerik/backend.h"
 #include "frontends/fagor/frontend.h"
@@ -38,6 +39,7 @@ const std::vector<Dialect>& dialects() {
        0,
        frontends::sinumerik::make_frontend(),
        backends::sinumerik::make_backend()},
+      {"linuxcnc", "LinuxCNC (written only)", {}, {}, {"ngc"}, ';', 0, nullptr, backends::linuxcnc::make_backend()},
   };
   return all;
 }

@@ -9,6 +9,7 @@
 #include "ir/passes/stream_watch.h"
 #include "translator/encode.h"
 #include "translator/line_shapes.h"
+#include "translator/readable.h"
 
 namespace cnctrans::translator {
 
@@ -321,7 +322,7 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   const Dialect* to = find_dialect(options.to);
   result.outcome = StreamOutcome::needs_program;
   // In its own language a program keeps its spelling, which the stream does not look at closely enough.
-  if (from == nullptr || to == nullptr || from == to || options.verify || options.annotate ||
+  if (from == nullptr || !readable(*from) || to == nullptr || from == to || options.verify || options.annotate ||
       options.reader != frontends::Reader::scanner)
     return result;
   Windows look;

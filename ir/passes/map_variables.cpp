@@ -248,17 +248,6 @@ class VariableMap {
     return true;
   }
 
-  /// "P3@20" wants 3.
-  static std::optional<std::int64_t> preferred_number(const std::string& name) {
-    const auto at = name.find('@');
-    std::string_view digits = std::string_view(name).substr(0, at);
-    while (!digits.empty() && (digits.front() < '0' || digits.front() > '9')) digits.remove_prefix(1);
-    if (at == std::string::npos || digits.empty() || digits.size() > 6 || name.size() < 2 || name[1] < '0' ||
-        name[1] > '9')
-      return std::nullopt;
-    return static_cast<std::int64_t>(parse_decimal(digits).value_or(-1));
-  }
-
   // --- rewriting ------------------------------------------------------------------------------------------------
 
   std::optional<VarRef> moved(const VarRef& v, std::size_t routine) const {
@@ -340,11 +329,22 @@ class VariableMap {
       auto& routine = program_.routines[r];
       for_each_statement(routine.body, [&](Statement& s) { visit_statement(s, visit); });
       for (auto& p : routine.parameters) visit.target(p.variable);
-      std::erase_if(routine.body, [&](Statement& s) { return drop_declare(s); });
+      define(routine.body);
     }
   }
 
-  /// Definitions of names that have become numbers.
+  /// Definitions of names that have become numbers: their first values are assigned where they stood.
+  void define(Body& b) const {
+    Body out;
+    for (auto& s : b) {
+      Assign first = first_values(s, named_places_);
+      const LineInfo like = s.line;
+      if (!drop_declare(s)) out.push_back(std::move(s));
+      for (auto& item : first.items) out.push_back(make_assign(like, std::move(item.target), std::move(item.value)));
+    }
+    b = std::move(out);
+  }
+
   bool drop_declare(Statement& s) const {
     auto* d = std::get_if<Declare>(&s.node);
     if (d == nullptr) return false;

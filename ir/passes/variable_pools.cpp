@@ -19,6 +19,33 @@ std::vector<VariablePool> target_pools(const LegaliseContext& context) {
   return list;
 }
 
+std::optional<std::int64_t> preferred_number(const std::string& name) {
+  const auto at = name.find('@');
+  std::string_view digits = std::string_view(name).substr(0, at);
+  while (!digits.empty() && (digits.front() < '0' || digits.front() > '9')) digits.remove_prefix(1);
+  if (at == std::string::npos || digits.empty() || digits.size() > 6 || name.size() < 2 || name[1] < '0' ||
+      name[1] > '9')
+    return std::nullopt;
+  return static_cast<std::int64_t>(parse_decimal(digits).value_or(-1));
+}
+
+Assign first_values(const Statement& s, const std::map<std::pair<SpaceId, std::string>, VarRef>& places) {
+  Assign list;
+  const auto* d = std::get_if<Declare>(&s.node);
+  if (d == nullptr) return list;
+  for (const auto& i : d->items) {
+    const auto place = places.find({d->space, i.name});
+    if (place == places.end() || !place->second.name.empty()) continue;
+    for (std::size_t k = 0; k < i.initial.size(); ++k) {
+      if (!i.initial[k]) continue;
+      VarRef to = place->second;
+      if (k != 0) to.index = number(constant_value(to.index).value_or(0) + static_cast<double>(k));
+      list.items.push_back({std::move(to), i.initial[k], {}, {}, false});
+    }
+  }
+  return list;
+}
+
 VariablePools::VariablePools(const LegaliseContext& context) : context_(context), pools_(target_pools(context)) {}
 
 bool VariablePools::usable(const VariablePool& pool, bool persistent) const {

@@ -5,11 +5,18 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ir/passes/legalise.h"
 
 namespace cnctrans::ir::passes {
+
+/// The number that a local name of the source has: "P3@20" wants 3.
+std::optional<std::int64_t> preferred_number(const std::string& name);
+
+/// The first values of a definition as assignments to the numbers that its names have become (`places`).
+Assign first_values(const Statement& s, const std::map<std::pair<SpaceId, std::string>, VarRef>& places);
 
 class VariablePools {
  public:

@@ -23,7 +23,8 @@ std::vector<Case> cases() {
   for (const auto& from : translator::dialects()) {
     for (const auto& path : testing::files_below(root + std::string(from.name), {".pim", ".pit", ".xpi", ".mpf"})) {
       for (const auto& to : translator::dialects()) {
-        if (to.name != from.name) out.push_back({path, std::string(from.name), std::string(to.name)});
+        const bool replayed = to.frontend != nullptr;  // a dialect that is only written is tested in tests/oracle
+        if (to.name != from.name && replayed) out.push_back({path, std::string(from.name), std::string(to.name)});
       }
     }
   }
