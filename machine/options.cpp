@@ -24,6 +24,8 @@ constexpr std::array specs{
     OptionSpec{"frame.change_keeps", "machine|programmed", "machine",
                "what an incremental word adds to after a frame change: the present point seen in the new frame, or the "
                "coordinate programmed last (the difference of the frames is travelled)"},
+    OptionSpec{"frame.plane_change", "keeps|may_end_rotation", "keeps",
+               "a plane function while a rotation is in force: the rotation stays, or that is not certain"},
     OptionSpec{"frame.rotation_centre", "as_written|scaled_and_mirrored", "as_written",
                "whether the centre of a rotation goes through scale and mirror"},
     OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",

@@ -29,6 +29,7 @@ class FramePass {
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       auto* b = std::get_if<Block>(&s.node);
       if (std::holds_alternative<End>(s.node)) return end(editor, std::move(s), states_.before(s), out);
+      if (b != nullptr) change_plane(s, *b);
       if (b == nullptr || !concerns(*b)) {
         out.push_back(std::move(s));
         return;
@@ -99,6 +100,40 @@ class FramePass {
         before.push_back(make_block(s.line, neutral(FrameSlot::rotation, FrameKind::rotate)));
     }
     editor.put(out, std::move(before), std::move(s));
+  }
+
+  /// A plane function while a rotation is in force: on some controls it may end it. Back in the plane of the rotation
+  /// it is said again there.
+  void change_plane(const Statement& s, Block& b) const {
+    const auto may_end = [](const machine::Profile& m) { return m.option("frame.plane_change") == "may_end_rotation"; };
+    const bool from = may_end(context_.source_machine), to = may_end(context_.target_machine);
+    if ((!from && !to) || program_.dialect == context_.target.dialect) return;
+    const auto set = std::find_if(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::plane;
+    });
+    if (set == b.actions.end()) return;
+    const auto plane = static_cast<Plane>(std::get<ModalSet>(set->data).value);
+    if (setting<Plane>(facts_.before(s), Setting::plane) == plane) return;
+    const PlanarFrame now = target_.part(states_.before(s));
+    if (!now.turns()) return;
+    if (now.known() && now.plane == plane && !from && target_.can(FrameSlot::rotation, FrameCombine::replace)) {
+      auto again = std::make_shared<FrameChange>();
+      again->slot = FrameSlot::rotation;
+      again->kind = FrameKind::rotate;
+      again->combine = FrameCombine::replace;
+      again->has_angle = true;
+      again->angle = *now.angle;
+      b.actions.insert(set + 1, action(FrameOp{std::move(again)}));
+      return;
+    }
+    context_.diagnostics.warning("TRN-327", word_span(s.line.span, set->pos),
+                                 std::string("a plane function while a rotation is in force: ") +
+                                     (from ? "the source's control may end the rotation here (its manual does not say), "
+                                             "the target keeps it"
+                                           : "the target may end the rotation here (its manual does not say), the "
+                                             "source keeps it"),
+                                 "end the rotation before the plane function and set it again after it");
   }
 
   static Action neutral(FrameSlot slot, FrameKind kind) {
