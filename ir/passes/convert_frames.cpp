@@ -127,13 +127,14 @@ class FramePass {
       b.actions.insert(set + 1, action(FrameOp{std::move(again)}));
       return;
     }
-    context_.diagnostics.warning("TRN-327", word_span(s.line.span, set->pos),
-                                 std::string("a plane function while a rotation is in force: ") +
-                                     (from ? "the source's control may end the rotation here (its manual does not say), "
-                                             "the target keeps it"
-                                           : "the target may end the rotation here (its manual does not say), the "
-                                             "source keeps it"),
-                                 "end the rotation before the plane function and set it again after it");
+    context_.diagnostics.warning(
+        "TRN-327", word_span(s.line.span, set->pos),
+        std::string("a plane function while a rotation is in force: ") +
+            (from ? "the source's control may end the rotation here (its manual does not say), "
+                    "the target keeps it"
+                  : "the target may end the rotation here (its manual does not say), the "
+                    "source keeps it"),
+        "end the rotation before the plane function and set it again after it");
   }
 
   static Action neutral(FrameSlot slot, FrameKind kind) {
