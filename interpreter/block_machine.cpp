@@ -32,6 +32,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.machine_absolute = is("machine_move.words", "absolute");
   policy_.position_as_words = is("machine_position.scale", "words");
   policy_.offsets_at_once = is("work_offset.write", "at_once");
+  policy_.preset_is_offset = is("frame.preset", "with_work_offset");
   policy_.data_modal = is("machine_data.units", "modal");
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
@@ -95,6 +96,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     failure_.fail(code::bad_cycle, "a word of the tool axis in a block while a drilling cycle is active");
     return true;
   };
+  marks_ = b.actions.empty() ? ir::contour::Marks{} : ir::contour::marks_of(b);
   if (b.actions.empty()) {
     if (axis_word() || (b.has_motion && !motion(b, with_cycle))) return false;
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
@@ -137,6 +139,8 @@ void BlockMachine::message(std::string text, const Span& where) {
 }
 
 bool BlockMachine::finish() {
+  if (!contour_.empty())
+    return failure_.fail(code::contour_open, "the program ends before the element that closes the contour");
   if (!pending_) return true;
   const bool fault = !pending_->modal;
   release_pending();

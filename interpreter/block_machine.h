@@ -16,6 +16,7 @@
 #include "interpreter/frame.h"
 #include "interpreter/geometry.h"
 #include "ir/block.h"
+#include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
 #include "machine/profile.h"
@@ -56,6 +57,8 @@ class BlockMachine final : public SystemData {
   bool modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here);
   void cancel_cycle() { hole_.reset(); }
   void message(std::string text, const Span& where);
+  /// Contours that several points fit were settled by the nearest one, here.
+  [[nodiscard]] const std::vector<Span>& chosen_contours() const { return chosen_contours_; }
   /// The program has ended: nothing may wait for a next element.
   bool finish();
   void end_event(EndReason reason, const Failure& failure, const Span& where);
@@ -95,7 +98,8 @@ class BlockMachine final : public SystemData {
     bool cycle_rapid = false, rotary_triggers = false, modal_words = false, keeps_programmed = false,
          centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
-         start_angle_stays = false, position_as_words = false, machine_absolute = false, offsets_at_once = false;
+         start_angle_stays = false, position_as_words = false, machine_absolute = false, offsets_at_once = false,
+         preset_is_offset = false;
     bool data_modal = false;  ///< machine data in the units of the program
   };
   struct Pending {
@@ -158,6 +162,7 @@ class BlockMachine final : public SystemData {
   bool rotate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
   bool stretch(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
   Frame inner_of(ir::FrameSlot slot) const;
+  [[nodiscard]] Frame slot_frame(ir::FrameSlot slot) const;
   bool rebuild_frame();
   bool use_frame(const Frame& f);
   Frame offset_frame() const;
@@ -185,6 +190,16 @@ class BlockMachine final : public SystemData {
   Vec last_direction(const ir::PlaneAxes& plane) const;
   void arrived(const Move& move);
   [[nodiscard]] double feed_now() const { return feed_[static_cast<std::size_t>(modal_.feed_mode)]; }
+
+  // contours whose points follow from later blocks (contours.cpp)
+  struct OpenElement {
+    Move move;
+    ir::contour::Element data;
+    std::optional<Pending> corner;
+  };
+  bool contour_element(const ir::Motion& m, ir::MotionKind kind, Move move);
+  bool contour_data(const ir::Motion& m, ir::MotionKind kind, const Move& move, ir::contour::Element& e);
+  bool close_contour();
 
   // path (path.cpp): corners and emission
   bool send(const Move& move);
@@ -224,6 +239,7 @@ class BlockMachine final : public SystemData {
   bool plain_frame_ = true;  ///< frame_ only translates
   std::uint64_t frame_serial_ = 0;
   std::array<Frame, 6> slots_;  ///< by FrameSlot
+  std::uint8_t suspended_ = 0;  ///< bit n: slot n does not count for now, a preset: while no work offset is in force
   Policies policy_;
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets_;
   std::map<ir::AxisId, double> active_offset_;
@@ -247,6 +263,10 @@ class BlockMachine final : public SystemData {
   std::optional<Pending> block_corner_;
   bool block_moves_ = false, feed_stop_ = false, cycle_defined_here_ = false, cycle_waits_ = false;
   std::optional<Pending> pending_;
+  ir::contour::Marks marks_;          ///< of the block at hand
+  std::vector<OpenElement> contour_;  ///< their points are not known yet
+  std::vector<Span> chosen_contours_;
+  std::uint64_t contour_frame_ = 0, contour_events_ = 0;
   double modal_corner_ = 0;
   bool modal_corner_has_feed_ = false;
   double modal_corner_feed_ = 0;

@@ -46,6 +46,8 @@ class Emitter {
     sink_.on_event(e);
   }
   [[nodiscard]] bool limit_reached() const { return limit_; }
+  /// Events so far, the held ones too.
+  [[nodiscard]] std::uint64_t seen() const { return count_ + held_.size(); }
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
  private:

@@ -39,12 +39,19 @@ void BlockMachine::restore_modal(const ir::ModalState& state) {
   if (other_offset) set_work_offset(ir::WorkOffset{ir::Value(double(state.work_offset)), state.work_offset == 0});
 }
 
+/// What the slot adds now: nothing while it is suspended.
+Frame BlockMachine::slot_frame(ir::FrameSlot slot) const {
+  const bool off = (suspended_ >> index_of(slot) & 1U) != 0 ||
+                   (slot == ir::FrameSlot::preset && policy_.preset_is_offset && modal_.work_offset == 0);
+  return off ? Frame{} : slots_[index_of(slot)];
+}
+
 /// The parts of the frame inside `slot`.
 Frame BlockMachine::inner_of(ir::FrameSlot slot) const {
   Frame f;
   bool inside = false;
   for (const auto s : profile_.frame_order) {
-    if (inside) f = compose(f, slots_[index_of(s)]);
+    if (inside) f = compose(f, slot_frame(s));
     inside = inside || s == slot;
   }
   return f;
@@ -52,7 +59,7 @@ Frame BlockMachine::inner_of(ir::FrameSlot slot) const {
 
 bool BlockMachine::rebuild_frame() {
   Frame f = offset_frame();
-  for (const auto s : profile_.frame_order) f = compose(f, slots_[index_of(s)]);
+  for (const auto s : profile_.frame_order) f = compose(f, slot_frame(s));
   return use_frame(f);
 }
 
@@ -120,7 +127,7 @@ bool BlockMachine::preset(const ir::FrameChange& c, Frame& slot) {
   Frame outer = offset_frame();
   for (const auto s : profile_.frame_order) {
     if (s == c.slot) break;
-    outer = compose(outer, slots_[index_of(s)]);
+    outer = compose(outer, slot_frame(s));
   }
   Frame outward;
   if (!invert(outer, outward)) return failure_.fail(code::frame, "a scale of zero");

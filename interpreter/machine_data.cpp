@@ -26,6 +26,11 @@ const machine::Tool* tool_of(const machine::Profile& p, double number) {
 std::size_t slot_of(ir::FrameSlot s) {
   return static_cast<std::size_t>(s);
 }
+/// active_modal also says whether a part of the programmable frame counts: setting_count + 2 + FrameSlot; else -1.
+int frame_slot(std::span<const double> args) {
+  const int n = args.size() == 3 ? static_cast<int>(args[1]) - static_cast<int>(ir::setting_count) - 2 : -1;
+  return n >= 0 && n <= static_cast<int>(ir::FrameSlot::chain) ? n : -1;
+}
 double value_of(const ir::ModalState& state, int setting) {
   if (setting == static_cast<int>(ir::setting_count)) return static_cast<double>(state.motion);
   if (setting == static_cast<int>(ir::setting_count) + 1) return state.work_offset;
@@ -161,6 +166,10 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
       return true;
     case Datum::active_modal:
       if (args.size() != 3) return false;
+      if (const int slot = frame_slot(args); slot >= 0) {
+        out = (suspended_ >> slot & 1U) == 0 ? 1 : 0;
+        return true;
+      }
       out = value_of(modal_, static_cast<int>(args[1])) == args[2] ? 1 : 0;
       return true;
     case Datum::active_plane: out = static_cast<double>(16 * (order(plane.u) + 1) + order(plane.v) + 1); return true;
@@ -192,6 +201,12 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
       work_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
       if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
       active_offset_ = work_offsets_[row];
+      return rebuild_frame();
+    }
+    case Datum::active_modal: {
+      const int slot = frame_slot(args);
+      if (slot < 0) return failure_.fail(code::no_datum, datum_key(ref, args) + " can only be read");
+      suspended_ = static_cast<std::uint8_t>(v != 0 ? suspended_ & ~(1U << slot) : suspended_ | 1U << slot);
       return rebuild_frame();
     }
     case Datum::diameter_on:

@@ -34,8 +34,8 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   }
   const bool rapid = kind == ir::MotionKind::rapid;
   if (m.frame == ir::FrameUse::normal) {
-    const bool quick =
-        plain_frame_ && !m.extra && base_pending_ == 0 && !pending_ && !block_corner_ && modal_corner_ == 0;
+    const bool quick = plain_frame_ && !m.extra && contour_.empty() && !marks_.any() && base_pending_ == 0 &&
+                       !pending_ && !block_corner_ && modal_corner_ == 0;
     if (quick && (rapid || kind == ir::MotionKind::linear)) return quick_line(m, rapid);
     return general_motion(m, kind);
   }
@@ -125,6 +125,7 @@ Move BlockMachine::move_from_here() const {
 
 bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
   Move move = move_from_here();
+  if (!contour_.empty() || marks_.any()) return contour_element(m, kind, move);
   if (!end_point(m, move)) return false;
   switch (kind) {
     case ir::MotionKind::rapid: move.kind = Move::Kind::rapid; break;
@@ -235,8 +236,9 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
 
 /// Coordinates of the machine itself; the frame stays out of it.
 bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
-  if (pending_ || block_corner_)
-    return failure_.fail(code::corner_alone, "a corner cannot stand beside a move in machine coordinates");
+  if (pending_ || block_corner_ || !contour_.empty())
+    return failure_.fail(code::corner_alone,
+                         "a corner or an open contour cannot stand beside a move in machine coordinates");
   if (kind != ir::MotionKind::rapid && kind != ir::MotionKind::linear) {
     return failure_.fail(code::not_carried, "only straight moves are carried out in machine coordinates");
   }

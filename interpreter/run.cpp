@@ -47,6 +47,11 @@ Result Runner::run() {
   enter_top();
   if (!apply_settings()) return refuse();
   loop();
+  for (const Span& s : machine_.chosen_contours()) {
+    diagnostics_.warning(code::contour_chosen, s,
+                         "several contours fit the data of these elements; the one nearest to its start was run",
+                         "say which point is meant (E+ or E-)");
+  }
   switch (state_) {
     case State::event_limit: return finish(EndReason::event_limit, last_);
     case State::step_limit: return finish(EndReason::step_limit, last_);

@@ -1,6 +1,7 @@
 // What one statement does to the modal facts.
 #include <cmath>
 
+#include "ir/contour.h"
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
 
@@ -25,6 +26,7 @@ class Transfer {
       if (a.order == Order::after) std::visit(*this, a.data);
     }
     if (runs_here_) cycle_moves();
+    if (follows_) forget_positions();  // the end follows from the next element
     if (not_understood_) f_.forget();
   }
 
@@ -81,7 +83,11 @@ class Transfer {
     f_.cycle_active = f_.cycle_is_hole = false;
     f_.cycle_active_known = true;
   }
-  void operator()(const OpaqueWord&) { not_understood_ = true; }
+  void operator()(const OpaqueWord& x) {
+    const bool contour = x.word == contour::mark::secant || x.word == contour::mark::tangent ||
+                         x.word == contour::mark::plus || x.word == contour::mark::minus;
+    (contour ? follows_ : not_understood_) = true;
+  }
   template <class T>
   void operator()(const T&) {}
 
@@ -194,7 +200,7 @@ class Transfer {
   bool stays_ = false;             ///< the hole of this block ends where it began
   bool runs_here_ = false;
   bool here_is_hole_ = false;
-  bool not_understood_ = false;
+  bool not_understood_ = false, follows_ = false;
 };
 
 void assign(const Assign& a, Facts& f) {

@@ -26,6 +26,9 @@ constexpr std::array specs{
                "coordinate programmed last (the difference of the frames is travelled)"},
     OptionSpec{"frame.plane_change", "keeps|may_end_rotation", "keeps",
                "a plane function while a rotation is in force: the rotation stays, or that is not certain"},
+    OptionSpec{
+        "frame.preset", "own|with_work_offset", "own",
+        "a preset of the zero point stands by itself, or belongs to the work offset and is out of force with it"},
     OptionSpec{"frame.rotation_centre", "as_written|scaled_and_mirrored", "as_written",
                "whether the centre of a rotation goes through scale and mirror"},
     OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",

@@ -10,7 +10,7 @@ namespace facts = dialects::num;
 
 bool system_units(const ir::ExprPtr& e) {
   const auto* n = std::get_if<ir::Number>(&e->node);
-  return n != nullptr && n->text.empty() && (n->value == facts::units_per_mm || n->value == facts::units_per_degree);
+  return n != nullptr && n->text.empty() && n->value > 1;  // written out by the reader
 }
 
 std::string ChainPrinter::variable(const ir::ExprPtr& e, const ir::VarRef& v) {
@@ -20,9 +20,12 @@ std::string ChainPrinter::variable(const ir::ExprPtr& e, const ir::VarRef& v) {
   }
   const ir::VariableSpace& space = program_.spaces[v.space];
   if (space.named()) {
-    if (!v.indices.empty()) problem(e, "tables of symbols are not written");
     const bool bracketed = !v.name.empty() && v.name.front() == '[';
-    return bracketed ? v.name : "[" + v.name + "]";
+    std::string text = bracketed ? v.name : "[" + v.name + "]";
+    std::string list;
+    for (const auto& i : v.indices) list += (list.empty() ? "" : ",") + print_node(i).text;
+    if (!list.empty()) text.insert(text.size() - 1, "(" + list + ")");
+    return text;
   }
   const auto n = ir::constant_value(v.index);
   if (!n) {

@@ -1,6 +1,8 @@
 // Words of NUM blocks: motion, frames, cycles.
 #include <cmath>
 
+#include <algorithm>
+
 #include "backends/num/style.h"
 #include "backends/num/writer.h"
 #include "base/text.h"
@@ -39,6 +41,14 @@ void Writer::block(const ir::Block& b) {
   }
 }
 
+/// The source writes this word behind an axis word of its block.
+bool Writer::behind_words(WordPos pos) const {
+  const auto* b = std::get_if<ir::Block>(&current().node);
+  if (b == nullptr || !b->has_motion) return false;
+  return std::any_of(b->motion.coords.begin(), b->motion.coords.end(),
+                     [pos](const ir::CoordWord& w) { return w.pos.column < pos.column; });
+}
+
 // ---- settings and machine functions
 // ------------------------------------------------------------------------------------
 
@@ -59,17 +69,27 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
       break;
     default: break;
   }
+  // G90 and G91 hold from their place on: a code for the whole block stands before its axis words.
+  const bool positional = m.setting == ir::Setting::distance || m.setting == ir::Setting::units;
+  if (positional && a.order != ir::Order::after && !same_dialect() && behind_words(a.pos)) {
+    ir::Action front = a;
+    front.pos = {};
+    return ProgramWriter::modal_set(front, m);
+  }
   ProgramWriter::modal_set(a, m);
 }
 
 void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
   if (s.number != 1) return refuse(no_word, a.pos, "orienting a second spindle has no counterpart here");
-  add(word("EC", s.angle, a.pos) + ' ' + m_word(19), Rank::machine, a.pos);
+  const std::string code = same_dialect() && !a.text.empty() ? std::string(a.text) : m_word(19);
+  add(word("EC", s.angle, a.pos) + ' ' + code, Rank::machine, a.pos);
 }
 
 bool Writer::spelling_is_whole_word(const ir::Action& a) const {
   // The S of G92 S is half of its word.
-  return !std::holds_alternative<ir::SpindleLimit>(a.data) && ProgramWriter::spelling_is_whole_word(a);
+  // ... and so is the M19 of EC M19.
+  return !std::holds_alternative<ir::SpindleLimit>(a.data) && !std::holds_alternative<ir::SpindleOrient>(a.data) &&
+         ProgramWriter::spelling_is_whole_word(a);
 }
 
 void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
@@ -173,6 +193,11 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
 // --------------------------------------------------------------------------------------------------------------
 
 void Writer::motion(const ir::Motion& m) {
+  if (m.kind == ir::MotionKind::probe_toward && same_dialect()) {
+    if (!m.code_text.empty()) add(std::string(m.code_text), Rank::motion_code, m.code_pos);
+    for (const auto& w : m.coords) coordinate(m, w);
+    return add("G10", Rank::tail);
+  }
   // Positions of a cycle are reached in rapid without a code; one beside the cycle is an error of the control.
   bool in_cycle = cycle_here_;
   if (!in_cycle && !same_dialect()) {
@@ -212,7 +237,9 @@ void Writer::frame_use(const ir::Motion& m) {
                     "write the position in machine coordinates");
   }
   if (!mode) return refuse(no_word, m.frame_pos, "a move in machine coordinates stands where G90 or G91 is not known");
-  add(machine_frame_in_incremental(m) ? "G90 G52" : "G52", Rank::frame, m.frame_pos);
+  // It stands before the words it counts for.
+  add(machine_frame_in_incremental(m) ? "G90 G52" : "G52", Rank::frame,
+      behind_words(m.frame_pos) ? WordPos{} : m.frame_pos);
 }
 
 void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
@@ -270,28 +297,29 @@ void Writer::radius(const ir::Motion& m) {
   ProgramWriter::radius(m);
 }
 
-/// EA of a line, EA and EX of a polar end point, K of a thread.
+/// EA and EX of a polar end point, K of a thread.
 void Writer::straight_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (e.has_pitch || (e.has_start_angle && !zero(e.start_angle)) || !zero(e.lead_change))
     return refuse(no_word, m.code_pos, "the start angle or changing pitch of a thread has no counterpart here");
   if (e.has_lead) return add(word("K", e.lead, m.code_pos), Rank::motion_extra);
-  if (e.has_line_angle) return add(word("EA", e.line_angle, m.code_pos), Rank::center);
   // The polar form counts from the origin; elsewhere the pole moves.
   if (!e.has_polar_angle || !e.has_polar_radius || !same_dialect())
     return refuse(no_word, m.code_pos, "this polar end point has no counterpart here");
-  add(word("EA", e.polar_angle, m.code_pos), Rank::center);
-  add(word("EX", e.polar_radius, m.code_pos), Rank::center);
+  add(word("EA", e.polar_angle, m.code_pos), Rank::motion_code);
+  add(word("EX", e.polar_radius, m.code_pos), Rank::motion_code);
 }
 
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   const bool through = !e.through.empty() || e.has_turns || e.has_angle;
-  if (!through && (e.has_line_angle || e.has_polar_angle || e.has_polar_radius || e.has_lead))
-    return straight_extra(m, e);
+  const bool alone = !through && !e.has_pitch && !e.has_polar_angle && !e.has_polar_radius && !e.has_lead;
+  if (alone) {  // a line by its angle, or an element whose end follows from the next one
+    if (e.has_line_angle) add(word("EA", e.line_angle, m.code_pos), Rank::motion_code);
+    return;
+  }
+  if (!through && (e.has_polar_angle || e.has_polar_radius || e.has_lead)) return straight_extra(m, e);
   const bool only_pitch = e.has_pitch && !e.has_turns && !e.has_angle && e.through.empty() && !e.has_polar_radius &&
                           !e.has_polar_angle && !e.has_line_angle && !e.has_lead && !e.has_start_angle;
   if (!only_pitch) {
-    if (same_dialect() && !e.through.empty())
-      return refuse(no_word, m.code_pos, "the circle through three points is not written yet");
     return ProgramWriter::motion_extra(m, e);
   }
   const auto plane = setting(ir::Setting::plane);

@@ -97,9 +97,19 @@ ir::ExprPtr in_machine_units(const ir::ExprPtr& value) {
   const auto* b = value ? std::get_if<ir::Binary>(&value->node) : nullptr;
   if (b == nullptr || b->op != ir::BinaryOp::divide) return value;
   const auto* n = std::get_if<ir::Number>(&b->right->node);
-  const bool unit =
-      n != nullptr && n->text.empty() && (n->value == facts::units_per_mm || n->value == facts::units_per_degree);
+  const bool unit = n != nullptr && n->text.empty() && n->value > 1;
   return unit ? b->left : value;
+}
+
+}  // namespace
+
+namespace {
+
+/// What an interruptible block (G10) leaves in E7x001 by itself.
+bool is_latch(const ir::Assign::Item& item) {
+  const auto* b = item.value ? std::get_if<ir::Binary>(&item.value->node) : nullptr;
+  const auto* from = b != nullptr ? std::get_if<ir::SystemRef>(&b->left->node) : nullptr;
+  return from != nullptr && from->datum == ir::Datum::machine_position && from->text.empty();
 }
 
 }  // namespace
@@ -110,6 +120,9 @@ void Writer::assign(const ir::Assign& a) {
   for (const auto& item : a.items) {
     std::string target;
     if (item.to_system) {
+      // The sum of PREF, DEC1 and DEC3 follows from them: the parameter before it is what was written.
+      if (same_dialect() && is_latch(item)) continue;
+      if (same_dialect() && item.system.text.empty() && item.system.datum == ir::Datum::work_offset) continue;
       if (!same_dialect() || item.system.text.empty()) {
         return refuse(no_statement, item.pos,
                       "'" + item.system.text + "' is data of the source machine and is not written here");
@@ -128,6 +141,14 @@ void Writer::declare(const ir::Declare& d) {
   if (!same_dialect()) return refuse(no_statement, {}, "named variables are not declared here");
   for (const auto& item : d.items) {
     std::string text = item.name.empty() || item.name.front() == '[' ? item.name : '[' + item.name + ']';
+    if (!item.dimensions.empty()) {
+      std::string sizes;
+      for (const auto& size : item.dimensions) {
+        const auto n = ir::constant_value(size);
+        sizes += (sizes.empty() ? "" : ",") + shortest(n ? *n - 1 : 0);
+      }
+      text.insert(text.size() - 1, "(" + sizes + ")");
+    }
     if (!item.initial.empty()) text += '=' + expression_text(item.initial.front());
     if (declares_first_.count(current().id) != 0) {
       add("VAR", Rank::head);
@@ -156,6 +177,12 @@ void Writer::jump(const ir::Jump& j) {
   if (j.target.computed) return refuse(no_statement, {}, "a jump to a computed block number has no counterpart here");
   if (!j.target.is_number)
     return refuse(no_statement, {}, "a jump to a label that is no block number has no counterpart here");
+  if (j.condition) {  // the N of a G10 block
+    const auto* b = std::get_if<ir::Binary>(&j.condition->node);
+    const auto* datum = b != nullptr ? std::get_if<ir::SystemRef>(&b->left->node) : nullptr;
+    if (same_dialect() && datum != nullptr && datum->text == facts::interruption_datum)
+      return add(number_target(j.target), Rank::tail);
+  }
   std::string text = "G79 ";
   if (j.condition) text += condition(j.condition) + ' ';
   add(text + number_target(j.target), Rank::tail);

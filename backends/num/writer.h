@@ -57,6 +57,7 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] std::int64_t main_number() const;
   [[nodiscard]] std::string condition(const ir::ExprPtr& e);
   [[nodiscard]] bool structured_allowed();
+  [[nodiscard]] bool behind_words(WordPos pos) const;
   [[nodiscard]] bool machine_frame_in_incremental(const ir::Motion& m);
   std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);
   void shift(const ir::Action& a, const ir::FrameChange& c);

@@ -198,7 +198,6 @@ constexpr std::string_view missing_feature(const GCode& row) {
     case GKind::turning_cycle: return "cycle.turning";
     case GKind::milling_cycle: return "cycle.milling";
     case GKind::spline: return "motion.spline";
-    case GKind::interruptible: return "motion.probe";
     case GKind::spatial_comp:
     case GKind::transform:
     case GKind::grinding_axis:
@@ -217,10 +216,12 @@ struct GRemark {
   std::string_view text;
 };
 inline constexpr std::array g_remarks{
-    GRemark{0,
-            "EA ES ET E+ E-: only a line by EA with one coordinate, or EA with EX under G90; the rest is refused "
-            "(NUM-004)"},
+    GRemark{0, "EA ES ET E+ E-: contours whose points follow from up to 3 later elements (NUM-043, RUN-031)"},
     GRemark{1, "as G0"},
+    GRemark{2, "as G0; R with ET: an arc between two elements"},
+    GRemark{3, "as G2"},
+    GRemark{6, "the curve between the points is not described"},
+    GRemark{10, "a line at feed that a contact ends; not with a condition (NUM-045)"},
     GRemark{12, "left out with a warning (NUM-034)"},
     GRemark{16, "R+ only; another tool axis is refused (NUM-038)"},
     GRemark{20, "kept as text, no effect (NUM-034)"},

@@ -17,7 +17,7 @@ struct OptionRow {
 namespace option {
 inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
                                   letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
-                                  peck_law = "num.peck_law";
+                                  missing_end = "num.missing_range_end", peck_law = "num.peck_law";
 }  // namespace option
 
 inline constexpr std::array options{
@@ -26,6 +26,9 @@ inline constexpr std::array options{
     OptionRow{option::rotary_modulo, "*", "BC", "letters of the axes whose sign is a direction; - for none"},
     OptionRow{option::letter_o, "true false", "true", "GO is read as G0, with a warning"},
     OptionRow{option::range_order, "number position", "number", "what puts the two labels of a G77 range in order"},
+    OptionRow{option::missing_end, "error to_last_lower", "error", "a G77 range whose last block is missing"},
+    OptionRow{"num.linear_unit_um", "*", "1", "micrometres in one unit of a linear E parameter"},
+    OptionRow{"num.rotary_unit", "*", "0.0001", "degrees in one unit of a rotary E parameter"},
     OptionRow{option::m30, "none end", "none", "whether M30 ends the program"},
     OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
 };

@@ -37,8 +37,11 @@ enum class EMeaning : std::uint8_t {
   feed_override,
   tool_note,      ///< of the tool table, without effect on the programmed path: memory
   active_radius,  ///< radius of the corrector in use
-  display,        ///< graphics, minimum block time: no effect on the path
-  machine         ///< known to the machine only
+  slot_switch,    ///< suspends a part of the programmable frame; the index is its ir::FrameSlot
+  latched,        ///< position where the last interruptible block ended
+  spindle_speed,
+  display,  ///< graphics, minimum block time: no effect on the path
+  machine   ///< known to the machine only
 };
 enum class EUnit : std::uint8_t { none, length, axis };  ///< length: micrometre; axis: micrometre, or 1/10000 degree
 
@@ -52,9 +55,17 @@ struct EParameter {
   bool writable;
   std::string_view title;
 };
+constexpr std::int32_t slot(ir::FrameSlot s) {
+  return static_cast<std::int32_t>(s);
+}
 inline constexpr std::array e_parameters{
     EParameter{10000, 10031, 1, 0, EMeaning::machine, EUnit::none, true, "PLC bits out"},
-    EParameter{11000, 11015, 1, 0, EMeaning::machine, EUnit::none, true, "switches of ED, G59, G51, G74"},
+    EParameter{11000, 11000, 1, slot(ir::FrameSlot::rotation), EMeaning::slot_switch, EUnit::none, true, "ED counts"},
+    EParameter{11001, 11001, 1, slot(ir::FrameSlot::shift), EMeaning::slot_switch, EUnit::none, true, "G59 counts"},
+    EParameter{11002, 11002, 1, 0, EMeaning::machine, EUnit::none, true, "a switch of the control"},
+    EParameter{11003, 11003, 1, slot(ir::FrameSlot::mirror), EMeaning::slot_switch, EUnit::none, true, "G51 counts"},
+    EParameter{11004, 11004, 1, slot(ir::FrameSlot::scale), EMeaning::slot_switch, EUnit::none, true, "G74 counts"},
+    EParameter{11005, 11015, 1, 0, EMeaning::machine, EUnit::none, true, "switches: spindle override, corners"},
     EParameter{20000, 20031, 1, 0, EMeaning::machine, EUnit::none, false, "PLC bits in"},
     EParameter{21000, 21255, 1, 0, EMeaning::machine, EUnit::none, false, "options present"},
     EParameter{30000, 30127, 1, 0, EMeaning::machine, EUnit::none, true, "PLC words out"},
@@ -79,13 +90,14 @@ inline constexpr std::array e_parameters{
     EParameter{60005, 68005, 1000, 0, EMeaning::shift, EUnit::axis, true, "G59 shift"},
     EParameter{69000, 69000, 1, 0, EMeaning::scale_factor, EUnit::none, true, "scale factor, thousandths"},
     EParameter{70000, 78000, 1000, 0, EMeaning::position, EUnit::axis, false, "present position"},
-    EParameter{70001, 78001, 1000, 0, EMeaning::machine, EUnit::axis, false, "latched position"},
+    EParameter{70001, 78001, 1000, 0, EMeaning::latched, EUnit::axis, false, "latched position"},
     EParameter{70002, 78002, 1000, 0, EMeaning::machine, EUnit::axis, false, "static travel minimum"},
     EParameter{70003, 78003, 1000, 0, EMeaning::machine, EUnit::axis, false, "static travel maximum"},
     EParameter{70004, 78004, 1000, 0, EMeaning::machine, EUnit::none, false, "direction of movement"},
     EParameter{70005, 78005, 1000, 0, EMeaning::machine, EUnit::none, true, "axis assignment"},
     EParameter{70006, 78006, 1000, 0, EMeaning::machine, EUnit::none, true, "carried axis"},
-    EParameter{79000, 79001, 1, 0, EMeaning::machine, EUnit::none, false, "spindle position, set speed"},
+    EParameter{79000, 79000, 1, 0, EMeaning::machine, EUnit::none, false, "spindle position"},
+    EParameter{79001, 79001, 1, 0, EMeaning::spindle_speed, EUnit::none, false, "spindle set speed"},
     EParameter{79002, 79002, 1, 0, EMeaning::feed_override, EUnit::none, false, "feed override"},
     EParameter{79003, 79003, 1, 0, EMeaning::machine, EUnit::none, true, "distance left"},
     EParameter{79004, 79004, 1, 0, EMeaning::machine, EUnit::none, false, "path speed"},
@@ -116,6 +128,9 @@ constexpr const LRange* l_range(std::int64_t number) {
 inline constexpr double units_per_mm = 1000, units_per_degree = 10000;
 /// The one settable offset row of a NUM; PREF, DEC1 and DEC3 add up in it.
 inline constexpr int offset_row = 1;
+
+/// Machine datum: not 0 when the last interruptible block (G10) was interrupted.
+inline constexpr std::string_view interruption_datum = "G10";
 
 /// Indices of the spaces below in a program.
 inline constexpr ir::SpaceId space_l = 0, space_e = 1, space_symbol = 2;

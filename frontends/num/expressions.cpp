@@ -22,8 +22,8 @@ struct Neutral {
   double scale = 1;
 };
 
-double axis_units(ir::AxisId axis) {
-  return ir::is_rotary_letter(axis) ? facts::units_per_degree : facts::units_per_mm;
+double axis_units(const Settings& settings, ir::AxisId axis) {
+  return ir::is_rotary_letter(axis) ? settings.units_per_degree : settings.units_per_mm;
 }
 
 ir::SystemRef table_ref(ir::Datum datum, std::int64_t number, std::string text) {
@@ -53,7 +53,7 @@ bool is_offset(const facts::EParameter& row) {
 }
 
 /// offset of the axis := (PREF + DEC1 + DEC3) / units. The system's name is empty: no source text says this.
-ir::Assign::Item offset_item(std::int64_t number, WordPos pos) {
+ir::Assign::Item offset_item(const Settings& settings, std::int64_t number, WordPos pos) {
   const std::int64_t base = number / 1000 * 1000;
   const auto axis = static_cast<ir::AxisId>((base - 60000) / 1000);
   const auto part = [base](std::int64_t component) {
@@ -64,7 +64,7 @@ ir::Assign::Item offset_item(std::int64_t number, WordPos pos) {
   item.pos = pos;
   item.to_system = true;
   item.system = offset_ref(axis, {});
-  item.value = ir::binary(ir::BinaryOp::divide, std::move(sum), ir::number(axis_units(axis)));
+  item.value = ir::binary(ir::BinaryOp::divide, std::move(sum), ir::number(axis_units(settings, axis)));
   return item;
 }
 
@@ -84,27 +84,28 @@ ir::ExprPtr system(ir::SystemRef ref, WordPos pos) {
 }
 
 /// nullopt: known to the machine only.
-std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number, bool lathe) {
+std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number, const Settings& settings) {
+  const bool lathe = settings.lathe;
   const std::int64_t index = facts::e_index(row, number);
   const auto axis = static_cast<ir::AxisId>(index);
   std::string text = "E" + std::to_string(number);
   switch (row.meaning) {
-    case EMeaning::dec1: return Neutral{offset_ref(axis, std::move(text)), axis_units(axis)};
+    case EMeaning::dec1: return Neutral{offset_ref(axis, std::move(text)), axis_units(settings, axis)};
     case EMeaning::shift:
-      return Neutral{axis_ref(ir::Datum::programmed_shift, axis, std::move(text)), axis_units(axis)};
+      return Neutral{axis_ref(ir::Datum::programmed_shift, axis, std::move(text)), axis_units(settings, axis)};
     case EMeaning::position:
-      return Neutral{axis_ref(ir::Datum::machine_position, axis, std::move(text)), axis_units(axis)};
+      return Neutral{axis_ref(ir::Datum::machine_position, axis, std::move(text)), axis_units(settings, axis)};
     case EMeaning::tool_radius:
-      return Neutral{table_ref(ir::Datum::tool_radius, index, std::move(text)), facts::units_per_mm};
+      return Neutral{table_ref(ir::Datum::tool_radius, index, std::move(text)), settings.units_per_mm};
     case EMeaning::tool_length:
     case EMeaning::tool_length_z: {
       if (row.meaning == EMeaning::tool_length_z && !lathe) return std::nullopt;  // tip radius of a mill
-      Neutral n{table_ref(ir::Datum::tool_length, index, std::move(text)), facts::units_per_mm};
+      Neutral n{table_ref(ir::Datum::tool_length, index, std::move(text)), settings.units_per_mm};
       if (lathe) n.ref.axis = row.meaning == EMeaning::tool_length ? ir::axis::x : ir::axis::z;
       return n;
     }
     case EMeaning::active_radius: {
-      Neutral n{table_ref(ir::Datum::tool_radius, 0, std::move(text)), facts::units_per_mm};
+      Neutral n{table_ref(ir::Datum::tool_radius, 0, std::move(text)), settings.units_per_mm};
       n.ref.args[0] = system(axis_ref(ir::Datum::offset_number, ir::axis::none, "E50000"), {});
       return n;
     }
@@ -112,6 +113,16 @@ std::optional<Neutral> neutral(const facts::EParameter& row, std::int64_t number
       return Neutral{axis_ref(ir::Datum::offset_number, ir::axis::none, std::move(text)), 1};
     case EMeaning::feed_override:
       return Neutral{axis_ref(ir::Datum::feed_override, ir::axis::none, std::move(text)), 1};
+    case EMeaning::spindle_speed:
+      return Neutral{axis_ref(ir::Datum::spindle_speed, ir::axis::none, std::move(text)), 1};
+    case EMeaning::slot_switch: {  // see the interpreter's machine data: after the settings come the frame's parts
+      Neutral n{table_ref(ir::Datum::active_modal, number, std::move(text)), 1};
+      n.ref.args.push_back(ir::number(static_cast<double>(ir::setting_count) + 2 + static_cast<double>(index)));
+      n.ref.args.push_back(ir::number(1));
+      return n;
+    }
+    case EMeaning::latched:
+    case EMeaning::machine: return Neutral{axis_ref(ir::Datum::other, ir::axis::none, std::move(text)), 1};
     default: return std::nullopt;
   }
 }
@@ -173,7 +184,7 @@ ir::ExprPtr Expressions::parameter(const syntax::Expr& e) {
     return nullptr;
   }
   if (is_memory(*row)) return ir::at(ir::variable(e_variable(n), ir::Type::integer), e.pos);
-  auto found = neutral(*row, n, settings_.lathe);
+  auto found = neutral(*row, n, settings_);
   if (!found) {
     report_.refuse("NUM-019", e.pos,
                    "E" + std::to_string(n) + " (" + std::string(row->title) + ") is known to the machine only",
@@ -232,11 +243,20 @@ ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis
   const facts::EParameter* row = facts::e_parameter(variable_number(inner));
   if (row == nullptr || row->unit == facts::EUnit::none || is_memory(*row)) {
     if (row != nullptr && row->unit == facts::EUnit::none && row->meaning != EMeaning::user) return value;
-    return ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(axis)));
+    return ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(settings_, axis)));
   }
   ir::ExprPtr plain = lower(inner);
   if (const auto* product = std::get_if<ir::Binary>(&plain->node)) plain = product->left;
   return sign && e.text == "-" ? ir::at(ir::unary(ir::UnaryOp::negate, std::move(plain)), e.pos) : plain;
+}
+
+ir::Assign::Item Expressions::latched(ir::AxisId axis) const {
+  ir::Assign::Item item;
+  item.to_system = true;
+  item.system = axis_ref(ir::Datum::other, ir::axis::none, "E" + std::to_string(70001 + 1000 * int{axis}));
+  item.value = ir::binary(ir::BinaryOp::multiply, system(axis_ref(ir::Datum::machine_position, axis, {}), {}),
+                          ir::number(axis_units(settings_, axis)));
+  return item;
 }
 
 bool Expressions::is_memory(const facts::EParameter& row) const {
@@ -277,24 +297,31 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
     item.target = e_variable(n);
     item.value = std::move(value);
     items.push_back(std::move(item));
-    if (is_offset(*row)) items.push_back(offset_item(n, pos));
+    if (is_offset(*row)) items.push_back(offset_item(settings_, n, pos));
     return true;
   }
   if (row->meaning == EMeaning::shift) {
     ir::FrameWord word;
     word.axis = static_cast<ir::AxisId>(facts::e_index(*row, n));
     word.scale = ir::WordScale::radius;
-    word.value = ir::Value(ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(word.axis))));
+    word.value =
+        ir::Value(ir::binary(ir::BinaryOp::divide, std::move(value), ir::number(axis_units(settings_, word.axis))));
     if (const auto c = ir::constant_value(word.value.expr)) word.value = ir::Value(*c);
     word.pos = pos;
     shifts_.push_back(std::move(word));
     return true;
   }
-  auto found = neutral(*row, n, settings_.lathe);
+  auto found = neutral(*row, n, settings_);
   if (!found) {
     report_.refuse("NUM-019", target.pos, name + " (" + std::string(row->title) + ") is known to the machine only",
                    "what writing it does can't be told here", "language.system_variable");
     return false;
+  }
+  if (row->meaning == EMeaning::machine) {
+    report_.warn("NUM-044", target.pos,
+                 name + " (" + std::string(row->title) +
+                     ") belongs to the machine: the program finds the value again, "
+                     "and nothing else that it does is known here");
   }
   item.to_system = true;
   item.system = std::move(found->ref);

@@ -27,6 +27,8 @@ class Expressions {
   /// Appends target and value of one assignment; false after a refusal. PREF or DEC1 of a program that uses both give a
   /// second item: their sum is the offset of the machine.
   bool assignment(const syntax::Statement& s, std::vector<ir::Assign::Item>& items);
+  /// E7x001 := the machine position of the axis.
+  ir::Assign::Item latched(ir::AxisId axis) const;
   /// Axes of the G59 shift that assignments to E6x005 gave since the last call.
   std::vector<ir::FrameWord> take_shifts() { return std::exchange(shifts_, {}); }
   /// PREF, DEC1 and DEC3 are kept apart (memory), because the program works with more than DEC1.

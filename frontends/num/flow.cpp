@@ -1,7 +1,9 @@
 // Jumps (G79) and calls (G77) (reference 13.1, 13.2).
+#include <set>
 #include <utility>
 
 #include "base/saturate.h"
+#include "base/text.h"
 #include "dialects/num/limits.h"
 #include "frontends/num/lower.h"
 
@@ -91,9 +93,54 @@ bool Lowering::call(const Flow& flow, ir::Statement& out) {
   return true;
 }
 
+bool Lowering::interruption(const Flow& flow, ir::Statement& out) {
+  ir::Jump jump;
+  if (!label(*flow.interrupted, jump.target)) return false;
+  ir::SystemRef contact;
+  contact.text = facts::interruption_datum;
+  ir::Expr e;
+  e.node = std::move(contact);
+  jump.condition = ir::binary(ir::BinaryOp::ne, std::make_shared<const ir::Expr>(std::move(e)), ir::number(0));
+  out.node = std::move(jump);
+  return true;
+}
+
 bool Lowering::flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out) {
   const bool ok = flow.code->kind == GKind::jump ? jump(flow, test, out) : call(flow, out);
   return ok && !report_.refused();
+}
+
+namespace {
+
+std::int64_t label_number(std::string_view text) {
+  return saturate<std::int64_t>(parse_decimal(text).value_or(-1));
+}
+
+/// The greatest label below the missing end of the range, not below its start.
+void mend(ir::LabelRef& first, ir::LabelRef& last, const std::set<std::int64_t>& labels, const Span& where,
+          Diagnostics& diagnostics) {
+  if (first.computed || last.computed || !last.is_number || last.text.empty()) return;
+  const std::int64_t wanted = label_number(last.text);
+  if (labels.count(wanted) != 0) return;
+  auto it = labels.lower_bound(wanted);
+  if (it == labels.begin() || *std::prev(it) < label_number(first.text)) return;
+  last.text = std::to_string(*std::prev(it));
+  diagnostics.warning("NUM-046", where,
+                      "there is no block N" + std::to_string(wanted) + ": the range ends with N" + last.text,
+                      "num.missing_range_end of the machine profile says so");
+}
+
+}  // namespace
+
+void mend_range_ends(ir::Routine& routine, Diagnostics& diagnostics) {
+  std::set<std::int64_t> labels;
+  ir::for_each_statement(routine.body, [&labels](const ir::Statement& s) {
+    if (!s.line.number.empty()) labels.insert(label_number(s.line.number));
+  });
+  ir::for_each_statement(routine.body, [&](ir::Statement& s) {
+    if (auto* r = std::get_if<ir::Repeat>(&s.node); r != nullptr && !r->has_program)
+      mend(r->first, r->last, labels, s.line.span, diagnostics);
+  });
 }
 
 }  // namespace cnctrans::frontends::num

@@ -50,7 +50,7 @@ bool FileReader::assignments() {
   const syntax::Statement* text = nullptr;
   const auto take = [&](const syntax::Statement& s) { lower_.expressions().assignment(s, assign.items); };
   for (const auto& s : syntax_.statements) {
-    if (s.keyword == "ASSIGN" && in_var_ && s.args[0].text[0] == '[')
+    if (s.keyword == "ASSIGN" && in_var_ && s.args[0].text[0] == '[' && s.args[0].args.empty())
       declarations.push_back(&s);
     else if (s.keyword == "ASSIGN")
       take(s);
@@ -99,10 +99,15 @@ void FileReader::declare(const syntax::Statement& s) {
   if (!in_var_)
     return report.refuse("NUM-023", s.pos, "a symbol alone declares it, which only VAR ... ENDV may do", {},
                          "language.statement");
-  if (!target.args.empty())
-    return report.refuse("NUM-023", s.pos, "tables of symbols are not carried yet", {}, "language.statement");
   ir::Declare::Item item;
   item.name = target.text;
+  // Elements are counted from 1: the table has one more, from 0.
+  for (const auto& size : target.args) {
+    if (size.kind != syntax::ExprKind::number || size.number < 1 || s.args.size() > 1)
+      return report.refuse("NUM-023", s.pos, "a table is declared with whole sizes from 1 on, and without a value", {},
+                           "language.statement");
+    item.dimensions.push_back(ir::number(size.number + 1));
+  }
   if (s.args.size() > 1) {
     ir::ExprPtr value = lower_.expressions().lower(s.args[1]);
     if (!value) return;
@@ -149,6 +154,14 @@ void FileReader::words(const syntax::Statement* test) {
     put_node(std::move(scratch_));
     scratch_ = ir::Block{};
   }
+  if (flow_.probes && latches_) latch();
+  if (flow_.interrupted != nullptr) {
+    ir::Statement jump;
+    if (!lower_.interruption(flow_, jump)) return;
+    ir::Statement s = with_line();
+    s.node = std::move(jump.node);
+    put(std::move(s));
+  }
   if (flow_.linear_after) {
     ir::Block linear;
     linear.has_motion = true;
@@ -160,6 +173,15 @@ void FileReader::words(const syntax::Statement* test) {
   ir::End end;
   end.text = flow_.end_text;
   put_node(std::move(end));
+}
+
+/// The positions at the end of an interruptible block stay readable (E7x001).
+void FileReader::latch() {
+  ir::Assign assign;
+  for (ir::AxisId axis = 0; axis <= ir::axis::c; ++axis) {
+    if ((settings_.axes >> axis & 1U) != 0) assign.items.push_back(lower_.expressions().latched(axis));
+  }
+  put_node(std::move(assign));
 }
 
 /// Gxxx of the machine: its words into L900.. (the names 'A to 'EZ of the macro), then its program %10xxx.
@@ -264,8 +286,13 @@ bool FileReader::structured(const syntax::Statement& s) {
     if (!line_.number.empty() || !line_.comments.empty()) put_node(ir::Block{});
     return true;
   }
+  if (s.keyword == "CARRIED" && iequals_ascii(s.text.substr(0, 6), "DELETE")) {
+    report.carry("NUM-034", s.pos, "`" + s.text + "` frees symbols; it does not change the path and is kept as text",
+                 "language.statement");
+    return true;
+  }
   if (s.keyword == "CARRIED") {
-    report.refuse("NUM-023", s.pos, "`" + s.text + "`: tables and the stack are not carried yet", {},
+    report.refuse("NUM-023", s.pos, "`" + s.text + "`: the stack and the functions on tables are not carried", {},
                   "language.statement");
     return true;
   }

@@ -1,6 +1,7 @@
 #include "frontends/num/lines.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/saturate.h"
@@ -55,6 +56,14 @@ bool names_pref(std::string_view text) {
   return false;
 }
 
+/// Whether the text names a latched position (E7x001).
+bool names_latched(std::string_view text) {
+  for (std::size_t at = text.find("E7"); at != std::string_view::npos; at = text.find("E7", at + 1)) {
+    if (text.substr(at + 3, 3) == "001") return true;
+  }
+  return false;
+}
+
 Span line_span(FileId file, const SourceLine& l) {
   return {file, l.number, 1, l.number, static_cast<std::uint32_t>(l.text.size() + 1)};
 }
@@ -95,7 +104,9 @@ ir::Program FileReader::read() {
   look.eol = source_->main_eol();
   look.bom = source_->has_bom();
   const auto& lines = source_->lines();
-  lower_.expressions().keep_offsets_apart(names_pref(to_upper_ascii(source_->text())));
+  const std::string text = to_upper_ascii(source_->text());
+  lower_.expressions().keep_offsets_apart(names_pref(text));
+  latches_ = names_latched(text);
   look.final_eol = lines.empty() || lines.back().has_eol;
   program_.files.push_back(std::move(look));
   find_macros();
@@ -162,6 +173,7 @@ void FileReader::end_routine() {
         "NUM-025", use.span,
         "`" + use.name + "` is not declared in this program (VAR ... ENDV); it must come from the caller");
   }
+  if (settings_.mends_ranges) mend_range_ends(routine_, diagnostics_);
   if (routine_.kind == ir::RoutineKind::main && !ended_ && !only_comments_ && !source_->lines().empty()) {
     Span end{file_, source_->lines().back().number, 1, source_->lines().back().number, 1};
     note_missing_end(end, diagnostics_);
@@ -290,6 +302,7 @@ void FileReader::line(const SourceLine& source_line) {
     return opaque(span_, text_, "text.unread", false);
   }
   if (blank_line) {
+    if (blank_ == std::numeric_limits<std::uint16_t>::max()) close_blank(span_);
     ++blank_;
     return;
   }

@@ -46,6 +46,7 @@ class FileReader {
   void words(const syntax::Statement* test);
   void macro_call();
   void find_macros();
+  void latch();
   void split_call(ir::Statement flow);
   void opaque(const Span& span, std::string_view text, std::string_view feature, bool harmless);
   void put(ir::Statement s);
@@ -71,6 +72,7 @@ class FileReader {
   bool open_ = false;          ///< a routine is being read
   bool only_comments_ = true;  ///< and holds nothing but blank lines and comments so far
   bool in_var_ = false;
+  bool latches_ = false;     ///< the program reads positions that an interruptible block latched
   std::uint16_t blank_ = 0;  ///< blank lines since the last statement
   bool ended_ = false;       ///< the routine has an M02
 

@@ -15,6 +15,7 @@
 #include "frontends/num/expressions.h"
 #include "frontends/num/report.h"
 #include "frontends/num/settings.h"
+#include "ir/contour.h"
 #include "ir/statement.h"
 
 namespace cnctrans::frontends::num {
@@ -28,6 +29,7 @@ struct TextState {
   std::shared_ptr<const ir::HoleCycle> cycle;  ///< the hole cycle in force
   int cycle_code = 0;                          ///< its G number
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
+  bool contour_open = false;                   ///< the last element's end follows from the next one
   bool turning_profile = false;                ///< between G64 and G80: blocks are a contour, not moves
 };
 
@@ -41,8 +43,10 @@ struct Flow {
   std::size_t label_count = 0;
   bool end = false;
   std::string_view end_text;
-  bool linear_after = false;  ///< G23 leaves G01 in force
-  std::int64_t macro = 0;     ///< Gxxx of the machine whose program is at hand
+  bool linear_after = false;                  ///< G23 leaves G01 in force
+  bool probes = false;                        ///< a G10 block
+  const syntax::Word* interrupted = nullptr;  ///< where G10 goes on after an interruption
+  std::int64_t macro = 0;                     ///< Gxxx of the machine whose program is at hand
   WordPos macro_pos;
   std::vector<std::pair<std::int64_t, ir::Value>> arguments;  ///< of the macro: number of the L variable, value
 
@@ -61,6 +65,8 @@ class Lowering {
   /// The flow statement of the block, after words(). False after a refusal. `test` is the block's TEST statement or
   /// null.
   bool flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out);
+  /// The jump of a G10 block that was interrupted.
+  bool interruption(const Flow& flow, ir::Statement& out);
   /// Value of a word that is no axis word.
   ir::Value value(const syntax::Word& w);
 
@@ -101,6 +107,8 @@ class Lowering {
   void resolve_distance();
   /// What a word at this column counts as; nullopt: the state of the caller decides.
   [[nodiscard]] std::optional<ir::Distance> distance_at(std::uint32_t column) const;
+  /// What a G90 or G91 of the block says about a word at this column.
+  [[nodiscard]] std::optional<ir::Distance> own_distance(std::uint32_t column) const;
   void resolve_motion();
   void resolve_arc(bool explicit_code);
   void resolve_dwell();
@@ -117,8 +125,11 @@ class Lowering {
 
   // geometry.cpp
   void macro_words();
-  void line_by_angle(const Word& ea);
+  void line_words();
+  void polar_step(const Word& ea, const Word& ex);
+  bool contour_end(ir::contour::Marks& marks);
   void thread_segment();
+  void interruptible();
 
   // resolve.cpp
   std::vector<ir::FrameWord> take_frame_words();
@@ -162,6 +173,7 @@ class Lowering {
     const Word* three_points = nullptr;   ///< G23
     const Word* machine_frame = nullptr;  ///< G52
     const Word* retract = nullptr;        ///< G75
+    const Word* interruptible = nullptr;  ///< G10
     const Word* thread = nullptr;         ///< G38
     const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above
@@ -184,6 +196,9 @@ class Lowering {
   std::array<const Word*, 64> pending_{};  ///< by slot, valid where present_ and no axis
   std::vector<Step> steps_;                ///< of out_->actions
 };
+
+/// Ranges of G77 whose last block is missing end with the greatest smaller number (num.missing_range_end).
+void mend_range_ends(ir::Routine& routine, Diagnostics& diagnostics);
 
 /// Slots: letters 0..25, E-letters 26..51, NU 52, unknown -1.
 constexpr int slot_of(std::string_view address) {

@@ -1,8 +1,10 @@
 #include "frontends/num/settings.h"
 
 #include <cctype>
+#include <cmath>
 #include <string>
 
+#include "base/text.h"
 #include "dialects/num/mcodes.h"
 #include "dialects/num/options.h"
 
@@ -18,8 +20,15 @@ Settings make_settings(const machine::Profile& profile) {
   s.centre_absolute = option(facts::option::centre) != "incremental";
   s.letter_o = option(facts::option::letter_o) != "false";
   s.range_by_position = option(facts::option::range_order) == "position";
+  s.mends_ranges = option(facts::option::missing_end) == "to_last_lower";
   s.m30_ends = option(facts::option::m30) == "end";
   s.pecks_constant = option(facts::option::peck_law) == "constant";
+  const auto unit = [&profile](std::string_view name, double fallback) {
+    const auto value = parse_decimal(profile.option(name));
+    return value && *value > 0 ? *value : fallback;
+  };
+  s.units_per_mm = 1000 / unit("num.linear_unit_um", 1);
+  s.units_per_degree = std::round(1 / unit("num.rotary_unit", 0.0001));
   s.power_on = profile.power_on;
   for (const auto& axis : profile.axes) {
     if (axis.id < 32) s.axes |= 1U << axis.id;

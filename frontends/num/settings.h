@@ -22,10 +22,12 @@ struct Settings {
   bool centre_absolute = true;  ///< I J K absolute under G90
   bool letter_o = true;         ///< GO is G0
   bool range_by_position = false;
+  bool mends_ranges = false;  ///< a range whose last block is missing ends with the greatest smaller number
   bool m30_ends = false;
-  bool pecks_constant = false;  ///< P..Q as constant pecks and a last one
-  std::uint32_t axes = 0;       ///< bit n: the machine has axis n
-  std::uint32_t modulo = 0;     ///< bit n: the sign of an absolute value is a direction
+  bool pecks_constant = false;                           ///< P..Q as constant pecks and a last one
+  double units_per_mm = 1000, units_per_degree = 10000;  ///< of E parameters
+  std::uint32_t axes = 0;                                ///< bit n: the machine has axis n
+  std::uint32_t modulo = 0;                              ///< bit n: the sign of an absolute value is a direction
   ir::ModalState power_on;
   std::array<MEntry, 1000> m{};
 };

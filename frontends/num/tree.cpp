@@ -57,6 +57,7 @@ class Builder {
   void code(antlr4::Token* token, NumParser::SignContext* sign);
   void bare(antlr4::Token* token);
   void test(NumParser::TestContext& tree);
+  void test_number(NumParser::TestNumberItemContext& item);
   void statement(NumParser::StatementContext& tree);
   void keyword(std::string_view name, antlr4::ParserRuleContext& tree, std::vector<Expr> args = {});
   Statement assign(NumParser::VariableContext& target, NumParser::ExpressionContext& value, WordPos where);
@@ -250,6 +251,36 @@ void Builder::test(NumParser::TestContext& tree) {
   out_.statements.push_back(std::move(s));
 }
 
+/// `G79 5<L1`: the token holds the code and the first number of the test.
+void Builder::test_number(NumParser::TestNumberItemContext& item) {
+  auto* token = item.G_TEST_NUMBER()->getSymbol();
+  code(token, nullptr);
+  auto* rest = item.testRest();
+  if (rest == nullptr) return;
+  const std::string_view text = slice(token, token);
+  std::size_t end = 1;
+  for (int value = 0; end < text.size() && value != 79 && value != 10; ++end) {
+    if (text[end] >= '0' && text[end] <= '9') value = value * 10 + (text[end] - '0');
+  }
+  Word& w = out_.words.back();
+  w.number_text = trim(text.substr(1, end - 1));
+  w.number = parse_decimal(without_blanks(w.number_text)).value_or(0);
+  w.pos.length = static_cast<std::uint32_t>(end);
+  const std::size_t begin = text.find_first_not_of(" \t", end);
+  Expr first;
+  first.kind = ExprKind::number;
+  first.text = without_blanks(text.substr(begin));
+  first.number = parse_decimal(first.text).value_or(0);
+  first.pos = {w.pos.column + static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(text.size() - begin)};
+  Statement s;
+  s.keyword = "TEST";
+  s.pos = {first.pos.column, pos(*rest).column + pos(*rest).length - first.pos.column};
+  s.args.push_back(binary(without_blanks(slice(*rest->relation())),
+                          chain(nullptr, std::move(first), rest->operation(), rest->primary(), 0),
+                          expression(*rest->expression())));
+  out_.statements.push_back(std::move(s));
+}
+
 void Builder::code(antlr4::Token* token, NumParser::SignContext* sign) {
   Word w;
   const std::string_view text = slice(token, sign != nullptr ? sign->getStop() : token);
@@ -310,6 +341,8 @@ bool Builder::item(NumParser::ItemContext& item, NumParser::ItemContext* next) {
   } else if (auto* t = dynamic_cast<NumParser::TestItemContext*>(&item)) {
     code(t->G_TEST()->getSymbol(), nullptr);
     if (t->test() != nullptr) test(*t->test());
+  } else if (auto* number_first = dynamic_cast<NumParser::TestNumberItemContext*>(&item)) {
+    test_number(*number_first);
   } else if (auto* o = dynamic_cast<NumParser::LetterOItemContext*>(&item)) {
     code(o->G_LETTER_O()->getSymbol(), nullptr);
   } else if (auto* signed_code = dynamic_cast<NumParser::SignedCodeItemContext*>(&item)) {

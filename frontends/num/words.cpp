@@ -258,6 +258,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::preset: return mark(marks_.preset);
     case GKind::hole_cycle: return mark(marks_.cycle);
     case GKind::retract_sub: return mark(marks_.retract);
+    case GKind::interruptible: return mark(marks_.interruptible);
     case GKind::offsets_off:
     case GKind::offsets_on: {
       ir::WorkOffset offset;
@@ -284,7 +285,6 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::turning_cycle: state_.turning_profile = row.code == 64; [[fallthrough]];
     case GKind::milling_cycle:
     case GKind::spline:
-    case GKind::interruptible:
     case GKind::spatial_comp:
     case GKind::transform:
     case GKind::grinding_axis:

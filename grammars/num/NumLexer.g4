@@ -12,6 +12,10 @@ WS : [ \t]+ -> skip;
 
 // The G codes that own a test, and the others. `G` alone is G0; `GO` is a misprint for G0 that programs do contain.
 G_TEST : [Gg] B* ('0' B*)* ('7' B* '9' | '1' B* '0');
+// `G79 5<L1`: a test that begins with a number; without a relation the digits belong to the code.
+G_TEST_NUMBER
+  : [Gg] B* ('0' B*)* ('7' B* '9' | '1' B* '0') B+ (D (B* D)* (B* '.' (B* D)*)? | '.' B* D (B* D)*)
+  ;
 G_CODE : [Gg] B* (D (B* D)* (B* '.' (B* D)*)? | '.' B* D (B* D)*);
 G_LETTER_O : [Gg] B* [Oo];
 G : [Gg];

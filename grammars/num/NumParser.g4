@@ -20,6 +20,7 @@ message : MESSAGE;
 
 item
   : G_TEST test?           # testItem
+  | G_TEST_NUMBER testRest? # testNumberItem
   | G_CODE sign?           # codeItem
   | G_LETTER_O             # letterOItem
   | G sign NUMBER          # signedCodeItem
@@ -44,6 +45,9 @@ value
 
 // After G79 (G10): `L1 < 5`, or `L4 = L3*2 > 8`, which assigns first.
 test : (variable EQ)? expression relation expression;
+
+// ... after its first number.
+testRest : (operation primary)* relation expression;
 
 relation : LE | GE | NE | LT | GT | EQ;
 sign : PLUS | MINUS;

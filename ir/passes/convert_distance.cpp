@@ -20,6 +20,7 @@ class DistancePass {
 
   void block(Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
+    if (!context_.target.distance_inside_block) keep_last(b);
     const bool settled = watch_frames(s, b);
     if (settled && !context_.target.distance_per_word &&
         setting_in<Distance>(b, facts_.before(s), Setting::distance) == Distance::incremental)
@@ -76,6 +77,16 @@ class DistancePass {
   }
 
  private:
+  /// Of several changes in one block (each counts for the words behind it) the last one stays in force.
+  static void keep_last(Block& b) {
+    const auto sets = [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::distance;
+    };
+    auto left = std::count_if(b.actions.begin(), b.actions.end(), sets);
+    std::erase_if(b.actions, [&](const Action& a) { return sets(a) && left-- > 1; });
+  }
+
   /// The programmed shift along straight text, in numbers, and where the axes stood before it changed.
   struct Shifted {
     std::array<std::optional<double>, axis::count_max> shift{}, at{}, moved{};

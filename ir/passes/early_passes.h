@@ -10,4 +10,9 @@ void mark_range_ends(Program& program, const LegaliseContext& context);
 /// A routine that saves the modal state of its caller writes it back before its returns, for a target without that.
 void restore_modals(Program& program, const LegaliseContext& context);
 
+/// A work offset that the program writes counts at once on some controls: others are told to select it again.
+void select_written_offsets(Program& program, const LegaliseContext& context);
+/// Points of a contour that follow from its angles, tangency and intersections, written out.
+void solve_contours(Program& program, const LegaliseContext& context);
+
 }  // namespace cnctrans::ir::passes

@@ -1,4 +1,6 @@
 // The look at a block in a stream: would some pass touch it? One switch per action, nothing allocated.
+#include <algorithm>
+
 #include "ir/passes/blocks.h"
 #include "ir/passes/legalise.h"
 
@@ -31,6 +33,17 @@ struct PlainAction {
   const Action& action;
   bool moving;
 
+  /// The only change between absolute and incremental words of its block, and before them.
+  [[nodiscard]] bool one_distance() const {
+    std::size_t count = 0;
+    for (const auto& a : block.actions) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      count += m != nullptr && m->setting == Setting::distance ? 1U : 0U;
+    }
+    if (!target.distance_inside_block || !block.has_motion) return count == 1;
+    return count == 1 && std::none_of(block.motion.coords.begin(), block.motion.coords.end(),
+                                      [this](const CoordWord& c) { return c.pos.column < action.pos.column; });
+  }
   [[nodiscard]] bool has_feed() const {
     for (const auto& a : block.actions) {
       if (std::holds_alternative<SetFeed>(a.data)) return true;
@@ -59,8 +72,8 @@ struct PlainAction {
       case Setting::retract_plane: return target.retract_plane_switch;
       case Setting::feed_point: return target.feed_point_switch;
       case Setting::feed_override: return target.feed_override_switch;
+      case Setting::distance: return one_distance();
       case Setting::plane:
-      case Setting::distance:
       case Setting::spindle_mode:
       case Setting::comp:
       case Setting::count_: return true;
