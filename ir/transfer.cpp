@@ -235,7 +235,7 @@ void detail::apply(const Statement& statement, Facts& facts, std::uint32_t frame
   } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
     assign(*a, facts);
   } else if (const auto* o = std::get_if<Opaque>(&statement.node)) {
-    if (!o->harmless) facts.forget();
+    if (!o->harmless && !o->feature.empty()) facts.forget();  // without a feature: refused, see passes::refuse
   } else if (std::holds_alternative<CallRoutine>(statement.node)) {
     facts.forget();
   } else if (const auto* r = std::get_if<Repeat>(&statement.node)) {

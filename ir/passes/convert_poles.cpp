@@ -33,14 +33,66 @@ class PolePass {
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
     pole_ = &r == program_.main() ? std::optional(Point2{}) : std::nullopt;
+    forget_point();
+    look(r);
+    order_ = 0;
     walk(r.body);
   }
 
  private:
+  /// Where the routine changes the pole for the last time, and whether something jumps before that.
+  void look(const Routine& r) {
+    last_change_ = 0;
+    std::size_t order = 0, first_jump = 0;
+    others_change_ = false;
+    for (const auto& other : program_.routines) {
+      const bool own = &other == &r;
+      for_each_statement(other.body, [&](const Statement& s) {
+        if (own) ++order;
+        const bool jumps = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
+                           std::holds_alternative<Repeat>(s.node) || has_body(s);
+        if (own && jumps && first_jump == 0) first_jump = order;
+        if (!changes(s)) return;
+        if (own)
+          last_change_ = order;
+        else
+          others_change_ = true;
+      });
+    }
+    settles_ = first_jump == 0 || first_jump > last_change_;
+  }
+  static bool has_body(const Statement& s) {
+    return std::holds_alternative<If>(s.node) || std::holds_alternative<While>(s.node) ||
+           std::holds_alternative<Until>(s.node) || std::holds_alternative<For>(s.node) ||
+           std::holds_alternative<Loop>(s.node);
+  }
+  bool changes(const Statement& s) const {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return std::holds_alternative<Opaque>(s.node);
+    return (follows_arc_ && b->has_motion && !b->motion.centers.empty()) ||
+           std::any_of(b->actions.begin(), b->actions.end(), [this](const Action& a) {
+             const auto* m = std::get_if<ModalSet>(&a.data);
+             return std::holds_alternative<PoleSet>(a.data) ||
+                    (source_resets_ && m != nullptr && m->setting == Setting::plane);
+           });
+  }
+  /// Another way may lead here, or another routine has run.
+  void join(bool called) {
+    const bool settled = settles_ && order_ > last_change_;
+    if (!settled || (called && others_change_)) pole_.reset();
+    forget_point();
+  }
+  void forget_point() {
+    at_.reset();
+    radius_.reset();
+    angle_.reset();
+  }
+
   void walk(Body& body) {
     for (auto& s : body) {
+      ++order_;
       for (const auto& l : labels_on(s.line)) {
-        if (uses_.is_target(l)) pole_.reset();
+        if (uses_.is_target(l) || uses_.computed) join(false);
       }
       if (auto* b = std::get_if<Block>(&s.node)) {
         block(s, *b);
@@ -49,12 +101,17 @@ class PolePass {
       bool nested = false;
       each_body(s, [&](Body& inner) {
         nested = true;
-        pole_.reset();
+        join(false);
         walk(inner);
       });
-      const bool elsewhere = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node) ||
-                             std::holds_alternative<Opaque>(s.node);
-      if (nested || elsewhere) pole_.reset();
+      const bool called = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
+      const bool elsewhere = called || std::holds_alternative<Repeat>(s.node) || std::holds_alternative<Opaque>(s.node);
+      if (nested || elsewhere) join(called);
+      each_target(s, [this](const VarRef& v) {
+        for (auto* value : {&radius_, &angle_}) {
+          if (*value && (*value)->expr && reads((*value)->expr, v)) value->reset();
+        }
+      });
     }
   }
 
@@ -73,15 +130,32 @@ class PolePass {
       }
       if (const auto* p = std::get_if<PoleSet>(&a.data)) {
         place = a.pos;
+        radius_.reset();
+        angle_.reset();
         if (!pole_set(*p, a, b, facts)) problem = "the point that this pole is given from";
+        if (!context_.target.polar) {  // the words that count from it become coordinates
+          problem = {};
+          continue;
+        }
       }
       actions.push_back(std::move(a));
     }
     b.actions = std::move(actions);
-    if (problem.empty() && is_polar_arc(b, facts) && !polar_arc(b, facts)) {
+    polar_arc_done_ = is_polar_arc(b, facts);
+    if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts)) {
       problem = "the start or the centre of this arc by polar words";
       place = b.motion.code_pos;
     }
+    if (is_polar_line(b, facts)) {
+      const bool done = polar_words(b, facts);
+      if (problem.empty() && !done && !context_.target.polar) {
+        problem = "the pole of these polar words, or the point before them,";
+        place = b.motion.code_pos;
+      }
+    } else if (!polar_arc_done_ && b.has_motion && b.motion.moves()) {
+      forget_point();
+    }
+    settle(s);
     if (!problem.empty()) {
       refuse(s, program_, context_, "TRN-316", std::string(problem) + " is not known here, and the target needs it",
              "give the pole and the point before it as numbers", place);
@@ -94,6 +168,7 @@ class PolePass {
   bool plane_code(std::vector<Action>& actions) {
     const bool at_zero = pole_ && pole_->u == 0 && pole_->v == 0;
     if (source_resets_) pole_ = Point2{};
+    if (!context_.target.polar) return true;
     if (source_resets_ == target_resets_ || at_zero) return true;
     if (!pole_) return false;
     actions.push_back(action(PoleSet{absolute(*pole_, 1, 1)}));
@@ -129,6 +204,7 @@ class PolePass {
   }
 
   std::optional<Point2> here(const Facts& facts) const {
+    if (at_) return at_;
     if (!plane_) return std::nullopt;
     const PlaneAxes axes = plane_axes(*plane_);
     if (!facts.position[axes.u] || !facts.position[axes.v]) return std::nullopt;
@@ -179,12 +255,84 @@ class PolePass {
   /// An arc whose end is an angle about its centre: with its radius about the pole every target has it (the writer
   /// leaves out a word that the target does not take), the other forms become axis words. False: not known.
   bool polar_arc(Block& b, const Facts& facts) {
-    if (!context_.target.polar) return true;  // refused by the pass over arcs
-    if (b.motion.centers.empty() && b.motion.extra->has_polar_radius) return true;
+    if (b.motion.centers.empty() && b.motion.extra->has_polar_radius && context_.target.polar) {
+      forget_point();
+      return true;
+    }
     return to_cartesian(b, facts, *b.motion.extra);
   }
 
-  bool to_cartesian(Block& b, const Facts& facts, MotionExtra x) const {
+  static bool is_polar_line(const Block& b, const Facts& facts) {
+    if (!b.has_motion || !b.motion.extra) return false;
+    const auto kind = motion_in(b, facts);
+    return (kind == MotionKind::linear || kind == MotionKind::rapid) &&
+           (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
+  }
+
+  /// Radius and angle about the pole as coordinates; a word that is left out keeps what the point before has of it.
+  /// False: not known.
+  bool polar_words(Block& b, const Facts& facts) {
+    MotionExtra x = *b.motion.extra;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    const bool modal = x.polar_mode == WordMode::modal;
+    if (!pole_ || !plane_ || (modal && !distance)) return false;
+    const bool adds = modal ? *distance == Distance::incremental : x.polar_mode == WordMode::incremental;
+    const auto start = here(facts);
+    std::optional<Value> from_r = radius_, from_q = angle_;
+    if (start) {
+      const Point2 d{start->u - pole_->u, start->v - pole_->v};
+      const double length = std::hypot(d.u, d.v);
+      if (!from_r) from_r = Value{clean(length)};
+      if (!from_q) from_q = Value{length < 1e-6 ? 0 : clean(std::atan2(d.v, d.u) * 180 / std::numbers::pi)};
+    }
+    forget_point();
+    if ((adds || !x.has_polar_radius) && !from_r) return false;
+    if ((adds || !x.has_polar_angle) && !from_q) return false;
+    Value r = !x.has_polar_radius ? *from_r : (adds ? add(*from_r, x.polar_radius) : x.polar_radius);
+    Value q = !x.has_polar_angle ? *from_q : (adds ? add(*from_q, x.polar_angle) : x.polar_angle);
+    r.text = q.text = {};
+    const auto f = factors(b, facts, Distance::absolute);
+    if (!f || (r.literal() && r.number < 0)) return false;
+    radius_ = r;
+    angle_ = q;
+    Value u, v;
+    if (r.literal() && q.literal()) {
+      const double angle = q.number * std::numbers::pi / 180;
+      at_ = Point2{clean(pole_->u + r.number * std::cos(angle)), clean(pole_->v + r.number * std::sin(angle))};
+      u = Value{at_->u / f->u};
+      v = Value{at_->v / f->v};
+    } else {
+      const auto along = [&](Function wave, double from, double factor) {
+        const ExprPtr turn = q.literal() ? as_expr(q) : q.expr;
+        const Value leg{binary(BinaryOp::multiply, as_expr(r), call(wave, std::vector<ExprPtr>{turn}))};
+        return add(scale(leg, 1 / factor), Value{from / factor});
+      };
+      u = along(Function::cos, pole_->u, f->u);
+      v = along(Function::sin, pole_->v, f->v);
+    }
+    if (context_.target.polar) return true;  // only followed
+    const auto inc = factors(b, facts, Distance::incremental);
+    const bool steps = distance == Distance::incremental && start && at_ && inc;
+    if (steps) {
+      u = Value{clean((at_->u - start->u) / inc->u)};
+      v = Value{clean((at_->v - start->v) / inc->v)};
+    }
+    const PlaneAxes axes = plane_axes(*plane_);
+    for (const auto& [axis, value] : {std::pair{axes.u, u}, std::pair{axes.v, v}}) {
+      CoordWord w;
+      w.axis = axis;
+      w.value = value;
+      w.mode = steps || distance == Distance::absolute ? WordMode::modal : WordMode::absolute;
+      b.motion.coords.push_back(w);
+    }
+    x.has_polar_radius = x.has_polar_angle = false;
+    x.polar_radius = x.polar_angle = Value{};
+    const bool more = x.has_turns || x.has_pitch || x.has_line_angle;
+    b.motion.extra = more ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    return true;
+  }
+
+  bool to_cartesian(Block& b, const Facts& facts, MotionExtra x) {
     Motion& m = b.motion;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
     const auto start = here(facts);
@@ -198,6 +346,8 @@ class PolePass {
     const double angle = turn + x.polar_angle.number * std::numbers::pi / 180;
     const double r = std::hypot(d.u, d.v);
     const Point2 end{centre->u + r * std::cos(angle), centre->v + r * std::sin(angle)};
+    forget_point();
+    at_ = Point2{clean(end.u), clean(end.v)};
     const PlaneAxes axes = plane_axes(*plane_);
     const bool inc = distance == Distance::incremental;
     const auto word = [&](AxisId axis, double to, double from, double factor) {
@@ -246,6 +396,10 @@ class PolePass {
   const FactsOf& facts_;
   LabelUses uses_;
   std::optional<Point2> pole_;
+  std::optional<Point2> at_;             ///< where polar words have led, when the dataflow does not know it
+  std::optional<Value> radius_, angle_;  ///< of that point about the pole
+  std::size_t order_ = 0, last_change_ = 0;
+  bool settles_ = false, others_change_ = false, polar_arc_done_ = false;
   std::optional<Plane> plane_;
   bool source_resets_ = false, target_resets_ = false, follows_arc_ = false;
 };

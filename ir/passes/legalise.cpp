@@ -30,6 +30,7 @@ constexpr std::array pipeline{
     Pass{"cycles", passes::lower_cycles, false},
     Pass{"frames", passes::convert_frames, false},
     Pass{"poles", passes::convert_poles, false},
+    Pass{"tangents", passes::write_out_tangents, false},
     Pass{"arcs", passes::convert_arcs, true},
     Pass{"distance", passes::convert_distance, true},
     Pass{"units", passes::convert_units, true},

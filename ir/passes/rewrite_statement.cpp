@@ -263,7 +263,7 @@ void refuse(Statement& s, const Program& program, const LegaliseContext& context
   context.diagnostics.error(code, word_span(s.line.span, pos), std::move(message), std::move(hint));
   Opaque o;
   o.text = to_text(s, program);
-  o.feature = "language.statement";
+  o.feature.clear();  // said already: what follows is looked at as if this statement had changed nothing
   s.node = std::move(o);
 }
 

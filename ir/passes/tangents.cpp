@@ -1,0 +1,312 @@
+// Tangential entries, exits and arcs, for targets that have none (equivalences 11 and 9.3): the points of the path are
+// numbers here, so that the arcs they stand for can be written out.
+#include <cmath>
+#include <numbers>
+
+#include "ir/passes/arc_geometry.h"
+#include "ir/passes/blocks.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/words.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+constexpr double tiny = 1e-9;
+
+Point minus(Point a, Point b) {
+  return {a.u - b.u, a.v - b.v};
+}
+Point plus(Point a, Point b, double factor) {
+  return {a.u + factor * b.u, a.v + factor * b.v};
+}
+double dot(Point a, Point b) {
+  return a.u * b.u + a.v * b.v;
+}
+double length(Point a) {
+  return std::hypot(a.u, a.v);
+}
+Point left_of(Point a) {
+  return {-a.v, a.u};
+}
+
+struct Path {
+  Plane plane = Plane::xy;
+  Point from, to;
+  bool arc = false;
+  Point centre;
+  bool ccw = false;
+
+  [[nodiscard]] Point direction(bool at_end) const {
+    const Point d = arc ? left_of(minus(at_end ? to : from, centre)) : minus(to, from);
+    const double l = length(d) * (arc && !ccw ? -1 : 1);
+    return {d.u / l, d.v / l};
+  }
+};
+
+/// The arc that leads from a line out of `s` into the path at `p` in the direction `t`.
+struct Lead {
+  Point touch, centre;
+  bool ccw = false;
+};
+std::optional<Lead> lead_in(Point s, Point p, Point t, double radius) {
+  const Point n = left_of(t);
+  const double side = dot(minus(s, p), n) >= 0 ? 1 : -1;
+  Lead lead;
+  lead.centre = plus(p, n, side * radius);
+  const Point to_centre = minus(lead.centre, s);
+  const double d = length(to_centre);
+  if (radius <= 0 || d <= radius + 1e-6) return std::nullopt;
+  const double angle = std::atan2(to_centre.v, to_centre.u) - side * std::asin(radius / d);
+  lead.touch = plus(s, {std::cos(angle), std::sin(angle)}, std::sqrt(d * d - radius * radius));
+  lead.ccw = side > 0;
+  return lead;
+}
+
+class TangentPass {
+ public:
+  TangentPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : program_(program), context_(context), facts_(facts) {}
+
+  void routine(Routine& r) {
+    uses_ = label_uses(program_, r);
+    walk(r.body);
+  }
+
+ private:
+  void walk(Body& body) {
+    std::optional<Path> before;
+    Body out;
+    out.reserve(body.size());
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      Statement& s = body[i];
+      bool nested = false;
+      each_body(s, [&](Body& inner) {
+        nested = true;
+        walk(inner);
+      });
+      auto* b = std::get_if<Block>(&s.node);
+      if (nested || entered(s) || (b == nullptr && !passes_by(s))) before.reset();
+      std::optional<Statement> arc;
+      if (b != nullptr) {
+        if (kind_of(*b, s) == MotionKind::arc_tangent && !context_.target.arc_tangent) tangent_arc(s, before);
+        b = std::get_if<Block>(&s.node);
+        if (b != nullptr && take_tangential(*b)) arc = expand(s, body, i);
+        b = std::get_if<Block>(&s.node);
+      }
+      if (b != nullptr && moves_frames(*b)) before.reset();
+      if (b != nullptr && b->has_motion && b->motion.moves() && !arc) {
+        const auto path = path_of(s);
+        if (!path || length(minus(path->to, path->from)) > tiny || path->arc) before = path;
+      }
+      if (arc) before = last_;
+      out.push_back(std::move(s));
+      if (arc) out.push_back(std::move(*arc));
+    }
+    body = std::move(out);
+  }
+
+  [[nodiscard]] bool entered(const Statement& s) const {
+    const auto labels = labels_on(s.line);
+    return std::any_of(labels.begin(), labels.end(),
+                       [this](const LabelRef& l) { return uses_.is_target(l) || uses_.computed; });
+  }
+  static bool passes_by(const Statement& s) {
+    return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
+           std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node);
+  }
+  static bool moves_frames(const Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data);
+    });
+  }
+  std::optional<MotionKind> kind_of(const Block& b, const Statement& s) const {
+    if (!b.has_motion || !b.motion.moves()) return std::nullopt;
+    return motion_in(b, facts_.before(s));
+  }
+
+  /// The programmed points of a plain line or arc, as far as they are numbers.
+  std::optional<Path> path_of(const Statement& s) const {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::normal || b->motion.extra) return std::nullopt;
+    const Facts& facts = facts_.before(s);
+    const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
+    const auto kind = motion_in(*b, facts);
+    if (!plane || !kind) return std::nullopt;
+    const auto axes = plane_axes(*plane);
+    const auto u = facts.position[axes.u], v = facts.position[axes.v];
+    if (!u || !v) return std::nullopt;
+    Path path{*plane, {*u, *v}, {*u, *v}, false, {}, false};
+    for (const auto& c : b->motion.coords) {
+      if (c.axis != axes.u && c.axis != axes.v) continue;
+      const auto d = distance_of(c, *b, facts);
+      const auto f = to_radius(c.axis, c.scale, d, *b, facts, context_.source_machine);
+      if (!d || !f || !c.value.literal()) return std::nullopt;
+      double& to = c.axis == axes.u ? path.to.u : path.to.v;
+      to = c.value.number * *f + (*d == Distance::incremental ? to : 0);
+    }
+    if (*kind == MotionKind::linear || *kind == MotionKind::rapid) return path;
+    if (*kind != MotionKind::arc_cw && *kind != MotionKind::arc_ccw) return std::nullopt;
+    path.arc = true;
+    path.ccw = *kind == MotionKind::arc_ccw;
+    if (b->motion.radius_given) {
+      if (!b->motion.radius.literal()) return std::nullopt;
+      const auto c = center_by_radius(path.from, path.to, b->motion.radius.number, path.ccw);
+      if (!c) return std::nullopt;
+      path.centre = *c;
+      return path;
+    }
+    if (b->motion.centers.empty()) return std::nullopt;
+    path.centre = path.from;
+    const auto distance = setting_in<Distance>(*b, facts, Setting::distance);
+    for (const auto& w : b->motion.centers) {
+      const bool relative = w.mode == CenterMode::from_start ||
+                            (w.mode == CenterMode::follows_distance && distance == Distance::incremental);
+      const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, *b, facts,
+                               context_.source_machine);
+      if (!f || !w.value.literal() || (w.mode == CenterMode::follows_distance && !distance)) return std::nullopt;
+      double& c = w.axis == axes.u ? path.centre.u : path.centre.v;
+      c = w.value.number * *f + (relative ? c : 0);
+    }
+    return path;
+  }
+
+  /// Both words of the plane, absolute and as radius; the other words stay.
+  void set_end(Motion& m, Plane plane, Point to) const {
+    const auto axes = plane_axes(plane);
+    for (const auto& [axis, value] : {std::pair{axes.u, to.u}, std::pair{axes.v, to.v}}) {
+      auto it =
+          std::find_if(m.coords.begin(), m.coords.end(), [axis = axis](const CoordWord& c) { return c.axis == axis; });
+      if (it == m.coords.end()) it = m.coords.insert(m.coords.end(), CoordWord{});
+      it->axis = axis;
+      it->value = Value{rounded_off(value)};
+      it->mode = WordMode::absolute;
+      it->scale = is_diameter_axis(context_.source_machine, axis) ? WordScale::radius : WordScale::modal;
+      it->pos = {};
+    }
+  }
+  static void set_centre(Motion& m, Plane plane, Point from, Point centre) {
+    const auto axes = plane_axes(plane);
+    m.radius_given = false;
+    m.radius = Value{};
+    m.centers.clear();
+    for (const auto& [axis, value] : {std::pair{axes.u, centre.u - from.u}, std::pair{axes.v, centre.v - from.v}}) {
+      CenterWord w;
+      w.axis = axis;
+      w.mode = CenterMode::from_start;
+      w.scale = WordScale::radius;
+      w.value = Value{rounded_off(value)};
+      m.centers.push_back(w);
+    }
+  }
+  /// Noise of the arithmetic far below the last place of any control.
+  static double rounded_off(double v) {
+    const double r = std::round(v * 1e9) / 1e9;
+    return r == 0 ? 0 : r;
+  }
+
+  void tangent_arc(Statement& s, const std::optional<Path>& before) {
+    auto& m = std::get<Block>(s.node).motion;
+    const auto kind = m.kind;
+    m.kind = MotionKind::linear;  // to look at its points
+    const auto points = path_of(s);
+    m.kind = kind;
+    if (!before || !points || before->plane != points->plane) {
+      return refuse(s, program_, context_, "TRN-301",
+                    "a tangent arc, which the target lacks; the element before it is not known here as numbers",
+                    "program the arc by its centre or radius", m.code_pos);
+    }
+    const Point w = minus(points->to, points->from), n = left_of(before->direction(true));
+    const double across = dot(w, n);
+    if (std::fabs(across) < 1e-6 * length(w) || length(w) < tiny) {
+      return refuse(s, program_, context_, "TRN-301", "the end of the tangent arc lies straight ahead",
+                    "program a straight line", m.code_pos);
+    }
+    const double radius = dot(w, w) / (2 * across);
+    m.kind = radius > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw;
+    m.explicit_code = true;
+    m.code_text = {};
+    set_centre(m, points->plane, points->from, plus(points->from, n, radius));
+  }
+
+  /// Takes the entry or exit out of the block; false: it has none, or the target writes it itself.
+  bool take_tangential(Block& b) {
+    if (context_.target.dialect == program_.dialect) return false;
+    for (std::size_t i = 0; i < b.actions.size(); ++i) {
+      const auto* t = std::get_if<TangentialEnd>(&b.actions[i].data);
+      if (t == nullptr) continue;
+      tangential_ = *t;
+      tangential_pos_ = b.actions[i].pos;
+      b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(i));
+      return true;
+    }
+    return false;
+  }
+
+  /// The block that the entry or exit of `body[at]` adds behind it; the words around it are set to fit.
+  std::optional<Statement> expand(Statement& s, Body& body, std::size_t at) {
+    const auto fail = [&](std::string text, std::string hint) -> std::optional<Statement> {
+      refuse(s, program_, context_, "TRN-335", std::move(text), std::move(hint), tangential_pos_);
+      return std::nullopt;
+    };
+    Statement* next = nullptr;
+    for (std::size_t j = at + 1; j < body.size() && next == nullptr; ++j) {
+      const auto* b = std::get_if<Block>(&body[j].node);
+      if (entered(body[j]) || (b == nullptr && !passes_by(body[j])) || (b != nullptr && moves_frames(*b))) break;
+      if (b != nullptr && b->has_motion && b->motion.moves()) next = &body[j];
+    }
+    const auto here = path_of(s);
+    const auto after = next != nullptr ? path_of(*next) : std::nullopt;
+    if (!here || !after || here->plane != after->plane || !tangential_.radius.literal() || s.line.skip_mask != 0)
+      return fail(
+          "a tangential entry or exit, which the target lacks; the points around it are not known here as numbers",
+          "program the arc itself");
+    const bool entry = tangential_.end == TangentEnd::entry;
+    if ((entry ? here : after)->arc)
+      return fail("a tangential entry or exit needs a straight move", "program the arc itself");
+    if (length(minus(here->to, here->from)) < tiny || length(minus(after->to, after->from)) < tiny)
+      return fail("a tangential entry or exit beside a move that goes nowhere", {});
+    const double radius = tangential_.radius.number;
+    const Point t = entry ? after->direction(false) : here->direction(true);
+    const auto lead =
+        entry ? lead_in(here->from, here->to, t, radius) : lead_in(after->to, here->to, {-t.u, -t.v}, radius);
+    if (!lead)
+      return fail("the straight move lies inside the circle of the tangential entry or exit", "check the radius");
+    Path arc{here->plane, lead->touch, here->to, true, lead->centre, lead->ccw};
+    if (!entry) arc = Path{here->plane, here->to, lead->touch, true, lead->centre, !lead->ccw};
+    Block block;
+    block.has_motion = true;
+    block.motion.kind = arc.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
+    block.motion.explicit_code = true;
+    block.motion.keeps_modal = false;
+    set_end(block.motion, arc.plane, arc.to);
+    set_centre(block.motion, arc.plane, arc.from, arc.centre);
+    if (entry)
+      set_end(std::get<Block>(s.node).motion, arc.plane, arc.from);
+    else
+      set_end(std::get<Block>(next->node).motion, arc.plane, after->to);
+    context_.diagnostics.note("TRN-336", word_span(s.line.span, tangential_pos_),
+                              "the tangential entry or exit is written as an arc of its own");
+    last_ = arc;
+    return made(s.line, std::move(block));
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  LabelUses uses_;
+  TangentialEnd tangential_;
+  WordPos tangential_pos_;
+  std::optional<Path> last_;
+};
+
+}  // namespace
+
+void write_out_tangents(Program& program, const LegaliseContext& context) {
+  const FactsOf facts(program, context);
+  TangentPass pass(program, context, facts);
+  for (auto& r : program.routines) pass.routine(r);
+}
+
+}  // namespace cnctrans::ir::passes
