@@ -210,12 +210,18 @@ TEST(Positions, HoleCyclesLeaveTheToolOverTheHole) {
 }
 
 TEST(Positions, OpaqueTextForgetsEverythingUnlessHarmless) {
-  const Known k = known("block rapid X 1\nopaque \"?\" harmless\nN1 block\nopaque \"?\"\nN2 block\n");
+  const Known k = known("block rapid X 1\nopaque \"?\" harmless\nN1 block\nopaque \"?\" feature text.unread\nN2 block\n");
   EXPECT_EQ(k.x("1"), "1");
   EXPECT_EQ(k.x("2"), "unknown");
   EXPECT_EQ(k.plane("2"), "unknown");
   EXPECT_FALSE(k.at("2").cycle_active_known);
   EXPECT_TRUE(k.at("2").reachable);
+}
+
+TEST(Positions, WhatAPassHasRefusedIsSaidOnce) {
+  // No feature: refused with its own diagnostic. What follows is not blamed for it.
+  const Known k = known("block rapid X 1\nopaque \"?\"\nN1 block\n");
+  EXPECT_EQ(k.x("1"), "1");
 }
 
 // --- calls --------------------------------------------------------------------------------------------------------
