@@ -176,7 +176,8 @@ Statement Reader::read_statement(LineInfo&& line) {
   if (one_line && ok()) comments(last_line(s));
   const std::size_t end = text_.find('\n', at_);
   if (!finish_line(one_line ? nullptr : &last_line(s)) && one_line) {
-    s.node = Opaque{std::string(text_.substr(start, end == std::string_view::npos ? end : end - start)), {}, false};
+    s.node = Opaque{std::string(text_.substr(start, end == std::string_view::npos ? end : end - start)), "text.unread",
+                    false};
   }
   return s;
 }

@@ -210,7 +210,8 @@ TEST(Positions, HoleCyclesLeaveTheToolOverTheHole) {
 }
 
 TEST(Positions, OpaqueTextForgetsEverythingUnlessHarmless) {
-  const Known k = known("block rapid X 1\nopaque \"?\" harmless\nN1 block\nopaque \"?\" feature text.unread\nN2 block\n");
+  const Known k =
+      known("block rapid X 1\nopaque \"?\" harmless\nN1 block\nopaque \"?\" feature \"text.unread\"\nN2 block\n");
   EXPECT_EQ(k.x("1"), "1");
   EXPECT_EQ(k.x("2"), "unknown");
   EXPECT_EQ(k.plane("2"), "unknown");
