@@ -1,6 +1,7 @@
 // Rapid moves while radius compensation is on (equivalences 16): some controls suspend the compensation for such a
 // block and take it up again after it, others keep it. The programmed path is the same, the centre of the tool is not.
 #include <algorithm>
+#include <utility>
 
 #include "base/text.h"
 #include "ir/passes/facts.h"
@@ -44,6 +45,7 @@ void check_compensation(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   const bool suspends = source == "suspended";
   for (const auto& r : program.routines) {
+    bool unsure = false;  // once a routine: what is not known stays so from block to block
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::normal) return;
@@ -51,9 +53,10 @@ void check_compensation(Program& program, const LegaliseContext& context) {
       if (!before.reachable || motion_in(*b, before).value_or(MotionKind::rapid) != MotionKind::rapid) return;
       const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
       if (side == CompSide::off || now == CompSide::off || !moves_in_plane(*b, before)) return;
+      if (!side && std::exchange(unsure, true)) return;
       context.diagnostics.warning("TRN-144", word_span(s.line.span, b->motion.code_pos),
                                   std::string("a rapid move while radius compensation is ") +
-                                      (side ? "on" : "on, on some way") +
+                                      (side ? "on" : "on, on some way that leads here (said once a routine)") +
                                       (suspends ? ": the source suspends it for this move, the target keeps it"
                                                 : ": the source keeps it, the target suspends it for this move") +
                                       "; the centre of the tool differs by up to the tool radius",

@@ -52,6 +52,13 @@ bool change_leaves(const Block& b, const Program& program, const LegaliseContext
   return change->by_m && program.dialect != context.target.dialect;
 }
 
+/// A mode that counts only behind the words of its block needs a block of its own where modes count for the whole block.
+bool mode_leaves(const Action& a, const Program& program, const Capabilities& target) {
+  const auto* m = std::get_if<ModalSet>(&a.data);
+  if (m == nullptr || !is_after(a.order) || program.dialect == target.dialect) return false;
+  return m->setting != Setting::distance || !target.distance_inside_block;
+}
+
 class Splitter {
  public:
   Splitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
@@ -93,7 +100,7 @@ class Splitter {
     const bool event = makes_event(a);
     const bool leaves = own_block(a, editor_.target()) || (event && is_after(a.order) != is_after(theirs));
     if (is_after(a.order)) {
-      if (leaves || (event && !late_.empty())) {
+      if (leaves || mode_leaves(a, editor_.program, editor_.target()) || (event && !late_.empty())) {
         late_.push_back(std::move(a));
         return;
       }
@@ -172,6 +179,7 @@ bool needs_split(const Block& block, const Program& program, const LegaliseConte
   for (const auto& a : block.actions) {
     ++others;
     if (own_block(a, context.target)) alone = true;
+    if (moving && mode_leaves(a, program, context.target)) return true;
     if (!makes_event(a)) continue;
     const bool theirs = is_after(target_order(a, context.target_machine));
     if (moving && theirs != is_after(a.order)) return true;
