@@ -52,7 +52,8 @@ bool change_leaves(const Block& b, const Program& program, const LegaliseContext
   return change->by_m && program.dialect != context.target.dialect;
 }
 
-/// A mode that counts only behind the words of its block needs a block of its own where modes count for the whole block.
+/// A mode that counts only behind the words of its block needs a block of its own where modes count for the whole
+/// block.
 bool mode_leaves(const Action& a, const Program& program, const Capabilities& target) {
   const auto* m = std::get_if<ModalSet>(&a.data);
   if (m == nullptr || !is_after(a.order) || program.dialect == target.dialect) return false;
