@@ -81,7 +81,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later) {
   c.constant_decimals = 8;
   c.constant_max = 99999999;
   c.word_decimals = facts::linear_decimals;
-  c.word_decimals_inch = 4;
+  c.word_decimals_inch = facts::linear_decimals_inch;
   c.call_range = true;
   c.output = ir::OutputForm::programs_in_one_file;
   c.routine_number_min = facts::program_min;
@@ -218,6 +218,8 @@ PlainTable plain_words(const machine::Profile& profile) {
   t.work_offset_off = "G53";
   t.work_offsets[1] = "G54";
   t.dwell = "G4 F";
+  // Inch words have more places: the whole-program path writes them.
+  t.settings[static_cast<std::size_t>(Setting::units)][code_value(ir::Units::inch)] = {};
   // The sign of such an axis is its direction: positions have to be looked at.
   const std::string modulo =
       profile.option(facts::option::rotary_modulo, facts::option_default(facts::option::rotary_modulo));

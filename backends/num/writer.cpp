@@ -74,9 +74,25 @@ void Writer::write_routine(std::size_t index, std::int64_t number) {
   body(r.body);
 }
 
+/// Inch words have one place more than metric ones.
+std::string Writer::decimals(const ir::Value& value) {
+  if (same_dialect() || setting(ir::Setting::units) != code_value(ir::Units::inch)) return number_text(value);
+  constexpr std::int32_t places = facts::linear_decimals_inch;
+  std::string text;
+  const double change = append_number(text, value.number, value.text, NumberFormat{places, places, false});
+  if (change != 0 && !inch_rounding_noted_) {
+    inch_rounding_noted_ = true;
+    diagnostics().warning("TRN-210", current().line.span,
+                          "inch words with more than 4 decimals are rounded for the target: each changes by at most "
+                          "0.00005 (reported once for the program)",
+                          "translate a metric program where that is too much");
+  }
+  return text;
+}
+
 std::string Writer::word(std::string_view address, const ir::Value& value, WordPos pos) {
   std::string text(address);
-  if (value.literal()) return text + number_text(value);
+  if (value.literal()) return text + decimals(value);
   const std::string expression = expression_text(value.expr, pos);
   // A word takes a number or one variable with a sign; X L6, X-L6.
   if (expression.empty() || expression.front() == '-' || expression.front() == '[') return text + expression;

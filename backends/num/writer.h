@@ -59,6 +59,7 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] bool structured_allowed();
   [[nodiscard]] bool behind_words(WordPos pos) const;
   [[nodiscard]] bool machine_frame_in_incremental(const ir::Motion& m);
+  std::string decimals(const ir::Value& value);
   std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);
   void shift(const ir::Action& a, const ir::FrameChange& c);
   void straight_extra(const ir::Motion& m, const ir::MotionExtra& e);
@@ -69,6 +70,7 @@ class Writer final : public ProgramWriter {
   ChainPrinter printer_;
   bool cycle_here_ = false;  ///< the block being written defines a cycle
   bool cancelled_ = false;   ///< ... or ends one
+  bool inch_rounding_noted_ = false;
   std::set<std::uint32_t> declares_first_, declares_last_;
 };
 

@@ -15,7 +15,7 @@ inline constexpr std::int64_t g_max = 999, m_max = 999;
 inline constexpr std::int64_t tool_max = 99999999;
 inline constexpr double dwell_min = 0.01, dwell_max = 99.99;  ///< seconds
 inline constexpr double linear_max = 99999.999;               ///< mm
-inline constexpr std::int32_t linear_decimals = 3, rotary_decimals = 4;
+inline constexpr std::int32_t linear_decimals = 3, linear_decimals_inch = 4, rotary_decimals = 4;
 inline constexpr std::int32_t call_depth = 8, structure_depth = 15;
 inline constexpr std::size_t block_length = 118;
 inline constexpr std::size_t message_length = 39;

@@ -14,5 +14,7 @@ void restore_modals(Program& program, const LegaliseContext& context);
 void select_written_offsets(Program& program, const LegaliseContext& context);
 /// Points of a contour that follow from its angles, tangency and intersections, written out.
 void solve_contours(Program& program, const LegaliseContext& context);
+/// Computed rotary positions whose sign is a direction become a branch where the target writes the direction itself.
+void choose_directions(Program& program, const LegaliseContext& context);
 
 }  // namespace cnctrans::ir::passes

@@ -21,6 +21,7 @@ constexpr std::array pipeline{
     Pass{"range_ends", passes::mark_range_ends, false},
     Pass{"saved_modals", passes::restore_modals, false},
     Pass{"contours", passes::solve_contours, false},
+    Pass{"directions", passes::choose_directions, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},
