@@ -257,7 +257,7 @@ class BlockMachine final : public SystemData {
   bool last_was_arc_ = false, has_path_ = false;
   Vec last_centre_;
   bool last_ccw_ = false;
-  double lead_ = 0;
+  double lead_ = 0, reached_pitch_ = 0;  ///< of threads, mm per revolution: programmed, and at the end of the last one
 
   // per block
   std::optional<Pending> block_corner_;

@@ -51,7 +51,9 @@ const double* BlockMachine::given_datum(const ir::SystemRef& ref, std::span<cons
   for (const auto& k : keys) {
     if (const auto it = profile_.data.find(k); it != profile_.data.end()) return &it->second;
   }
-  return nullptr;
+  if (args.empty()) return nullptr;
+  const auto any = profile_.data.find(ref.text + "[*]");  // the same for every index
+  return any == profile_.data.end() ? nullptr : &any->second;
 }
 
 bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
@@ -180,7 +182,7 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
     case Datum::scale_factor: out = scale.m[0][0]; return true;
     case Datum::axis_scale:
       if (ref.axis >= ir::axis::count_max || !axis_[ref.axis].present) return false;
-      out = factor(scale, ref.axis);
+      out = factor(scale, ref.axis) * factor(slots_[slot_of(ir::FrameSlot::chain)], ref.axis);
       return true;
     case Datum::rotation_angle: {
       const double angle =

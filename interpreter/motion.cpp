@@ -15,6 +15,13 @@ bool is_arc(ir::MotionKind k) {
   return k == ir::MotionKind::arc_cw || k == ir::MotionKind::arc_ccw || k == ir::MotionKind::arc_through_point ||
          k == ir::MotionKind::arc_tangent;
 }
+
+/// Probing moves and moves to a stop leave the straight line in force.
+ir::MotionKind left_in_force(ir::MotionKind k) {
+  const bool once =
+      k == ir::MotionKind::probe_toward || k == ir::MotionKind::probe_away || k == ir::MotionKind::to_stop;
+  return once ? ir::MotionKind::linear : k;
+}
 }  // namespace
 
 bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
@@ -23,7 +30,7 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   if (kind == ir::MotionKind::modal) {
     kind = modal_.motion;
   } else if (m.keeps_modal) {
-    modal_.motion = kind;
+    modal_.motion = left_in_force(kind);
   }
   if (kind == ir::MotionKind::reference_point || kind == ir::MotionKind::fixed_point) return reference_move(m);
   if (!m.moves()) return true;
@@ -229,8 +236,15 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
     if (policy_.start_angle_stays && x.has_start_angle) start_angle_ = move.start_angle;
   }
   if (policy_.start_angle_stays) move.start_angle = start_angle_;
+  // No pitch and no change of it behind a thread of variable pitch: on with the pitch reached there.
+  if (variable && lead_ == 0 && move.pitch_change == 0) lead_ = reached_pitch_;
   move.pitch = lead_;
   if (lead_ == 0) return failure_.fail(code::thread_pitch, "the thread has no pitch");
+  double travel = 0;
+  for (const auto a : axes_) travel = std::max(travel, std::abs(move.to[a] - move.from[a]));
+  const double square = lead_ * lead_ + 2 * move.pitch_change * travel;
+  if (square < 0) return failure_.fail(code::thread_pitch, "the pitch of the thread falls to zero before its end");
+  reached_pitch_ = std::copysign(std::sqrt(square), lead_);
   return !failure_.set;
 }
 

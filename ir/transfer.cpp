@@ -12,6 +12,12 @@ std::optional<double> known(const Value& v) {
   return v.literal() ? std::optional(v.number) : constant_value(v.expr);
 }
 
+/// Probing moves and moves to a stop leave the straight line in force.
+MotionKind left_in_force(MotionKind k) {
+  const bool once = k == MotionKind::probe_toward || k == MotionKind::probe_away || k == MotionKind::to_stop;
+  return once ? MotionKind::linear : k;
+}
+
 class Transfer {
  public:
   explicit Transfer(Facts& facts, std::uint32_t framed = ~0U) : f_(facts), framed_(framed) {}
@@ -146,7 +152,7 @@ class Transfer {
   void motion(const Block& b) {
     const Motion& m = b.motion;
     const auto kind = m.kind == MotionKind::modal ? f_.motion : std::optional(m.kind);
-    if (m.kind != MotionKind::modal && m.keeps_modal) f_.motion = m.kind;
+    if (m.kind != MotionKind::modal && m.keeps_modal) f_.motion = left_in_force(m.kind);
     const bool plain = ends_at_words(kind) && m.frame == FrameUse::normal;
     if (!plain && m.coords.empty() && kind != std::nullopt && !ends_at_words(kind)) return forget_positions();
     for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);

@@ -95,6 +95,7 @@ void frames(ir::Capabilities& c, bool lathe) {  // 8.3..8.5, 11.4, 11.5, 25.1
               {FrameSlot::shift, {FrameCombine::replace, FrameCombine::replace_named, FrameCombine::clear}},
               {FrameSlot::scale, {FrameCombine::replace, FrameCombine::clear}},
               {FrameSlot::mirror, {FrameCombine::replace, FrameCombine::replace_named, FrameCombine::clear}}};
+  c.frames[FrameSlot::chain] = {FrameCombine::replace_named};  // G72 with axes; of this control only
   if (!lathe) c.frames[FrameSlot::rotation] = {FrameCombine::replace, FrameCombine::add, FrameCombine::clear};
   c.frame_rotation = !lathe;
   c.frame_chain = false;
@@ -108,7 +109,9 @@ void words(ir::Capabilities& c, bool lathe) {  // ch. 3..8, 10, 11
                ir::MotionKind::linear,          ir::MotionKind::arc_cw,
                ir::MotionKind::arc_ccw,         ir::MotionKind::thread,
                ir::MotionKind::thread_variable, ir::MotionKind::arc_through_point,
-               ir::MotionKind::arc_tangent,     ir::MotionKind::reference_point};
+               ir::MotionKind::arc_tangent,     ir::MotionKind::reference_point,
+               ir::MotionKind::probe_toward,    ir::MotionKind::probe_away,
+               ir::MotionKind::to_stop};
   c.frame_uses = {ir::FrameUse::normal, ir::FrameUse::machine};
   c.own_block = stands_alone;
   c.corners = {ir::CornerKind::round, ir::CornerKind::chamfer_leg};

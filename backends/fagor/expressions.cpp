@@ -176,6 +176,16 @@ std::string system_name(const ir::SystemRef& s, bool lathe) {
   }
 }
 
+/// The reader makes n - 53 * (n > 20) of a computed index n: 54 to 59 are the rows 1 to 6. Null: not of this form.
+static ExprPtr code_of_row(const ExprPtr& row) {
+  const auto* difference = row ? std::get_if<ir::Binary>(&row->node) : nullptr;
+  if (difference == nullptr || difference->op != ir::BinaryOp::subtract) return nullptr;
+  const ExprPtr& n = difference->left;
+  const auto relation = ir::binary(ir::BinaryOp::gt, n, ir::number(20));
+  const auto expected = ir::binary(ir::BinaryOp::multiply, ir::number(53), relation);
+  return ir::equal(difference->right, expected) ? n : nullptr;
+}
+
 Printer::Printer(const ir::Program& program, bool lathe, const NumberFormat& numbers)
     : ExpressionPrinter(program, expression_style(), numbers), lathe_(lathe) {}
 
@@ -242,6 +252,7 @@ std::string Printer::system(const ExprPtr& e, const ir::SystemRef& s) {
   if (s.datum == Datum::work_offset) {  // rows 1..6 are G54..G59
     const auto row = ir::constant_value(s.args[0]);
     if (row && *row >= 1 && *row <= 6) return name + shortest(*row + 53);
+    if (const ExprPtr code = code_of_row(s.args[0])) return name + index(code);
   }
   return name + index(s.args[0]);
 }

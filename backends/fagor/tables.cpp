@@ -43,6 +43,7 @@ ir::MotionKind motion_of(const facts::GCode& g) {
     case Use::tangent_arc: return ir::MotionKind::arc_tangent;
     case Use::three_point_arc: return ir::MotionKind::arc_through_point;
     case Use::home: return ir::MotionKind::reference_point;
+    case Use::straight: return g.motion;
     default: return ir::MotionKind::modal;
   }
 }

@@ -66,6 +66,12 @@ void Writer::frame_words(const ir::FrameChange& f, WordPos pos) {
 
 void Writer::frame_op(const ir::Action& a, const ir::FrameOp& op) {
   const ir::FrameChange& f = *op.change;
+  const bool axis_factors = same_dialect() && f.slot == ir::FrameSlot::chain && f.kind == ir::FrameKind::scale &&
+                            f.combine == FrameCombine::replace_named;
+  if (axis_factors) {
+    add(std::string(g(Use::scale)), Rank::setting, a.pos);
+    return frame_words(f, a.pos);
+  }
   if (f.combine == FrameCombine::compose || f.slot == ir::FrameSlot::chain) return ProgramWriter::frame_op(a, op);
   switch (f.slot) {
     case ir::FrameSlot::preset:

@@ -297,7 +297,12 @@ bool Writer::machining_cycle(const ir::Action& a, const ir::CycleDefine& c) {
 
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   if (machining_cycle(a, c)) return;
-  const auto words = lathe_ ? std::nullopt : cycle_words(*c.cycle);
+  // Another axis than the plane's own was chosen by G15, which stands in the text.
+  ir::Cycle along_normal = *c.cycle;
+  ir::AxisId chosen = ir::axis::none;
+  if (auto* h = std::get_if<ir::HoleCycle>(&along_normal.node); h != nullptr && same_dialect())
+    std::swap(chosen, h->axis);
+  const auto words = lathe_ ? std::nullopt : cycle_words(along_normal);
   if (!words) return ProgramWriter::cycle_define(a, c);
   const auto& hole = std::get<ir::HoleCycle>(c.cycle->node);
   if (!c.here || (c.modal && c.trigger != ir::CycleTrigger::plane_axis_word)) {
@@ -325,7 +330,8 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const bool spelled = same_dialect() && !a.text.empty();
   const std::string code(spelled ? a.text : words->code);
   add(code + cycle_retract(a, *words), Rank::frame, a.pos);
-  if (words->has_reference) add(word(axis_name(ir::plane_axes(*plane).w), words->reference, a.pos), Rank::center);
+  const ir::AxisId along = chosen != ir::axis::none ? chosen : ir::plane_axes(*plane).w;
+  if (words->has_reference) add(word(axis_name(along), words->reference, a.pos), Rank::center);
   add(word("I", words->depth, a.pos), Rank::radius);
   const auto further = [&](bool before_dwell) {  // in the order of the alphabet, as the manual prints them
     for (const auto& [letter, v] : words->more) {

@@ -119,7 +119,10 @@ bool Writer::implied(const ir::Action& a) {
   if (std::any_of(block_->actions.begin(), block_->actions.end(), machining))
     return sets(a, ir::Setting::comp) || sets(a, ir::Setting::distance);  // ch. 9: how the cycle leaves
   if (holds<ir::PoleSet>(a)) return plane && !stands_alone(a);
-  const bool home = block_->has_motion && block_->motion.kind == ir::MotionKind::reference_point;
+  const bool home =
+      block_->has_motion &&
+      (block_->motion.kind == ir::MotionKind::reference_point || block_->motion.kind == ir::MotionKind::probe_toward ||
+       block_->motion.kind == ir::MotionKind::probe_away || block_->motion.kind == ir::MotionKind::to_stop);
   return home && (sets(a, ir::Setting::comp) || sets(a, ir::Setting::length_comp));
 }
 
@@ -175,14 +178,14 @@ void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
 // ---- spindle and tool ----------------------------------------------------------------------------------------------
 
 void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
-  if (s.number != 1) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
+  if (s.number != 1 && !same_dialect()) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
   const bool marker = s.angle.is(0) && s.angle.text.empty();
   if (!marker) add(word("S", s.angle, a.pos), Rank::spindle);
   add(same_dialect() && !a.text.empty() ? std::string(a.text) : m_word(19), Rank::machine, a.pos);
 }
 
 void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
-  if (s.number != 1 || s.lower)
+  if ((s.number != 1 && !same_dialect()) || s.lower)
     return refuse(no_word, a.pos, "this limit of the spindle speed has no counterpart here");
   add(std::string(g(Use::preset)), Rank::setting, a.pos);
   add(word("S", s.value, a.pos), Rank::spindle);

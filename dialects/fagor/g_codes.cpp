@@ -12,6 +12,9 @@ using ir::Setting;
 constexpr GCode motion(std::int16_t code, MotionKind kind, std::string_view section) {
   return {code, Model::both, Group::motion, Use::motion, Setting::plane, 0, kind, false, section};
 }
+constexpr GCode straight(std::int16_t code, MotionKind kind, std::string_view section, std::string_view title) {
+  return {code, Model::both, Group::motion, Use::straight, Setting::plane, 0, kind, false, section, title};
+}
 template <class Value>
 constexpr GCode setting(std::int16_t code, Model model, Group group, Setting s, Value value, std::string_view section) {
   return {code, model, group, Use::setting, s, static_cast<std::uint8_t>(value), MotionKind::modal, false, section};
@@ -64,7 +67,7 @@ constexpr std::array table = {
     own(13, B, Group::none, Use::mirror_axis, ir::axis::z, false, "7.5"),
     own(14, B, Group::none, Use::mirror_axes, 0, true, "7.5"),
     refused(15, T, "6.15", "the C axis", "motion.transformation"),
-    refused(15, M, "25.1", "the choice of the longitudinal axis", "block.word"),
+    own(15, M, Group::none, Use::longitudinal, 0, true, "25.1", "the choice of the longitudinal axis"),
     own(16, B, Group::plane, Use::plane_axes, 0, true, "3.2"),
     own(17, B, Group::plane, Use::plane, static_cast<std::uint8_t>(ir::Plane::xy), false, "3.2"),
     own(18, B, Group::plane, Use::plane, static_cast<std::uint8_t>(ir::Plane::zx), false, "3.2"),
@@ -76,9 +79,12 @@ constexpr std::array table = {
     refused(24, M, "25.9", "digitising", "motion.probe"),
     refused(25, M, "25.9", "tracing", "motion.probe"),
     refused(27, M, "25.9", "tracing", "motion.probe"),
-    refused(28, B, "7.8", "the exchange of axes or the choice of the second spindle", "language.synchronised"),
-    refused(29, B, "7.8", "the exchange of axes or the choice of the main spindle", "language.synchronised"),
-    refused(30, B, "5.5", "spindle synchronisation", "language.synchronised"),
+    GCode{28, B, Group::none, Use::spindle_choice, Setting::plane, 2, MotionKind::modal, true, "5.4, 7.8",
+          "the exchange of axes", "language.synchronised"},
+    GCode{29, B, Group::none, Use::spindle_choice, Setting::plane, 1, MotionKind::modal, true, "5.4, 7.8",
+          "the exchange of axes", "language.synchronised"},
+    GCode{30, B, Group::none, Use::spindle_couple, Setting::plane, 0, MotionKind::modal, true, "5.5",
+          "spindle synchronisation", "language.synchronised"},
     setting(32, B, Group::feed, Setting::feed_mode, ir::FeedMode::inverse_time, "5.2"),
     motion(33, MotionKind::thread, "6.12"),
     motion(34, MotionKind::thread_variable, "6.14"),
@@ -98,7 +104,7 @@ constexpr std::array table = {
     refused(49, M, "25.6", "the inclined plane", "motion.transformation"),
     own(50, B, Group::corner, Use::soft_corner, 0, false, "7.3"),
     own(51, B, Group::corner, Use::look_ahead, 0, true, "7.4"),
-    refused(52, B, "6.16", "the move to a hard stop", "block.word"),
+    straight(52, MotionKind::to_stop, "6.16", "the move to a hard stop"),
     own(53, B, Group::offset, Use::machine_coordinates, 0, false, "4.3"),
     own(54, B, Group::offset, Use::work_offset, 1, true, "4.4.2"),
     own(55, B, Group::offset, Use::work_offset, 2, true, "4.4.2"),
@@ -128,10 +134,12 @@ constexpr std::array table = {
     own(72, B, Group::none, Use::scale, 0, true, "7.6"),
     own(73, M, Group::none, Use::rotation, 0, true, "25.1"),
     own(74, B, Group::none, Use::home, 0, false, "4.2"),
-    refused(75, B, "10.1", "the probing move", "motion.probe"),
-    refused(76, B, "10.1", "the probing move", "motion.probe"),
-    refused(77, B, "7.7", "axis coupling or spindle synchronisation", "language.synchronised"),
-    refused(78, B, "7.7", "axis coupling or spindle synchronisation", "language.synchronised"),
+    straight(75, MotionKind::probe_toward, "10.1", "the probing move"),
+    straight(76, MotionKind::probe_away, "10.1", "the probing move"),
+    GCode{77, B, Group::none, Use::spindle_couple, Setting::plane, 0, MotionKind::modal, true, "5.5, 7.7",
+          "axis coupling", "language.synchronised"},
+    GCode{78, B, Group::none, Use::spindle_couple, Setting::plane, 0, MotionKind::modal, true, "5.5, 7.7",
+          "axis coupling", "language.synchronised"},
     refused(79, M, "25.2", "the change of a cycle's parameters", "cycle.hole"),
     own(80, M, Group::none, Use::cycle_cancel, 0, false, "25.2"),
     own(81, T, Group::none, Use::machining, 81, false, "9.4", "the turning cycle"),

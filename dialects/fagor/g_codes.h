@@ -40,6 +40,7 @@ enum class Use : std::uint8_t {
   compensation,     ///< G40 G41 G42; N is collision detection
   plane,            ///< G17 G18 G19
   plane_axes,       ///< G16 with two axes
+  longitudinal,     ///< G15 of the mill: the axis of tool length and cycles
   dwell,            ///< G4
   absolute_centre,  ///< G6
   tangent_arc,      ///< G8
@@ -63,6 +64,9 @@ enum class Use : std::uint8_t {
   scale,                ///< G72
   rotation,             ///< G73
   home,                 ///< G74
+  straight,             ///< G52 G75 G76: one straight move of its own; `motion`; leaves G01 and G40
+  spindle_choice,       ///< G28 G29 without axes: `value` is the spindle of the blocks that follow
+  spindle_couple,       ///< G30 G77S G78S: the second spindle follows the main one
   hole_cycle,           ///< `value`: the code: letters in hole_cycles
   cycle_cancel,
   machining,  ///< a cycle of the lathe; letters in cycle_rows

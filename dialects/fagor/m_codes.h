@@ -24,6 +24,9 @@ enum class MKind : std::uint8_t {
   gear,
   live_tool
 };
+/// Spindles by number: 1 the main one (G29), 2 the second one (G28), and the driven tool of M45.
+inline constexpr std::uint8_t live_tool_spindle = 3;
+
 struct MCode {
   std::int16_t code;
   MKind kind;

@@ -94,8 +94,8 @@ constexpr std::array<VariableInfo, 280> table = {{
     {"DIST", true, Index::none, Access::read_write, true, Datum::other, Unit::length, ir::Type::real},
     {"LIMPL", true, Index::none, Access::read_write, false, Datum::other, Unit::length, ir::Type::real},
     {"LIMMI", true, Index::none, Access::read_write, false, Datum::other, Unit::length, ir::Type::real},
-    {"DPLY", true, Index::none, Access::read, false, Datum::other, Unit::length, ir::Type::real},
-    {"DRPO", true, Index::none, Access::read, false, Datum::other, Unit::length, ir::Type::real},
+    {"DPLY", true, Index::none, Access::read, false, Datum::work_position, Unit::length, ir::Type::real},
+    {"DRPO", true, Index::none, Access::read, false, Datum::machine_position, Unit::length, ir::Type::real},
     {"GPOS", true, Index::always, Access::read, false, Datum::other, Unit::length, ir::Type::real},
     // §11.2.8: Handwheels
     {"HANPF", false, Index::none, Access::read, false, Datum::other, Unit::none, ir::Type::integer},

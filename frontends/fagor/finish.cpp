@@ -100,11 +100,38 @@ bool calls_outside(const ir::Program& program) {
   return outside;
 }
 
+bool has_jumps(const ir::Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      found = found || std::holds_alternative<ir::Jump>(s.node) || std::holds_alternative<ir::Repeat>(s.node);
+    });
+  }
+  return found;
+}
+
+/// The spindle and the longitudinal axis were taken from the text: right where no other way leads to the block.
+void judge_text_uses(const ir::Program& program, LowerState& state) {
+  const FileFacts& facts = state.facts;
+  if (facts.text_uses.empty()) return;
+  const bool jumps = has_jumps(program);
+  for (const auto& use : facts.text_uses) {
+    if (!(use.longitudinal ? facts.longitudinal : facts.second_spindle) || (!use.from_caller && !jumps)) continue;
+    state.set_line(use.span);
+    state.error(
+        "FAG-038", {},
+        use.longitudinal ? "this block depends on the longitudinal axis (G15), and other ways may lead to it"
+                         : "this block depends on the spindle chosen (G28, G29), and other ways may lead to it",
+        use.longitudinal ? "write the plane function or G15 before the block" : "write G28 or G29 before the block");
+  }
+}
+
 }  // namespace
 
 void finish_program(ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
   judge_planes(program, state);
+  judge_text_uses(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
   if (clear_preset || facts.table_shift) {
@@ -119,6 +146,11 @@ void finish_program(ir::Program& program, LowerState& state) {
     state.error("FAG-027", {},
                 "G58 or G59 and G158 in one program: what the next G54 cancels depends on which came last",
                 "use only one of the two");
+  }
+  if (facts.first_axis_scale.known() && facts.rotation) {
+    state.set_line(facts.first_axis_scale);
+    state.error("FAG-027", {}, "factors of single axes (G72 X) and a rotation (G73) in one program are not carried",
+                "transform the coordinates of the part");
   }
   const bool inch_machine = state.profile().power_on.units == ir::Units::inch;
   if (facts.first_machine_move.known() && facts.units[inch_machine ? 0 : 1]) {

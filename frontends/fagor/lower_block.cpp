@@ -8,6 +8,7 @@
 
 #include "base/saturate.h"
 #include "dialects/fagor/limits.h"
+#include "dialects/fagor/m_codes.h"
 #include "frontends/fagor/letters.h"
 #include "frontends/fagor/lower_expr.h"
 
@@ -47,7 +48,25 @@ ir::Value BlockLowerer::value_of(char c) {
   return w ? value(*w) : ir::Value{};
 }
 
+/// GP100 where the parameter holds a fixed number: the function of this number, a motion or a setting.
+const facts::GCode* BlockLowerer::fixed_function(const Word& w) {
+  if (w.expr < 0 || g_count_ == max_g) return nullptr;
+  const ir::Value v = value(w);
+  const auto* variable = v.expr ? std::get_if<ir::VarRef>(&v.expr->node) : nullptr;
+  const auto number = variable ? ir::constant_value(variable->index) : std::nullopt;
+  const double* code = number ? state_.constant(saturate<std::int64_t>(*number)) : nullptr;
+  if (!code || *code < 0 || *code != std::floor(*code) || *code > facts::max_g_code) return nullptr;
+  const GCode* row = state_.g(saturate<int>(*code));
+  if (!row || (row->use != Use::motion && row->use != Use::setting && row->use != Use::plane)) return nullptr;
+  state_.note("FAG-012", w.pos, word_name(w) + " is G" + std::to_string(row->code) + " here");
+  return row;
+}
+
 void BlockLowerer::gather_g(const Word& w) {
+  if (const GCode* row = fixed_function(w)) {
+    g_[g_count_++] = {row, &w};
+    return;
+  }
   if (w.expr >= 0) {
     state_.warning("FAG-012", w.pos, "a G function computed by a parameter: the block is kept as text",
                    "a run stops here; write the function's number");
@@ -89,6 +108,7 @@ void BlockLowerer::gather(const syntax::Block& in) {
   cycle_row_ = nullptr;
   cycle_word_count_ = 0;
   absolute_centre_ = tangent_arc_ = three_points_ = machine_coords_ = home_ = nullptr;
+  straight_ = nullptr;
   if (has_extra_) {
     extra_ = ir::MotionExtra{};
     has_extra_ = false;
@@ -211,22 +231,18 @@ void BlockLowerer::lower(const syntax::Block& in, ir::Block& out, BlockResult& r
 
 void BlockLowerer::technology() {
   if (const Word* f = take('F')) act(ir::SetFeed{value(*f), true}, f);
-  bool orients = false, changes = false, live = false;
+  bool orients = false, changes = false;
+  const Word* live = nullptr;
   for (std::size_t i = 0; i < m_count_; ++i) {
     const machine::MCode* m = m_[i]->expr < 0 ? state_.m(saturate<int>(m_[i]->number)) : nullptr;
     orients = orients || (m && m->meaning == machine::MMeaning::spindle_orient);
     changes = changes || (m && m->meaning == machine::MMeaning::tool_change);
-    live = live || (m_[i]->expr < 0 && m_[i]->number == 45);
+    if (m_[i]->expr < 0 && m_[i]->number == 45) live = m_[i];
   }
-  if (live) {
-    state_.warning("FAG-007", {}, "a block with the driven tool (M45) is kept as text",
-                   "a run stops here; only a program for this control can be written with it");
-    result_->opaque = "block.word";
-    result_->needs_program = true;
-    return;
-  }
+  if (live) live_tool(*live);
+  if (!result_->opaque.empty()) return;
   if (!orients) {
-    if (const Word* s = take('S')) act(ir::SetSpindle{1, value(*s)}, s);
+    if (const Word* s = take('S')) act(ir::SetSpindle{state_.spindle(), value(*s)}, s);
   }
   if (const Word* t = take('T')) {
     ir::ToolSelect select;
@@ -236,6 +252,22 @@ void BlockLowerer::technology() {
   }
   if (changes) return;
   if (const Word* d = take('D')) act(ir::ToolOffset{value(*d)}, d);
+}
+
+/// The driven tool is the spindle behind the two of 5.4; the sign of S is its sense (5.7.9).
+void BlockLowerer::live_tool(const Word& code) {
+  const Word* s = take('S');
+  if (s && s->expr >= 0) {
+    state_.warning("FAG-007", code.pos, "a driven tool (M45) with a computed speed is kept as text",
+                   "a run stops here; only a program for this control can be written with it");
+    result_->opaque = "block.word";
+    result_->needs_program = true;
+    return;
+  }
+  const double speed = s ? s->number : 0;
+  if (s) act(ir::SetSpindle{facts::live_tool_spindle, ir::Value(std::fabs(speed))}, s);
+  const auto sense = speed > 0 ? ir::SpindleState::cw : speed < 0 ? ir::SpindleState::ccw : ir::SpindleState::off;
+  act(ir::SpindleRun{facts::live_tool_spindle, sense}, &code);
 }
 
 void BlockLowerer::machine_function(const Word& w) {
@@ -248,6 +280,7 @@ void BlockLowerer::machine_function(const Word& w) {
     return;
   }
   const auto code = saturate<std::int32_t>(w.number);
+  if (code == 45) return;  // see live_tool
   const machine::MCode* m = state_.m(code);
   const Order order = m ? m->order : Order::before;
   using machine::MMeaning;
@@ -255,10 +288,10 @@ void BlockLowerer::machine_function(const Word& w) {
     case MMeaning::stop: act(ir::Stop{false}, &w, order); return;
     case MMeaning::optional_stop: act(ir::Stop{true}, &w, order); return;
     case MMeaning::program_end: result_->end = &w; return;
-    case MMeaning::spindle_cw: act(ir::SpindleRun{1, ir::SpindleState::cw}, &w, order); return;
-    case MMeaning::spindle_ccw: act(ir::SpindleRun{1, ir::SpindleState::ccw}, &w, order); return;
-    case MMeaning::spindle_stop: act(ir::SpindleRun{1, ir::SpindleState::off}, &w, order); return;
-    case MMeaning::spindle_orient: act(ir::SpindleOrient{1, value_of('S')}, &w, order); return;
+    case MMeaning::spindle_cw: act(ir::SpindleRun{state_.spindle(), ir::SpindleState::cw}, &w, order); return;
+    case MMeaning::spindle_ccw: act(ir::SpindleRun{state_.spindle(), ir::SpindleState::ccw}, &w, order); return;
+    case MMeaning::spindle_stop: act(ir::SpindleRun{state_.spindle(), ir::SpindleState::off}, &w, order); return;
+    case MMeaning::spindle_orient: act(ir::SpindleOrient{state_.spindle(), value_of('S')}, &w, order); return;
     case MMeaning::tool_change:
       act(ir::ToolChange{}, &w, order);
       if (const Word* d = take('D')) act(ir::ToolOffset{value(*d)}, d, order);  // of the tool that comes in
@@ -267,7 +300,7 @@ void BlockLowerer::machine_function(const Word& w) {
     case MMeaning::coolant_flood: act(ir::Coolant{ir::CoolantState::flood}, &w, order); return;
     case MMeaning::coolant_mist: act(ir::Coolant{ir::CoolantState::mist}, &w, order); return;
     case MMeaning::coolant_second: act(ir::Coolant{ir::CoolantState::second}, &w, order); return;
-    case MMeaning::gear: act(ir::SpindleGear{1, m->argument, false}, &w, order); return;
+    case MMeaning::gear: act(ir::SpindleGear{state_.spindle(), m->argument, false}, &w, order); return;
     case MMeaning::subprogram_end:
     case MMeaning::none:
     case MMeaning::machine_function: break;

@@ -39,6 +39,7 @@ class BlockLowerer {
   // collecting
   void gather(const syntax::Block& in);
   void gather_g(const Word& w);
+  const GCode* fixed_function(const Word& w);
   void gather_m(const Word& w);
   void check_groups();
   [[nodiscard]] const Word* letter(char c) const { return (seen_ & bit(c)) != 0 ? letters_[index(c)] : nullptr; }
@@ -73,11 +74,18 @@ class BlockLowerer {
   bool variable_pecks(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c);
   [[nodiscard]] ir::Value one_millimetre() const;
   void home(const GWord& g);
+  void compensations_off();
+  void longitudinal_axis(const GWord& g);
+  void choose_spindle(const GWord& g);
+  void couple_spindles(const GWord& g);
+  void marker(const GWord& g, std::string_view feature);
+  static std::string_view spelling(const Word& code, const Word& last);
+  void live_tool(const Word& code);
   void give_up(const GWord& g);
+  bool ends_nothing(const GWord& g);
   void keep(const GWord& g, std::string_view feature, std::string message);
   std::shared_ptr<const ir::FrameChange> frame_of(ir::FrameSlot slot, ir::FrameKind kind, ir::FrameCombine combine);
   void take_coordinates_into(ir::FrameChange& change);
-  void own_words_noted(const GWord& g);
   const Word* corner_radius(const Word& code);
 
   // the rest of the block
@@ -123,6 +131,7 @@ class BlockLowerer {
   const Word* three_points_ = nullptr;
   const Word* machine_coords_ = nullptr;
   const Word* home_ = nullptr;
+  const GWord* straight_ = nullptr;  ///< G52 G75 G76
   bool cycle_ = false;
   bool has_after_ = false;  ///< an action after the motion was made
   bool has_extra_ = false;

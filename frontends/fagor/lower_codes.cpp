@@ -70,6 +70,13 @@ void BlockLowerer::apply_special(const GWord& g) {
       return;
     case Use::look_ahead: look_ahead(g); return;
     case Use::home: home(g); return;
+    case Use::straight:
+      straight_ = &g;
+      compensations_off();
+      return;
+    case Use::longitudinal: longitudinal_axis(g); return;
+    case Use::spindle_choice: choose_spindle(g); return;
+    case Use::spindle_couple: couple_spindles(g); return;
     case Use::hole_cycle: hole_cycle(g); return;
     case Use::machining: machining_cycle(g); return;
     case Use::cycle_cancel:
@@ -84,7 +91,7 @@ void BlockLowerer::apply_special(const GWord& g) {
 /// Not translated, or without effect on the path: the whole block is kept as text.
 void BlockLowerer::give_up(const GWord& g) {
   result_->opaque = g.row->feature;
-  if (g.row->use == Use::no_path) {
+  if (g.row->use == Use::no_path || ends_nothing(g)) {
     result_->harmless = true;
     state_.note("FAG-008", g.word->pos,
                 the_function(*g.word) + " (" + std::string(g.row->title) +
@@ -92,6 +99,16 @@ void BlockLowerer::give_up(const GWord& g) {
     return;
   }
   keep(g, g.row->feature, the_function(*g.word) + " (" + std::string(g.row->title) + ") is kept as text");
+}
+
+/// The end of something that is not carried out, or a transformation that leaves the programmed path as it is: G46 S1
+/// says how the slides follow, G46 alone and G45, G49 alone end theirs.
+bool BlockLowerer::ends_nothing(const GWord& g) {
+  if (g.row->code == 46) {
+    const Word* s = letter('S');
+    return coord_count_ == 0 && (!s || (s->expr < 0 && (s->number == 0 || s->number == 1)));
+  }
+  return (g.row->code == 45 || g.row->code == 49) && in_->words.size() == 1;
 }
 
 /// The whole block stays as text; a run stops there.
@@ -125,7 +142,12 @@ void BlockLowerer::compensation(const GWord& g) {
   state_.comp_by_text = static_cast<ir::CompSide>(set.value);
   act(set, g.word);
   if (const Word* n = take('N')) {
-    act(ir::OpaqueWord{word_text(*n)}, n);
+    // One spelling with its code where it stands right behind it.
+    if (const std::string_view whole = spelling(*g.word, *n); whole.size() <= 16) {
+      out_->actions.back().text = whole;
+    } else {
+      act(ir::OpaqueWord{word_text(*n)}, n);
+    }
     state_.note("FAG-008", n->pos,
                 "the collision detection " + std::string(word_text(*n)) +
                     " is kept as text: it does not change the programmed path");
@@ -217,19 +239,23 @@ void BlockLowerer::corner(const GWord& g) {
 
 // --- others ---------------------------------------------------------------------------------------------------------
 
-void BlockLowerer::own_words_noted(const GWord& g) {
-  coords_taken_ = true;
-  for (const Word& w : in_->words) {
-    if (&w == g.word || word_letter(w) == 'M' || word_letter(w) == 'G') continue;
-    (void)take(word_letter(w));
-    act(ir::OpaqueWord{word_text(w)}, &w);
-  }
+/// From the code to the word, as they stand in the line.
+std::string_view BlockLowerer::spelling(const Word& code, const Word& last) {
+  const std::string_view end = word_text(last);
+  return {code.address.data(), static_cast<std::size_t>(end.data() + end.size() - code.address.data())};
 }
 
 void BlockLowerer::look_ahead(const GWord& g) {
   if (!letter('E')) state_.error("FAG-014", g.word->pos, "G51 needs the contour error E");
   setting(g, Order::before);
-  own_words_noted(g);
+  coords_taken_ = true;
+  const Word* last = g.word;
+  for (const Word& w : in_->words) {
+    if (&w == g.word || word_letter(w) == 'M' || word_letter(w) == 'G') continue;
+    (void)take(word_letter(w));
+    if (w.pos.column > last->pos.column) last = &w;
+  }
+  out_->actions.back().text = spelling(*g.word, *last);
   state_.note("FAG-008", g.word->pos, "G51 (look-ahead machining) is read as G05: the programmed path is the same",
               "its values are kept as text");
 }
@@ -241,15 +267,69 @@ void BlockLowerer::home(const GWord& g) {
     return;
   }
   home_ = g.word;
+  compensations_off();
+  if (state_.lathe()) return;
+  ir::ModalSet off;
+  off.setting = ir::Setting::length_comp;
+  off.value = static_cast<std::uint8_t>(ir::OnOff::off);
+  act(off, nullptr);
+}
+
+void BlockLowerer::compensations_off() {
   ir::ModalSet off;
   off.setting = ir::Setting::comp;
   off.value = static_cast<std::uint8_t>(ir::CompSide::off);
   act(off, nullptr);
   state_.comp_by_text = ir::CompSide::off;
-  if (state_.lathe()) return;
-  off.setting = ir::Setting::length_comp;
-  off.value = static_cast<std::uint8_t>(ir::OnOff::off);
-  act(off, nullptr);
+}
+
+/// The block stays as it is written; what it does is said by the blocks that follow.
+void BlockLowerer::marker(const GWord& g, std::string_view feature) {
+  result_->opaque = feature;
+  result_->harmless = true;
+  result_->needs_program = true;
+  state_.note("FAG-008", g.word->pos,
+              the_function(*g.word) + " is kept as text; what it does is in the blocks that follow");
+}
+/// G15 Z: the axis of tool length and cycles, until the next plane function (25.1).
+void BlockLowerer::longitudinal_axis(const GWord& g) {
+  if (coord_count_ != 1 || axis_of(*coords_[0]) > ir::axis::z) {
+    state_.error("FAG-014", g.word->pos, "G15 needs one of the axes X, Y, Z");
+    return;
+  }
+  state_.longitudinal_code(axis_of(*coords_[0]));
+  marker(g, "block.word");
+}
+
+/// G28 and G29 alone choose the spindle of the blocks that follow (5.4); with axes they exchange them (7.8).
+void BlockLowerer::choose_spindle(const GWord& g) {
+  if (coord_count_ != 0) {
+    keep(g, g.row->feature, the_function(*g.word) + " with axes (" + std::string(g.row->title) + ") is kept as text");
+    return;
+  }
+  state_.spindle_code(g.row->value);
+  marker(g, g.row->feature);
+}
+
+/// G77S, G78S, G30: the second spindle follows the main one; the path is the same (5.5).
+void BlockLowerer::couple_spindles(const GWord& g) {
+  const bool axes = coord_count_ != 0 || (g.row->code != 30 && !letter('S'));
+  if (axes) {
+    keep(g, g.row->feature, the_function(*g.word) + " (" + std::string(g.row->title) + ") is kept as text");
+    return;
+  }
+  if (g.row->code == 30 && !letter('D')) {
+    state_.error("FAG-014", g.word->pos, "G30 needs the phase D");
+    return;
+  }
+  if (const Word* d = letter('D'); d && g.row->code == 30 && d->expr < 0 && std::fabs(d->number) > 359.9999)
+    state_.error("FAG-013", d->pos, "the phase is -359.9999 to 359.9999 degrees [13, 237]");
+  state_.warning("FAG-037", g.word->pos,
+                 "the second spindle follows the main one (" + std::string(word_text(*g.word)) +
+                     "): the path is the same, but its speed and place are not followed",
+                 "the block is kept as text; only a program for this control can be written with it");
+  result_->opaque = g.row->feature;
+  result_->harmless = true;
 }
 
 }  // namespace cnctrans::fagor

@@ -103,7 +103,8 @@ void BlockLowerer::hole_cycle(const GWord& g) {
   ir::HoleCycle c;
   c.reference.given = true;
   c.reference.base = ir::LevelBase::from_initial;
-  if (const Word* z = take_coordinate(ir::plane_axes(state_.plane_by_text()).w)) {
+  c.axis = state_.longitudinal_given();
+  if (const Word* z = take_coordinate(state_.longitudinal())) {
     c.reference.base = ir::LevelBase::distance_mode;
     c.reference.otherwise = ir::LevelBase::from_initial;
     c.reference.value = value(*z);

@@ -54,7 +54,7 @@ Datum known_datum(const facts::VariableInfo& info, const Expr& e) {
     case Datum::tool_wear: return e.args.size() <= 1 ? info.datum : Datum::other;
     case Datum::work_offset:
       if (e.args.empty()) return Datum::active_shift;
-      return one_fixed_index(e) ? info.datum : Datum::other;
+      return e.args.size() == 1 ? info.datum : Datum::other;
     case Datum::active_modal:
     case Datum::spindle_state: return one_fixed_index(e) ? info.datum : Datum::other;
     default: return e.args.empty() ? info.datum : Datum::other;
@@ -105,7 +105,20 @@ bool spindle_arguments(int code, LowerState& state, ir::SystemRef& ref) {
   return true;
 }
 
+/// A computed index: 54 to 59 are the rows 1 to 6, smaller ones the rows themselves. The relation counts as 1 or 0.
+ExprPtr computed_row(const ExprPtr& n) {
+  const auto from_code = ir::binary(BinaryOp::gt, n, ir::number(20));
+  return ir::binary(BinaryOp::subtract, n, ir::binary(BinaryOp::multiply, ir::number(53), from_code));
+}
+
 void offset_index(const Expr& e, LowerState& state, ir::SystemRef& ref) {
+  if (!one_fixed_index(e)) {
+    const ExprPtr n = lower_expr(e.args[0], state);
+    const auto constant = ir::constant_value(n);
+    const int row = constant ? facts::offset_row(static_cast<int>(*constant)) : 0;
+    ref.args.push_back(row != 0 ? ir::number(row) : computed_row(n));
+    return;
+  }
   const int row = facts::offset_row(static_cast<int>(e.args[0].number));
   if (row == 0)
     state.error("FAG-013", e.args[0].pos, "the zero offset table has no row " + e.args[0].text,

@@ -103,7 +103,7 @@ void BlockLowerer::apply_offset(const GWord& g) {
       take_coordinates_into(change);
       break;
     case Use::preset:
-      if (const Word* s = take('S')) act(ir::SpindleLimit{1, value(*s), false}, s);
+      if (const Word* s = take('S')) act(ir::SpindleLimit{state_.spindle(), value(*s), false}, s);
       if (coord_count_ == 0) {
         if ((seen_ & bit('S')) == 0) state_.error("FAG-014", g.word->pos, "G92 needs coordinates or a speed limit S");
         return;
@@ -137,16 +137,25 @@ void BlockLowerer::apply_frame(const GWord& g) {
         take_coordinates_into(change);
       else
         change.words.push_back({g.row->value, ir::Value(1), ir::WordScale::modal, {}});
+      if (g.row->use == Use::mirror_axis && !state_.has_axis(g.row->value))
+        state_.error("FAG-009", g.word->pos,
+                     std::string("the machine has no axis ") + std::string(ir::fixed_axis_name(g.row->value)));
       for (auto& w : change.words) w.value = ir::Value(1);
       if (change.words.empty()) state_.error("FAG-014", g.word->pos, "G14 needs the axes to be mirrored");
       break;
     }
     case Use::scale: {
       const Word* s = take('S');
-      if (coord_count_ != 0) {
-        keep(g, "motion.transformation",
-             "a scale factor of single axes acts on the compensated path and on the feed; it is kept as text");
-        return;
+      if (coord_count_ != 0) {  // of single axes: on the finished path, so outermost; replaced axis by axis (11.5)
+        if (s) state_.error("FAG-006", s->pos, "G72 takes a factor S or axes, not both [21]");
+        if (!state_.facts.first_axis_scale.known())
+          state_.facts.first_axis_scale = word_span(state_.line(), g.word->pos);
+        change.slot = ir::FrameSlot::chain;
+        change.kind = ir::FrameKind::scale;
+        change.combine = ir::FrameCombine::replace_named;
+        take_coordinates_into(change);
+        for (auto& w : change.words) w.scale = ir::WordScale::radius;
+        break;
       }
       if (!s) {
         state_.error("FAG-014", g.word->pos, "G72 needs a factor S");
@@ -167,6 +176,7 @@ void BlockLowerer::apply_frame(const GWord& g) {
 
 /// Successive rotations add up; G73 alone ends them all.
 void BlockLowerer::rotation(const GWord& g) {
+  state_.facts.rotation = true;
   ir::FrameChange change;
   change.slot = ir::FrameSlot::rotation;
   change.kind = ir::FrameKind::rotate;

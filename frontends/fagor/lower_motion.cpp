@@ -162,12 +162,13 @@ void BlockLowerer::motion() {
   const bool words = coords || radii_taken_ < radius_count_ || (unused_ & (center_letters | bit('Q'))) != 0;
   if (absolute_centre_ && (unused_ & center_letters) == 0)
     state_.error("FAG-014", absolute_centre_->pos, "G6 needs the centre I, J or K");
-  if (!words && !motion_code_ && !tangent_arc_ && !three_points_ && !home_) return;
+  if (!words && !motion_code_ && !tangent_arc_ && !three_points_ && !home_ && !straight_) return;
   ir::Motion& m = out_->motion;
   out_->has_motion = true;
   const Word* code = motion_code_    ? motion_code_->word
                      : tangent_arc_  ? tangent_arc_
                      : three_points_ ? three_points_
+                     : straight_     ? straight_->word
                                      : home_;
   if (code) {
     m.explicit_code = true;
@@ -175,8 +176,16 @@ void BlockLowerer::motion() {
     m.code_text = word_text(*code);
   }
   if (motion_code_) m.kind = state_.motion_by_text = motion_code_->row->motion;
+  if (straight_) {  // leaves G01 in force
+    if (coord_count_ == 0) state_.error("FAG-014", code->pos, std::string(word_text(*code)) + " needs a coordinate");
+    if (straight_->row->motion == ir::MotionKind::to_stop && coord_count_ > 1)
+      state_.error("FAG-006", code->pos, "G52 moves one axis only [200]", "split the block");
+    m.kind = straight_->row->motion;
+    state_.motion_by_text = ir::MotionKind::linear;
+    result_->needs_program = true;
+  }
   if (tangent_arc_ || three_points_ || home_) {
-    if (motion_code_) state_.error("FAG-006", code->pos, "two kinds of motion in one block");
+    if (motion_code_ || straight_) state_.error("FAG-006", code->pos, "two kinds of motion in one block");
     m.kind = home_          ? ir::MotionKind::reference_point
              : tangent_arc_ ? ir::MotionKind::arc_tangent
                             : ir::MotionKind::arc_through_point;

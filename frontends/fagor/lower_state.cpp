@@ -56,12 +56,55 @@ void LowerState::start_routine(bool subroutine) {
   plane_from_caller_ = in_subroutine_ = subroutine;
   comp_by_text = ir::CompSide::off;
   motion_by_text = ir::MotionKind::modal;
+  constants_.clear();
+  constants_known_ = true;
+  spindle_ = 1;
+  longitudinal_ = ir::axis::none;
+  spindle_sure_ = longitudinal_sure_ = !subroutine;
 }
 
 void LowerState::plane_code(ir::Plane plane) {
   plane_ = plane;
   plane_from_caller_ = false;
   facts.planes[static_cast<std::size_t>(plane)] = true;
+  longitudinal_ = ir::axis::none;
+  longitudinal_sure_ = true;
+}
+
+void LowerState::spindle_code(std::uint8_t number) {
+  spindle_ = number;
+  spindle_sure_ = true;
+  facts.second_spindle = facts.second_spindle || number != 1;
+}
+
+void LowerState::longitudinal_code(ir::AxisId axis) {
+  longitudinal_ = axis;
+  longitudinal_sure_ = true;
+  facts.longitudinal = true;
+}
+
+std::uint8_t LowerState::spindle() {
+  if (!spindle_sure_) facts.text_uses.push_back({line_, false, in_subroutine_});
+  return spindle_;
+}
+
+ir::AxisId LowerState::longitudinal() {
+  if (!longitudinal_sure_) facts.text_uses.push_back({line_, true, in_subroutine_});
+  if (longitudinal_ != ir::axis::none) return longitudinal_;
+  return ir::plane_axes(plane_by_text()).w;
+}
+
+const double* LowerState::constant(std::int64_t parameter) const {
+  const auto it = constants_.find(parameter);
+  return constants_known_ && it != constants_.end() ? &it->second : nullptr;
+}
+
+void LowerState::assigned(std::int64_t parameter, const double* value) {
+  if (value != nullptr) {
+    constants_[parameter] = *value;
+  } else {
+    constants_.erase(parameter);
+  }
 }
 
 ir::Plane LowerState::plane_by_text() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -28,6 +29,13 @@ struct PlaneUse {
   bool from_caller = false;  ///< in a subroutine before any plane function of its own
 };
 
+/// A block whose reading depends on another function by its place in the text.
+struct TextUse {
+  Span span;
+  bool longitudinal = false;  ///< of the longitudinal axis, else of the spindle
+  bool from_caller = false;   ///< in a subroutine before any such function of its own
+};
+
 /// Features of the file that change how other blocks are completed at its end.
 struct FileFacts {
   std::array<bool, 3> planes{};  ///< programmed by G17 G18 G19 G16
@@ -36,8 +44,12 @@ struct FileFacts {
   bool shift = false;            ///< G158
   bool rotary = false;           ///< an absolute word of a rotary axis was read as a plain coordinate
   std::array<bool, 2> units{};   ///< programmed by G71 [0], G70 [1]
-  Span first_table_shift, first_machine_move;
+  bool rotation = false;         ///< G73
+  Span first_table_shift, first_machine_move, first_axis_scale;
   std::vector<PlaneUse> plane_uses;
+  bool second_spindle = false;         ///< G28
+  std::vector<TextUse> text_uses;      ///< of the spindle and of the longitudinal axis
+  bool longitudinal = false;           ///< G15 of the mill
   std::set<std::string> machine_data;  ///< variables reported as known to the machine only
 };
 
@@ -72,6 +84,24 @@ class LowerState {
   void start_routine(bool subroutine);
   [[nodiscard]] bool in_subroutine() const { return in_subroutine_; }
   void plane_code(ir::Plane plane);
+  void spindle_code(std::uint8_t number);
+  void longitudinal_code(ir::AxisId axis);
+  /// The spindle of S and M words here (G28, G29).
+  std::uint8_t spindle();
+  /// The axis of cycles and tool length here: the normal of the plane, or by G15.
+  ir::AxisId longitudinal();
+  [[nodiscard]] ir::AxisId longitudinal_given() const { return longitudinal_; }
+  /// A block that can be reached from elsewhere: what the text said before may not hold.
+  void labelled() {
+    spindle_sure_ = longitudinal_sure_ = false;
+    constants_.clear();
+  }
+  /// Parameters that hold a fixed number here, whatever way leads to the block.
+  [[nodiscard]] const double* constant(std::int64_t parameter) const;
+  void assigned(std::int64_t parameter, const double* value);
+  void forget_constants() { constants_.clear(); }
+  /// A modal call may change any parameter behind every move.
+  void no_constants() { constants_known_ = false; }
   [[nodiscard]] ir::Plane plane_now() const { return plane_; }
   /// The plane by the text; remembered as a use that the file's end has to confirm.
   ir::Plane plane_by_text();
@@ -94,6 +124,11 @@ class LowerState {
   ir::Plane plane_ = ir::Plane::xy;
   bool plane_from_caller_ = false;
   bool in_subroutine_ = false;
+  std::uint8_t spindle_ = 1;
+  ir::AxisId longitudinal_ = ir::axis::none;  ///< by G15; none: the normal of the plane
+  bool spindle_sure_ = true, longitudinal_sure_ = true;
+  std::map<std::int64_t, double> constants_;
+  bool constants_known_ = true;
 };
 
 /// The word as written, and an ISO word's letter in capitals.

@@ -9,6 +9,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
+#include "dialects/fagor/words.h"
 #include "frontends/fagor/lower_expr.h"
 
 namespace cnctrans::fagor {
@@ -20,9 +21,6 @@ using syntax::Expr;
 using syntax::ExprKind;
 using Node = decltype(ir::Statement::node);
 
-/// Without effect on the path: single-block, stop and feed-hold switches, screens, texts in files.
-constexpr std::array<std::string_view, 10> harmless_words = {"ESBLK",  "DSBLK", "ESTOP", "DSTOP",  "EFHOLD",
-                                                             "DFHOLD", "DGWZ",  "PAGE",  "SYMBOL", "ODW"};
 constexpr std::array<std::string_view, 4> screen_variables = {"DW", "DWH", "DWB", "SK"};
 
 template <class List>
@@ -230,6 +228,10 @@ Node StatementLowerer::lower(const syntax::Statement& s) {
   if (k == "RPT") return repeat(s);
   if (k == "CALL" || k == "LL" || k == "PCALL" || k == "MCALL") return call(s);
   if (k == "MSG") return message(s);
+  if (k == "ERREUR") {
+    state_.note("FAG-039", s.pos, "ERREUR is how the French manual prints ERROR; the control knows ERROR only");
+    return error(s);
+  }
   if (k == "ERROR") return error(s);
   if (k == "RET") {
     if (!state_.in_subroutine()) return malformed(s, "RET stands outside a subroutine");
@@ -240,9 +242,9 @@ Node StatementLowerer::lower(const syntax::Statement& s) {
     off.off = true;
     return off;
   }
-  if (k == "WRITE" || k == "OPEN") return kept(s, "language.files", true);
-  if (k == "PROBE" || k == "DIGIT" || k == "TRACE") return kept(s, "motion.probe", false);
-  return kept(s, "language.statement", holds(harmless_words, k));
+  const auto* info = facts::find_statement(k);
+  return kept(s, info != nullptr ? info->feature : facts::keeps,
+              info != nullptr && info->carried == facts::Carried::no_path);
 }
 
 }  // namespace
@@ -278,15 +280,37 @@ std::int64_t subroutine_number(const syntax::Statement& s, LowerState& state) {
   return -1;
 }
 
+namespace {
+
+/// What is known of the parameters behind the assignments.
+void remember(const ir::Assign& a, bool skipped, LowerState& state) {
+  for (const auto& i : a.items) {
+    if (i.to_system) continue;
+    const auto n = ir::constant_value(i.target.index);
+    if (!n) {
+      state.forget_constants();
+      continue;
+    }
+    const auto value = ir::constant_value(i.value);
+    state.assigned(saturate<std::int64_t>(*n), value && !skipped ? &*value : nullptr);
+  }
+}
+
+}  // namespace
+
 void lower_statement(const syntax::Block& block, std::string_view text, LowerState& state, ir::Statement& out) {
   const syntax::Statement& s = block.statements.front();
+  if (s.keyword != "=" && s.keyword != "MSG") state.forget_constants();
+  if (s.keyword == "MCALL" || s.keyword == "MEXEC") state.no_constants();
   if (!block.words.empty() && s.keyword != "RPT") {
     state.error("FAG-016", block.words.front().pos, "a repeat count after a ( ) statement is for RPT only");
   }
   out.node = StatementLowerer(block, text, state).lower(s);
+  if (const auto* a = std::get_if<ir::Assign>(&out.node)) remember(*a, out.line.skip_mask != 0, state);
 }
 
 void lower_g_call(const syntax::Block& block, const syntax::Word& code, LowerState& state, ir::Statement& out) {
+  state.forget_constants();
   ir::CallRoutine call;
   call.routine.number = saturate<std::int64_t>(code.number);
   for (const auto& w : block.words) {

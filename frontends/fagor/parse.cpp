@@ -177,6 +177,7 @@ bool BlockParser::parse_block(std::string_view line, syntax::Block& out, ParseEr
   p.input.load(p.folded);
   p.lexer.setInputStream(&p.input);
   p.tokens.setTokenSource(&p.lexer);
+  p.tokens.seek(0);  // a block given up leaves the stream where its fault stood
   p.tokens.fill();
   if (p.errors.seen()) {
     p.explain(line, error);

@@ -161,6 +161,7 @@ void ProgramReader::block(std::string_view text) {
   if (reader_.scanned()) ++stats_.scanner_blocks;
   const std::size_t errors = state_.errors();
   if (!block_.number.empty()) {
+    state_.labelled();
     if (block_.number.size() > 8 && block_.number.find_first_not_of('0') + 8 < block_.number.size()) {
       state_.error("FAG-015", block_.number_pos, "a block number has at most 8 digits");
     }

@@ -55,7 +55,7 @@ PROGRAM : 'EXEC' | 'MEXEC' | 'OPEN' ;
 DEVICE : 'HD' | 'DNC2' | 'DNCE' ;
 // Statements that are a word and a list
 KEYWORD
-  : 'RET' | 'MDOFF' | 'MSG' | 'ERROR' | 'DGWZ' | 'ESBLK' | 'DSBLK' | 'ESTOP' | 'DSTOP' | 'EFHOLD' | 'DFHOLD' | 'REPOS'
+  : 'RET' | 'MDOFF' | 'MSG' | 'ERROR' | 'ERREUR' | 'DGWZ' | 'ESBLK' | 'DSBLK' | 'ESTOP' | 'DSTOP' | 'EFHOLD' | 'DFHOLD' | 'REPOS'
   | 'PAGE' | 'SYMBOL' | 'ODW' | 'WKEY' | 'WBUF' | 'SYSTEM'
   ;
 

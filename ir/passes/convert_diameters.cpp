@@ -13,7 +13,8 @@ namespace {
 
 class DiameterPass {
  public:
-  DiameterPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+  DiameterPass(const LegaliseContext& context, const FactsOf& facts, bool same_language)
+      : context_(context), facts_(facts), same_language_(same_language) {}
 
   void block(Statement& s, Block& b) {
     const Facts& facts = facts_.before(s);
@@ -79,7 +80,7 @@ class DiameterPass {
   }
 
   void frame(const Statement& s, FrameOp& f, const Block& b, const Facts& facts) const {
-    if (f.change->kind != FrameKind::translate) return;
+    if (f.change->kind != FrameKind::translate || (same_language_ && table_row(*f.change))) return;
     auto copy = std::make_shared<FrameChange>(*f.change);
     for (auto& w : copy->words) {
       if (!concerns(w.axis)) continue;
@@ -113,6 +114,7 @@ class DiameterPass {
 
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  bool same_language_;
 };
 
 }  // namespace
@@ -123,7 +125,7 @@ void convert_diameters(Program& program, const LegaliseContext& context) {
   const auto& to = context.target_machine.axes;
   if (std::none_of(from.begin(), from.end(), diameter) && std::none_of(to.begin(), to.end(), diameter)) return;
   const FactsOf facts(program, context);
-  DiameterPass pass(context, facts);
+  DiameterPass pass(context, facts, program.dialect == context.target.dialect);
   for (auto& r : program.routines) {
     for_each_statement(r.body, [&pass](Statement& s) {
       if (auto* b = std::get_if<Block>(&s.node)) pass.block(s, *b);

@@ -16,5 +16,7 @@ void select_written_offsets(Program& program, const LegaliseContext& context);
 void solve_contours(Program& program, const LegaliseContext& context);
 /// Computed rotary positions whose sign is a direction become a branch where the target writes the direction itself.
 void choose_directions(Program& program, const LegaliseContext& context);
+/// Lengths of machine data in the unit of the target.
+void convert_machine_data(Program& program, const LegaliseContext& context);
 
 }  // namespace cnctrans::ir::passes

@@ -22,6 +22,7 @@ constexpr std::array pipeline{
     Pass{"saved_modals", passes::restore_modals, false},
     Pass{"contours", passes::solve_contours, false},
     Pass{"directions", passes::choose_directions, false},
+    Pass{"machine_data", passes::convert_machine_data, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},

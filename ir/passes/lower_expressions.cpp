@@ -15,7 +15,8 @@ bool read_anywhere(const ExprPtr& e, const VarRef& v) {
 
 class ExpressionPass {
  public:
-  explicit ExpressionPass(const LegaliseContext& context) : context_(context) {}
+  ExpressionPass(const LegaliseContext& context, bool same_language)
+      : context_(context), same_language_(same_language) {}
 
   void one(Editor& editor, Statement&& s, Body& out) {
     if (std::holds_alternative<Assign>(s.node)) return assign(editor, std::move(s), out);
@@ -37,12 +38,19 @@ class ExpressionPass {
       return;
     }
     ExpressionLowering lowering(editor, s.line);
-    visit_values(b, [&lowering](Value& v, const Place&) {
-      if (!v.expr) return false;
+    visit_values(b, [&](Value& v, const Place& place) {
+      if (!v.expr || (same_language_ && of_a_table(v, place))) return false;
       v = lowering.word(v);
       return true;
     });
     editor.put(out, std::move(lowering.pre), std::move(s));
+  }
+
+  /// A row of a table that the language says by its code alone.
+  static bool of_a_table(const Value& v, const Place& place) {
+    const auto* datum = std::get_if<SystemRef>(&v.expr->node);
+    return place.role == Role::frame_length && place.pos.column == 0 && datum != nullptr &&
+           datum->datum == Datum::work_offset;
   }
 
   /// Assignments stand one after the other: what an item needs comes right before it.
@@ -138,12 +146,13 @@ class ExpressionPass {
   }
 
   const LegaliseContext& context_;
+  bool same_language_;
 };
 
 }  // namespace
 
 void lower_expressions(Program& program, const LegaliseContext& context) {
-  ExpressionPass pass(context);
+  ExpressionPass pass(context, program.dialect == context.target.dialect);
   for (auto& r : program.routines) {
     Editor editor(program, r, context);
     rewrite_body(r.body, [&](Statement&& s, Body& out) { pass.one(editor, std::move(s), out); });

@@ -1,5 +1,7 @@
 #include "ir/passes/words.h"
 
+#include <algorithm>
+
 namespace cnctrans::ir::passes {
 
 std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
@@ -15,6 +17,13 @@ std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Dist
   }
   if (!distance) return std::nullopt;
   return *distance == Distance::absolute ? 0.5 : 1;
+}
+
+bool table_row(const FrameChange& c) {
+  return !c.words.empty() && std::all_of(c.words.begin(), c.words.end(), [](const FrameWord& w) {
+    const auto* datum = w.value.expr ? std::get_if<SystemRef>(&w.value.expr->node) : nullptr;
+    return w.pos.column == 0 && datum != nullptr && datum->datum == Datum::work_offset;
+  });
 }
 
 std::optional<Plane> plane_of_words(const Motion& m) {

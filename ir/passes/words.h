@@ -23,6 +23,10 @@ inline std::optional<Distance> distance_of(const CoordWord& c, const Block& b, c
 std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
                                 const Facts& facts, const machine::Profile& machine);
 
+/// Words of a frame that the reader made from the code alone: the rows of a table, axis by axis. A language writes its
+/// own code again.
+bool table_row(const FrameChange& c);
+
 /// Two centre words name the plane.
 std::optional<Plane> plane_of_words(const Motion& m);
 

@@ -88,7 +88,7 @@ TEST(FagorBlock, MirrorScaleRotation) {
       "block frame mirror mirror replace_named X #1 as \"G11\", frame mirror mirror replace_named Y #1 as \"G12\"");
   EXPECT_EQ(line("G10"), "block frame mirror mirror clear as \"G10\"");
   EXPECT_EQ(test::read("G72 S2").codes(), "");
-  EXPECT_EQ(test::read("G72 A2").codes(), "FAG-007");
+  EXPECT_EQ(test::read("G72 X2 S2").codes(), "FAG-006");
   EXPECT_EQ(test::read("G73 Q30 I5").codes(), "FAG-014");
 }
 
@@ -182,9 +182,8 @@ TEST(FagorBlock, HoleCyclesOfTheMill) {  // 25.3, 28.6
 }
 
 TEST(FagorBlock, KeptAsText) {  // understood, not carried out: no error, and the text is whole
-  EXPECT_EQ(line("G72 X1 Y1.5"), "opaque \"G72 X1 Y1.5\" feature \"motion.transformation\" | FAG-007");
   EXPECT_EQ(line("G29 X ; back"), "opaque \"G29 X\" feature \"language.synchronised\" ; \" back\" | FAG-007");
-  EXPECT_EQ(line("M45 S0"), "opaque \"M45 S0\" feature \"block.word\" | FAG-007");
+  EXPECT_EQ(line("M45 SP1"), "opaque \"M45 SP1\" feature \"block.word\" | FAG-007");
   EXPECT_EQ(line("GP101 X5"), "opaque \"GP101 X5\" feature \"block.word\" | FAG-012");
   EXPECT_EQ(line("( WKEY ) ; waits"), "opaque \"( WKEY )\" feature \"language.statement\" ; \" waits\" | FAG-022");
   EXPECT_EQ(line("(PROBE 3,X50,Z0,B5,F100)"), "opaque \"(PROBE 3,X50,Z0,B5,F100)\" feature \"motion.probe\" | FAG-022");

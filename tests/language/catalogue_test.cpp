@@ -57,6 +57,12 @@ TEST_P(Catalogue, DoesWhatItSays) {
     const auto at = o.find('=');
     profile->options[std::string(trim(o.substr(0, at)))] = trim(o.substr(at + 1));
   }
+  for (const auto& o : values_of(s, "data")) {
+    const auto at = o.find('=');
+    const auto value = parse_decimal(trim(o.substr(at + 1)));
+    ASSERT_TRUE(value) << o;
+    profile->data[std::string(trim(o.substr(0, at)))] = *value;
+  }
   FileTable files;
   const SourcePtr source = SourceText::from_string("7.txt", s.fence);
   const FileId file = files.add(source);

@@ -1,0 +1,113 @@
+// Lengths read from machine data or written to them: one control answers in the unit and the diameter mode of its
+// words, another in millimetres and radius. The values are rescaled where the two differ.
+#include <algorithm>
+
+#include "ir/passes/early_passes.h"
+#include "ir/passes/words.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// A datum whose value is a length; the others have no unit, or the same one everywhere.
+bool is_length(Datum d) {
+  switch (d) {
+    case Datum::machine_position:
+    case Datum::work_offset:
+    case Datum::active_shift:
+    case Datum::programmed_shift:
+    case Datum::tool_length:
+    case Datum::tool_radius:
+    case Datum::tool_wear:
+    case Datum::tool_nose_width: return true;
+    default: return false;
+  }
+}
+
+class MachineDataPass {
+ public:
+  MachineDataPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+
+  void statement(Statement& s) {
+    bool used = false;
+    each_expression(s, [&used](const ExprPtr& e) { used = used || datum_of(e) != nullptr; });
+    const auto* a = std::get_if<Assign>(&s.node);
+    used = used || (a != nullptr && std::any_of(a->items.begin(), a->items.end(), [](const Assign::Item& i) {
+                      return i.to_system && is_length(i.system.datum);
+                    }));
+    if (!used) return;
+    StatementVisitor visit;
+    visit.expression = [&](const ExprPtr& e) {
+      return map_expr(e, [&](const ExprPtr& x) {
+        const auto* datum = datum_of(x);
+        return datum == nullptr ? x : times(x, factor(s, *datum));
+      });
+    };
+    visit_statement(s, visit);
+    if (auto* to = std::get_if<Assign>(&s.node)) {
+      for (auto& i : to->items) {
+        if (i.to_system && is_length(i.system.datum)) i.value = times(i.value, 1 / factor(s, i.system));
+      }
+    }
+  }
+
+ private:
+  static const SystemRef* datum_of(const ExprPtr& e) {
+    const auto* ref = e ? std::get_if<SystemRef>(&e->node) : nullptr;
+    return ref != nullptr && is_length(ref->datum) ? ref : nullptr;
+  }
+  static ExprPtr times(const ExprPtr& e, double factor) {
+    if (factor == 1) return e;
+    if (const auto constant = constant_value(e)) return number(*constant * factor);
+    return binary(BinaryOp::multiply, e, number(factor));
+  }
+
+  /// What the source reads, in units of what the target reads.
+  double factor(const Statement& s, const SystemRef& ref) {
+    const auto from = millimetres(s, ref, context_.source_machine), to = millimetres(s, ref, context_.target_machine);
+    if (from && to) return *to / *from;
+    context_.diagnostics.error("TRN-173", s.line.span,
+                               "in which unit " + ref.text + " is read depends on the path that leads here",
+                               "write the unit and the diameter or radius code before this block on every path");
+    return 1;
+  }
+
+  /// Millimetres (radius) of the value 1; nullopt: not known here.
+  std::optional<double> millimetres(const Statement& s, const SystemRef& ref, const machine::Profile& machine) const {
+    const bool modal = machine.option("machine_data.units") == "modal";
+    const bool position = ref.datum == Datum::machine_position;
+    const auto* axis = machine.axis(ref.axis);
+    if ((!modal && !(position && machine.option("machine_position.scale") == "words")) ||
+        (axis != nullptr && axis->rotary))
+      return 1;
+    static const Block none;
+    const auto* b = std::get_if<Block>(&s.node);
+    const Block& block = b != nullptr ? *b : none;
+    const auto unit = setting_in<Units>(block, facts_.before(s), Setting::units);
+    if (!unit) return std::nullopt;
+    const double length = *unit == Units::inch ? 25.4 : 1;
+    if (!position || axis == nullptr || !axis->diameter) return length;
+    const auto mode = setting_in<DiameterMode>(block, facts_.before(s), Setting::diameter);
+    if (!mode) return std::nullopt;
+    return *mode == DiameterMode::radius ? length : length / 2;
+  }
+
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+};
+
+}  // namespace
+
+void convert_machine_data(Program& program, const LegaliseContext& context) {
+  const auto same = [&](std::string_view option) {
+    return context.source_machine.option(option) == context.target_machine.option(option);
+  };
+  if (same("machine_data.units") && same("machine_position.scale")) return;
+  const FactsOf facts(program, context);
+  MachineDataPass pass(context, facts);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
+  }
+}
+
+}  // namespace cnctrans::ir::passes
