@@ -37,9 +37,13 @@ struct Arguments {
   bool json = false;
   bool places = false;
   std::string shell;
+  unsigned jobs = 1, timeout = 300;  ///< batch: processes side by side; seconds for a program
+  std::string shard;                 ///< batch: "K/N"
+  bool again = false, collect = false;
 };
 
 int convert(const Arguments& a);
+int batch(const Arguments& a);
 int run(const Arguments& a);
 int verify(const Arguments& a);
 int check(const Arguments& a);

@@ -28,15 +28,13 @@ void add_running(CLI::App& app, Arguments& a) {
   app.add_option("--max-steps", a.max_steps, "stop the run after so many statements");
 }
 
-void add_converting(CLI::App& app, Arguments& a) {
+/// What convert and batch have in common.
+void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--from", a.from, "dialect of the input: see 'cnctrans dialects'");
   app.add_option("--to", a.to, "dialect of the output");
-  app.add_option("input", a.inputs, "part programs")->type_name("FILE");
-  app.add_option("-o,--output", a.output, "file, or folder ending in /; without it standard output");
   app.add_option("--target-machine", a.target_machine, "machine profile of the target");
   app.add_option("--unsupported", a.unsupported, "what becomes of a construct without counterpart")
       ->check(CLI::IsMember({"error", "warn", "comment"}));
-  app.add_flag("--verify", a.verify, "replay source and translation and compare them");
   app.add_option("--numbering", a.numbering, "block numbers of the output: keep, none or renumber")
       ->check(CLI::IsMember({"keep", "none", "renumber"}));
   app.add_option("--number-step", a.number_step, "step of renumbered blocks")->check(CLI::Range(1, 1000));
@@ -47,9 +45,31 @@ void add_converting(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"utf-8", "windows-1252"}));
   app.add_option("--eol", a.eol, "line ends of the output; else as the input")
       ->check(CLI::IsMember({"lf", "crlf", "cr"}));
-  app.add_option("--report", a.report, "write a report (.html .json .md .sarif); implies --verify");
   add_reading(app, a);
   add_running(app, a);
+}
+
+void add_converting(CLI::App& app, Arguments& a) {
+  add_writing(app, a);
+  app.add_option("input", a.inputs, "part programs")->type_name("FILE");
+  app.add_option("-o,--output", a.output, "file, or folder ending in /; without it standard output");
+  app.add_flag("--verify", a.verify, "replay source and translation and compare them");
+  app.add_option("--report", a.report, "write a report (.html .json .md .sarif); implies --verify");
+}
+
+CLI::App* add_batch(CLI::App& app, Arguments& a) {
+  CLI::App* sub = app.add_subcommand("batch", "translate and verify every program below a folder");
+  add_writing(*sub, a);
+  sub->add_option("folders", a.inputs, "folder of the programs, folder for the results")->required()->type_name("DIR");
+  sub->add_option("--jobs", a.jobs, "programs side by side")->check(CLI::Range(1, 1024));
+  sub->add_option("--shard", a.shard, "K/N: only every N-th program, from number K on");
+  sub->add_option("--timeout", a.timeout, "seconds for one program")->check(CLI::Range(1, 86400));
+  sub->add_flag("--again", a.again, "do again what an earlier run has done");
+  sub->add_flag("--collect", a.collect, "only write the summary of what is there");
+  sub->footer(
+      "Example:\n  cnctrans batch --from fagor --to sinumerik old/ new/ --jobs 4\n"
+      "Exit status: 0 all translated (and verified), 1 some were not, 2 wrong usage, 3 some differ.");
+  return sub;
 }
 
 CLI::App* add_dialect_command(CLI::App& app, Arguments& a, const char* name, const char* what, const char* footer) {
@@ -81,6 +101,7 @@ int main(int argc, char** argv) {
   CLI::App* convert = app.add_subcommand("convert", "translate (the default command)");
   add_converting(*convert, a);
   convert->footer("Example:\n  cnctrans convert --from sinumerik --to num PART.MPF -o part.xpi");
+  CLI::App* batch = add_batch(app, a);
   CLI::App* run = add_dialect_command(
       app, a, "run", "run a program in the reference interpreter",
       "Examples:\n  cnctrans run --dialect num part.xpi --trace moves.jsonl --vars -\n"
@@ -119,6 +140,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (run->parsed()) return cnctrans::cli::run(a);
+    if (batch->parsed()) return cnctrans::cli::batch(a);
     if (verify->parsed()) return cnctrans::cli::verify(a);
     if (check->parsed()) return cnctrans::cli::check(a);
     if (ir->parsed()) return cnctrans::cli::print_ir(a);

@@ -67,9 +67,16 @@ std::vector<OffsetState> offset_states(const std::vector<Event>& events) {
   std::vector<OffsetState> states;
   states.reserve(events.size());
   OffsetState now = OffsetState::unknown;
+  bool for_next_tool = false;  // an offset was selected behind the T of the tool that comes
   for (const auto& e : events) {
-    if (e.kind == EventKind::tool && e.change) now = OffsetState::unknown;
-    if (e.kind == EventKind::offset) now = e.number == 0 ? OffsetState::off : OffsetState::on;
+    if (e.kind == EventKind::tool) {
+      if (e.change && !for_next_tool) now = OffsetState::unknown;
+      for_next_tool = false;
+    }
+    if (e.kind == EventKind::offset) {
+      now = e.number == 0 ? OffsetState::off : OffsetState::on;
+      for_next_tool = e.number != 0;
+    }
     states.push_back(now);
   }
   return states;
