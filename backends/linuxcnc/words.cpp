@@ -150,7 +150,12 @@ void Writer::set_spindle(const ir::Action& a, const ir::SetSpindle& s) {
 
 void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
   if (s.number != 1) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
-  add("M19 " + word("R", s.angle, a.pos), Rank::machine, a.pos);
+  if (!s.angle.literal())  // R takes 0 to 360; MOD is never negative here
+    return add("M19 R[[" + expression_text(s.angle.expr, a.pos) + "] MOD 360]", Rank::machine, a.pos);
+  const double turned = std::fmod(s.angle.number, 360.0);
+  const bool inside = s.angle.number >= 0 && s.angle.number <= 360;
+  add("M19 " + word("R", inside ? s.angle : ir::Value(turned < 0 ? turned + 360 : turned), a.pos), Rank::machine,
+      a.pos);
 }
 
 /// The limit belongs to G96 here: it is kept in a parameter until then.
