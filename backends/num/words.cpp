@@ -128,6 +128,12 @@ void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
   const auto mode = setting(ir::Setting::distance);
   const bool add_up = c.combine == ir::FrameCombine::add;
   std::string text = "G59";
+  if (same_dialect() && !c.words.empty() && c.words.front().pos.column != 0) {
+    // Each word at its place: a G90 or G91 among them stands at its own.
+    if (!a.text.empty()) add(std::string(a.text), Rank::setting, a.pos);
+    for (const auto& w : c.words) add(word(axis_name(w.axis), w.value, w.pos), Rank::coordinate, w.pos);
+    return;
+  }
   if (c.combine == ir::FrameCombine::clear || c.combine == ir::FrameCombine::replace) {
     // G59 keeps the axes it does not name: all of them are named.
     if (mode != code_value(ir::Distance::absolute))
@@ -181,6 +187,7 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
     add("E69000=" + std::to_string(static_cast<int>(thousandths)), Rank::head, a.pos);
     return add("G74", Rank::setting, a.pos);
   }
+  if (c.slot == ir::FrameSlot::preset && clear && same_dialect()) return;  // taken over by PREF
   if (c.slot == ir::FrameSlot::preset && c.combine == ir::FrameCombine::preset) {
     std::string text = "G92";
     for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
@@ -194,8 +201,11 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
 
 void Writer::motion(const ir::Motion& m) {
   if (m.kind == ir::MotionKind::probe_toward && same_dialect()) {
-    if (!m.code_text.empty()) add(std::string(m.code_text), Rank::motion_code, m.code_pos);
-    for (const auto& w : m.coords) coordinate(m, w);
+    ir::Motion line = m;
+    line.explicit_code = !m.code_text.empty();
+    line.kind = line.explicit_code ? ir::MotionKind::linear : ir::MotionKind::modal;
+    line.keeps_modal = true;
+    ProgramWriter::motion(line);
     return add("G10", Rank::tail);
   }
   // Positions of a cycle are reached in rapid without a code; one beside the cycle is an error of the control.

@@ -121,11 +121,15 @@ ir::ExprPtr in_machine_units(const ir::ExprPtr& value) {
 
 namespace {
 
-/// What an interruptible block (G10) leaves in E7x001 by itself.
+/// What the control does by itself: E7x001 after an interruptible block (G10), E6x000 after G92.
 bool is_latch(const ir::Assign::Item& item) {
-  const auto* b = item.value ? std::get_if<ir::Binary>(&item.value->node) : nullptr;
-  const auto* from = b != nullptr ? std::get_if<ir::SystemRef>(&b->left->node) : nullptr;
-  return from != nullptr && from->datum == ir::Datum::machine_position && from->text.empty();
+  bool found = false;
+  ir::walk(item.value, [&found](const ir::ExprPtr& e) {
+    const auto* from = std::get_if<ir::SystemRef>(&e->node);
+    found = found || (from != nullptr && from->text.empty() &&
+                      (from->datum == ir::Datum::machine_position || from->datum == ir::Datum::active_shift));
+  });
+  return found;
 }
 
 }  // namespace
@@ -135,9 +139,9 @@ void Writer::assign(const ir::Assign& a) {
   std::string text;
   for (const auto& item : a.items) {
     std::string target;
+    if (same_dialect() && is_latch(item)) continue;
     if (item.to_system) {
       // The sum of PREF, DEC1 and DEC3 follows from them: the parameter before it is what was written.
-      if (same_dialect() && is_latch(item)) continue;
       if (same_dialect() && item.system.text.empty() && item.system.datum == ir::Datum::work_offset) continue;
       if (!same_dialect() || item.system.text.empty()) {
         return refuse(no_statement, item.pos,

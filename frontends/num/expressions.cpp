@@ -250,6 +250,22 @@ ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis
   return sign && e.text == "-" ? ir::at(ir::unary(ir::UnaryOp::negate, std::move(plain)), e.pos) : plain;
 }
 
+void Expressions::take_over_preset(ir::AxisId axis, std::vector<ir::Assign::Item>& items) const {
+  const std::int64_t base = 60000 + 1000 * std::int64_t{axis};
+  const auto part = [base](std::int64_t component) {
+    return ir::variable(e_variable(base + component), ir::Type::integer);
+  };
+  ir::ExprPtr whole = ir::binary(ir::BinaryOp::multiply, system(axis_ref(ir::Datum::active_shift, axis, {}), {}),
+                                 ir::number(axis_units(settings_, axis)));
+  whole = ir::binary(ir::BinaryOp::subtract, std::move(whole), part(1));
+  whole = ir::binary(ir::BinaryOp::subtract, std::move(whole), part(4));
+  ir::Assign::Item item;
+  item.target = e_variable(base);
+  item.value = ir::call(ir::Function::round, {std::move(whole)});
+  items.push_back(std::move(item));
+  items.push_back(offset_item(settings_, base, {}));
+}
+
 ir::Assign::Item Expressions::latched(ir::AxisId axis) const {
   ir::Assign::Item item;
   item.to_system = true;

@@ -33,6 +33,9 @@ class Expressions {
   std::vector<ir::FrameWord> take_shifts() { return std::exchange(shifts_, {}); }
   /// PREF, DEC1 and DEC3 are kept apart (memory), because the program works with more than DEC1.
   void keep_offsets_apart(bool apart) { offsets_apart_ = apart; }
+  [[nodiscard]] bool offsets_apart() const { return offsets_apart_; }
+  /// PREF takes over what a G92 made of the axis: two assignments.
+  void take_over_preset(ir::AxisId axis, std::vector<ir::Assign::Item>& items) const;
 
   /// Symbols declared so far, and those used: an undeclared one is a fault (see frontend.cpp).
   void declare(std::string name) { declared_.insert(std::move(name)); }

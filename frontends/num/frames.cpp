@@ -87,6 +87,7 @@ void Lowering::frame_shift(const Word& g59) {
   auto& coords = out_->motion.coords;
   if (coords.empty() && ed == nullptr) return unknown(g59, "G59 needs the axes it shifts");
   // Words that count in one mode make one change; a mode of their own is that of the G90 or G91 before them.
+  bool whole = true;
   while (!coords.empty()) {
     const ir::WordMode mode = coords.front().mode;
     std::vector<ir::CoordWord> others;
@@ -101,7 +102,13 @@ void Lowering::frame_shift(const Word& g59) {
     shift.combine = mode == ir::WordMode::incremental ? ir::FrameCombine::add : ir::FrameCombine::replace_named;
     shift.by_distance_mode = mode == ir::WordMode::modal;
     shift.words = take_frame_words();
-    act(g59, Step::frame, frame_op(std::move(shift)));
+    const WordPos first = shift.words.front().pos;
+    ir::Action& change = act(g59, Step::frame, frame_op(std::move(shift)));
+    if (!whole) {  // a further change stands where its words do
+      change.pos = first;
+      change.text = {};
+    }
+    whole = false;
     coords = std::move(others);
   }
   if (ed == nullptr) return;
@@ -127,6 +134,9 @@ void Lowering::preset(const Word& g92) {
     change.kind = ir::FrameKind::translate;
     change.combine = ir::FrameCombine::preset;
     change.words = take_frame_words();
+    if (expressions_.offsets_apart()) {
+      for (const auto& w : change.words) flow_->preset.push_back(w.axis);
+    }
     act(g92, Step::frame, frame_op(std::move(change)));
     any = true;
   }

@@ -48,7 +48,8 @@ class NumStream : public StreamReader {
     if (syntax_.number.size() > 5 || (syntax_.number.size() == 5 && syntax_.number > "32767"))
       return StreamLine::needs_program;
     const bool good = lower_.words(syntax_, span, line.text, std::get<ir::Block>(out.node), flow_);
-    if (!good || flow_.code != nullptr || flow_.linear_after || flow_.probes || !ignored_.empty()) {
+    if (!good || flow_.code != nullptr || flow_.linear_after || flow_.probes || !flow_.preset.empty() ||
+        !ignored_.empty()) {
       (void)diagnostics;  // the whole-program path reports
       return StreamLine::needs_program;
     }

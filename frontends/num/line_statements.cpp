@@ -154,6 +154,13 @@ void FileReader::words(const syntax::Statement* test) {
     put_node(std::move(scratch_));
     scratch_ = ir::Block{};
   }
+  if (flow_.linear_after) {
+    ir::Block linear;
+    linear.has_motion = true;
+    linear.motion.kind = ir::MotionKind::linear;
+    put_node(std::move(linear));
+  }
+  if (!flow_.preset.empty()) take_over_preset();
   if (flow_.probes && latches_) latch();
   if (flow_.interrupted != nullptr) {
     ir::Statement jump;
@@ -162,17 +169,25 @@ void FileReader::words(const syntax::Statement* test) {
     s.node = std::move(jump.node);
     put(std::move(s));
   }
-  if (flow_.linear_after) {
-    ir::Block linear;
-    linear.has_motion = true;
-    linear.motion.kind = ir::MotionKind::linear;
-    put_node(std::move(linear));
-  }
   if (!flow_.end) return;
   ended_ = true;
   ir::End end;
   end.text = flow_.end_text;
   put_node(std::move(end));
+}
+
+/// G92 changes PREF: what it made of the axes goes into the numbers E6x000.
+void FileReader::take_over_preset() {
+  ir::Assign assign;
+  for (const ir::AxisId axis : flow_.preset) lower_.expressions().take_over_preset(axis, assign.items);
+  put_node(std::move(assign));
+  ir::FrameChange clear;
+  clear.slot = ir::FrameSlot::preset;
+  clear.kind = ir::FrameKind::translate;
+  clear.combine = ir::FrameCombine::clear;
+  ir::Block block;
+  block.actions.emplace_back().data = ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(clear))};
+  put_node(std::move(block));
 }
 
 /// The positions at the end of an interruptible block stay readable (E7x001).

@@ -47,6 +47,7 @@ class FileReader {
   void macro_call();
   void find_macros();
   void latch();
+  void take_over_preset();
   void split_call(ir::Statement flow);
   void opaque(const Span& span, std::string_view text, std::string_view feature, bool harmless);
   void put(ir::Statement s);

@@ -45,6 +45,7 @@ struct Flow {
   std::string_view end_text;
   bool linear_after = false;                  ///< G23 leaves G01 in force
   bool probes = false;                        ///< a G10 block
+  std::vector<ir::AxisId> preset;             ///< axes of a G92, where PREF is kept as a number
   const syntax::Word* interrupted = nullptr;  ///< where G10 goes on after an interruption
   std::int64_t macro = 0;                     ///< Gxxx of the machine whose program is at hand
   WordPos macro_pos;
