@@ -39,11 +39,14 @@ class Transfer {
   // --- actions ---
   void operator()(const ModalSet& x) {
     auto& setting = f_.settings[static_cast<std::size_t>(x.setting)];
-    const bool same = setting == x.value;
+    const auto before = setting;
     setting = x.value;
-    if (same) return;
+    if (before == x.value) return;
     if (x.setting == Setting::units) {
-      forget_positions();
+      if (before)
+        scale_positions(static_cast<Units>(x.value) == Units::inch ? 1 / 25.4 : 25.4);
+      else
+        forget_positions();
       if (x.feed_too) f_.feed.reset();
     } else if (x.setting == Setting::feed_mode && x.feed_memory != FeedMemory::shared) {
       f_.feed.reset();
@@ -103,6 +106,16 @@ class Transfer {
     if (hole.retract.given && hole.retract.base == LevelBase::absolute) left_at_ = known(hole.retract.value);
   }
 
+  /// The same points in the other unit; rotary axes have none.
+  void scale_positions(double factor) {
+    for (std::size_t a = 0; a < f_.position.size(); ++a) {
+      if (!f_.position[a]) continue;
+      if (is_rotary_letter(static_cast<AxisId>(a)) || a >= axis::first_extra)
+        f_.position[a].reset();
+      else
+        *f_.position[a] *= factor;
+    }
+  }
   void forget_positions() { f_.position.fill(std::nullopt); }
 
  private:

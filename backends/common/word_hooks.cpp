@@ -105,7 +105,9 @@ void ProgramWriter::motion(const ir::Motion& m) {
   } else if (m.moves()) {
     auto kind = tracker_.needed(std::nullopt);
     if (kind == ir::MotionKind::modal) {
-      if (const ir::Facts* f = facts()) kind = tracker_.needed(f->motion);
+      const ir::Facts* f = facts();
+      if (f != nullptr && !f->reachable) kind.reset();  // never carried out: as it stands
+      else if (f != nullptr) kind = tracker_.needed(f->motion);
     }
     if (kind == ir::MotionKind::modal) {
       return refuse("TRN-216", {}, "the motion code in force here is not known, and the target needs one",

@@ -52,6 +52,7 @@ void check_compensation(Program& program, const LegaliseContext& context) {
       const Facts& before = facts.before(s);
       if (!before.reachable || motion_in(*b, before).value_or(MotionKind::rapid) != MotionKind::rapid) return;
       const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
+      if (!side && context.diagnostics.error_count() != 0) return;  // a block before it is refused
       if (side == CompSide::off || now == CompSide::off || !moves_in_plane(*b, before)) return;
       if (!side && std::exchange(unsure, true)) return;
       context.diagnostics.warning("TRN-144", word_span(s.line.span, b->motion.code_pos),

@@ -62,9 +62,33 @@ IntegerVariables::IntegerVariables(const Program& program, double grid) : grid_(
     assigned_.insert(key(v));
     not_whole_.insert(key(v));
   };
+  std::set<const Routine*> called;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* c = std::get_if<CallRoutine>(&s.node);
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      if (c == nullptr && m != nullptr && !m->off && !m->cycle) c = &m->call;
+      const Routine* callee = c != nullptr && !c->computed ? program.find(c->routine) : nullptr;
+      if (callee == nullptr) return;
+      called.insert(callee);
+      for (std::size_t i = 0; i < c->arguments.size(); ++i) {
+        const auto& a = c->arguments[i];
+        for (std::size_t k = 0; k < callee->parameters.size(); ++k) {
+          const auto& p = callee->parameters[k];
+          if (a.name.empty() ? k != i : a.name != p.name) continue;
+          if (a.by_reference)
+            unknown(p.variable);
+          else if (a.value)
+            writes.emplace_back(key(p.variable), a.value);
+        }
+      }
+    });
+  }
   for (const auto& r : program.routines) {
     for (const auto& p : r.parameters) {
-      if (p.type != Type::integer && p.type != Type::boolean) unknown(p.variable);
+      if (called.count(&r) == 0 && p.type != Type::integer && p.type != Type::boolean) unknown(p.variable);
+      assigned_.insert(key(p.variable));
+      if (p.default_value) writes.emplace_back(key(p.variable), p.default_value);
     }
     for_each_statement(r.body, [&](const Statement& s) {
       if (const auto* a = std::get_if<Assign>(&s.node)) {
@@ -86,6 +110,11 @@ IntegerVariables::IntegerVariables(const Program& program, double grid) : grid_(
       if (not_whole_.count(k) == 0 && !exact(e)) changed = not_whole_.insert(k).second || changed;
     }
   }
+}
+
+bool IntegerVariables::untouched(const ExprPtr& e) const {
+  const auto* v = as_variable(e);
+  return v != nullptr && assigned_.count(key(*v)) == 0 && assigned_.count(std::to_string(v->space) + ":?") == 0;
 }
 
 bool IntegerVariables::exact(const ExprPtr& e) const {
@@ -275,7 +304,7 @@ class ConditionPass {
 
   /// Comparisons of computed values on a control that compares exactly: a band around the bound.
   void tolerance(Statement& s) {
-    if (context_.target.compare == Compare::relative_1e12) return;
+    if (context_.target.compare == Compare::relative_1e12) return exactly(s);
     StatementVisitor visit;
     visit.expression = [&](const ExprPtr& e) {
       return map_expr(e, [&](const ExprPtr& x) {
@@ -288,6 +317,27 @@ class ConditionPass {
       });
     };
     visit_statement(s, visit);
+  }
+  /// The target takes values within 1e-12 of their size for equal, the source does not: a difference compared with 0 is
+  /// exact there as well, because nothing but 0 is that near to 0.
+  void exactly(Statement& s) {
+    StatementVisitor visit;
+    visit.expression = [&](const ExprPtr& e) {
+      return map_expr(e, [&](const ExprPtr& x) {
+        const auto* b = std::get_if<Binary>(&x->node);
+        if (b == nullptr || !is_comparison(b->op) || b->compare != Compare::exact) return x;
+        const auto zero = [](const ExprPtr& side) { return constant_value(side) == 0.0; };
+        if (b->left->type == Type::string || zero(b->left) || zero(b->right)) return x;
+        if (exact(b->left) && exact(b->right)) return x;
+        if (!computed(b->left) && !computed(b->right)) return x;
+        return binary(b->op, binary(BinaryOp::subtract, b->left, b->right), number(0), b->compare);
+      });
+    };
+    visit_statement(s, visit);
+  }
+  /// A value that the program computes, with rounding errors; not one that comes from outside.
+  [[nodiscard]] bool computed(const ExprPtr& e) const {
+    return e && !constant_value(e) && !parts_.exact(e) && !integers_.exact(e) && !parts_.untouched(e);
   }
   /// Computed without rounding: whole numbers, halves, quarters... The comparison needs no tolerance then.
   [[nodiscard]] bool exact(const ExprPtr& e) const { return integers_.exact(e) || parts_.exact(e); }

@@ -32,6 +32,7 @@ class FeedPass {
       none = none || now.slots[i].maybe_none;
       value = mode ? now.slots[i].value : std::nullopt;
     }
+    if (none && !motion_in(*b, facts) && context_.diagnostics.error_count() != 0) return;  // a refused block before it
     if (none) return no_feed(s, value.has_value());
     if (same) return;
     if (value) {

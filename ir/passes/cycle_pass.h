@@ -16,7 +16,8 @@ class CyclePass {
         context_(context),
         facts_(facts),
         editor_(program, routine, context),
-        height_(label_uses(program, routine)) {
+        uses_(label_uses(program, routine)),
+        height_(uses_) {
     by_call_ = context.target.modal_cycle_by_call;
   }
 
@@ -31,6 +32,7 @@ class CyclePass {
     CyclePtr source;
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
+    bool single = false;               ///< not every way to a point leads through the first one: each gets its own run
     bool on_target = false;            ///< the target's own cycle is in force
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
@@ -54,6 +56,7 @@ class CyclePass {
     const std::size_t first = out.size();
     ran_.reset();
     const auto* source = std::get_if<Block>(&seen.node);
+    branch_before_first_point(s);
     lower(std::move(s), out);
     for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
     const auto* b = std::get_if<Block>(&seen.node);
@@ -61,6 +64,14 @@ class CyclePass {
     std::optional<double> initial;
     if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
+  }
+  /// A modal call whose cycle the target defines at the first point, and a branch comes before that point.
+  void branch_before_first_point(const Statement& s) {
+    if (!active_ || by_call_ || active_->on_target || active_->trigger != CycleTrigger::path_motion) return;
+    bool branch = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
+                  std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node);
+    for (const auto& l : labels_on(s.line)) branch = branch || uses_.is_target(l);
+    active_->single = active_->single || branch;
   }
   void lower(Statement&& s, Body& out) {
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
@@ -230,6 +241,7 @@ class CyclePass {
       b.actions.insert(b.actions.begin(), action(CycleCancel{}));
   }
 
+  std::optional<Value> leave_by_own_move(CyclePtr& cycle, const Active& a) const;
   void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   void define_by_call(Statement&& s, const CycleDefine& d, Active&& a, bool point_here, Body&& pieces, Body& out);
 
@@ -264,6 +276,7 @@ class CyclePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   Editor editor_;
+  LabelUses uses_;
   ToolHeight height_;
   bool by_call_ = false;
   bool written_out_ = false;

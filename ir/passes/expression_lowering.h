@@ -86,6 +86,8 @@ class IntegerVariables {
  public:
   IntegerVariables(const Program& program, double grid);
   [[nodiscard]] bool exact(const ExprPtr& e) const;
+  /// A variable that the program never writes.
+  [[nodiscard]] bool untouched(const ExprPtr& e) const;
 
  private:
   static std::string key(const VarRef& v);

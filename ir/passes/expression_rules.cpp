@@ -202,6 +202,13 @@ ExprPtr ExpressionLowering::quadrants(const ExprPtr& y_in, const ExprPtr& x_in, 
     if (positive) assign_if(rel(BinaryOp::lt, variable(*v), 0), *v, add(variable(*v), number(360)));
     return variable(*v);
   }
+  if (one && *one < 0) {
+    assign(*v, lower(div(y, x)));
+    assign(*v, f1(Function::atan, variable(*v)));
+    assign(*v, add(variable(*v), number(180)));
+    if (!positive) assign_if(rel(BinaryOp::gt, variable(*v), 180), *v, sub(variable(*v), number(360)));
+    return variable(*v);
+  }
   const LabelRef on_axis = editor_.fresh_label(), end = editor_.fresh_label();
   pre.push_back(make_jump(like_, on_axis, rel(BinaryOp::eq, x, 0)));
   assign(*v, lower(div(y, x)));

@@ -111,7 +111,7 @@ void FeedDomain::settle(const Block& b, const Facts& facts, FeedState& state) co
         if (mode == i)
           state.slots[i] = FeedState::Slot{value, false, false, true};
         else if (!mode)
-          state.slots[i].value.reset();
+          state.slots[i].value.reset(), state.slots[i].maybe_none = false;
       }
     }
   }

@@ -63,7 +63,8 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
                       (!target_rapid || kind == MotionKind::rapid) && b.motion.centers.empty() &&
                       !b.motion.radius_given;
   const LineInfo like = s.line;
-  const bool as_is = simple || (active_->trigger == CycleTrigger::plane_axis_word && !target_rapid);
+  const bool as_is =
+      !active_->single && (simple || (active_->trigger == CycleTrigger::plane_axis_word && !target_rapid));
   if (as_is && active_->on_target) {
     if (target_rapid) by_itself(b);
     return put(out, std::move(pieces), std::move(s));
@@ -144,6 +145,28 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
+/// A single run whose retract plane is not the height it starts from: the target's cycle would go there first. It
+/// returns to the reference plane instead, and the rest is a move of its own. The place to go to; empty: as it is.
+std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active& a) const {
+  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+  if (hole == nullptr || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
+      hole->reference.base != LevelBase::absolute || equal(hole->retract.value, hole->reference.value))
+    return std::nullopt;
+  if (!hole->retract.value.literal() || a.height == hole->retract.value.number) return std::nullopt;
+  HoleCycle low = *hole;
+  low.retract = low.reference;
+  for (const bool approach : {low.approach_by_retract, !low.approach_by_retract}) {
+    low.approach_by_retract = approach;
+    auto made = std::make_shared<Cycle>();
+    made->node = low;
+    if (!context_.target.native_cycle(*made)) continue;
+    const Value to = hole->retract.value;
+    cycle = std::move(made);
+    return to;
+  }
+  return std::nullopt;
+}
+
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
@@ -186,7 +209,27 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
       put_group(out, std::move(pieces), main);
       return;
     }
+    std::optional<Value> leave;
+    if (!d.modal) leave = leave_by_own_move(native.cycle, a);
     b.actions.push_back(action(native));
+    if (leave) {
+      const LineInfo like = s.line;
+      const std::size_t main = pieces.size();
+      pieces.push_back(std::move(s));
+      Block up;
+      up.has_motion = true;
+      up.motion.kind = MotionKind::rapid;
+      up.motion.explicit_code = true;
+      up.motion.keeps_modal = false;
+      CoordWord z;
+      z.axis = *w;
+      z.mode = WordMode::absolute;
+      z.value = *leave;
+      up.motion.coords.push_back(z);
+      pieces.push_back(made(like, std::move(up)));
+      put_group(out, std::move(pieces), main);
+      return;
+    }
     if (d.modal) {
       a.on_target = true;
       active_ = a;

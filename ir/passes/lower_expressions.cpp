@@ -65,6 +65,10 @@ class ExpressionPass {
         item.target.index = lowering.lower(item.target.index);
       for (auto& x : item.system.args) x = lowering.lower(x);
       item.value = lowering.lower(item.value);
+      if (in_place(item, lowering.pre, &item == &a.items.back())) {
+        add(pieces, std::move(lowering.pre), std::nullopt, s.line);
+        continue;
+      }
       add(pieces, std::move(lowering.pre), std::move(item), s.line);
     }
     main = pieces.empty() ? 0 : pieces.size() - 1;
@@ -83,7 +87,14 @@ class ExpressionPass {
            (!item.target.index || constant_value(item.target.index)) && !read_anywhere(item.value, item.target);
   }
 
-  void add(Body& pieces, Body&& pre, Assign::Item&& item, const LineInfo& like) const {
+  /// What comes before has put the value into the target already.
+  static bool in_place(const Assign::Item& item, const Body& pre, bool last) {
+    const auto* v = as_variable(item.value);
+    if (item.to_system || v == nullptr || pre.empty() || !same_variable(*v, item.target)) return false;
+    return !last || std::holds_alternative<Assign>(pre.back().node);  // the last piece carries the line
+  }
+
+  void add(Body& pieces, Body&& pre, std::optional<Assign::Item> item, const LineInfo& like) const {
     constexpr std::size_t most_in_a_line = 4;
     for (auto& p : pre) {
       auto* made_assign = std::get_if<Assign>(&p.node);
@@ -95,13 +106,14 @@ class ExpressionPass {
         pieces.push_back(std::move(p));
       }
     }
+    if (!item) return;
     auto* last = pieces.empty() ? nullptr : std::get_if<Assign>(&pieces.back().node);
     if (last != nullptr && context_.target.several_assignments && last->items.size() < most_in_a_line) {
-      last->items.push_back(std::move(item));
+      last->items.push_back(std::move(*item));
       return;
     }
     Assign alone;
-    alone.items.push_back(std::move(item));
+    alone.items.push_back(std::move(*item));
     pieces.push_back(made(like, std::move(alone)));
   }
 

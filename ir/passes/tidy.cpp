@@ -1,4 +1,6 @@
 // Last looks: marks without a block join the next block, empty blocks that passes left over disappear.
+#include <algorithm>
+
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 
@@ -26,12 +28,32 @@ bool can_join(const Statement& mark, const Statement& next, const Capabilities& 
   return target.identifier_labels || a.labels.empty();
 }
 
+/// Assignments that a pass made of one statement of the source, one behind the other: one line says them.
+bool join_assignments(Statement& before, Statement& s, const Capabilities& target) {
+  constexpr std::size_t most_in_a_line = 4;
+  auto* a = std::get_if<Assign>(&before.node);
+  auto* b = std::get_if<Assign>(&s.node);
+  if (a == nullptr || b == nullptr || !target.several_assignments || !s.line.span.known()) return false;
+  const bool one_place = before.line.span.file == s.line.span.file && before.line.span.line == s.line.span.line;
+  if (!one_place || !shows_nothing(s.line) || !before.line.comments.empty() || s.line.joined || before.line.joined ||
+      s.line.blank_lines_before != 0 || s.line.skip_mask != before.line.skip_mask ||
+      a->items.size() + b->items.size() > most_in_a_line)
+    return false;
+  const auto machine = [](const Assign::Item& i) { return i.to_system; };
+  if (std::any_of(a->items.begin(), a->items.end(), machine) || std::any_of(b->items.begin(), b->items.end(), machine))
+    return false;
+  for (auto& i : b->items) a->items.push_back(std::move(i));
+  return true;
+}
+
 void tidy_body(Body& body, const Program& program, const Routine& routine, const LegaliseContext& context) {
   const LabelUses uses = label_uses(program, routine);
   Body out;
   out.reserve(body.size());
   for (auto& s : body) {
     each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
+    if (program.dialect != context.target.dialect && !out.empty() && join_assignments(out.back(), s, context.target))
+      continue;
     if (!out.empty() && can_join(out.back(), s, context.target)) {
       bool end = false;
       for (const auto& l : labels_on(out.back().line)) end = end || uses.is_end(l);
