@@ -106,8 +106,10 @@ void ProgramWriter::motion(const ir::Motion& m) {
     auto kind = tracker_.needed(std::nullopt);
     if (kind == ir::MotionKind::modal) {
       const ir::Facts* f = facts();
-      if (f != nullptr && !f->reachable) kind.reset();  // never carried out: as it stands
-      else if (f != nullptr) kind = tracker_.needed(f->motion);
+      if (f != nullptr && !f->reachable)
+        kind.reset();  // never carried out: as it stands
+      else if (f != nullptr)
+        kind = tracker_.needed(f->motion);
     }
     if (kind == ir::MotionKind::modal) {
       return refuse("TRN-216", {}, "the motion code in force here is not known, and the target needs one",

@@ -75,7 +75,9 @@ std::string header_line(const ir::Program& program, const WriteOptions& options)
     if (r == nullptr || (!r->header.span.known() && r->title.empty() && r->attributes.empty())) return {};
     return '%' + r->title + " ," + (r->attributes.empty() ? "MX" : r->attributes) + ',';
   }
-  return '%' + title_of(program, options) + " ,MX,";
+  const std::string title = title_of(program, options);
+  const bool full = title.size() >= static_cast<std::size_t>(dialects::fagor::max_header_comment);
+  return '%' + title + (full ? ",MX," : " ,MX,");
 }
 
 }  // namespace cnctrans::backends::fagor

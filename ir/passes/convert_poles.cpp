@@ -1,10 +1,11 @@
-// Poles of polar coordinates (equivalences 9.2, 10): followed along the straight text, so that a plane function that
+// Poles of polar coordinates (equivalences 9.2, 10): followed along the program, so that a plane function that
 // resets the pole on one control only, a pole relative to another point and an arc by its pole mean the same there.
 #include <cmath>
 #include <numbers>
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
+#include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
 
@@ -19,6 +20,7 @@ double clean(double x) {
 
 struct Point2 {
   double u = 0, v = 0;
+  bool operator==(const Point2&) const = default;
 };
 
 class PolePass {
@@ -30,57 +32,51 @@ class PolePass {
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
   }
 
-  void routine(Routine& r) {
+  // A domain of FlowStates: the pole before each statement.
+  using State = std::optional<Point2>;
+  [[nodiscard]] static State start(const Routine& r, bool called) {
+    return r.kind == RoutineKind::main && !called ? State(Point2{}) : std::nullopt;
+  }
+  void transfer(const Statement& s, State& state) const {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (!changes(s)) return;
+    if (b == nullptr) return state.reset();
+    PolePass dry = *this;
+    dry.quiet_ = true;
+    dry.pole_ = state;
+    Statement copy = s;
+    dry.block(copy, std::get<Block>(copy.node));
+    state = dry.pole_;
+  }
+  [[nodiscard]] bool touches(const Routine& r) const {
+    bool found = false;
+    for_each_statement(r.body, [&](const Statement& s) { found = found || changes(s); });
+    return found;
+  }
+  static void unknown(State& state) { state.reset(); }
+  static bool join(State& a, const State& b) {
+    if (!a || a == b) return false;
+    a.reset();
+    return true;
+  }
+
+  void routine(Routine& r, const FlowStates<PolePass>& states) {
     uses_ = label_uses(program_, r);
-    pole_ = &r == program_.main() ? std::optional(Point2{}) : std::nullopt;
+    states_ = &states;
     forget_point();
-    look(r);
-    order_ = 0;
     walk(r.body);
   }
 
  private:
-  /// Where the routine changes the pole for the last time, and whether something jumps before that.
-  void look(const Routine& r) {
-    last_change_ = 0;
-    std::size_t order = 0, first_jump = 0;
-    others_change_ = false;
-    for (const auto& other : program_.routines) {
-      const bool own = &other == &r;
-      for_each_statement(other.body, [&](const Statement& s) {
-        if (own) ++order;
-        const bool jumps = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
-                           std::holds_alternative<Repeat>(s.node) || has_body(s);
-        if (own && jumps && first_jump == 0) first_jump = order;
-        if (!changes(s)) return;
-        if (own)
-          last_change_ = order;
-        else
-          others_change_ = true;
-      });
-    }
-    settles_ = first_jump == 0 || first_jump > last_change_;
-  }
-  static bool has_body(const Statement& s) {
-    return std::holds_alternative<If>(s.node) || std::holds_alternative<While>(s.node) ||
-           std::holds_alternative<Until>(s.node) || std::holds_alternative<For>(s.node) ||
-           std::holds_alternative<Loop>(s.node);
-  }
   bool changes(const Statement& s) const {
     const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr) return std::holds_alternative<Opaque>(s.node);
+    if (const auto* o = std::get_if<Opaque>(&s.node)) return !o->harmless;
+    if (b == nullptr) return false;
     return (follows_arc_ && b->has_motion && !b->motion.centers.empty()) ||
-           std::any_of(b->actions.begin(), b->actions.end(), [this](const Action& a) {
+           std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
              const auto* m = std::get_if<ModalSet>(&a.data);
-             return std::holds_alternative<PoleSet>(a.data) ||
-                    (source_resets_ && m != nullptr && m->setting == Setting::plane);
+             return std::holds_alternative<PoleSet>(a.data) || (m != nullptr && m->setting == Setting::plane);
            });
-  }
-  /// Another way may lead here, or another routine has run.
-  void join(bool called) {
-    const bool settled = settles_ && order_ > last_change_;
-    if (!settled || (called && others_change_)) pole_.reset();
-    forget_point();
   }
   void forget_point() {
     at_.reset();
@@ -90,10 +86,11 @@ class PolePass {
 
   void walk(Body& body) {
     for (auto& s : body) {
-      ++order_;
       for (const auto& l : labels_on(s.line)) {
-        if (uses_.is_target(l) || uses_.computed) join(false);
+        if (uses_.is_target(l) || uses_.computed) forget_point();
       }
+      const State* before = states_->before(s);
+      pole_ = before != nullptr ? *before : std::nullopt;
       if (auto* b = std::get_if<Block>(&s.node)) {
         block(s, *b);
         continue;
@@ -101,12 +98,12 @@ class PolePass {
       bool nested = false;
       each_body(s, [&](Body& inner) {
         nested = true;
-        join(false);
+        forget_point();
         walk(inner);
       });
       const bool called = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
       const bool elsewhere = called || std::holds_alternative<Repeat>(s.node) || std::holds_alternative<Opaque>(s.node);
-      if (nested || elsewhere) join(called);
+      if (nested || elsewhere) forget_point();
       each_target(s, [this](const VarRef& v) {
         for (auto* value : {&radius_, &angle_}) {
           if (*value && (*value)->expr && reads((*value)->expr, v)) value->reset();
@@ -156,7 +153,7 @@ class PolePass {
       forget_point();
     }
     settle(s);
-    if (!problem.empty()) {
+    if (!problem.empty() && !quiet_) {
       refuse(s, program_, context_, "TRN-316", std::string(problem) + " is not known here, and the target needs it",
              "give the pole and the point before it as numbers", place);
       return;
@@ -398,8 +395,9 @@ class PolePass {
   std::optional<Point2> pole_;
   std::optional<Point2> at_;             ///< where polar words have led, when the dataflow does not know it
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
-  std::size_t order_ = 0, last_change_ = 0;
-  bool settles_ = false, others_change_ = false, polar_arc_done_ = false;
+  const FlowStates<PolePass>* states_ = nullptr;
+  bool polar_arc_done_ = false;
+  bool quiet_ = false;  ///< only following
   std::optional<Plane> plane_;
   bool source_resets_ = false, target_resets_ = false, follows_arc_ = false;
 };
@@ -427,7 +425,8 @@ void convert_poles(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !uses_polar(program)) return;
   const FactsOf facts(program, context);
   PolePass pass(program, context, facts);
-  for (auto& r : program.routines) pass.routine(r);
+  const FlowStates<PolePass> states(program, pass);
+  for (auto& r : program.routines) pass.routine(r, states);
 }
 
 }  // namespace cnctrans::ir::passes

@@ -1,5 +1,7 @@
 // The programmable frame along a program, calls included.
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "ir/passes/call_graph.h"
 #include "ir/passes/frame_state.h"
@@ -24,6 +26,48 @@ bool runs_part(const Statement& s) {
   if (const auto* r = std::get_if<Repeat>(&s.node)) return r->has_program || r->first.computed || r->last.computed;
   const auto* c = std::get_if<CallRoutine>(&s.node);
   return c != nullptr && c->has_range;
+}
+
+/// A repeated range that leaves the frame alone is passed by: what holds before its Repeat holds behind it, whoever
+/// else runs the range.
+void pass_by_repeats(ControlFlow& flow) {
+  const auto labelled = [&flow](const LabelRef& l) {
+    for (std::uint32_t id = 1; id < flow.statements.size(); ++id) {
+      const Statement* s = flow.statements[id];
+      if (s == nullptr) continue;
+      for (const auto& have : labels_on(s->line)) {
+        if (same_label(have, l)) return id;
+      }
+    }
+    return std::uint32_t{0};
+  };
+  const auto changes = [](const Statement* s) {
+    if (s == nullptr) return false;
+    if (std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<Repeat>(s->node) ||
+        std::holds_alternative<ModalCall>(s->node) || std::holds_alternative<Opaque>(s->node))
+      return true;
+    const auto* b = std::get_if<Block>(&s->node);
+    return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(),
+                                       [](const Action& a) { return std::holds_alternative<FrameOp>(a.data); });
+  };
+  std::map<std::uint32_t, std::set<std::uint32_t>> behind;  // last statement of a range -> behind its repeats
+  for (std::uint32_t id = 1; id + 1 < flow.statements.size(); ++id) {
+    const auto* r = flow.statements[id] != nullptr ? std::get_if<Repeat>(&flow.statements[id]->node) : nullptr;
+    if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty()) continue;
+    const std::uint32_t a = labelled(r->first), b = labelled(r->last);
+    const std::uint32_t first = std::min(a, b), last = std::max(a, b), next = id + 1;
+    if (first == 0 || (id >= first && id <= last) || flow.statements[next] == nullptr) continue;
+    const auto& from_last = flow.successors[last];
+    if (std::find(from_last.begin(), from_last.end(), next) == from_last.end()) continue;
+    bool clean = true;
+    for (std::uint32_t i = first; i <= last; ++i) clean = clean && !changes(flow.statements[i]);
+    if (!clean) continue;
+    flow.successors[id].push_back(next);
+    if (next != last + 1) behind[last].insert(next);
+  }
+  for (const auto& [last, ids] : behind) {
+    std::erase_if(flow.successors[last], [&ids](std::uint32_t n) { return ids.count(n) != 0; });
+  }
 }
 
 bool leaves_by(const Statement& s) {
@@ -79,6 +123,7 @@ void FrameStates::look() {
   for (std::size_t i = 0; i < routines_.size(); ++i) {
     const Routine& r = program_.routines[i];
     routines_[i].flow = control_flow(program_, r);
+    pass_by_repeats(routines_[i].flow);
     each_frame_change(r, [&](const FrameChange& c) {
       routines_[i].changes_frames = true;
       auto& u = uses[static_cast<std::size_t>(c.slot)];

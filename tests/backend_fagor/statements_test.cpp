@@ -32,7 +32,7 @@ ir::Statement statement(decltype(ir::Statement::node) node) {
 TEST(FagorStatements, HeaderHasTwentyCharactersWithoutComma) {  // 1.2
   Build b;
   b.program.routines[0].title = "Flansch, groß und rund, Seite 2";
-  EXPECT_EQ(b.text(), "%Flansch  gross und r ,MX,\nM30\n");
+  EXPECT_EQ(b.text(), "%Flansch  gross und r,MX,\nM30\n");
 }
 
 TEST(FagorStatements, FileNameIsSixDigits) {  // 1.1
