@@ -65,13 +65,14 @@ class ExpressionPass {
         item.target.index = lowering.lower(item.target.index);
       for (auto& x : item.system.args) x = lowering.lower(x);
       item.value = lowering.lower(item.value);
-      if (in_place(item, lowering.pre, &item == &a.items.back())) {
+      if (in_place(item, lowering.pre)) {
         add(pieces, std::move(lowering.pre), std::nullopt, s.line);
         continue;
       }
       add(pieces, std::move(lowering.pre), std::move(item), s.line);
     }
     main = pieces.empty() ? 0 : pieces.size() - 1;
+    while (main > 0 && !std::holds_alternative<Assign>(pieces[main].node)) --main;  // it carries the line
     if (pieces.empty()) {
       s.node = std::move(a);
       out.push_back(std::move(s));
@@ -88,10 +89,10 @@ class ExpressionPass {
   }
 
   /// What comes before has put the value into the target already.
-  static bool in_place(const Assign::Item& item, const Body& pre, bool last) {
+  static bool in_place(const Assign::Item& item, const Body& pre) {
     const auto* v = as_variable(item.value);
-    if (item.to_system || v == nullptr || pre.empty() || !same_variable(*v, item.target)) return false;
-    return !last || std::holds_alternative<Assign>(pre.back().node);  // the last piece carries the line
+    if (item.to_system || v == nullptr || !same_variable(*v, item.target)) return false;
+    return std::any_of(pre.begin(), pre.end(), [](const Statement& p) { return std::holds_alternative<Assign>(p.node); });
   }
 
   void add(Body& pieces, Body&& pre, std::optional<Assign::Item> item, const LineInfo& like) const {

@@ -66,6 +66,7 @@ class SafeStart {
       if (std::holds_alternative<Assign>(s.node) || std::holds_alternative<Declare>(s.node) ||
           std::holds_alternative<Message>(s.node) || std::holds_alternative<Label>(s.node))
         continue;
+      if (const auto* o = std::get_if<Opaque>(&s.node); o != nullptr && o->harmless) continue;
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) break;
       const bool moves = b->has_motion && b->motion.moves();

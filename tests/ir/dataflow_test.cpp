@@ -164,11 +164,11 @@ TEST(Positions, DiameterWordsBecomeRadius) {
   EXPECT_EQ(half.x("2"), "29");
 }
 
-TEST(Positions, FramesOffsetsUnitsForgetThem) {
+TEST(Positions, FramesAndOffsetsForgetThemUnitsScaleThem) {
   EXPECT_EQ(known("block rapid X 1\nblock frame shift translate replace X 5\nN1 block\n").x("1"), "unknown");
   EXPECT_EQ(known("block rapid X 1\nblock work_offset 1\nN1 block\n").x("1"), "unknown");
   EXPECT_EQ(known("block work_offset 1, rapid X 1\nblock work_offset 1\nN1 block\n").x("1"), "1") << "the same again";
-  EXPECT_EQ(known("block rapid X 1\nblock units inch\nN1 block\n").x("1"), "unknown");
+  EXPECT_EQ(known("block rapid X 254\nblock units inch\nN1 block\n").x("1"), "10") << "the same point";
   EXPECT_EQ(known("block rapid X 1\nblock units metric\nN1 block\n").x("1"), "1");
   const Known preset = known("block rapid X 1 Y 2\nblock frame preset translate preset X 70\nN1 block\n");
   EXPECT_EQ(preset.x("1"), "70");
