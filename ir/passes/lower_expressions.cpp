@@ -92,7 +92,8 @@ class ExpressionPass {
   static bool in_place(const Assign::Item& item, const Body& pre) {
     const auto* v = as_variable(item.value);
     if (item.to_system || v == nullptr || !same_variable(*v, item.target)) return false;
-    return std::any_of(pre.begin(), pre.end(), [](const Statement& p) { return std::holds_alternative<Assign>(p.node); });
+    return std::any_of(pre.begin(), pre.end(),
+                       [](const Statement& p) { return std::holds_alternative<Assign>(p.node); });
   }
 
   void add(Body& pieces, Body&& pre, std::optional<Assign::Item> item, const LineInfo& like) const {
