@@ -21,7 +21,7 @@ class FramePass {
         context_(context),
         facts_(facts),
         states_(program, facts, context),
-        target_(program, context) {}
+        target_(program, context, ends_preset()) {}
 
   void routine(Routine& r) {
     find_groups(r.body, label_uses(program_, r));
@@ -39,6 +39,28 @@ class FramePass {
   }
 
  private:
+  /// A preset is in force somewhere where it is taken back, on another language than the target's own.
+  bool ends_preset() const {
+    if (program_.dialect == context_.target.dialect) return false;
+    bool found = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr || found) return;
+        FrameState state = states_.before(s);
+        for (const auto& a : b->actions) {
+          const auto* f = std::get_if<FrameOp>(&a.data);
+          if (f == nullptr || !f->change) continue;
+          const FrameState before = state;
+          state.apply(*f->change, facts_.before(s), *b, context_.source_machine);
+          found = found || (f->change->slot == FrameSlot::preset && f->change->combine == FrameCombine::clear &&
+                            !before.slot(FrameSlot::preset).neutral());
+        }
+      });
+    }
+    return found;
+  }
+
   static bool concerns(const Block& b) {
     return std::any_of(b.actions.begin(), b.actions.end(),
                        [](const Action& a) {

@@ -85,7 +85,7 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
     change.by_distance_mode = false;
     change.combine = *distance == Distance::incremental ? FrameCombine::add : FrameCombine::replace_named;
   }
-  if (!can(c.slot, change.combine)) return std::nullopt;
+  if (!can(c.slot, change.combine) || (c.slot == FrameSlot::preset && preset_as_shift_)) return std::nullopt;
   if (same_dialect) return change;
   if (c.combine != FrameCombine::preset && !same_order(before, after, c.slot)) return std::nullopt;
   if (c.kind == FrameKind::rotate && (!c.words.empty() || after.slot(c.slot).has_shift())) return std::nullopt;

@@ -11,11 +11,15 @@ namespace cnctrans::ir::passes {
 
 class FrameTarget {
  public:
-  FrameTarget(const Program& program, const LegaliseContext& context) : program_(program), context_(context) {}
+  /// `ends_preset`: the program takes a preset back somewhere; a target that can't do that gets it as a shift.
+  FrameTarget(const Program& program, const LegaliseContext& context, bool ends_preset)
+      : program_(program),
+        context_(context),
+        preset_as_shift_(ends_preset && !can(FrameSlot::preset, FrameCombine::clear)) {}
 
   [[nodiscard]] bool can(FrameSlot slot, FrameCombine combine) const;
   /// The preset of the source is written as one, so that it is no part of what the other slots hold.
-  [[nodiscard]] bool keeps_preset() const { return can(FrameSlot::preset, FrameCombine::preset); }
+  [[nodiscard]] bool keeps_preset() const { return !preset_as_shift_ && can(FrameSlot::preset, FrameCombine::preset); }
   [[nodiscard]] bool chains() const { return can(FrameSlot::chain, FrameCombine::replace); }
 
   /// The change as the target can make it in the same slot, so that its slots stay equal to the source's; empty: the
@@ -57,6 +61,7 @@ class FrameTarget {
 
   const Program& program_;
   const LegaliseContext& context_;
+  bool preset_as_shift_ = false;
 };
 
 }  // namespace cnctrans::ir::passes
