@@ -72,7 +72,7 @@ struct ActionRunner {
     if (auto* s = m.spindle(a.number)) {
       s->oriented = true;
       s->state = ir::SpindleState::off;
-      s->angle = m.value(a.angle);
+      s->angle = m.value(a.angle) + (a.incremental ? s->angle : 0);
       m.emit_spindle(a.number);
     }
     return true;

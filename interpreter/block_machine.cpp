@@ -46,7 +46,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   feed_[static_cast<std::size_t>(modal_.feed_mode)] = profile.power_on_feed;
   for (auto& s : spindles_) s.mode = modal_.spindle_mode;
   set_units();
-  if (const auto it = work_offsets_.find(modal_.work_offset); it != work_offsets_.end()) active_offset_ = it->second;
+  load_offset(modal_.work_offset);
   // The start is a machine position: the first frame is put under it.
   frame_ = Frame{};
   rebuild_frame();
@@ -102,12 +102,18 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;
   }
+  const auto feed_before = feed_;
+  const bool own_feed = std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    const auto* f = std::get_if<ir::SetFeed>(&a.data);
+    return f != nullptr && f->block_only;
+  });
   machining_ = nullptr;
   feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
   if (!(cycle_defined_here_ && cycle_waits_) && axis_word()) return false;
   if (b.has_motion && !motion(b, with_cycle)) return false;
+  if (own_feed) feed_ = feed_before;
   if (block_corner_) {
     block_corner_.reset();
     return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");

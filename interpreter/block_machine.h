@@ -68,6 +68,10 @@ class BlockMachine final : public SystemData {
 
   bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) override;
   bool write(const ir::SystemRef& ref, std::span<const double> args, double value) override;
+  bool read_frame(const ir::SystemRef& ref, std::span<const double> args, Frame& out) override;
+  bool write_frame(const ir::SystemRef& ref, std::span<const double> args, const Frame& f) override;
+  [[nodiscard]] double length_of(ir::AxisId axis, double value) const override;
+  [[nodiscard]] std::string axis_name(ir::AxisId axis) const override;
   /// --set of a machine datum by its name.
   void preset_datum(const std::string& name, double value) {
     written_[name] = value;
@@ -166,6 +170,8 @@ class BlockMachine final : public SystemData {
   bool rebuild_frame();
   bool use_frame(const Frame& f);
   Frame offset_frame() const;
+  void load_offset(std::int32_t row);
+  [[nodiscard]] Frame programmable_frame() const;
 
   // motion (motion.cpp, arcs.cpp, threads in motion.cpp)
   bool motion(const ir::Block& b, bool with_cycle);
@@ -174,6 +180,10 @@ class BlockMachine final : public SystemData {
   bool general_motion(const ir::Motion& m, ir::MotionKind kind);
   bool machine_move(const ir::Motion& m, ir::MotionKind kind);
   bool reference_move(const ir::Motion& m);
+  bool fixed_point_move(const ir::Motion& m);
+  bool to_machine_points(const ir::Motion& named, const std::vector<double>& points);
+  bool positioning_moves(const ir::Motion& m);
+  bool computed_words(const ir::Motion& m, Move& move);
   bool end_point(const ir::Motion& m, Move& move);
   bool polar_end(const ir::Motion& m, Move& move);
   bool line_by_angle(const ir::Motion& m, Move& move);
@@ -242,7 +252,12 @@ class BlockMachine final : public SystemData {
   std::uint8_t suspended_ = 0;  ///< bit n: slot n does not count for now, a preset: while no work offset is in force
   Policies policy_;
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets_;
-  std::map<ir::AxisId, double> active_offset_;
+  std::map<std::int32_t, std::map<ir::AxisId, double>> fine_offsets_;  ///< added to those of the same row
+  std::map<std::int32_t, Frame> offset_shapes_;  ///< turn, scale and mirror of a row; missing: none
+  std::map<ir::AxisId, double> active_offset_;   ///< fine part included
+  Frame active_shape_;
+  Axes fine_shift_{};  ///< of the programmable frame; in the slot too
+  Axes axis_feed_{};   ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
   Axes increment_base_{};           ///< last programmed coordinate before a frame change, where that is what counts
   std::uint32_t base_pending_ = 0;  ///< bit n: an incremental word of axis n starts from there
   std::array<double, 3> feed_{};

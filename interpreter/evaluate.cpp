@@ -48,6 +48,7 @@ double Evaluator::number(ExprId id) {
       failure_.fail(code::wrong_type, "variable " + p.named->name + " holds a text where a number is needed");
       return 0;
     }
+    case Kind::frame_part: return frame_part(*static_cast<const ir::Call*>(n.what));
     case Kind::system: {
       std::array<double, 8> args{};
       const std::size_t count = std::min<std::size_t>(n.b, args.size());
@@ -160,6 +161,16 @@ double Evaluator::text_function(const Node& n) {
       const auto at = subject.find(count > 1 ? text_operand(children_[first + 1]) : std::string{});
       return at == std::string::npos ? -1 : static_cast<double>(at);
     }
+    case ir::Function::last_index_of: {
+      const auto at = subject.rfind(count > 1 ? text_operand(children_[first + 1]) : std::string{});
+      return at == std::string::npos ? -1 : static_cast<double>(at);
+    }
+    case ir::Function::index_of_any: {
+      const auto at = subject.find_first_of(count > 1 ? text_operand(children_[first + 1]) : std::string{});
+      return at == std::string::npos ? -1 : static_cast<double>(at);
+    }
+    case ir::Function::character_code:
+      return subject.empty() ? 0 : static_cast<double>(static_cast<unsigned char>(subject.front()));
     case ir::Function::is_number: return parse_decimal(trim(subject)) ? 1 : 0;
     case ir::Function::to_number: {
       const auto value = parse_decimal(trim(subject));
@@ -180,6 +191,13 @@ std::string Evaluator::text_result(const Node& n) {
   const auto f = static_cast<ir::Function>(n.op);
   const auto first = n.a;
   const auto count = n.b;
+  if (f == ir::Function::axis_text || f == ir::Function::character) {
+    const double x = std::round(number(children_[first]));
+    if (failure_.set) return {};
+    if (f == ir::Function::axis_text) return system_->axis_name(static_cast<ir::AxisId>(x));
+    if (!(x >= 0 && x <= 255)) failure_.fail(code::function_domain, "a character has a code of 0 to 255");
+    return x > 0 && x <= 255 ? std::string(1, static_cast<char>(x)) : std::string{};
+  }
   auto subject = count > 0 ? text_operand(children_[first]) : std::string{};
   if (f == ir::Function::upper_case) return to_upper_ascii(subject);
   if (f == ir::Function::lower_case) {

@@ -16,6 +16,8 @@ bool gives_text(ir::Function f) {
     case ir::Function::to_string:
     case ir::Function::upper_case:
     case ir::Function::lower_case:
+    case ir::Function::character:
+    case ir::Function::axis_text:
     case ir::Function::substring: return true;
     default: return false;
   }
@@ -87,6 +89,11 @@ ExprId Evaluator::compile_variable(const ir::VarRef& v, const NameScope& scope) 
 
 ExprId Evaluator::compile_call(const ir::Call& c, const NameScope& scope) {
   Node n;
+  if (c.function == ir::Function::frame_part) {
+    n.kind = Kind::frame_part;
+    n.what = &c;
+    return add(n);
+  }
   n.kind = Kind::function;
   n.op = static_cast<std::uint8_t>(c.function);
   n.attribute = static_cast<std::uint8_t>(c.half);

@@ -21,6 +21,11 @@ class SystemData {
   virtual ~SystemData() = default;
   virtual bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) = 0;
   virtual bool write(const ir::SystemRef& ref, std::span<const double> args, double value) = 0;
+  virtual bool read_frame(const ir::SystemRef& ref, std::span<const double> args, Frame& out) = 0;
+  virtual bool write_frame(const ir::SystemRef& ref, std::span<const double> args, const Frame& f) = 0;
+  /// mm (radius) or degrees that a number means as a coordinate of this axis.
+  [[nodiscard]] virtual double length_of(ir::AxisId axis, double value) const = 0;
+  [[nodiscard]] virtual std::string axis_name(ir::AxisId axis) const = 0;
 };
 
 /// How names and spaces of one routine are to be understood.
@@ -70,6 +75,8 @@ class Evaluator final : public ValueSource {
   bool assign(const Place& place, ExprId value);
   /// Values of a system datum's indices, valid until the next call.
   std::span<const double> arguments(const ir::SystemRef& ref);
+  /// A value of type frame; a neutral one and a failure when it has none.
+  Frame frame(const ir::Expr& e);
 
  private:
   enum class Kind : std::uint8_t {
@@ -84,6 +91,7 @@ class Evaluator final : public ValueSource {
     unary,
     binary,
     function,
+    frame_part,
     fault
   };
   struct Node {
@@ -109,6 +117,9 @@ class Evaluator final : public ValueSource {
   double compare_text(const Node& n);
   double function(const Node& n);
   double text_function(const Node& n);
+  Frame frame_call(const ir::Call& c);
+  double frame_part(const ir::Call& c);
+  bool axis_of(const ir::ExprPtr& e, ir::AxisId& out);
   std::string text_result(const Node& n);
   double checked(double value, std::string_view what);
   std::string text_operand(ExprId id);

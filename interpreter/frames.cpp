@@ -20,14 +20,34 @@ double& diagonal(Frame& f, ir::AxisId a) {
 Frame BlockMachine::offset_frame() const {
   Axes t{};
   for (const auto& [axis, v] : active_offset_) t[axis] = v;
-  return translation(t);
+  Frame f = active_shape_;
+  f.t = t;
+  return f;
+}
+
+/// The row of the table becomes the one in force.
+void BlockMachine::load_offset(std::int32_t row) {
+  active_offset_.clear();
+  active_shape_ = Frame{};
+  if (row == 0) return;
+  if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) active_offset_ = it->second;
+  if (const auto it = fine_offsets_.find(row); it != fine_offsets_.end()) {
+    for (const auto& [axis, v] : it->second) active_offset_[axis] += v;
+  }
+  if (const auto it = offset_shapes_.find(row); it != offset_shapes_.end()) active_shape_ = it->second;
+}
+
+/// Everything that the program has put between its coordinates and the settable offset.
+Frame BlockMachine::programmable_frame() const {
+  Frame f;
+  for (const auto s : profile_.frame_order) f = compose(f, slots_[index_of(s)]);
+  return f;
 }
 
 bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
   const auto row = w.off ? 0 : static_cast<std::int32_t>(std::lround(value(w.index)));
   modal_.work_offset = row;
-  const auto it = work_offsets_.find(row);
-  active_offset_ = row != 0 && it != work_offsets_.end() ? it->second : std::map<ir::AxisId, double>{};
+  load_offset(row);
   return !failure_.set && rebuild_frame();
 }
 
@@ -97,6 +117,8 @@ bool BlockMachine::change_frame(const ir::FrameChange& c) {
   for (const auto& w : c.words) {
     if (!check_axis(w.axis)) return false;
   }
+  const bool whole = combine == ir::FrameCombine::clear || combine == ir::FrameCombine::replace;
+  if (whole && c.slot == ir::FrameSlot::chain) fine_shift_.fill(0);
   if (combine == ir::FrameCombine::clear) {
     if (c.slot == ir::FrameSlot::chain) {
       for (const auto s : profile_.frame_order) {
@@ -150,9 +172,25 @@ bool BlockMachine::translate(const ir::FrameChange& c, ir::FrameCombine combine,
   for (const auto& w : c.words) t[w.axis] = coordinate(w.axis, w.value, w.scale, true);
   switch (combine) {
     case ir::FrameCombine::replace: slot = translation(t); break;
-    case ir::FrameCombine::compose: slot = compose(slot, translation(t)); break;
+    case ir::FrameCombine::compose: {
+      const Axes before = slot.t;
+      slot = compose(slot, translation(t));
+      if (c.slot == ir::FrameSlot::chain) {  // what is added counts as the fine part
+        for (const auto a : axes_) fine_shift_[a] += slot.t[a] - before[a];
+      }
+      break;
+    }
     case ir::FrameCombine::replace_named:
-      for (const auto& w : c.words) slot.t[w.axis] = t[w.axis];
+      for (const auto& w : c.words) {
+        double& fine = fine_shift_[w.axis];
+        const bool parts = c.slot == ir::FrameSlot::chain;
+        if (parts && c.fine) {
+          slot.t[w.axis] += t[w.axis] - fine;
+          fine = t[w.axis];
+        } else {
+          slot.t[w.axis] = t[w.axis] + (parts ? fine : 0);
+        }
+      }
       break;
     case ir::FrameCombine::add:
       for (const auto& w : c.words) slot.t[w.axis] += t[w.axis];

@@ -123,6 +123,9 @@ bool takes_text(ir::Function f) {
   switch (f) {
     case ir::Function::string_length:
     case ir::Function::index_of:
+    case ir::Function::last_index_of:
+    case ir::Function::index_of_any:
+    case ir::Function::character_code:
     case ir::Function::to_number:
     case ir::Function::is_number: return true;
     default: return false;

@@ -105,6 +105,29 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       if (!has_axis) return false;
       out = along(compose(offset_frame(), slots_[slot_of(ir::FrameSlot::preset)]));
       return true;
+    case Datum::work_offset_fine: {
+      const auto row = fine_offsets_.find(args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]));
+      out = 0;
+      if (row != fine_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis) / length;
+      return true;
+    }
+    case Datum::measured_work:
+      if (!has_axis) return false;
+      out = p_[ref.axis] / axis_[ref.axis].scale_absolute;
+      return true;
+    case Datum::measured_machine:
+      if (!has_axis) return false;
+      out = frame_.apply(p_)[ref.axis] / axis_[ref.axis].scale_absolute;
+      return true;
+    case Datum::settable_position:
+      if (!has_axis) return false;
+      out = programmable_frame().apply(p_)[ref.axis] / axis_[ref.axis].scale_absolute;
+      return true;
+    case Datum::probe_state: out = 0; return true;  // no probe is modelled: it is never touched
+    case Datum::axis_feed:
+      if (!has_axis) return false;
+      out = axis_feed_[ref.axis];
+      return true;
     case Datum::programmed_shift:
       if (!has_axis) return false;
       out = (frame_.t[ref.axis] - offset_frame().t[ref.axis]) / length;
@@ -195,6 +218,68 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
   }
 }
 
+double BlockMachine::length_of(ir::AxisId axis, double value) const {
+  return axis < ir::axis::count_max && axis_[axis].present ? value * axis_[axis].scale_absolute : value;
+}
+
+std::string BlockMachine::axis_name(ir::AxisId axis) const {
+  const auto* spec = profile_.axis(axis);
+  return spec != nullptr ? spec->name : std::string{};
+}
+
+bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> args, Frame& out) {
+  switch (ref.datum) {
+    case Datum::frame_programmed: out = programmable_frame(); return true;
+    case Datum::frame_active: out = offset_frame(); return true;
+    case Datum::frame_total: out = frame_; return true;
+    case Datum::frame_settable: {
+      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(std::lround(args[0]));
+      out = Frame{};
+      if (const auto it = offset_shapes_.find(row); it != offset_shapes_.end()) out = it->second;
+      if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) {
+        for (const auto& [axis, v] : it->second) out.t[axis] += v;
+      }
+      if (const auto it = fine_offsets_.find(row); it != fine_offsets_.end()) {
+        for (const auto& [axis, v] : it->second) out.t[axis] += v;
+      }
+      return true;
+    }
+    default: break;
+  }
+  return failure_.fail(code::no_datum, "the frame " + ref.text + " is known to the machine only");
+}
+
+bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double> args, const Frame& f) {
+  const auto table = [&](std::map<ir::AxisId, double>& row) {
+    row.clear();
+    for (const auto a : axes_) {
+      if (f.t[a] != 0) row[a] = f.t[a];
+    }
+  };
+  switch (ref.datum) {
+    case Datum::frame_programmed:
+      for (const auto s : profile_.frame_order) slots_[slot_of(s)] = Frame{};
+      slots_[slot_of(ir::FrameSlot::chain)] = f;
+      fine_shift_.fill(0);
+      return rebuild_frame();
+    case Datum::frame_active:
+      table(active_offset_);
+      active_shape_ = f.linear_part();
+      return rebuild_frame();
+    case Datum::frame_settable: {
+      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(std::lround(args[0]));
+      table(work_offsets_[row]);
+      fine_offsets_.erase(row);
+      offset_shapes_[row] = f.linear_part();
+      if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
+      load_offset(row);
+      return rebuild_frame();
+    }
+    default: break;
+  }
+  return failure_.fail(code::no_datum, "writing the frame " + ref.text + " is not carried");
+}
+
 bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
   switch (ref.datum) {
     case Datum::work_offset: {
@@ -202,7 +287,7 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
       const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
       work_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
       if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
-      active_offset_ = work_offsets_[row];
+      load_offset(row);
       return rebuild_frame();
     }
     case Datum::active_modal: {
@@ -211,6 +296,17 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
       suspended_ = static_cast<std::uint8_t>(v != 0 ? suspended_ & ~(1U << slot) : suspended_ | 1U << slot);
       return rebuild_frame();
     }
+    case Datum::work_offset_fine: {
+      const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
+      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]);
+      fine_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
+      return true;
+    }
+    case Datum::axis_feed:
+      if (!check_axis(ref.axis)) return false;
+      if (v < 0) return failure_.fail(code::no_datum, "the feed of an axis cannot be negative");
+      axis_feed_[ref.axis] = v * (axis_[ref.axis].rotary || !modal_.units_feed_too ? 1 : unit());
+      return true;
     case Datum::diameter_on:
       modal_.diameter = v != 0 ? ir::DiameterMode::diameter : ir::DiameterMode::radius;
       set_units();

@@ -32,8 +32,14 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   } else if (m.keeps_modal) {
     modal_.motion = left_in_force(kind);
   }
-  if (kind == ir::MotionKind::reference_point || kind == ir::MotionKind::fixed_point) return reference_move(m);
+  if (kind == ir::MotionKind::reference_point) return reference_move(m);
+  if (kind == ir::MotionKind::fixed_point) return fixed_point_move(m);
   if (!m.moves()) return true;
+  if (!m.coords.empty() && m.centers.empty() && !m.extra &&
+      std::all_of(m.coords.begin(), m.coords.end(),
+                  [](const auto& w) { return w.positioning != ir::Positioning::with_path; })) {
+    return positioning_moves(m);
+  }
   block_moves_ = true;
   if (hole_ && policy_.cycle_rapid && !m.explicit_code && kind != ir::MotionKind::rapid && with_cycle &&
       (cycle_defined_here_ || cycle_triggers(b))) {
@@ -137,7 +143,10 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
   switch (kind) {
     case ir::MotionKind::rapid: move.kind = Move::Kind::rapid; break;
     case ir::MotionKind::linear:
-    case ir::MotionKind::to_stop: move.kind = Move::Kind::linear; break;
+    case ir::MotionKind::to_stop:
+    case ir::MotionKind::tap_floating: move.kind = Move::Kind::linear; break;
+    case ir::MotionKind::tap_rigid:
+    case ir::MotionKind::tap_rigid_out:
     case ir::MotionKind::thread:
     case ir::MotionKind::thread_variable:
       if (!thread(m, kind == ir::MotionKind::thread_variable, move)) return false;
@@ -152,6 +161,12 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
       return failure_.fail(code::not_carried, "splines and polynomials are not carried out yet");
     default:
       if (is_arc(kind) && !arc(m, kind, move)) return false;
+  }
+  if (m.extra && m.extra->has_probe_edge) {
+    if (move.kind != Move::Kind::linear && move.kind != Move::Kind::rapid)
+      return failure_.fail(code::not_carried, "only straight moves are carried out with a probe");
+    move.kind = Move::Kind::probe;
+    move.toward = true;
   }
   return !failure_.set && send(move);
 }
@@ -173,6 +188,7 @@ bool BlockMachine::end_point(const ir::Motion& m, Move& move) {
     base_pending_ &= ~(1U << a);
   }
   if (failure_.set || !m.extra) return !failure_.set;
+  if (!m.extra->computed.empty() && !computed_words(m, move)) return false;
   const auto kind = m.kind == ir::MotionKind::modal ? modal_.motion : m.kind;
   const bool about_pole = kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw;  // see polar_arc
   if ((m.extra->has_polar_radius || m.extra->has_polar_angle) && !about_pole) return polar_end(m, move);
@@ -277,19 +293,83 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
 
 /// To the reference point of the named axes (machine coordinates of the profile), in rapid.
 bool BlockMachine::reference_move(const ir::Motion& m) {
-  ir::Motion to;
-  to.frame = ir::FrameUse::machine;
+  std::vector<double> points;
   for (const auto& w : m.coords) {
     if (!check_axis(w.axis)) return false;
+    points.push_back(profile_.axis(w.axis)->reference_point);
+  }
+  return to_machine_points(m, points);
+}
+
+/// To a fixed point of the machine, in rapid; only the profile says where it is.
+bool BlockMachine::fixed_point_move(const ir::Motion& m) {
+  const double n = m.extra && m.extra->has_fixed_point ? std::round(value(m.extra->fixed_point)) : 1;
+  if (failure_.set) return false;
+  std::vector<double> points;
+  for (const auto& w : m.coords) {
+    if (!check_axis(w.axis)) return false;
+    const auto& spec = *profile_.axis(w.axis);
+    if (!(n >= 1 && n <= static_cast<double>(spec.fixed_points.size()))) {
+      return failure_.fail(code::no_datum, "fixed point " + number_text(n) + " of axis " + spec.name +
+                                               " is known to the machine only; \"fixed_points\" in the profile "
+                                               "gives it");
+    }
+    points.push_back(spec.fixed_points[static_cast<std::size_t>(n) - 1]);
+  }
+  return to_machine_points(m, points);
+}
+
+bool BlockMachine::to_machine_points(const ir::Motion& named, const std::vector<double>& points) {
+  ir::Motion to;
+  to.frame = ir::FrameUse::machine;
+  const double metric = policy_.machine_metric && modal_.units == ir::Units::inch ? 1 : unit();
+  for (std::size_t i = 0; i < named.coords.size(); ++i) {
     ir::CoordWord word;
-    word.axis = w.axis;
+    word.axis = named.coords[i].axis;
     word.scale = ir::WordScale::radius;
     word.mode = ir::WordMode::absolute;
-    word.value = ir::Value(profile_.axis(w.axis)->reference_point / (axis_[w.axis].rotary ? 1 : unit()));
+    word.value = ir::Value(points[i] / (axis_[word.axis].rotary ? 1 : metric));
     to.coords.push_back(word);
   }
   block_moves_ = !to.coords.empty();
   return to.coords.empty() || machine_move(to, ir::MotionKind::rapid);
+}
+
+/// Axes that move by themselves, each at its own feed, one after the other in the order of the words.
+bool BlockMachine::positioning_moves(const ir::Motion& m) {
+  if (m.frame != ir::FrameUse::normal)
+    return failure_.fail(code::not_carried, "a positioning axis in machine coordinates is not carried out");
+  for (const auto& w : m.coords) {
+    ir::Motion one;
+    one.coords.push_back(w);
+    Move move = move_from_here();
+    if (!end_point(one, move)) return false;
+    const double feed = axis_feed_[w.axis];
+    move.kind = feed > 0 ? Move::Kind::linear : Move::Kind::rapid;
+    move.feed = feed;
+    move.feed_mode = ir::FeedMode::per_minute;
+    if (!send(move)) return false;
+  }
+  return true;
+}
+
+/// Words whose axis a variable names.
+bool BlockMachine::computed_words(const ir::Motion& m, Move& move) {
+  for (const auto& w : m.extra->computed) {
+    const double a = std::round(value(ir::Value(w.axis)));
+    if (failure_.set) return false;
+    if (!(a >= 0 && a < ir::axis::count_max)) return failure_.fail(code::no_axis, "this variable names no axis");
+    const auto axis = static_cast<ir::AxisId>(a);
+    if (!check_axis(axis)) return false;
+    ir::Motion one;
+    ir::CoordWord word;
+    word.axis = axis;
+    word.mode = w.mode;
+    word.value = w.value;
+    one.coords.push_back(word);
+    if (!end_point(one, move)) return false;
+  }
+  return true;
 }
 
 }  // namespace cnctrans::interpreter

@@ -48,6 +48,23 @@ void Runner::block(Instruction& in) {
 
 void Runner::assign(const ir::Statement& s) {
   for (const auto& item : std::get<ir::Assign>(s.node).items) {
+    if (item.value && item.value->type == ir::Type::frame) {
+      const Frame f = evaluator_.frame(*item.value);
+      if (failure_.set) return;
+      if (item.to_system) {
+        const auto args = evaluator_.arguments(item.system);
+        if (failure_.set || !machine_.write_frame(item.system, args, f)) return;
+        continue;
+      }
+      Place p;
+      if (!evaluator_.place(item.target, flow_->names, p)) return;
+      if (p.named == nullptr || !p.named->is_frame()) {
+        failure_.fail(code::wrong_type, "a frame goes to a variable of type frame only");
+        return;
+      }
+      p.named->frame[p.index] = f;
+      continue;
+    }
     if (item.to_system) {
       const double x = evaluator_.number_of(item.value);
       const auto args = evaluator_.arguments(item.system);

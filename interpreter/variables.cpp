@@ -22,6 +22,7 @@ void NamedVariable::shape(ir::Type t, std::vector<std::uint32_t> dims) {
   for (const auto d : dimensions) count *= d;
   number.assign(is_text() ? 0 : count, 0);
   text.assign(is_text() ? count : 0, {});
+  frame.assign(is_frame() ? count : 0, {});
   set.assign(count, 0);
 }
 

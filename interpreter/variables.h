@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "interpreter/failure.h"
+#include "interpreter/frame.h"
 #include "ir/program.h"
 
 namespace cnctrans::interpreter {
@@ -52,11 +53,13 @@ struct NamedVariable {
   std::vector<std::uint32_t> dimensions;  ///< empty: a single value
   std::vector<double> number;
   std::vector<std::string> text;
+  std::vector<Frame> frame;
   std::vector<std::uint8_t> set;
   bool declared = false;
 
   void shape(ir::Type t, std::vector<std::uint32_t> dims);
   [[nodiscard]] bool is_text() const { return type == ir::Type::string; }
+  [[nodiscard]] bool is_frame() const { return type == ir::Type::frame; }
 };
 
 /// Where a value lives.

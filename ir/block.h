@@ -23,12 +23,27 @@ enum class WordMode : std::uint8_t { modal, absolute, incremental };  ///< modal
 enum class WordScale : std::uint8_t { modal, radius, diameter };      ///< modal: by Setting::diameter
 enum class RotaryDirection : std::uint8_t { as_value, positive, negative, shortest, by_sign };
 
+/// Who moves the axis of a word.
+enum class Positioning : std::uint8_t {
+  with_path,         ///< it is one of the axes of the path
+  alone,             ///< by itself, at its own feed; the block ends when it has arrived
+  alone_not_awaited  ///< by itself; the block does not wait for it
+};
+
 /// The end point of one axis.
 struct CoordWord {
   AxisId axis = axis::x;
   WordMode mode = WordMode::modal;
   WordScale scale = WordScale::modal;
   RotaryDirection direction = RotaryDirection::as_value;
+  Positioning positioning = Positioning::with_path;
+  Value value;
+  WordPos pos;
+};
+/// The end point of an axis that a variable names.
+struct ComputedWord {
+  ExprPtr axis;
+  WordMode mode = WordMode::modal;
   Value value;
   WordPos pos;
 };
@@ -82,6 +97,14 @@ struct MotionExtra {
   Value start_angle;  ///< degrees
   // probing
   Value probe_tolerance;
+  bool has_probe_edge = false;
+  Value probe_edge;          ///< a move of another kind that measures: number of the probe, negative on its falling edge
+  bool probe_goes_on = false;  ///< the move is carried out to its end
+  // fixed points of the machine
+  bool has_fixed_point = false;
+  Value fixed_point;  ///< 1..
+  // axes that variables name
+  std::vector<ComputedWord> computed;
 };
 
 struct Motion {
@@ -125,6 +148,7 @@ struct ModalSet {
 struct SetFeed {
   Value value;
   bool zero_is_maximum = false;
+  bool block_only = false;  ///< the feed of before comes back after the block
 };
 struct SetSpindle {
   std::uint8_t number = 1;
@@ -138,6 +162,7 @@ struct SpindleRun {
 struct SpindleOrient {
   std::uint8_t number = 1;
   Value angle;  ///< degrees
+  bool incremental = false;  ///< from the angle at which it stands
 };
 struct SpindleLimit {
   std::uint8_t number = 1;
@@ -192,6 +217,7 @@ struct FrameChange {
   AxisId rotation_axis =
       axis::none;              ///< rotate about this axis whatever the plane; none: the normal of the plane in force
   bool uniform_scale = false;  ///< scale: words[0] holds for all axes
+  bool fine = false;           ///< translate the chain, replace_named: its fine part; the coarse part stays
 };
 struct FrameOp {
   std::shared_ptr<const FrameChange> change;

@@ -65,12 +65,26 @@ Type function_type(Function f) {
   switch (f) {
     case Function::to_integer:
     case Function::string_length:
-    case Function::index_of: return Type::integer;
+    case Function::index_of:
+    case Function::last_index_of:
+    case Function::index_of_any:
+    case Function::character_code: return Type::integer;
+    case Function::frame_shift:
+    case Function::frame_fine:
+    case Function::frame_turn:
+    case Function::frame_solid_turn:
+    case Function::frame_stretch:
+    case Function::frame_mirror:
+    case Function::frame_inverse:
+    case Function::frame_chain:
+    case Function::frame_with: return Type::frame;
     case Function::to_boolean:
     case Function::is_number: return Type::boolean;
     case Function::to_string:
     case Function::upper_case:
     case Function::lower_case:
+    case Function::character:
+    case Function::axis_text:
     case Function::substring: return Type::string;
     default: return Type::real;
   }
@@ -163,14 +177,17 @@ constexpr std::array<std::string_view, 3> unary_names{"neg", "not", "bitnot"};
 constexpr std::array<std::string_view, 20> binary_names{"+",  "-",   "*",      "/",     "mod",    "div", "pow",
                                                         "==", "!=",  "<",      "<=",    ">",      ">=",  "and",
                                                         "or", "xor", "bitand", "bitor", "bitxor", "<<"};
-constexpr std::array<std::string_view, 34> function_names{
+constexpr std::array<std::string_view, 49> function_names{
     "sin",        "cos",        "tan",       "asin",       "acos",       "atan",      "atan2",
     "arg",        "sqrt",       "square",    "exp",        "ln",         "log10",     "abs",
     "sign",       "trunc",      "ceil",      "floor",      "round",      "min",       "max",
     "bound",      "to_bcd",     "from_bcd",  "to_integer", "to_boolean", "to_string", "string_length",
-    "upper_case", "lower_case", "substring", "index_of",   "to_number",  "is_number"};
+    "upper_case", "lower_case", "substring", "index_of",   "to_number",  "is_number",
+    "last_index_of", "index_of_any", "character", "character_code", "axis_text", "frame_shift", "frame_fine",
+    "frame_turn", "frame_solid_turn", "frame_stretch", "frame_mirror", "frame_inverse", "frame_chain", "frame_part",
+    "frame_with"};
 constexpr std::array<std::string_view, 6> type_names{"real", "integer", "boolean", "string", "axis", "frame"};
-constexpr std::array<std::string_view, 39> datum_names{"other",
+constexpr std::array<std::string_view, 49> datum_names{"other",
                                                        "programmed_position",
                                                        "machine_position",
                                                        "work_position",
@@ -208,7 +225,17 @@ constexpr std::array<std::string_view, 39> datum_names{"other",
                                                        "scale_factor",
                                                        "axis_scale",
                                                        "rotation_angle",
-                                                       "diameter_on"};
+                                                       "diameter_on",
+                                                       "frame_programmed",
+                                                       "frame_settable",
+                                                       "frame_active",
+                                                       "frame_total",
+                                                       "work_offset_fine",
+                                                       "settable_position",
+                                                       "measured_machine",
+                                                       "measured_work",
+                                                       "probe_state",
+                                                       "axis_feed"};
 
 }  // namespace
 

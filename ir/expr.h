@@ -74,8 +74,26 @@ enum class Function : std::uint8_t {
   substring,
   index_of,
   to_number,
-  is_number
+  is_number,
+  last_index_of,   ///< last_index_of(text, text): from the end; -1: nowhere
+  index_of_any,    ///< index_of_any(text, set): first character that is in the set
+  character,       ///< character(code): a text of one
+  character_code,  ///< of the first character; 0 of an empty text
+  axis_text,       ///< the name of an axis
+  // Frames: pairs of an axis and a number
+  frame_shift,
+  frame_fine,
+  frame_turn,        ///< degrees about the geometry axes: Z, then the new Y, then the new X
+  frame_solid_turn,  ///< one or two solid angles
+  frame_stretch,
+  frame_mirror,   ///< axes only
+  frame_inverse,  ///< frame_inverse(frame)
+  frame_chain,    ///< frame_chain(outer, inner)
+  frame_part,     ///< frame_part(frame, axis, FramePart): one component
+  frame_with      ///< frame_with(frame, axis, FramePart, value): the frame with another component
 };
+/// Components of a frame; in frame_part and frame_with a literal number.
+enum class FramePart : std::uint8_t { shift, fine, turn, scale, mirror };
 /// How two reals compare: exactly, or equal when they differ by less than 1e-12 of their size.
 enum class Compare : std::uint8_t { exact, relative_1e12 };
 enum class RoundHalf : std::uint8_t { away, up, even };
@@ -137,7 +155,17 @@ enum class Datum : std::uint8_t {
   scale_factor,
   axis_scale,
   rotation_angle,
-  diameter_on  ///< 1: words of a diameter axis are diameters
+  diameter_on,  ///< 1: words of a diameter axis are diameters
+  frame_programmed,  ///< whole frames: the programmable one
+  frame_settable,    ///< row args[0] of the table of settable frames
+  frame_active,      ///< the settable frame in force
+  frame_total,       ///< all of them
+  work_offset_fine,  ///< fine part of the work offset of row args[0]
+  settable_position,  ///< position before the programmable frame
+  measured_machine,  ///< of the last probing move
+  measured_work,
+  probe_state,  ///< 1: probe args[0] was triggered
+  axis_feed     ///< feed of `axis` when it is positioned by itself (mm/min, deg/min); 0: as fast as it goes
 };
 /// A system variable. `text` is the name in the source's spelling. `args` its indices; `axis` when it speaks of one.
 struct SystemRef {

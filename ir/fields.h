@@ -45,7 +45,15 @@ void fields(V& v, T& x) {
   v.bare("mode", x.mode, WordMode::modal);
   v.bare("scale", x.scale, WordScale::modal);
   v.bare("direction", x.direction, RotaryDirection::as_value);
+  v.bare("positioning", x.positioning, Positioning::with_path);
   v.item("value", x.value);
+  v.pos(x.pos);
+}
+template <class V, Is<ComputedWord> T>
+void fields(V& v, T& x) {
+  v.item("value", x.value);
+  v.opt("of", x.axis);
+  v.bare("mode", x.mode, WordMode::modal);
   v.pos(x.pos);
 }
 template <class V, Is<CenterWord> T>
@@ -72,6 +80,10 @@ void fields(V& v, T& x) {
   v.opt("lead_change", x.lead_change);
   v.given("start_angle", x.has_start_angle, x.start_angle);
   v.opt("tolerance", x.probe_tolerance);
+  v.given("probe", x.has_probe_edge, x.probe_edge);
+  v.flag("probe_goes_on", x.probe_goes_on);
+  v.given("fixed_point", x.has_fixed_point, x.fixed_point);
+  v.each("computed", x.computed);
 }
 template <class V, Is<Motion> T>
 void fields(V& v, T& x) {
@@ -100,6 +112,7 @@ template <class V, Is<SetFeed> T>
 void fields(V& v, T& x) {
   v.item("value", x.value);
   v.flag("zero_is_maximum", x.zero_is_maximum);
+  v.flag("block_only", x.block_only);
 }
 template <class V, Is<SetSpindle> T>
 void fields(V& v, T& x) {
@@ -114,6 +127,7 @@ void fields(V& v, T& x) {
 template <class V, Is<SpindleOrient> T>
 void fields(V& v, T& x) {
   v.item("angle", x.angle);
+  v.flag("incremental", x.incremental);
   v.opt("of", x.number, 1);
 }
 template <class V, Is<SpindleLimit> T>
@@ -163,6 +177,7 @@ void fields(V& v, T& x) {
   v.item("combine", x.combine);
   v.flag("by_distance_mode", x.by_distance_mode);
   v.flag("uniform", x.uniform_scale);
+  v.flag("fine", x.fine);
   v.words("words", x.words);
   v.given("angle", x.has_angle, x.angle);
   v.axis_opt("about", x.rotation_axis);

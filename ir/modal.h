@@ -41,7 +41,10 @@ enum class MotionKind : std::uint8_t {
   probe_away,
   to_stop,
   reference_point,
-  fixed_point
+  fixed_point,
+  tap_rigid,      ///< the position of the spindle follows the axis; the lead's sign is the hand
+  tap_rigid_out,  ///< back out: the spindle turns the other way round
+  tap_floating    ///< at feed F; a chuck takes up the difference
 };
 
 /// Settings that a `ModalSet` action can name; the value is one of the enumerators of the type in brackets.

@@ -21,6 +21,17 @@ Arity arity(Function f) {
     case Function::bound: return {3, 3};
     case Function::substring:
     case Function::index_of: return {2, 3};
+    case Function::last_index_of:
+    case Function::index_of_any:
+    case Function::frame_chain: return {2, 2};
+    case Function::frame_shift:
+    case Function::frame_fine:
+    case Function::frame_turn:
+    case Function::frame_solid_turn:
+    case Function::frame_stretch:
+    case Function::frame_mirror: return {0, 64};
+    case Function::frame_part: return {3, 3};
+    case Function::frame_with: return {4, 4};
     default: return {1, 1};
   }
 }
@@ -31,7 +42,7 @@ bool is_number(Type t) {
 
 /// Functions whose arguments need not be numbers.
 bool takes_other_than_numbers(Function f) {
-  return f >= Function::to_integer && f <= Function::is_number;
+  return f >= Function::to_integer && f <= Function::frame_with;
 }
 
 void check_operands(const Binary& b, const Report& report) {

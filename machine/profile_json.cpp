@@ -107,6 +107,12 @@ void read_axes(const json& list, Profile& p) {
     r.boolean("diameter", a.diameter);
     r.number("start", a.start);
     r.number("reference_point", a.reference_point);
+    if (const json* points = r.find("fixed_points"); points != nullptr) {
+      for (const auto& x : array_of(*points, r.where() + ".fixed_points")) {
+        if (!x.is_number()) fail(r.where() + ".fixed_points must be numbers");
+        a.fixed_points.push_back(x.get<double>());
+      }
+    }
     r.done();
     p.axes.push_back(std::move(a));
   }
@@ -282,6 +288,7 @@ json axis_json(const AxisSpec& a) {
   if (a.diameter) j["diameter"] = true;
   if (a.start != 0) j["start"] = a.start;
   if (a.reference_point != 0) j["reference_point"] = a.reference_point;
+  if (!a.fixed_points.empty()) j["fixed_points"] = a.fixed_points;
   return j;
 }
 

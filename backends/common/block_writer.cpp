@@ -70,7 +70,25 @@ bool ProgramWriter::spelling_is_whole_word(const ir::Action& a) const {
          !std::holds_alternative<ir::CycleDefine>(a.data) && !std::holds_alternative<ir::Dwell>(a.data);
 }
 
+namespace {
+
+/// What only the control that has it can say; empty: nothing of the kind.
+std::string_view own_action(const ir::Action& a) {
+  if (const auto* f = std::get_if<ir::SetFeed>(&a.data); f != nullptr && f->block_only) return "a feed of one block";
+  if (const auto* o = std::get_if<ir::SpindleOrient>(&a.data); o != nullptr && o->incremental)
+    return "turning the spindle by an increment";
+  const auto* op = std::get_if<ir::FrameOp>(&a.data);
+  if (op == nullptr || !op->change) return {};
+  const bool chain = op->change->slot == ir::FrameSlot::chain;
+  if (chain && op->change->combine == ir::FrameCombine::replace_named) return "the coarse or fine part of a shift";
+  return {};
+}
+
+}  // namespace
+
 void ProgramWriter::action(const ir::Action& a) {
+  if (const std::string_view what = own_action(a); !same_dialect_ && !what.empty())
+    return refuse("TRN-202", a.pos, std::string(what) + " has no counterpart here");
   if (const auto* m = std::get_if<ir::ModalSet>(&a.data)) note_setting(m->setting, m->value);
   // A word that means several things is written once in its own language; another one needs a word for each.
   if (same_dialect_ && line_.has_column(a.pos.column)) return;

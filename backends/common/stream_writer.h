@@ -18,7 +18,7 @@ namespace cnctrans::backends {
 struct PlainTable {
   static constexpr std::size_t setting_values = 4;
   std::array<std::array<std::string_view, setting_values>, ir::setting_count> settings{};
-  std::array<std::string_view, 16> motions{};  ///< by MotionKind
+  std::array<std::string_view, 19> motions{};  ///< by MotionKind
   std::array<std::string_view, ir::axis::first_extra> axes{};
   std::array<std::string_view, ir::axis::first_extra> centers{};  ///< address of a centre coordinate, by axis
   ir::CenterMode center_mode = ir::CenterMode::from_start;        ///< what such a word means there

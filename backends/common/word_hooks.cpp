@@ -91,7 +91,26 @@ void ProgramWriter::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {
 
 // ---- motion --------------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// What only the control that has it can say; empty: nothing of the kind.
+std::string_view own_motion(const ir::Motion& m) {
+  for (const ir::CoordWord& w : m.coords) {
+    if (w.positioning != ir::Positioning::with_path) return "an axis that moves by itself";
+  }
+  if (!m.extra) return {};
+  if (!m.extra->computed.empty()) return "an axis named by a variable";
+  if (m.extra->has_probe_edge) return "a move that measures";
+  return m.extra->has_fixed_point ? "a fixed point of the machine" : "";
+}
+
+}  // namespace
+
 void ProgramWriter::motion(const ir::Motion& m) {
+  if (const std::string_view what = own_motion(m); !same_dialect_ && !what.empty()) {
+    return refuse(no_word, m.coords.empty() ? m.code_pos : m.coords.front().pos,
+                  std::string(what) + " has no counterpart here");
+  }
   frame_use(m);
   if (m.kind != ir::MotionKind::modal) {
     const bool known_already = !m.explicit_code && tracker_.text() == m.kind;

@@ -1,8 +1,10 @@
 #include "backends/sinumerik/expressions.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
 
 namespace cnctrans::backends::sinumerik {
@@ -137,10 +139,10 @@ std::string Expressions::name(const ir::SystemRef& s) {
   }
   std::string text = own_name ? s.text : std::string(known->name);
   std::vector<std::string> indices;
-  if (s.datum == ir::Datum::work_offset) {
+  if (s.datum == ir::Datum::work_offset || s.datum == ir::Datum::work_offset_fine) {
     for (const ir::ExprPtr& a : s.args) indices.push_back(index(a));
     indices.emplace_back(program_.axis_name(s.axis));
-    indices.emplace_back("TR");
+    indices.emplace_back(s.datum == ir::Datum::work_offset ? "TR" : "FI");
   } else {
     if (s.axis != ir::axis::none) indices.emplace_back(program_.axis_name(s.axis));
     for (const ir::ExprPtr& a : s.args) {
@@ -186,7 +188,28 @@ std::optional<Printed> Expressions::special(const ir::ExprPtr& e) {
   return std::nullopt;
 }
 
+/// $P_GG[6] was taken apart into its codes; the group of the first of them is that of all.
+std::optional<Printed> Expressions::active_code(const ir::ExprPtr& e) {
+  const ir::Expr* at = e.get();
+  while (const auto* b = std::get_if<ir::Binary>(&at->node)) {
+    const bool sum = b->op == ir::BinaryOp::add;
+    if (!sum && b->op != ir::BinaryOp::multiply) return std::nullopt;
+    const ir::ExprPtr& next = sum ? b->left : b->right;
+    if (!next) return std::nullopt;
+    at = next.get();
+  }
+  const auto* ref = std::get_if<ir::SystemRef>(&at->node);
+  if (ref == nullptr || ref->text != "$P_GG" || ref->args.empty()) return std::nullopt;
+  const auto number = literal(ref->args[0]);
+  const dialect::GFunction* g = number ? dialect::g_function(static_cast<std::int32_t>(*number)) : nullptr;
+  if (g == nullptr) return std::nullopt;
+  return Printed{"$P_GG[" + std::to_string(g->group) + ']', primary_level, false};
+}
+
 std::optional<Printed> Expressions::special_binary(const ir::ExprPtr& e, const ir::Binary& b) {
+  if (own_ && (b.op == ir::BinaryOp::add || b.op == ir::BinaryOp::multiply)) {
+    if (auto text = active_code(e)) return text;
+  }
   const bool integers = b.left && b.right && b.left->type == ir::Type::integer && b.right->type == ir::Type::integer;
   switch (b.op) {
     case ir::BinaryOp::power: return power(e, b);
@@ -229,7 +252,62 @@ Printed Expressions::power(const ir::ExprPtr& /*e*/, const ir::Binary& b) {
   return {"EXP(" + operand(b.right, product_level, true) + "*LN(" + print(b.left) + "))", primary_level, false};
 }
 
+namespace {
+
+constexpr int chain_level = 13;  // `:` binds tighter than everything
+
+std::string_view frame_word(ir::Function f) {
+  switch (f) {
+    case ir::Function::frame_shift: return "CTRANS";
+    case ir::Function::frame_fine: return "CFINE";
+    case ir::Function::frame_turn: return "CROT";
+    case ir::Function::frame_solid_turn: return "CROTS";
+    case ir::Function::frame_stretch: return "CSCALE";
+    case ir::Function::frame_mirror: return "CMIRROR";
+    case ir::Function::frame_inverse: return "INVFRAME";
+    default: return {};
+  }
+}
+
+}  // namespace
+
+/// The name of a frame with an axis and a component: "$P_PFRAME[X,TR]", "F1[2,Z,RT]".
+std::string Expressions::component(const ir::ExprPtr& frame, const ir::ExprPtr& axis, const ir::ExprPtr& part) {
+  constexpr std::array<std::string_view, 5> words{"TR", "FI", "RT", "SC", "MI"};
+  std::string text = print(frame);
+  const bool indexed = !text.empty() && text.back() == ']';
+  if (indexed) text.pop_back();
+  const auto at = static_cast<std::size_t>(literal(part).value_or(0));
+  return text + (indexed ? "," : "[") + print(axis) + ',' + std::string(words[std::min(at, words.size() - 1)]) + ']';
+}
+
+std::string Expressions::component_assignment(const ir::Assign::Item& item) {
+  const auto* c = item.value ? std::get_if<ir::Call>(&item.value->node) : nullptr;
+  if (c == nullptr || c->function != ir::Function::frame_with) return {};
+  return component(c->args[0], c->args[1], c->args[2]) + '=' + print(c->args[3]);
+}
+
+std::optional<Printed> Expressions::frame_call(const ir::Call& c) {
+  switch (c.function) {
+    case ir::Function::frame_chain: {
+      const std::string outer = operand(c.args[0], chain_level, true);
+      return Printed{outer + ':' + operand(c.args[1], chain_level + 1, true), chain_level, false};
+    }
+    case ir::Function::frame_part: return Printed{component(c.args[0], c.args[1], c.args[2]), primary_level, false};
+    case ir::Function::axis_text: return Printed{"AXSTRING(" + print(c.args[0]) + ')', primary_level, false};
+    case ir::Function::character:
+    case ir::Function::character_code: return print_node(c.args[0]);  // the language converts by itself
+    default: break;
+  }
+  const std::string_view word = frame_word(c.function);
+  if (word.empty()) return std::nullopt;
+  return Printed{std::string(word) + '(' + arguments(c.args) + ')', primary_level, false};
+}
+
 std::optional<Printed> Expressions::special_call(const ir::ExprPtr& e, const ir::Call& c) {
+  if (own_) {
+    if (auto text = frame_call(c)) return text;
+  }
   const auto one = [&](std::string_view before, std::string_view after) {
     return Printed{std::string(before) + print(c.args[0]) + std::string(after), primary_level, false};
   };

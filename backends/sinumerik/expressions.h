@@ -21,6 +21,8 @@ class Expressions final : public ExpressionPrinter {
   std::string name(const ir::VarRef& v);
   std::string name(const ir::SystemRef& s);
   ir::Type type_of(const ir::VarRef& v) const;
+  /// `F1[X,TR]=5` for an assignment that only changes one component of its frame; empty for any other.
+  std::string component_assignment(const ir::Assign::Item& item);
 
  protected:
   std::string variable(const ir::ExprPtr& e, const ir::VarRef& v) override;
@@ -31,6 +33,9 @@ class Expressions final : public ExpressionPrinter {
 
  private:
   std::optional<Printed> special_binary(const ir::ExprPtr& e, const ir::Binary& b);
+  std::optional<Printed> active_code(const ir::ExprPtr& e);
+  std::optional<Printed> frame_call(const ir::Call& c);
+  std::string component(const ir::ExprPtr& frame, const ir::ExprPtr& axis, const ir::ExprPtr& part);
   std::optional<Printed> special_call(const ir::ExprPtr& e, const ir::Call& c);
   Printed power(const ir::ExprPtr& e, const ir::Binary& b);
   std::string index(const ir::ExprPtr& e);

@@ -14,8 +14,32 @@ bool Writer::refused_problem(WordPos pos) {
   return true;
 }
 
-void Writer::assign(const ir::Assign& a) {
+/// A list of values or a frame that stands for several assignments, as it was written; empty: there is none.
+std::string Writer::list_text(const ir::Assign& a) const {
+  if (!same_dialect() || a.items.size() < 2) return {};
   for (const ir::Assign::Item& item : a.items) {
+    if (item.pos.column != a.items.front().pos.column) return {};
+  }
+  const std::string text = source_word(a.items.front().pos);
+  const std::string upper = to_upper_ascii(text);
+  const ir::Assign::Item& first = a.items.front();
+  const std::string name = first.to_system ? to_upper_ascii(first.system.text)
+                           : first.target.name.empty() ? std::string("R")
+                                                       : to_upper_ascii(first.target.name);
+  const bool list = upper.find("=(") != std::string::npos || upper.find("SET(") != std::string::npos ||
+                    upper.find("REP(") != std::string::npos || upper.find("CTRANS(") != std::string::npos ||
+                    upper.find("= (") != std::string::npos || upper.find("SET (") != std::string::npos;
+  return upper.rfind(name, 0) == 0 && list && upper.back() == ')' ? text : std::string{};
+}
+
+void Writer::assign(const ir::Assign& a) {
+  if (std::string text = list_text(a); !text.empty()) return add(std::move(text), Rank::head, a.items.front().pos);
+  for (const ir::Assign::Item& item : a.items) {
+    if (std::string part = expressions_.component_assignment(item); !part.empty()) {
+      if (refused_problem(item.pos)) return;
+      add(std::move(part), Rank::head, item.pos);
+      continue;
+    }
     std::string text = item.to_system ? expressions_.name(item.system) : expressions_.name(item.target);
     const ir::Type type = item.to_system ? ir::Type::real : expressions_.type_of(item.target);
     text += '=';

@@ -40,6 +40,9 @@ inline constexpr std::array motion_codes{
     MotionCode{ir::MotionKind::arc_tangent, "CT"},
     MotionCode{ir::MotionKind::thread, "G33"},
     MotionCode{ir::MotionKind::thread_variable, "G34"},
+    MotionCode{ir::MotionKind::tap_rigid, "G331"},
+    MotionCode{ir::MotionKind::tap_rigid_out, "G332"},
+    MotionCode{ir::MotionKind::tap_floating, "G63"},
 };
 
 inline constexpr std::array<std::string_view, 10> skip_marks{"/", "/1", "/2", "/3", "/4", "/5", "/6", "/7", "/8", "/9"};

@@ -144,6 +144,10 @@ bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
 
 bool Writer::spelling_is_whole_word(const ir::Action& a) const {
   if (std::holds_alternative<ir::CycleDefine>(a.data)) return !a.text.empty() && a.text.back() == ')';
+  if (std::holds_alternative<ir::FrameOp>(a.data)) {  // $P_PFRAME=CTRANS(X,5):CROT(Z,30), ROTS X10 Y20
+    return a.text.find('=') != std::string_view::npos || a.text.find("ROTS ") != std::string_view::npos ||
+           a.text.find("rots ") != std::string_view::npos;
+  }
   if (const auto* c = std::get_if<ir::Corner>(&a.data)) return c->feed == nullptr;
   if (std::holds_alternative<ir::SpindleLimit>(a.data)) return a.text.front() == 'L' || a.text.front() == 'l';
   return ProgramWriter::spelling_is_whole_word(a);
@@ -176,6 +180,12 @@ void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
 
 void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   const ir::FrameChange& c = *f.change;
+  if (c.slot == ir::FrameSlot::chain && c.combine == ir::FrameCombine::replace_named &&
+      c.kind == ir::FrameKind::translate) {
+    std::string text = c.fine ? "G59" : "G58";
+    for (const ir::FrameWord& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+    return add(std::move(text), Rank::head, a.pos);
+  }
   const bool composes = c.combine == ir::FrameCombine::compose;
   if (c.slot != ir::FrameSlot::chain || c.by_distance_mode ||
       (!composes && c.combine != ir::FrameCombine::replace && c.combine != ir::FrameCombine::clear)) {
@@ -246,7 +256,13 @@ void Writer::spindle_run(const ir::Action& a, const ir::SpindleRun& s) {
 
 void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
   const std::string address = s.number == 1 ? "SPOS" : "SPOS[" + std::to_string(s.number) + ']';
-  add(word(address, s.angle, a.pos), Rank::spindle, a.pos);
+  add(s.incremental ? attribute_word(address, "IC", s.angle, a.pos) : word(address, s.angle, a.pos), Rank::spindle,
+      a.pos);
+}
+
+void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
+  if (f.block_only) return add(word("FB", f.value, a.pos), Rank::feed, a.pos);
+  ProgramWriter::set_feed(a, f);
 }
 
 void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
@@ -267,6 +283,7 @@ void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
 }
 
 void Writer::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
+  if (same_dialect() && a.text.empty()) return;  // selected by the tool change
   std::string text = word("D", t.number, a.pos);
   if (!t.number.is(0)) {
     offset_word_ = text;
@@ -363,7 +380,9 @@ std::string Writer::rotary_attribute(const ir::CoordWord& w) {
 }
 
 void Writer::coordinate(const ir::Motion& /*m*/, const ir::CoordWord& w) {
-  const std::string_view name = axis_name(w.axis);
+  std::string name(axis_name(w.axis));
+  if (w.positioning == ir::Positioning::alone) name = "POS[" + name + ']';
+  if (w.positioning == ir::Positioning::alone_not_awaited) name = "POSA[" + name + ']';
   std::string attribute = rotary_attribute(w);
   const bool by_sign = !attribute.empty() && w.direction == ir::RotaryDirection::by_sign;
   const bool incremental = w.mode == ir::WordMode::incremental;
@@ -454,6 +473,15 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
     if (e.polar_mode == ir::WordMode::modal || address == "RP") return extra(address, v);
     add(attribute_word(address, e.polar_mode == ir::WordMode::incremental ? "IC" : "AC", v, {}), Rank::motion_extra);
   };
+  for (const ir::ComputedWord& w : e.computed) {
+    const std::string address = "AX[" + expression_text(w.axis) + ']';
+    const bool modal = w.mode == ir::WordMode::modal;
+    const char* attribute = w.mode == ir::WordMode::incremental ? "IC" : "AC";
+    add(modal ? word(address, w.value, w.pos) : attribute_word(address, attribute, w.value, w.pos), Rank::coordinate,
+        w.pos);
+  }
+  if (e.has_probe_edge) extra(e.probe_goes_on ? "MEAW" : "MEAS", e.probe_edge);
+  if (e.has_fixed_point) extra("FP", e.fixed_point);
   for (const ir::CenterWord& w : e.through) {
     if (w.axis > ir::axis::z) return refuse("TRN-202", w.pos, "this point of an arc has no counterpart here");
     const std::string address = std::string(letters.substr(w.axis, 1)) + '1';

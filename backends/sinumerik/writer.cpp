@@ -190,7 +190,7 @@ std::string Writer::proc_line(const ir::Routine& r, const std::string& name) {
     if (p.by_reference) text += "VAR ";
     text += same_dialect() && !p.type_text.empty() ? p.type_text : std::string(type_word(p.type));
     text += ' ';
-    text += p.variable.name.empty() ? p.name : p.variable.name;
+    text += p.variable.name.empty() || p.name.find('[') != std::string::npos ? p.name : p.variable.name;
     if (p.default_value) text += '=' + expression_text(p.default_value);
   }
   if (!r.parameters.empty()) text += ')';

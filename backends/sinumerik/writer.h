@@ -30,6 +30,7 @@ class Writer final : public ProgramWriter {
 
   // statements (statements.cpp)
   void assign(const ir::Assign& a) override;
+  [[nodiscard]] std::string list_text(const ir::Assign& a) const;
   void if_else(const ir::If& i) override;
   void while_loop(const ir::While& w) override;
   void until_loop(const ir::Until& u) override;
@@ -53,6 +54,7 @@ class Writer final : public ProgramWriter {
   void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
   void set_spindle(const ir::Action& a, const ir::SetSpindle& s) override;
   void spindle_run(const ir::Action& a, const ir::SpindleRun& s) override;
+  void set_feed(const ir::Action& a, const ir::SetFeed& f) override;
   void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
   void tool_select(const ir::Action& a, const ir::ToolSelect& t) override;

@@ -49,7 +49,7 @@ constexpr NamedWordRow words[] = {
     {"OVR", timing},
     {"OVRRAP", timing},
     {"ACC", timing},
-    {"FB", unsupported},
+    {"FB", block_feed},
     {"FD", unsupported},
     // radius compensation and tool data
     {"DISC", compensation},
@@ -57,10 +57,10 @@ constexpr NamedWordRow words[] = {
     {"DISR", unsupported},
     {"DISCL", unsupported},
     {"FAD", unsupported},
-    {"TOFFL", unsupported},
+    {"TOFFL", compensation},
     {"TOFFR", compensation},
-    {"TOFF", unsupported},
-    {"DL", unsupported},
+    {"TOFF", compensation},
+    {"DL", compensation},
     {"ISD", unsupported},
     {"CUTMOD", unsupported},
     {"TCARR", unsupported},
@@ -74,9 +74,9 @@ constexpr NamedWordRow words[] = {
     {"PL", unsupported},
     {"STAT", unsupported},
     {"TU", unsupported},
-    {"MEAS", unsupported},
-    {"MEAW", unsupported},
-    {"FP", unsupported},
+    {"MEAS", probe},
+    {"MEAW", probe_to_end},
+    {"FP", fixed_point},
     {"SPP", unsupported},
     {"SPN", unsupported},
     {"ALF", unsupported},
@@ -87,6 +87,10 @@ constexpr NamedWordRow words[] = {
 };
 
 constexpr ProcedureRow procedure_rows[] = {
+    {"DIAMONA", Procedure::axis_setting},
+    {"DIAMOFA", Procedure::axis_setting},
+    {"DIAM90A", Procedure::axis_setting},
+    {"SCC", Procedure::axis_setting},
     {"MSG", Procedure::message},
     {"SETAL", Procedure::set_alarm},
     {"STOPRE", Procedure::stop_preparation},
@@ -125,7 +129,7 @@ constexpr ProcedureRow procedure_rows[] = {
     {"ADISPOSA", Procedure::timing},
     {"IPOBRKA", Procedure::timing},
     {"FPRAON", Procedure::unsupported},
-    {"SETMS", Procedure::unsupported},
+    {"SETMS", Procedure::master_spindle},
     {"GEOAX", Procedure::unsupported},
     {"TRANSMIT", Procedure::unsupported},
     {"TRACYL", Procedure::unsupported},
@@ -165,7 +169,7 @@ constexpr ProcedureRow procedure_rows[] = {
     {"CPROT", Procedure::unsupported},
     {"NPROT", Procedure::unsupported},
     {"EXECSTRING", Procedure::unsupported},
-    {"CALLPATH", Procedure::unsupported},
+    {"CALLPATH", Procedure::timing},
     {"WRITE", Procedure::unsupported},
     {"READ", Procedure::unsupported},
     {"DELETE", Procedure::unsupported},
@@ -225,26 +229,27 @@ constexpr std::string_view keywords[] = {
 /// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
 /// of these is never a variable.
 constexpr std::string_view predefined[] = {
-    "ADDFRAME", "AXCTSWE",   "AXCTSWED",   "AXNAME",     "AXSTRING",  "AXTOSPI",    "BLSYNC",    "CALCPOSI",
-    "CFINE",    "CHECKSUM",  "CHKDM",      "CHKDNO",     "CMIRROR",   "CORROF",     "COUPRES",   "CROT",
-    "CROTS",    "CRPL",      "CSCALE",     "CTAB",       "CTABDEL",   "CTABEXISTS", "CTABFNO",   "CTABFPOL",
-    "CTABFSEG", "CTABID",    "CTABINV",    "CTABISLOCK", "CTABLOCK",  "CTABMEMTYP", "CTABMPOL",  "CTABMSEG",
-    "CTABNO",   "CTABNOMEM", "CTABPERIOD", "CTABPOL",    "CTABPOLID", "CTABSEG",    "CTABSEGID", "CTABSEV",
-    "CTABSSV",  "CTABTEP",   "CTABTEV",    "CTABTMAX",   "CTABTMIN",  "CTABTSP",    "CTABTSV",   "CTABUNLOCK",
-    "CTRANS",   "DELDTG",    "DELTOOLENV", "DIACYCOFA",  "DIAM90A",   "DIAMCHAN",   "DIAMCHANA", "DIAMOFA",
-    "DIAMONA",  "DILF",      "EGDEF",      "EGDEL",      "EGOFC",     "EGOFS",      "EGON",      "EGONSYN",
-    "EGONSYNE", "FDA",       "FILEDATE",   "FILEINFO",   "FILESIZE",  "FILESTAT",   "FILETIME",  "FMA",
-    "FOCOF",    "FOCON",     "FPO",        "FPR",        "FPRAOF",    "FTOC",       "FXST",      "FXSW",
-    "GETACTT",  "GETACTTD",  "GETDNO",     "GETFREELOC", "GETT",      "GETTCOR",    "GETTENV",   "GWPSOF",
-    "GWPSON",   "ICYCOF",    "ICYCON",     "INVFRAME",   "ISAXIS",    "ISVAR",      "LENTOAX",   "LIFTFAST",
-    "MASLDEF",  "MASLDEL",   "MASLOF",     "MASLOFS",    "MASLON",    "MEAFRAME",   "MEASURE",   "MINDEX",
-    "MODAXVAL", "MOV",       "MVTOOL",     "NEWT",       "OMA1",      "OMA2",       "OMA3",      "OMA4",
-    "OMA5",     "ORIS",      "OS",         "OSB",        "OSCILL",    "OSCTRL",     "OSE",       "OSNSC",
-    "OSP1",     "OSP2",      "OST1",       "OST2",       "POLF",      "POLFA",      "POLFMASK",  "POLFMLIN",
-    "POSM",     "POSRANGE",  "PUNCHACC",   "QECLRNOF",   "QECLRNON",  "RDISABLE",   "RESETMON",  "RINDEX",
-    "SCC",      "SETDNO",    "SETMTH",     "SETTA",      "SETTCOR",   "SETTIA",     "SIRELAY",   "SIRELIN",
-    "SIRELOUT", "SIRELTIME", "SPI",        "SR",         "SRA",       "ST",         "STA",       "STOPREOF",
-    "STRINGIS", "SYNFCT",    "TFGREF",     "TOOLENV",    "WALCS"};
+    "ADDFRAME", "AXCTSWE", "AXCTSWED", "AXTOSPI", "BLSYNC", "CALCPOSI", "CHECKSUM", "CHKDM", "CHKDNO",
+    "CORROF", "COUPRES", "CTAB", "CTABDEL", "CTABEXISTS", "CTABFNO", "CTABFPOL", "CTABFSEG", "CTABID",
+    "CTABINV", "CTABISLOCK", "CTABLOCK", "CTABMEMTYP", "CTABMPOL", "CTABMSEG", "CTABNO", "CTABNOMEM",
+    "CTABPERIOD", "CTABPOL", "CTABPOLID", "CTABSEG", "CTABSEGID", "CTABSEV", "CTABSSV", "CTABTEP", "CTABTEV",
+    "CTABTMAX", "CTABTMIN", "CTABTSP", "CTABTSV", "CTABUNLOCK", "DELDTG", "DELTOOLENV", "DIACYCOFA",
+    "DIAMCHAN", "DIAMCHANA", "DILF", "EGDEF", "EGDEL", "EGOFC", "EGOFS", "EGON", "EGONSYN", "EGONSYNE", "FDA",
+    "FILEDATE", "FILEINFO", "FILESIZE", "FILESTAT", "FILETIME", "FMA", "FOCOF", "FOCON", "FPO", "FPR",
+    "FPRAOF", "FTOC", "FXST", "FXSW", "GETACTT", "GETACTTD", "GETDNO", "GETFREELOC", "GETT", "GETTCOR",
+    "GETTENV", "GWPSOF", "GWPSON", "ICYCOF", "ICYCON", "ISVAR", "LENTOAX", "LIFTFAST", "MASLDEF", "MASLDEL",
+    "MASLOF", "MASLOFS", "MASLON", "MEAFRAME", "MEASURE", "MOV", "MVTOOL", "NEWT", "OMA1", "OMA2", "OMA3",
+    "OMA4", "OMA5", "ORIS", "OS", "OSB", "OSCILL", "OSCTRL", "OSE", "OSNSC", "OSP1", "OSP2", "OST1", "OST2",
+    "POLF", "POLFA", "POLFMASK", "POLFMLIN", "POSM", "POSRANGE", "PUNCHACC", "QECLRNOF", "QECLRNON",
+    "RDISABLE", "RESETMON", "SETDNO", "SETMTH", "SETTA", "SETTCOR", "SETTIA", "SIRELAY", "SIRELIN",
+    "SIRELOUT", "SIRELTIME", "SPI", "SR", "SRA", "ST", "STA", "STOPREOF", "STRINGIS", "SYNFCT", "TFGREF",
+    "TOOLENV", "WALCS"};
+
+/// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
+/// them.
+constexpr std::string_view carried_functions[] = {
+    "AXNAME", "AXSTRING", "CFINE", "CMIRROR", "CROT", "CROTS", "CRPL", "CSCALE", "CTRANS", "INVFRAME",
+    "ISAXIS", "MODAXVAL"};
 
 char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -318,12 +323,27 @@ Procedure procedure(std::string_view capitals) {
   return Procedure::none;
 }
 
+std::string_view procedure_missing_feature(std::string_view capitals) {
+  if (capitals == "WRITE" || capitals == "READ" || capitals == "DELETE" || capitals == "ISFILE")
+    return "language.files";
+  const bool transformation = capitals.rfind("TRA", 0) == 0 && capitals.rfind("TRAIL", 0) != 0;
+  return transformation ? "motion.transformation" : "language.statement";
+}
+
 bool is_predefined(std::string_view capitals) {
   return std::binary_search(std::begin(predefined), std::end(predefined), capitals);
 }
 
+std::span<const std::string_view> predefined_names() {
+  return predefined;
+}
+std::span<const std::string_view> axis_and_frame_functions() {
+  return carried_functions;
+}
+
 bool is_reserved(std::string_view capitals) {
   if (is_predefined(capitals)) return true;
+  if (std::binary_search(std::begin(carried_functions), std::end(carried_functions), capitals)) return true;
   for (const auto& k : keywords) {
     if (k == capitals) return true;
   }

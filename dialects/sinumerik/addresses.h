@@ -24,6 +24,10 @@ enum class NamedWord : std::uint8_t {
   spindle_limit,
   spindle_position,
   rotation_in_plane,
+  block_feed,
+  fixed_point,
+  probe,
+  probe_to_end,
   timing,        ///< tolerances, overrides, accelerations: the nominal path is the same
   compensation,  ///< acts only on the compensated path
   unsupported
@@ -52,6 +56,8 @@ enum class Procedure : std::uint8_t {
   stop_preparation,
   repeat_return,
   program_start,
+  master_spindle,
+  axis_setting,  ///< DIAMONA[X], SCC[X]: a setting of one axis
   screen,      ///< operator screens, blanks, groups: no effect on machining
   timing,      ///< dynamics, feed groups, single-block and display switches
   unsupported  ///< acts on the machine and is not carried
@@ -63,9 +69,15 @@ struct ProcedureRow {
 std::span<const ProcedureRow> procedures();
 Procedure procedure(std::string_view capitals);
 
+/// Entry of the missing-features registry that a procedure of Procedure::unsupported stands under (capitals).
+std::string_view procedure_missing_feature(std::string_view capitals);
+
 /// True when a user variable, label or subprogram may not have this name (capitals).
 bool is_reserved(std::string_view capitals);
 /// A function, procedure or address of the control that is not carried yet.
 bool is_predefined(std::string_view capitals);
+/// All of them, and the functions of axes and frames that are carried; both in alphabetical order.
+std::span<const std::string_view> predefined_names();
+std::span<const std::string_view> axis_and_frame_functions();
 
 }  // namespace cnctrans::sinumerik

@@ -25,8 +25,8 @@ constexpr GFunction printed[] = {
     {"CSPLINE", -1, 1, 8, true, GUse::unsupported},
     {"POLY", -1, 1, 9, true, GUse::unsupported},
     {"G33", 33, 1, 10, true, GUse::motion, u(ir::MotionKind::thread)},
-    {"G331", 331, 1, 11, true, GUse::unsupported},
-    {"G332", 332, 1, 12, true, GUse::unsupported},
+    {"G331", 331, 1, 11, true, GUse::motion, u(ir::MotionKind::tap_rigid)},
+    {"G332", 332, 1, 12, true, GUse::motion, u(ir::MotionKind::tap_rigid_out)},
     {"OEMIPO1", -1, 1, 13, true, GUse::unsupported},
     {"OEMIPO2", -1, 1, 14, true, GUse::unsupported},
     {"CT", -1, 1, 15, true, GUse::motion, u(ir::MotionKind::arc_tangent)},
@@ -37,7 +37,7 @@ constexpr GFunction printed[] = {
     {"G335", 335, 1, 20, true, GUse::unsupported},
     {"G336", 336, 1, 21, true, GUse::unsupported},
     {"G4", 4, 2, 1, false, GUse::dwell},
-    {"G63", 63, 2, 2, false, GUse::unsupported},
+    {"G63", 63, 2, 2, false, GUse::approach, u(ir::MotionKind::tap_floating)},
     {"G74", 74, 2, 3, false, GUse::approach, u(ir::MotionKind::reference_point)},
     {"G75", 75, 2, 4, false, GUse::approach, u(ir::MotionKind::fixed_point)},
     {"REPOSL", -1, 2, 5, false, GUse::unsupported},
@@ -382,6 +382,15 @@ const GFunction* g_function(std::int32_t group, std::int32_t index) {
     if (r.group == group && r.index == index) return &r;
   }
   return nullptr;
+}
+
+std::string_view missing_feature(const GFunction& g) {
+  if (g.use != GUse::unsupported) return {};
+  constexpr std::uint8_t motion_group = 1;
+  constexpr std::uint8_t splines_from = 6, splines_to = 8, polynomial = 9;
+  if (g.group != motion_group) return g.group >= 49 && g.group <= 53 ? "motion.transformation" : "language.statement";
+  if (g.index >= splines_from && g.index <= splines_to) return "motion.spline";
+  return g.index == polynomial ? "motion.polynomial" : "motion.geometry";
 }
 
 }  // namespace cnctrans::sinumerik

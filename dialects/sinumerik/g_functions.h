@@ -47,4 +47,7 @@ const GFunction* g_function(std::string_view name);
 /// By group and index (`G[8]=2`); null when there is none.
 const GFunction* g_function(std::int32_t group, std::int32_t index);
 
+/// Entry of the missing-features registry that a G function of GUse::unsupported stands under; empty for any other.
+std::string_view missing_feature(const GFunction& g);
+
 }  // namespace cnctrans::sinumerik

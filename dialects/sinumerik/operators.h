@@ -78,6 +78,8 @@ inline constexpr std::array functions{
     FunctionRow{"STRLEN", ir::Function::string_length, 1, 1, ir::Type::integer},
     FunctionRow{"SUBSTR", ir::Function::substring, 2, 3, ir::Type::string},
     FunctionRow{"INDEX", ir::Function::index_of, 2, 2, ir::Type::integer},
+    FunctionRow{"RINDEX", ir::Function::last_index_of, 2, 2, ir::Type::integer},
+    FunctionRow{"MINDEX", ir::Function::index_of_any, 2, 2, ir::Type::integer},
     FunctionRow{"MATCH", ir::Function::index_of, 2, 2, ir::Type::integer},
     FunctionRow{"NUMBER", ir::Function::to_number, 1, 1, ir::Type::real},
     FunctionRow{"ISNUMBER", ir::Function::is_number, 1, 1, ir::Type::boolean}};

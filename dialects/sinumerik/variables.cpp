@@ -28,7 +28,8 @@ std::vector<ir::VariableSpace> variable_spaces() {
           named(ir::Scope::global, ir::Type::real),
           named(ir::Scope::global, ir::Type::integer),
           named(ir::Scope::global, ir::Type::boolean),
-          named(ir::Scope::global, ir::Type::string)};
+          named(ir::Scope::global, ir::Type::string),
+          named(ir::Scope::routine, ir::Type::frame)};
 }
 
 std::optional<ir::SpaceId> space_of(ir::Type type, bool global) {
@@ -40,7 +41,9 @@ std::optional<ir::SpaceId> space_of(ir::Type type, bool global) {
     case ir::Type::axis:
       if (!global) return space::axis;
       return std::nullopt;
-    case ir::Type::frame: break;
+    case ir::Type::frame:
+      if (!global) return space::frame;
+      return std::nullopt;
   }
   return std::nullopt;
 }

@@ -26,6 +26,7 @@ struct MachineFacts {
   std::array<const machine::MCode*, m_limit> m_codes{};  ///< null: no meaning known
   bool tool_word_changes = false;                        ///< T carries out the change (MD22550 = 0)
   bool undefined_names_are_global = false;               ///< undeclared names are global user variables
+  double default_edge = 1;                               ///< D that a tool change selects; 0: none
 
   [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis
   [[nodiscard]] ir::AxisId axis(std::string_view name) const;  ///< by name in capitals, also "X1" of the profile
@@ -36,7 +37,7 @@ struct Symbol {
   ir::Type type = ir::Type::real;
   ir::SpaceId space = space::real;
   std::uint8_t dimensions = 0;
-  bool frame = false;  ///< declared FRAME: not carried
+  std::array<std::uint32_t, 3> sizes{};  ///< of the dimensions; 0: not known
 };
 
 struct FileContext {
@@ -51,6 +52,9 @@ struct FileContext {
   std::uint32_t errors = 0;                            ///< faults of this line so far, kept constructs included
   std::uint32_t kept = 0;                              ///< of those, constructs that are read but not carried
   std::set<std::string, std::less<>> said{};           ///< names of unknown meaning that were reported, capitals
+
+  std::uint8_t master_spindle = 1;  ///< SETMS, in the order of the text
+  bool offset_chosen = true;        ///< a D was written since the last T, in the order of the text
 
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
 

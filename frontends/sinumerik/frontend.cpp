@@ -253,11 +253,31 @@ void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
   statements_.add(std::move(s));
 }
 
+/// `EXECSTRING("G0 X5")`: the block that the text is; nullopt when the text is not written there.
+std::optional<std::string> executed_text(std::string_view line) {
+  const std::string upper = to_upper_ascii(line);
+  const std::size_t at = upper.find("EXECSTRING");
+  if (at == std::string::npos || upper.find_first_of(";\"") < at) return std::nullopt;
+  const std::size_t open = upper.find_first_not_of(" \t", at + 10);
+  if (open == std::string::npos || upper[open] != '(') return std::nullopt;
+  const std::size_t first = upper.find_first_not_of(" \t", open + 1);
+  if (first == std::string::npos || upper[first] != '"') return std::nullopt;
+  const std::size_t last = upper.find('"', first + 1);
+  if (last == std::string::npos) return std::nullopt;
+  const std::size_t close = upper.find_first_not_of(" \t", last + 1);
+  if (close == std::string::npos || upper[close] != ')') return std::nullopt;
+  std::string out(line.substr(0, at));
+  out += line.substr(first + 1, last - first - 1);
+  out += line.substr(close + 1);
+  return out;
+}
+
 /// With macros written out; the columns of such a line are those of the text made.
 SourceLine FileReading::written_out(const SourceLine& line) {
   SourceLine out = line;
+  if (auto text = executed_text(line.text)) out.text = program_.keep(std::move(*text));
   if (context_.macros.empty()) return out;
-  if (auto text = expand_macros(line.text, context_.macros)) out.text = program_.keep(std::move(*text));
+  if (auto text = expand_macros(out.text, context_.macros)) out.text = program_.keep(std::move(*text));
   return out;
 }
 
@@ -309,6 +329,7 @@ class LineStream final : public StreamReader {
         words_(context_),
         reader_(options.reader) {
     fill_frame(program_, *options.profile);
+    context_.offset_chosen = false;
     ir::Routine routine;
     const std::size_t slash = name.find_last_of('/');
     std::string_view stem = slash == std::string_view::npos ? name : name.substr(slash + 1);
@@ -336,7 +357,7 @@ class LineStream final : public StreamReader {
     if (!unused_.empty()) unused_.clear();
     const bool ok = words_.lower(block_, *node);
     if (!unused_.empty()) diagnostics.append(unused_);
-    if (!ok || words_.tail() == Tail::subprogram_end) return StreamLine::needs_program;
+    if (!ok || words_.tail() == Tail::subprogram_end || default_offset(*node)) return StreamLine::needs_program;
     return words_.tail() == Tail::program_end ? StreamLine::program_end : StreamLine::statement;
   }
   [[nodiscard]] std::string_view end_word() const override { return context_.slice(words_.tail_pos()); }
@@ -344,6 +365,12 @@ class LineStream final : public StreamReader {
   [[nodiscard]] const ir::Program& frame() const override { return program_; }
 
  private:
+  /// The tool change of the block selects an offset that is not written.
+  static bool default_offset(const ir::Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+      return std::holds_alternative<ir::ToolOffset>(a.data) && a.text.empty();
+    });
+  }
   /// No variables, no calls, no values that are expressions.
   [[nodiscard]] bool only_addresses() const {
     for (const auto& w : block_.words) {

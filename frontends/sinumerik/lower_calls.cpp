@@ -19,6 +19,7 @@ std::optional<ir::Type> StatementLowering::type_of(const Expr& type) {
   if (type.text == "BOOL") return ir::Type::boolean;
   if (type.text == "STRING" || type.text == "CHAR") return ir::Type::string;
   if (type.text == "AXIS") return ir::Type::axis;
+  if (type.text == "FRAME") return ir::Type::frame;
   return std::nullopt;
 }
 
@@ -90,7 +91,11 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
     const std::string name = to_upper_ascii(v.text);
     Symbol symbol;
     symbol.dimensions = static_cast<std::uint8_t>(v.args[0].args.size());
-    symbol.frame = !place.has_value();
+    for (std::size_t i = 0; i < symbol.sizes.size() && i < v.args[0].args.size(); ++i) {
+      const Expr& d = v.args[0].args[i];
+      if (d.kind == ExprKind::number && d.number >= 1 && d.number <= 65535)
+        symbol.sizes[i] = static_cast<std::uint32_t>(d.number);
+    }
     if (place) {
       symbol.type = *type;
       symbol.space = *place;
@@ -147,18 +152,36 @@ bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
     const std::size_t dimensions = p.args[2].args.size();
     Symbol symbol;
     symbol.dimensions = static_cast<std::uint8_t>(dimensions);
-    symbol.frame = !place.has_value();
     ir::Parameter out;
     out.name = name;
+    if (dimensions != 0) {  // as it stands in the signature
+      out.name += '[';
+      for (std::size_t i = 0; i < dimensions; ++i) {
+        if (i != 0) out.name += ',';
+        if (p.args[2].args[i].kind != ExprKind::missing) out.name += c_.slice(p.args[2].args[i].pos);
+      }
+      out.name += ']';
+    }
+    for (std::size_t i = 0; i < symbol.sizes.size() && i < dimensions; ++i) {
+      const Expr& d = p.args[2].args[i];
+      if (d.kind == ExprKind::number) symbol.sizes[i] = static_cast<std::uint32_t>(d.number);
+    }
     out.by_reference = p.args[1].kind != ExprKind::missing;
     out.type_text = type_text(p.args[0], c_);
-    if (place) {
+    if (place && *type == ir::Type::frame) {
+      ok = refuse("language.statement", p.pos, "parameters of type FRAME are not carried yet");
+      symbol.type = *type;
+      symbol.space = *place;
+    } else if (place) {
       symbol.type = out.type = *type;
       symbol.space = out.variable.space = *place;
     } else {
       ok = refuse("language.statement", p.pos, "parameters of type " + p.args[0].text + " are not carried yet");
     }
-    if (dimensions != 0) ok = refuse("language.statement", p.pos, "arrays as parameters are not carried yet");
+    if (dimensions != 0 && !out.by_reference) {
+      c_.error("SIN-012", p.pos, "an array is handed over by reference: VAR");
+      ok = false;
+    }
     out.variable.name = name;
     if (p.args[3].kind != ExprKind::missing && place) {
       out.default_value = exprs_.lower_as(p.args[3], *type);
@@ -204,10 +227,19 @@ bool StatementLowering::program_name(const Expr& e, ir::CallRoutine& call) {
     c_.error("SIN-017", e.pos, "this is no name of a program");
     return false;
   }
+  const ir::ExprPtr computed = e.kind == ExprKind::binary ? nullptr : exprs_.lower(e);
+  if (computed && computed->type == ir::Type::string) {
+    call.computed = computed;
+    return true;
+  }
   const bool numbered = e.kind == ExprKind::binary && e.text == "<<" && e.args[0].kind == ExprKind::string &&
                         iequals_ascii(e.args[0].text, "L");
   if (numbered) {
     call.computed = exprs_.lower_as(e.args[1], ir::Type::integer);
+    return call.computed != nullptr;
+  }
+  if (e.kind == ExprKind::binary && e.text == "<<") {
+    call.computed = exprs_.lower_as(e, ir::Type::string);
     return call.computed != nullptr;
   }
   return refuse("language.statement", e.pos, "calling a program by a computed name is not carried yet");

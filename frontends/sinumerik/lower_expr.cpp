@@ -16,15 +16,6 @@ using syntax::ExprKind;
 
 namespace {
 
-template <class Node>
-ir::ExprPtr make(Node node, ir::Type type, WordPos pos) {
-  ir::Expr e;
-  e.node = std::move(node);
-  e.type = type;
-  e.pos = pos;
-  return std::make_shared<const ir::Expr>(std::move(e));
-}
-
 bool is_logical(std::string_view op) {
   return op == "AND" || op == "OR" || op == "XOR";
 }
@@ -48,6 +39,10 @@ ir::Type arithmetic_type(ir::BinaryOp op, ir::Type left, ir::Type right) {
     case ir::BinaryOp::concat: return ir::Type::string;
     default: return ir::Type::boolean;
   }
+}
+
+bool is_search(ir::Function f) {
+  return f == ir::Function::index_of || f == ir::Function::last_index_of || f == ir::Function::index_of_any;
 }
 
 /// A system variable that is known by its name only: its type is not known either.
@@ -76,9 +71,9 @@ ir::ExprPtr ExprLowering::lower(const Expr& e) {
       if (based || e.text.find_first_of("Xx") != std::string::npos)
         n.text.clear();  // only plain decimals travel as text
       const ir::Type type = n.integer ? ir::Type::integer : ir::Type::real;
-      return make(std::move(n), type, e.pos);
+      return make_expr(std::move(n), type, e.pos);
     }
-    case ExprKind::string: return make(ir::String{e.text}, ir::Type::string, e.pos);
+    case ExprKind::string: return make_expr(ir::String{e.text}, ir::Type::string, e.pos);
     case ExprKind::variable:
     case ExprKind::name: return named(e);
     case ExprKind::unary: return unary(e);
@@ -95,8 +90,27 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
   const bool from_string = e->type == ir::Type::string;
   const bool to_string = type == ir::Type::string;
   if (to_string && (e->type == ir::Type::real || e->type == ir::Type::integer || e->type == ir::Type::boolean)) {
-    c_.keep("SIN-012", pos, "a number for a text or a CHAR is not carried yet", "use `<<` to make a text of a number");
+    const auto* n = std::get_if<ir::Number>(&e->node);  // a CHAR by its code
+    if (n != nullptr && n->value >= 1 && n->value <= 127 && n->value == std::trunc(n->value))
+      return make_expr(ir::String{std::string(1, static_cast<char>(n->value))}, ir::Type::string, pos);
+    if (e->type != ir::Type::real)
+      return make_expr(ir::Call{ir::Function::character, {std::move(e)}}, ir::Type::string, pos);
+    c_.error("SIN-012", pos, "a REAL can't become a text or a CHAR", "use `<<` to make a text of a number");
     return nullptr;
+  }
+  if (e->type == ir::Type::frame || type == ir::Type::frame) {
+    c_.error("SIN-012", pos, "a frame can't stand for a " + std::string(ir::name(type)));
+    return nullptr;
+  }
+  if (from_string && (type == ir::Type::integer || type == ir::Type::real)) {  // a CHAR counts as its code
+    const auto* variable = std::get_if<ir::VarRef>(&e->node);
+    const auto* call = std::get_if<ir::Call>(&e->node);
+    if (variable != nullptr || (call != nullptr && call->function == ir::Function::substring))
+      return make_expr(ir::Call{ir::Function::character_code, {std::move(e)}}, ir::Type::integer, pos);
+  }
+  if (from_string && type == ir::Type::boolean) {  // an empty text is FALSE
+    return make_expr(ir::Binary{ir::BinaryOp::ne, std::move(e), ir::string_literal({}), ir::Compare::exact},
+                     ir::Type::boolean, pos);
   }
   if (from_string != to_string || e->type == ir::Type::axis || type == ir::Type::axis) {
     c_.error("SIN-012", pos,
@@ -108,10 +122,10 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
   if (type == ir::Type::integer) {
     if (e->type == ir::Type::boolean) return e;
     if (const auto* n = std::get_if<ir::Number>(&e->node); n != nullptr && n->value == std::trunc(n->value)) return e;
-    return make(ir::Call{ir::Function::to_integer, {std::move(e)}, ir::RoundHalf::away}, ir::Type::integer, pos);
+    return make_expr(ir::Call{ir::Function::to_integer, {std::move(e)}, ir::RoundHalf::away}, ir::Type::integer, pos);
   }
   if (const auto* n = std::get_if<ir::Number>(&e->node); n != nullptr && (n->value == 0 || n->value == 1)) return e;
-  return make(ir::Call{ir::Function::to_boolean, {std::move(e)}, ir::RoundHalf::away}, ir::Type::boolean, pos);
+  return make_expr(ir::Call{ir::Function::to_boolean, {std::move(e)}, ir::RoundHalf::away}, ir::Type::boolean, pos);
 }
 
 ir::ExprPtr ExprLowering::lower_as(const Expr& e, ir::Type type) {
@@ -133,7 +147,7 @@ ir::VarRef ExprLowering::r_parameter(const Expr& index, bool& ok) {
     }
     ir::Number plain = *n;
     plain.text.clear();  // R01 is R1
-    ref.index = make(std::move(plain), ir::Type::integer, index.pos);
+    ref.index = make_expr(std::move(plain), ir::Type::integer, index.pos);
   }
   return ref;
 }
@@ -161,20 +175,10 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
                  e.text + " is not defined in this program: taken as a global user variable that starts at 0");
     }
   }
-  if (symbol != nullptr && symbol->frame) {
-    c_.keep("SIN-008", e.pos, "frame variables are not carried yet");
-    return std::nullopt;
-  }
   ir::VarRef ref;
   ref.space = symbol != nullptr ? symbol->space : space::global_real;
   ref.name = e.text;
   if (symbol != nullptr) type = symbol->type;
-  const bool character =
-      symbol != nullptr && symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U;
-  if (character) {
-    c_.keep("SIN-007", e.pos, "access to one character of a text is not carried yet", "use SUBSTR()");
-    return std::nullopt;
-  }
   if (symbol != nullptr && e.args.empty() && symbol->dimensions != 0) {
     c_.keep("SIN-008", e.pos, "the array " + e.text + " as a whole is not carried yet");
     return std::nullopt;
@@ -192,119 +196,61 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
   return ref;
 }
 
+std::optional<ir::VarRef> ExprLowering::whole_array(const Expr& e, ir::Type& type) {
+  const Symbol* symbol = e.kind == ExprKind::name || e.kind == ExprKind::variable ? c_.symbol(e.text) : nullptr;
+  if (symbol == nullptr || symbol->dimensions == 0 || !e.args.empty()) return std::nullopt;
+  ir::VarRef ref;
+  ref.space = symbol->space;
+  ref.name = e.text;
+  type = symbol->type;
+  return ref;
+}
+
+/// `NAME[5]` of a text: the character at this place.
+ir::ExprPtr ExprLowering::character_of(const Expr& e) {
+  Expr whole = e;
+  whole.args.pop_back();
+  ir::ExprPtr text = named(whole);
+  ir::ExprPtr at = text ? lower_as(e.args.back(), ir::Type::integer) : nullptr;
+  if (!at) return nullptr;
+  return make_expr(ir::Call{ir::Function::substring, {std::move(text), std::move(at), ir::number(1)}},
+                   ir::Type::string, e.pos);
+}
+
 ir::ExprPtr ExprLowering::named(const Expr& e) {
   if (!e.text.empty() && e.text[0] == '$') return system_operand(e);
+  if (const Symbol* symbol = c_.symbol(e.text); symbol != nullptr) {
+    if (symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U) return character_of(e);
+    if (symbol->type == ir::Type::frame) {
+      const std::uint32_t before = c_.errors;
+      auto name = frame_name(e);
+      if (name && !name->component) return name->whole;
+      if (name) {
+        return make_expr(ir::Call{ir::Function::frame_part, {name->whole, name->axis, name->component}},
+                         ir::Type::real, e.pos);
+      }
+      if (c_.errors == before) c_.error("SIN-012", e.pos, e.text + " is a frame: its components are TR, FI, RT, SC, MI");
+      return nullptr;
+    }
+  }
   if (e.kind == ExprKind::name && c_.symbol(e.text) == nullptr) {
     if (const auto constant = constant_name(e.text); constant) {
-      return make(ir::Number{*constant, {}, true}, ir::Type::boolean, e.pos);
+      return make_expr(ir::Number{*constant, {}, true}, ir::Type::boolean, e.pos);
     }
     if (const ir::AxisId id = c_.machine.axis(e.text); id != ir::axis::none) {
-      return make(ir::AxisName{id}, ir::Type::axis, e.pos);
+      return make_expr(ir::AxisName{id}, ir::Type::axis, e.pos);
     }
   }
   if (is_undefined(e)) {
     const std::uint32_t before = c_.errors;
     ir::SystemRef ref = undefined(e);
     if (c_.errors != before) return nullptr;
-    return make(std::move(ref), ir::Type::real, e.pos);
+    return make_expr(std::move(ref), ir::Type::real, e.pos);
   }
   ir::Type type = ir::Type::real;
   auto ref = variable(e, type);
   if (!ref) return nullptr;
-  return make(std::move(*ref), type, e.pos);
-}
-
-namespace {
-
-struct DatumRow {
-  std::string_view name;
-  ir::Datum datum;
-  bool axis;  ///< the first index is an axis
-};
-// What has a neutral meaning (motion reference 24.1); everything else is known by its name only.
-constexpr DatumRow data[] = {
-    {"$P_EP", ir::Datum::programmed_position, true},
-    {"$AA_IW", ir::Datum::work_position, true},
-    {"$AA_IM", ir::Datum::machine_position, true},
-    {"$P_TOOLNO", ir::Datum::tool_number, false},
-    {"$P_TOOLP", ir::Datum::next_tool, false},
-    {"$P_TOOL", ir::Datum::offset_number, false},
-    {"$P_TOOLR", ir::Datum::tool_radius, false},
-    {"$AC_ACTUAL_PARTS", ir::Datum::part_count, false},
-    {"$AC_CYCLE_TIME", ir::Datum::cycle_time, false},
-    {"$P_SUBPAR", ir::Datum::call_has_argument, false},
-    {"$P_F", ir::Datum::feed, false},
-    {"$P_S", ir::Datum::spindle_speed, false},
-};
-// FALSE in a plain run (reference-language 13).
-constexpr std::string_view false_in_a_run[] = {"$P_SEARCH", "$P_SIM", "$P_ISTEST", "$P_DRYRUN", "$P_SEARCHL"};
-
-}  // namespace
-
-ir::SystemRef ExprLowering::system(const Expr& e) {
-  ir::SystemRef ref;
-  ref.text = e.text;
-  std::size_t first = 0;
-  for (const auto& row : data) {
-    if (row.name != e.text) continue;
-    ref.datum = row.datum;
-    if (row.axis && !e.args.empty() && e.args[0].kind == ExprKind::name) {
-      ref.axis = c_.machine.axis(e.args[0].text);
-      first = 1;
-    }
-    if (row.axis && ref.axis == ir::axis::none) ref.datum = ir::Datum::other;
-  }
-  // $P_UIFR[row, axis, TR]: a value of the table of settable offsets
-  if (e.text == "$P_UIFR" && e.args.size() == 3 && e.args[1].kind == ExprKind::name && e.args[2].text == "TR") {
-    ref.axis = c_.machine.axis(e.args[1].text);
-    if (ref.axis != ir::axis::none) {
-      ref.datum = ir::Datum::work_offset;
-      if (auto row = lower_as(e.args[0], ir::Type::integer)) ref.args.push_back(std::move(row));
-      return ref;
-    }
-  }
-  for (std::size_t i = ref.datum == ir::Datum::other ? 0 : first; i < e.args.size(); ++i) {
-    const Expr& a = e.args[i];
-    // Components and axis names of data we don't know stay text.
-    if (a.kind == ExprKind::name && c_.symbol(a.text) == nullptr && c_.machine.axis(a.text) == ir::axis::none) {
-      ref.args.push_back(make(ir::String{a.text}, ir::Type::string, a.pos));
-    } else if (auto index = lower(a)) {
-      ref.args.push_back(std::move(index));
-    }
-  }
-  return ref;
-}
-
-ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
-  if (e.text == "$PI") {
-    return make(ir::Number{3.14159265358979323846, {}, false}, ir::Type::real, e.pos);
-  }
-  if (std::find(std::begin(false_in_a_run), std::end(false_in_a_run), e.text) != std::end(false_in_a_run)) {
-    c_.note("SIN-015", e.pos, e.text + " is read as FALSE: neither block search nor simulation is running");
-    return make(ir::Number{0, {}, true}, ir::Type::boolean, e.pos);
-  }
-  if (e.text.size() > 2 && e.text[1] == 'R' && e.args.empty() &&
-      std::all_of(e.text.begin() + 2, e.text.end(), [](char c) { return c >= '0' && c <= '9'; })) {
-    Expr r;  // $R10 is the cell R10
-    r.kind = ExprKind::variable;
-    r.text = "R";
-    r.pos = e.pos;
-    Expr index;
-    index.kind = ExprKind::number;
-    index.text = e.text.substr(2);
-    index.number = std::stod(index.text);
-    index.pos = e.pos;
-    r.args.push_back(std::move(index));
-    return named(r);
-  }
-  const std::uint32_t before = c_.errors;
-  ir::SystemRef ref = system(e);
-  if (c_.errors != before) return nullptr;
-  if (ref.datum == ir::Datum::other && c_.first_time(e.text)) {
-    c_.warning("SIN-015", e.pos, e.text + " is known only to the machine: a run stops where it is read");
-  }
-  const ir::Type type = ref.datum == ir::Datum::call_has_argument ? ir::Type::boolean : ir::Type::real;
-  return make(std::move(ref), type, e.pos);
+  return make_expr(std::move(*ref), type, e.pos);
 }
 
 // --- operators --------------------------------------------------------------------------------------------------
@@ -319,13 +265,13 @@ ir::ExprPtr ExprLowering::unary(const Expr& e) {
   }
   if (e.text == "+") return operand;
   if (e.text == "NOT") {
-    return make(ir::Unary{ir::UnaryOp::logical_not, std::move(operand)}, ir::Type::boolean, e.pos);
+    return make_expr(ir::Unary{ir::UnaryOp::logical_not, std::move(operand)}, ir::Type::boolean, e.pos);
   }
   if (e.text == "B_NOT") {
-    return make(ir::Unary{ir::UnaryOp::bit_not, std::move(operand)}, ir::Type::integer, e.pos);
+    return make_expr(ir::Unary{ir::UnaryOp::bit_not, std::move(operand)}, ir::Type::integer, e.pos);
   }
   const ir::Type type = operand->type == ir::Type::boolean ? ir::Type::integer : operand->type;
-  return make(ir::Unary{ir::UnaryOp::negate, std::move(operand)}, type, e.pos);
+  return make_expr(ir::Unary{ir::UnaryOp::negate, std::move(operand)}, type, e.pos);
 }
 
 /// `R1==1 AND R2==2` is `R1==(1 AND R2)==2` on this control: almost never what was meant.
@@ -355,32 +301,47 @@ ir::ExprPtr ExprLowering::as_string(ir::ExprPtr e) {
     c_.error("SIN-012", pos, "an axis can't be made a text by `<<`", "use AXSTRING()");
     return nullptr;
   }
-  return make(ir::Call{ir::Function::to_string, {std::move(e)}, ir::RoundHalf::away}, ir::Type::string, pos);
+  return make_expr(ir::Call{ir::Function::to_string, {std::move(e)}, ir::RoundHalf::away}, ir::Type::string, pos);
 }
 
 ir::ExprPtr ExprLowering::concat(const Expr& e) {
   ir::ExprPtr left = as_string(lower(e.args[0]));
   ir::ExprPtr right = as_string(lower(e.args[1]));
   if (!left || !right) return nullptr;
-  return make(ir::Binary{ir::BinaryOp::concat, std::move(left), std::move(right), ir::Compare::exact}, ir::Type::string,
+  return make_expr(ir::Binary{ir::BinaryOp::concat, std::move(left), std::move(right), ir::Compare::exact}, ir::Type::string,
               e.pos);
 }
 
 ir::ExprPtr ExprLowering::binary(const Expr& e) {
   if (e.text == "<<") return concat(e);
-  if (e.text == ":") {
-    c_.keep("SIN-008", e.pos, "chains of frames are not carried yet");
-    return nullptr;
-  }
+  if (e.text == ":") return frame(e);
   warn_priority(e);
-  const bool single_equals = e.text == "=";
-  if (single_equals)
-    c_.warning("SIN-013", e.pos, "a single `=` in a condition is read as the comparison `==`", "write `==`");
-  const OperatorRow* row = binary_operator(single_equals ? std::string_view("==") : std::string_view(e.text));
+  std::string_view op = e.text;
+  if (op == "=") op = "==";
+  if (op == "=<") op = "<=";
+  if (op == "=>") op = ">=";
+  if (op != e.text) {
+    c_.warning("SIN-013", e.pos, "`" + e.text + "` in a condition is read as the comparison `" + std::string(op) + "`",
+               "write `" + std::string(op) + "`");
+  }
+  const OperatorRow* row = binary_operator(op);
   ir::ExprPtr left = lower(e.args[0]);
   ir::ExprPtr right = lower(e.args[1]);
   if (!left || !right || row == nullptr) return nullptr;
   const bool relation = ir::is_comparison(row->op);
+  const auto is_number = [](ir::Type t) {
+    return t == ir::Type::real || t == ir::Type::integer || t == ir::Type::boolean;
+  };
+  if (relation && left->type == ir::Type::string && is_number(right->type) && !is_unknown_datum(right)) {
+    left = convert(std::move(left), ir::Type::integer, e.args[0].pos);  // a CHAR beside a number
+  } else if (relation && right->type == ir::Type::string && is_number(left->type) && !is_unknown_datum(left)) {
+    right = convert(std::move(right), ir::Type::integer, e.args[1].pos);
+  }
+  if (!left || !right) return nullptr;
+  if (left->type == ir::Type::frame || right->type == ir::Type::frame) {
+    c_.error("SIN-012", e.pos, "`" + e.text + "` can't work on frames");
+    return nullptr;
+  }
   const bool texts = left->type == ir::Type::string || right->type == ir::Type::string;
   const bool axes = left->type == ir::Type::axis || right->type == ir::Type::axis;
   const bool unknown = is_unknown_datum(left) || is_unknown_datum(right);
@@ -406,10 +367,12 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
   const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
   const ir::Compare compare = relation && reals ? ir::Compare::relative_1e12 : ir::Compare::exact;
   const ir::Type type = arithmetic_type(row->op, left->type, right->type);
-  return make(ir::Binary{row->op, std::move(left), std::move(right), compare}, type, e.pos);
+  return make_expr(ir::Binary{row->op, std::move(left), std::move(right), compare}, type, e.pos);
 }
 
 ir::ExprPtr ExprLowering::call(const Expr& e) {
+  bool known = false;
+  if (auto made = axis_function(e, known); known) return made;
   const FunctionRow* row = expression_function(e.text);
   if (row == nullptr) {
     const bool attribute_word = attribute(e.text) != Attribute::none;
@@ -429,12 +392,12 @@ ir::ExprPtr ExprLowering::call(const Expr& e) {
   std::vector<ir::ExprPtr> args;
   bool integers = true;
   const bool wants_texts = row->result == ir::Type::string || row->function == ir::Function::string_length ||
-                           row->function == ir::Function::index_of || row->function == ir::Function::to_number ||
+                           is_search(row->function) || row->function == ir::Function::to_number ||
                            row->function == ir::Function::is_number;
   for (const Expr& a : e.args) {
     ir::ExprPtr arg = lower(a);
     if (!arg) return nullptr;
-    const bool text_expected = wants_texts && (args.empty() || row->function == ir::Function::index_of);
+    const bool text_expected = wants_texts && (args.empty() || is_search(row->function));
     const bool fits = (arg->type == ir::Type::string) == text_expected && arg->type != ir::Type::axis;
     if (!fits && !is_unknown_datum(arg)) {
       c_.error("SIN-012", a.pos, e.text + "() needs a " + (text_expected ? "text" : "number") + " here");
@@ -447,7 +410,7 @@ ir::ExprPtr ExprLowering::call(const Expr& e) {
                              row->function == ir::Function::max || row->function == ir::Function::bound ||
                              row->function == ir::Function::ceil;
   const ir::Type type = keeps_integer && integers ? ir::Type::integer : row->result;
-  return make(ir::Call{row->function, std::move(args), ir::RoundHalf::away}, type, e.pos);
+  return make_expr(ir::Call{row->function, std::move(args), ir::RoundHalf::away}, type, e.pos);
 }
 
 // --- values of words --------------------------------------------------------------------------------------------
@@ -457,6 +420,10 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
   const Expr* inner = &e;
   if (e.kind == ExprKind::call) {
     out = attribute(e.text);
+    if (e.text == "QU" && e.args.size() == 1) {  // quick output: the same value
+      out = Attribute::none;
+      return value_of(e.args[0], out);
+    }
     if (out == Attribute::unsupported || e.text.empty()) {
       c_.keep("SIN-008", e.pos,
               "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");

@@ -2,11 +2,24 @@
 // rounding when a real is put into an INT, strings made of numbers by `<<`.
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "dialects/sinumerik/addresses.h"
 #include "frontends/common/syntax.h"
 #include "frontends/sinumerik/context.h"
 
 namespace cnctrans::sinumerik {
+
+/// An expression of this type that stands at `pos`.
+template <class Node>
+ir::ExprPtr make_expr(Node node, ir::Type type, WordPos pos) {
+  ir::Expr e;
+  e.node = std::move(node);
+  e.type = type;
+  e.pos = pos;
+  return std::make_shared<const ir::Expr>(std::move(e));
+}
 
 class ExprLowering {
  public:
@@ -33,8 +46,24 @@ class ExprLowering {
   [[nodiscard]] bool is_undefined(const syntax::Expr& e) const;
   /// Such a name as a datum known by its name only; warned about once a file.
   ir::SystemRef undefined(const syntax::Expr& e);
+  /// A frame: CTRANS() and its like, chains, frame variables. Null after an error.
+  ir::ExprPtr frame(const syntax::Expr& e);
+  /// The whole frame that `e` names ($P_PFRAME, $P_UIFR[n], a variable of type FRAME), its component taken off;
+  /// nullopt when it names none. `component` and `axis` are null for the whole frame.
+  struct FrameName {
+    ir::ExprPtr whole, axis, component;
+  };
+  std::optional<FrameName> frame_name(const syntax::Expr& e);
+  /// The axis that an index names, or a variable of type AXIS; null after an error.
+  ir::ExprPtr axis_operand(const syntax::Expr& e);
+  /// An array that is named as a whole, to be handed over; nullopt when `e` names none.
+  std::optional<ir::VarRef> whole_array(const syntax::Expr& e, ir::Type& type);
 
  private:
+  ir::ExprPtr frame_function(const syntax::Expr& e);
+  ir::ExprPtr axis_function(const syntax::Expr& e, bool& known);
+  ir::ExprPtr active_g_function(const syntax::Expr& e);
+  ir::ExprPtr character_of(const syntax::Expr& e);
   ir::ExprPtr named(const syntax::Expr& e);
   ir::ExprPtr unary(const syntax::Expr& e);
   ir::ExprPtr binary(const syntax::Expr& e);

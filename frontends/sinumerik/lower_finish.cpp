@@ -1,8 +1,10 @@
 // Word blocks: named addresses, and what closes a block once all its words are known.
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "base/text.h"
+#include "ir/frame_angles.h"
 #include "frontends/sinumerik/lower_words.h"
 
 namespace cnctrans::sinumerik {
@@ -10,9 +12,7 @@ namespace cnctrans::sinumerik {
 using syntax::Word;
 
 void WordLowering::spindle_position(const Word& w, ir::Value value, Attribute attribute) {
-  if (attribute == Attribute::ic)
-    return refuse("language.statement", w.pos, "turning the spindle by an increment is not carried yet");
-  push(ir::SpindleOrient{1, std::move(value)}, Rank::orient, ir::Order::before, w.pos);
+  push(ir::SpindleOrient{c_.master_spindle, std::move(value), attribute == Attribute::ic}, Rank::orient, ir::Order::before, w.pos);
 }
 
 void WordLowering::named(const syntax::Block& block, const Word& w) {
@@ -92,8 +92,20 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       extra_.start_angle = std::move(value);
       return;
     case NamedWord::spindle_limit:
-      return push(ir::SpindleLimit{1, std::move(value), false}, Rank::limit, ir::Order::before, w.pos);
+      return push(ir::SpindleLimit{c_.master_spindle, std::move(value), false}, Rank::limit, ir::Order::before, w.pos);
     case NamedWord::spindle_position: return spindle_position(w, std::move(value), attribute);
+    case NamedWord::block_feed:
+      return push(ir::SetFeed{std::move(value), false, true}, Rank::feed, ir::Order::before, w.pos);
+    case NamedWord::fixed_point:
+      extra().has_fixed_point = true;
+      extra_.fixed_point = std::move(value);
+      return;
+    case NamedWord::probe:
+    case NamedWord::probe_to_end:
+      extra().has_probe_edge = true;
+      extra_.probe_edge = std::move(value);
+      extra_.probe_goes_on = row->use == NamedWord::probe_to_end;
+      return;
     case NamedWord::rotation_in_plane:
       has_rpl_ = true;
       rpl_ = std::move(value);
@@ -120,8 +132,10 @@ bool WordLowering::finish() {
     case Special::frame: finish_frame(); break;
     case Special::pole: finish_pole(); break;
     case Special::limit:
-      if (!out_->motion.coords.empty())
-        refuse("work_zone", special_pos_, "limits of the working area are not carried yet");
+      if (out_->motion.coords.empty()) break;
+      c_.note("SIN-009", special_pos_, "limits of the working area are kept as text: the programmed path is the same");
+      push(ir::OpaqueWord{c_.slice(statement_pos())}, Rank::setting, ir::Order::before, statement_pos());
+      out_->motion.coords.clear();
       break;
     case Special::approach:
       out_->motion.kind = static_cast<ir::MotionKind>(special_g_->a);
@@ -138,8 +152,31 @@ bool WordLowering::finish() {
     c_.error("SIN-003", special_pos_, "RPL= belongs to ROT or AROT");
   }
   finish_motion();
+  default_offset();
   sort_actions();
   return true;
+}
+
+/// A tool change selects edge 1 unless a D was written since its T (14.8, MD20270).
+void WordLowering::default_offset() {
+  bool changes = false;
+  WordPos place;
+  for (const auto& a : out_->actions) {
+    if (const auto* t = std::get_if<ir::ToolSelect>(&a.data)) {
+      c_.offset_chosen = t->name.empty() && t->number.is(0);
+      changes = changes || t->changes;
+      place = a.pos;
+    } else if (std::holds_alternative<ir::ToolChange>(a.data)) {
+      changes = true;
+      place = a.pos;
+    }
+  }
+  if (changes || !c_.offset_chosen) {
+    for (const auto& a : out_->actions) c_.offset_chosen = c_.offset_chosen || std::holds_alternative<ir::ToolOffset>(a.data);
+  }
+  if (!changes || c_.offset_chosen || c_.machine.default_edge <= 0) return;
+  c_.offset_chosen = true;
+  push(ir::ToolOffset{ir::Value(c_.machine.default_edge)}, Rank::offset, ir::Order::before, place, false);
 }
 
 void WordLowering::reject_axis_words(std::string_view why) {
@@ -204,27 +241,55 @@ void WordLowering::finish_rotation(ir::FrameChange& change) {
       refuse("motion.transformation", special_pos_, "RPL= together with axis angles is not carried yet");
     return;
   }
-  if (coords.size() != 1 || !is_geometry_axis(coords.front().axis)) {
-    refuse("motion.transformation", special_pos_, "a rotation about several axes in one block is not carried yet");
+  for (const auto& c : coords) {
+    if (is_geometry_axis(c.axis)) continue;
+    failed_ = true;
+    c_.error("SIN-012", c.pos, "only X, Y and Z can be turned about");
     return;
   }
-  change.angle = std::move(coords.front().value);
-  change.rotation_axis = coords.front().axis;
+  if (coords.size() == 1) {
+    change.angle = std::move(coords.front().value);
+    change.rotation_axis = coords.front().axis;
+    return;
+  }
+  change.has_angle = false;  // about Z, then the new Y, then the new X, in whatever order they are written
+  for (auto& c : coords) change.words.push_back(ir::FrameWord{c.axis, std::move(c.value), ir::WordScale::radius, c.pos});
+}
+
+/// ROTS, AROTS: one angle is that of ROT; two incline a plane.
+void WordLowering::finish_solid_angles(ir::FrameChange& change) {
+  auto& coords = out_->motion.coords;
+  const bool solid = coords.size() == 2 && !has_rpl_;
+  if (!solid) return finish_rotation(change);
+  change.kind = ir::FrameKind::rotate;
+  for (const auto& c : coords) {
+    if (!c.value.literal() || !is_geometry_axis(c.axis))
+      return refuse("motion.transformation", special_pos_, "solid angles that are computed are not carried yet");
+  }
+  const auto turns =
+      ir::solid_angles(coords[0].axis, coords[0].value.number, coords[1].axis, coords[1].value.number);
+  for (ir::AxisId a = 0; a <= ir::axis::z; ++a)
+    change.words.push_back(ir::FrameWord{a, ir::Value(turns[a]), ir::WordScale::radius, coords[0].pos});
+}
+
+/// The words of a frame statement as they stand, from the verb to the last of them.
+WordPos WordLowering::statement_pos() const {
+  std::uint32_t end = special_pos_.column + special_pos_.length;
+  for (const auto& c : out_->motion.coords) end = std::max(end, c.pos.column + c.pos.length);
+  return WordPos{special_pos_.column, end - special_pos_.column};
 }
 
 void WordLowering::finish_frame() {
   const auto verb = static_cast<FrameVerb>(special_g_->a);
   auto& coords = out_->motion.coords;
   if (!out_->motion.centers.empty()) reject_axis_words("arc words can't stand with " + std::string(special_g_->name));
-  if (verb == FrameVerb::rots || verb == FrameVerb::arots || verb == FrameVerb::g58 || verb == FrameVerb::g59) {
-    refuse("motion.transformation", special_pos_, std::string(special_g_->name) + " is not carried yet");
-    coords.clear();
-    return;
-  }
   auto change = std::make_shared<ir::FrameChange>();
   change->slot = ir::FrameSlot::chain;
   const bool additive =
-      verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale || verb == FrameVerb::amirror;
+      verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale ||
+      verb == FrameVerb::amirror || verb == FrameVerb::arots;
+  const bool solid = (verb == FrameVerb::rots || verb == FrameVerb::arots) && coords.size() == 2;
+  const WordPos whole = statement_pos();
   const bool empty = coords.empty() && !has_rpl_;
   change->combine = additive ? ir::FrameCombine::compose : empty ? ir::FrameCombine::clear : ir::FrameCombine::replace;
   switch (verb) {
@@ -232,6 +297,20 @@ void WordLowering::finish_frame() {
     case FrameVerb::arot:
       change->kind = ir::FrameKind::rotate;
       if (!empty) finish_rotation(*change);
+      break;
+    case FrameVerb::rots:
+    case FrameVerb::arots:
+      change->kind = ir::FrameKind::rotate;
+      if (!empty) finish_solid_angles(*change);
+      break;
+    case FrameVerb::g58:
+    case FrameVerb::g59:  // the coarse or the fine shift of the named axes alone
+      if (empty) {
+        failed_ = true;
+        c_.error("SIN-004", special_pos_, std::string(special_g_->name) + " needs the axes that it shifts");
+      }
+      change->combine = ir::FrameCombine::replace_named;
+      change->fine = verb == FrameVerb::g59;
       break;
     case FrameVerb::scale:
     case FrameVerb::ascale: change->kind = ir::FrameKind::scale; break;
@@ -256,7 +335,7 @@ void WordLowering::finish_frame() {
     c_.note("SIN-009", special_pos_, std::string(special_g_->name) + " without axes changes nothing");
     return push(ir::OpaqueWord{c_.slice(special_pos_)}, Rank::setting, ir::Order::before, special_pos_);
   }
-  push(ir::FrameOp{std::move(change)}, Rank::setting, ir::Order::before, special_pos_);
+  push(ir::FrameOp{std::move(change)}, Rank::setting, ir::Order::before, solid ? whole : special_pos_);
 }
 
 /// Every word that gives the end, the centre or the shape of a move must count: two that say the same are an error of

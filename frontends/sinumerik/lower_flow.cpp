@@ -21,6 +21,8 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   executable_seen_ = ended_ = false;
   c_.symbols.clear();
   c_.macros.clear();
+  c_.master_spindle = 1;
+  c_.offset_chosen = routine.kind != ir::RoutineKind::main;
   c_.motion = c_.machine.profile->power_on.motion;
 }
 

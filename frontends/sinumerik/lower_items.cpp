@@ -1,4 +1,5 @@
 // Rows of items: assignments, words, calls and ends that share a block.
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/limits.h"
 #include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/row_parts.h"
 
 namespace cnctrans::sinumerik {
 
@@ -15,17 +17,6 @@ using syntax::Block;
 using syntax::Expr;
 using syntax::ExprKind;
 using syntax::Word;
-
-struct StatementLowering::Parts {
-  ir::Assign assign;
-  Block words;  ///< the address words; `exprs` is the source block's
-  std::vector<std::pair<const GFunction*, WordPos>> indirect;
-  std::vector<ir::Action> actions;  ///< further actions (spindle positions, preparation stop)
-  std::vector<decltype(ir::Statement::node)> calls;
-  bool has_count = false;
-  ir::ExprPtr count;
-  WordPos count_pos;
-};
 
 ir::RoutineName routine_name(std::string_view text) {
   ir::RoutineName out;
@@ -63,31 +54,6 @@ void StatementLowering::emit(ir::LineInfo& info, decltype(ir::Statement::node) n
 
 // --- assignments ------------------------------------------------------------------------------------------------
 
-bool StatementLowering::assign_set(const ir::VarRef& target, ir::Type type, const Expr& value, WordPos pos,
-                                   Parts& parts) {
-  const bool numbered = target.space == space::r;
-  if (!numbered && target.indices.size() != 1) {
-    return refuse("language.statement", pos, "SET() over an array of several dimensions is not carried yet");
-  }
-  const ir::ExprPtr first = numbered ? target.index : target.indices[0];
-  for (std::size_t i = 0; i < value.args.size(); ++i) {
-    ir::Assign::Item item;
-    item.target = target;
-    ir::ExprPtr& index = numbered ? item.target.index : item.target.indices[0];
-    if (const auto* n = std::get_if<ir::Number>(&first->node); n != nullptr) {
-      index = ir::number(n->value + static_cast<double>(i));
-    } else if (i != 0) {
-      index = ir::binary(ir::BinaryOp::add, first, ir::number(static_cast<double>(i)));
-    }
-    const Expr& e = value.args[i];  // a gap writes 0
-    item.value = e.kind == ExprKind::missing ? ir::number(0) : exprs_.lower_as(e, type);
-    if (!item.value) return false;
-    item.pos = pos;
-    parts.assign.items.push_back(std::move(item));
-  }
-  return true;
-}
-
 bool StatementLowering::assign_system(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
   const std::uint32_t before = c_.errors;
   ir::Assign::Item item;
@@ -95,7 +61,12 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   item.to_system = true;
   item.pos = pos;
   if (c_.errors != before) return false;
-  if (item.system.datum != ir::Datum::work_offset) {
+  const bool tool_data = target.text.rfind("$TC_", 0) == 0;
+  const bool storage = target.text == "$AC_MARKER" || target.text == "$AC_PARAM";
+  if (tool_data && c_.first_time("$TC_"))
+    c_.note("SIN-009", pos, "tool data are kept: they do not change the programmed path");
+  if (item.system.datum != ir::Datum::work_offset && item.system.datum != ir::Datum::work_offset_fine && !tool_data &&
+      !storage) {
     return refuse("language.system_variable", pos,
                   "writing " + target.text + " is not carried yet: it could change what the machine does");
   }
@@ -105,11 +76,26 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   return true;
 }
 
+/// MX, MX1, XA2: what machine builders call axes.
+bool StatementLowering::reads_like_axis(std::string_view name) {
+  constexpr std::string_view letters = "XYZABCUVWQ";
+  if (name.empty() || name.size() > 4) return false;
+  const std::string_view rest = name[0] == 'M' ? name.substr(1) : name;
+  const bool letter = !rest.empty() && letters.find(rest[0]) != std::string_view::npos;
+  return letter && rest.find_first_not_of("0123456789", 1) == std::string_view::npos &&
+         (name[0] == 'M' || rest.size() > 1);
+}
+
 /// A name that is not defined here gets a value: from there on it is known.
 bool StatementLowering::assign_undefined(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
   if (value.kind == ExprKind::call && attribute(value.text) != Attribute::none) {
     return refuse("language.statement", pos,
                   target.text + " is an axis that the machine " + c_.machine.profile->name + " does not have");
+  }
+  if (reads_like_axis(target.text)) {
+    return refuse("language.statement", pos,
+                  target.text + " reads like an axis, and the machine " + c_.machine.profile->name + " has none of this name",
+                  "add the axis to the profile, or define the variable with DEF; the block is kept as text");
   }
   const std::uint32_t before = c_.errors;
   ir::Assign::Item item;
@@ -128,6 +114,7 @@ bool StatementLowering::assign_undefined(const Expr& target, const Expr& value, 
 
 bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
   if (target.text.size() > 1 && target.text[0] == '$') {
+    if (const auto done = assign_frame(target, value, pos, parts.assign, parts.actions)) return *done;
     const bool r_cell = target.text[1] == 'R' && target.text.find_first_not_of("0123456789", 2) == std::string::npos;
     if (!r_cell) return assign_system(target, value, pos, parts);
     Expr cell = target;  // $R10, $R[10]
@@ -142,16 +129,16 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
     }
     return assign(cell, value, pos, parts);
   }
+  if (const auto done = assign_frame(target, value, pos, parts.assign, parts.actions)) return *done;
+  const Symbol* symbol = c_.symbol(target.text);
+  if (symbol != nullptr && symbol->type == ir::Type::string && target.args.size() == symbol->dimensions + 1U)
+    return assign_character(target, value, pos, parts.assign);
   const bool list = value.kind == ExprKind::call && (value.text == "SET" || value.text == "REP" || value.text.empty());
   if (exprs_.is_undefined(target) && !list) return assign_undefined(target, value, pos, parts);
   ir::Type type = ir::Type::real;
   auto ref = exprs_.variable(target, type);
   if (!ref) return false;
-  if (value.kind == ExprKind::call && value.text == "SET") return assign_set(*ref, type, value, pos, parts);
-  if (value.kind == ExprKind::call && (value.text == "REP" || value.text.empty())) {
-    return refuse("language.statement", pos, "filling an array in one statement is not carried yet",
-                  "use SET() or a loop");
-  }
+  if (list) return assign_list(*ref, type, value, c_.symbol(target.text), pos, parts.assign);
   ir::Assign::Item item;
   item.target = std::move(*ref);
   item.value = exprs_.lower_as(value, type);
@@ -167,38 +154,12 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
   const bool one_index = target.args.size() == 1;
   if (target.text == "R" || target.text[0] == '$' || c_.symbol(target.text) != nullptr)
     return assign(target, value, s.pos, parts);
-  if (target.text == "G" && one_index) {
-    const auto* group = &target.args[0];
-    const GFunction* g = group->kind == ExprKind::number && value.kind == ExprKind::number
-                             ? g_function(saturate<std::int32_t>(group->number), saturate<std::int32_t>(value.number))
-                             : nullptr;
-    if (g == nullptr)
-      return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
-    parts.indirect.emplace_back(g, s.pos);
-    return true;
-  }
-  const bool position = target.text == "SPOS" || target.text == "SPOSA" || target.text == "LIMS" || target.text == "S";
-  if (position && one_index && target.args[0].kind == ExprKind::number) {
-    Attribute attribute = Attribute::none;
-    const std::uint32_t before = c_.errors;
-    ir::Value v = exprs_.value_of(value, attribute);
-    if (c_.errors != before) return false;
-    const auto number = static_cast<std::uint8_t>(target.args[0].number);
-    ir::Action a;
-    a.pos = s.pos;
-    a.text = c_.slice(s.pos);
-    if (target.text == "LIMS") {
-      a.data = ir::SpindleLimit{number, std::move(v), false};
-    } else if (target.text == "S") {
-      a.data = ir::SetSpindle{number, std::move(v)};
-    } else if (attribute == Attribute::ic) {
-      return refuse("language.statement", s.pos, "turning the spindle by an increment is not carried yet");
-    } else {
-      a.data = ir::SpindleOrient{number, std::move(v)};
-    }
-    parts.actions.push_back(std::move(a));
-    return true;
-  }
+  if (target.text == "G" && one_index) return indirect_g(s, parts);
+  if (target.text == "SPOS" || target.text == "SPOSA" || target.text == "LIMS" || target.text == "S")
+    return spindle_item(s, parts);
+  if (target.text == "POS" || target.text == "POSA" || target.text == "FA" || target.text == "AX" ||
+      target.text == "IP")
+    return axis_item(s, parts);
   if (is_timing_of_axis(target.text)) {
     ir::Action a;
     a.pos = s.pos;
@@ -335,6 +296,8 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
       parts.calls.emplace_back(std::move(j));
       return true;
     }
+    case Procedure::master_spindle: return master_spindle(args, pos, parts);
+    case Procedure::axis_setting: return axis_setting(name, args, pos, parts);
     case Procedure::screen:
     case Procedure::timing: {
       ir::Opaque o;
@@ -348,12 +311,7 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     case Procedure::none:
     case Procedure::unsupported: break;
   }
-  const bool file = name == "WRITE" || name == "READ" || name == "DELETE" || name == "ISFILE";
-  const bool transformation = name.rfind("TRA", 0) == 0 && name.rfind("TRAIL", 0) != 0;
-  return refuse(file             ? "language.files"
-                : transformation ? "motion.transformation"
-                                 : "language.statement",
-                pos, name + " is not carried yet");
+  return refuse(procedure_missing_feature(name), pos, name + " is not carried yet");
 }
 
 bool StatementLowering::call_arguments(const std::string& name, const std::vector<Expr>& args, ir::CallRoutine& call) {
@@ -361,6 +319,14 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
   for (std::size_t i = 0; i < args.size(); ++i) {
     ir::Argument a;
     if (args[i].kind != ExprKind::missing) {
+      ir::Type type = ir::Type::real;
+      if (auto array = exprs_.whole_array(args[i], type)) {
+        a.reference = *array;
+        a.by_reference = true;
+        a.value = make_expr(std::move(*array), type, args[i].pos);
+        call.arguments.push_back(std::move(a));
+        continue;
+      }
       a.value = exprs_.lower(args[i]);
       if (!a.value) return false;
       a.by_reference = external != externs_.end() && i < external->second.size() && external->second[i];
@@ -431,8 +397,12 @@ bool StatementLowering::items(const Block& block, ir::LineInfo info) {
     ok = words_.lower(parts.words, parts.indirect, words);
     if (!ok && !words_.feature().empty()) feature_ = words_.feature();
   }
+  ok = ok && put_axis_words(parts, words);
   const Tail tail = has_words ? words_.tail() : Tail::none;
-  if (ok && !parts.assign.items.empty() && !words.motion.coords.empty()) {
+  const bool own_words = std::all_of(parts.assign.items.begin(), parts.assign.items.end(), [](const auto& item) {
+    return item.to_system && item.system.datum == ir::Datum::axis_feed;  // FA[X]= is a word as well
+  });
+  if (ok && !own_words && !words.motion.coords.empty()) {
     if (parts.assign.items.front().to_system) {
       c_.keep("SIN-011", parts.assign.items.front().pos,
               parts.assign.items.front().system.text + " shares a block with axis words: an axis that the machine " +

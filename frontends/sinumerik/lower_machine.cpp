@@ -38,7 +38,7 @@ void WordLowering::m_code(std::int32_t code, const Word& w) {
     return;
   }
   const machine::MCode* m = code < MachineFacts::m_limit ? c_.machine.m_codes[static_cast<std::size_t>(code)] : nullptr;
-  const std::int32_t spindle = w.extension < 0 ? 1 : w.extension;
+  const std::int32_t spindle = w.extension < 0 ? c_.master_spindle : w.extension;
   const bool spindle_code =
       m != nullptr && (m->meaning == machine::MMeaning::spindle_cw || m->meaning == machine::MMeaning::spindle_ccw ||
                        m->meaning == machine::MMeaning::spindle_stop ||

@@ -1,6 +1,7 @@
 // Everything but the plain word block: assignments, jumps, structures, definitions, calls, cycles -> IR statements.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +47,24 @@ class StatementLowering {
   bool sort_word(const syntax::Block& block, const syntax::Word& word, Parts& parts);
   bool sort_assignment(const syntax::Statement& s, Parts& parts);
   bool assign(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
-  bool assign_set(const ir::VarRef& target, ir::Type type, const syntax::Expr& value, WordPos pos, Parts& parts);
+  // lists and characters (lower_arrays.cpp)
+  bool assign_list(const ir::VarRef& target, ir::Type type, const syntax::Expr& list, const Symbol* symbol, WordPos pos,
+                   ir::Assign& out);
+  bool assign_character(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, ir::Assign& out);
+  static ir::ExprPtr zero_of(ir::Type type);
+  // frames (lower_frames.cpp); nullopt: the target is no frame
+  std::optional<bool> assign_frame(const syntax::Expr& target, const syntax::Expr& value, WordPos pos,
+                                   ir::Assign& assign, std::vector<ir::Action>& actions);
+  bool frame_statements(const ir::ExprPtr& value, WordPos pos, std::vector<ir::Action>& out);
+  bool offset_row(const ir::Expr& target, const ir::ExprPtr& value, WordPos pos, ir::Assign& out);
+  // words of one axis (lower_axis_words.cpp)
+  bool master_spindle(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool axis_setting(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  static bool reads_like_axis(std::string_view name);
+  bool indirect_g(const syntax::Statement& s, Parts& parts);
+  bool axis_item(const syntax::Statement& s, Parts& parts);
+  bool spindle_item(const syntax::Statement& s, Parts& parts);
+  bool put_axis_words(Parts& parts, ir::Block& words);
   bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);

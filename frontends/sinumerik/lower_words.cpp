@@ -21,16 +21,6 @@ std::uint8_t u(Enum e) {
   return static_cast<std::uint8_t>(e);
 }
 
-/// Entry of the missing-features registry that a G function without a node stands under.
-std::string_view missing_key(const GFunction& g) {
-  constexpr std::uint8_t motion_group = 1;
-  constexpr std::uint8_t splines_from = 6, splines_to = 8, polynomial = 9;
-  if (g.group != motion_group) return g.group >= 49 && g.group <= 53 ? "motion.transformation" : "language.statement";
-  if (g.index >= splines_from && g.index <= splines_to) return "motion.spline";
-  if (g.index == polynomial) return "motion.polynomial";
-  return g.name == "G331" || g.name == "G332" ? "cycle.hole" : "motion.geometry";
-}
-
 }  // namespace
 
 bool WordLowering::is_motion_block(const syntax::Block& block) {
@@ -187,7 +177,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::before, pos);
       c_.note("SIN-009", pos, std::string(g.name) + " is kept as text: it does not change the programmed path");
       break;
-    case GUse::unsupported: refuse(missing_key(g), pos, std::string(g.name) + " is not carried yet"); break;
+    case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
   }
 }
 
@@ -238,7 +228,8 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   const ir::AxisId axis =
       centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
   if (centre_letter) return center(axis, w, std::move(value), attribute);
-  if (axis != ir::axis::none && w.extension < 0) return coordinate(axis, w, std::move(value), attribute);
+  const bool machine_axis = special_ == Special::approach && w.extension == 1;  // G74 X1=0: the machine's own name
+  if (axis != ir::axis::none && (w.extension < 0 || machine_axis)) return coordinate(axis, w, std::move(value), attribute);
   if (attribute == Attribute::unsupported) {  // said already
     failed_ = true;
     return;
@@ -373,7 +364,7 @@ void WordLowering::f_word(const Word& w, ir::Value value) {
 }
 
 void WordLowering::s_word(const Word& w, ir::Value value) {
-  const auto number = static_cast<std::uint8_t>(w.extension < 0 ? 1 : w.extension);
+  const auto number = w.extension < 0 ? c_.master_spindle : static_cast<std::uint8_t>(w.extension);
   if (w.extension == 0 || w.extension > 31) {
     failed_ = true;
     c_.error("SIN-017", w.pos, "there is no spindle with this number");

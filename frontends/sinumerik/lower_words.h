@@ -74,6 +74,9 @@ class WordLowering {
   bool finish();
   void finish_frame();
   void finish_rotation(ir::FrameChange& change);
+  void finish_solid_angles(ir::FrameChange& change);
+  void default_offset();
+  [[nodiscard]] WordPos statement_pos() const;
   void finish_pole();
   void finish_dwell();
   void finish_motion();
@@ -94,7 +97,8 @@ class WordLowering {
   }
   [[nodiscard]] bool is_thread() const {
     const ir::MotionKind k = motion_kind();
-    return k == ir::MotionKind::thread || k == ir::MotionKind::thread_variable;
+    return k == ir::MotionKind::thread || k == ir::MotionKind::thread_variable || k == ir::MotionKind::tap_rigid ||
+           k == ir::MotionKind::tap_rigid_out;
   }
 
   FileContext& c_;

@@ -188,6 +188,13 @@ void BlockBuilder::item(Grammar::ItemContext* tree) {
   if (auto* t = dynamic_cast<Grammar::CallItemContext*>(tree)) {
     return call(t, to_upper_ascii(e_.text(t->name())), t->arguments());
   }
+  if (auto* t = dynamic_cast<Grammar::IndexedItemContext*>(tree)) {
+    Statement s = make(t, "()");
+    s.text = to_upper_ascii(e_.text(t->name()));
+    e_.arguments(t->argumentList(), s.args);
+    out_.statements.push_back(std::move(s));
+    return;
+  }
   if (auto* t = dynamic_cast<Grammar::NumberedCallContext*>(tree)) {
     std::string name = to_upper_ascii(e_.text(t->letter()));
     name += e_.text(*t->INTEGER()->getSymbol());

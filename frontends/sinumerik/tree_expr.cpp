@@ -243,6 +243,7 @@ Expr ExprBuilder::condition(Grammar::ConditionContext* tree) {
   Expr out;
   out.kind = ExprKind::binary;
   out.text = "=";
+  if (tree->mirrored != nullptr) out.text = tree->mirrored->getType() == Grammar::LT ? "=<" : "=>";
   out.pos = pos(tree);
   out.args.push_back(std::move(left));
   out.args.push_back(expr(tree->expr(1)));

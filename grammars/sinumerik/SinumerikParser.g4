@@ -40,7 +40,7 @@ caseArm: expr jump;
 repeatCount: letter ASSIGN? expr;
 target: name | (LETTER_N | COLON) INTEGER;
 syncUnit: letter INTEGER;
-condition: expr (ASSIGN expr)?;
+condition: expr (ASSIGN mirrored = (LT | GT)? expr)?;  // `=`, `=<`, `=>`: spelled the other way round
 
 // ---- items: words, assignments, names, calls ----
 item
@@ -50,6 +50,7 @@ item
   | name ASSIGN expr                              # nameValue     // CR=5  RND=2  COUNT=COUNT+1
   | indexed ASSIGN expr                           # indexedValue  // POS[X]=5  R[3]=1  $P_UIFR[1,X,TR]=0
   | SYSVAR ASSIGN expr                            # systemValue
+  | name LBRACK argumentList RBRACK                # indexedItem   // DIAMONA[X]  FINEA[X]
   | name arguments                                 # callItem      // CYCLE81(50,0,2,-10)
   | name                                           # nameItem      // TRANS  DIAMON  TOOL_CHANGE
   | letter                                         # letterItem    // an address without its value: reported later

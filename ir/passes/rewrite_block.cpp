@@ -65,8 +65,9 @@ struct BlockValues {
 
   void frame(FrameChange& f) {
     for (auto& w : f.words) {
-      one(w.value, f.kind == FrameKind::scale || f.kind == FrameKind::mirror ? Role::frame_factor : Role::frame_length,
-          w.axis, w.pos);
+      const bool factor = f.kind == FrameKind::scale || f.kind == FrameKind::mirror;
+      const bool angle = f.kind == FrameKind::rotate && !f.has_angle;
+      one(w.value, factor ? Role::frame_factor : angle ? Role::frame_angle : Role::frame_length, w.axis, w.pos);
     }
     if (f.has_angle) one(f.angle, Role::frame_angle);
   }
@@ -83,6 +84,9 @@ struct BlockValues {
     one(e.lead_change, Role::lead);
     if (e.has_start_angle) one(e.start_angle, Role::angle);
     one(e.probe_tolerance, Role::polar_radius);
+    if (e.has_probe_edge) one(e.probe_edge, Role::turns);
+    if (e.has_fixed_point) one(e.fixed_point, Role::turns);
+    for (auto& c : e.computed) one(c.value, Role::turns, axis::none, c.pos);
   }
 
   void act(Action& a) {

@@ -1,0 +1,235 @@
+// Words of one axis or spindle named by an index: POS[X]=, POSA[X]=, FA[X]=, AX[..]=, IP[..]=, SPOS[2]=, S[2]=, G[8]=
+// (reference 1.2.1, 1.2.2; motion reference 2.2, 2.4).
+#include <utility>
+
+#include "base/saturate.h"
+#include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/row_parts.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Expr;
+using syntax::ExprKind;
+
+namespace {
+
+/// Mode and direction that a position attribute gives; false when it does not belong to a position.
+bool apply_attribute(Attribute attribute, ir::CoordWord& w) {
+  switch (attribute) {
+    case Attribute::none: return true;
+    case Attribute::ac: w.mode = ir::WordMode::absolute; return true;
+    case Attribute::ic: w.mode = ir::WordMode::incremental; return true;
+    case Attribute::dc: w.direction = ir::RotaryDirection::shortest; break;
+    case Attribute::acp: w.direction = ir::RotaryDirection::positive; break;
+    case Attribute::acn: w.direction = ir::RotaryDirection::negative; break;
+    case Attribute::dac:
+    case Attribute::dic:
+      w.scale = ir::WordScale::diameter;
+      w.mode = attribute == Attribute::dac ? ir::WordMode::absolute : ir::WordMode::incremental;
+      return true;
+    case Attribute::rac:
+    case Attribute::ric:
+      w.scale = ir::WordScale::radius;
+      w.mode = attribute == Attribute::rac ? ir::WordMode::absolute : ir::WordMode::incremental;
+      return true;
+    case Attribute::unsupported: return false;
+  }
+  w.mode = ir::WordMode::absolute;
+  return true;
+}
+
+}  // namespace
+
+/// `G[8]=ZO`: the settable offset may be computed; of the other groups the code must be known.
+bool StatementLowering::indirect_g(const syntax::Statement& s, Parts& parts) {
+  const Expr& group = s.args[0].args[0];
+  const Expr& value = s.args[1];
+  if (group.kind != ExprKind::number)
+    return refuse("language.statement", s.pos, "a G group chosen by a variable is not carried yet");
+  if (value.kind == ExprKind::number) {
+    const GFunction* g = g_function(saturate<std::int32_t>(group.number), saturate<std::int32_t>(value.number));
+    if (g == nullptr) {
+      c_.error("SIN-002", s.pos, "there is no such G function in this group");
+      return false;
+    }
+    parts.indirect.emplace_back(g, s.pos);
+    return true;
+  }
+  constexpr double offsets = 8;
+  if (group.number != offsets)
+    return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
+  auto index = exprs_.lower_as(value, ir::Type::integer);
+  if (!index) return false;
+  ir::Action a;  // 1 is G500, 2 is G54
+  a.data = ir::WorkOffset{ir::Value(ir::binary(ir::BinaryOp::subtract, std::move(index), ir::number(1))), false};
+  a.pos = s.pos;
+  a.text = c_.slice(s.pos);
+  parts.actions.push_back(std::move(a));
+  return true;
+}
+
+/// SETMS(n), SETMS: the spindle that S, M3 and their like mean from here on.
+bool StatementLowering::master_spindle(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  const bool plain = args.empty() || (args.size() == 1 && args[0].kind == ExprKind::number && args[0].number >= 1 &&
+                                      args[0].number <= 31);
+  if (!plain) return refuse("language.statement", pos, "SETMS() of a computed spindle is not carried yet");
+  c_.master_spindle = args.empty() ? std::uint8_t{1} : static_cast<std::uint8_t>(args[0].number);
+  c_.warning("SIN-026", pos,
+             "the master spindle holds for the words that follow in this program; called programs are read with "
+             "spindle 1");
+  ir::Opaque o;
+  o.text = c_.slice(pos);
+  o.feature = "language.statement";
+  o.harmless = true;
+  parts.calls.emplace_back(std::move(o));
+  return true;
+}
+
+/// DIAMONA[X], DIAMOFA[X], DIAM90A[X], SCC[X]: settings of one axis.
+bool StatementLowering::axis_setting(const std::string& name, const std::vector<Expr>& args, WordPos pos,
+                                     Parts& parts) {
+  const auto axis = args.size() == 1 ? exprs_.axis_operand(args[0]) : nullptr;
+  const auto* literal = axis ? std::get_if<ir::AxisName>(&axis->node) : nullptr;
+  const auto* spec = literal != nullptr ? c_.machine.profile->axis(literal->axis) : nullptr;
+  if (spec == nullptr) return refuse("language.statement", pos, name + " is carried for one axis of the machine only");
+  ir::Action a;
+  a.pos = pos;
+  a.text = c_.slice(pos);
+  const bool transverse = literal->axis == ir::axis::x;
+  if (name == "SCC") {
+    if (!transverse)
+      return refuse("language.statement", pos, "constant cutting speed about another axis than X is not carried yet");
+    a.data = ir::OpaqueWord{a.text};
+    c_.note("SIN-009", pos, "SCC is kept as text: X is the axis of the cutting speed already");
+  } else if (spec->diameter) {
+    const auto mode = name == "DIAMONA"   ? ir::DiameterMode::diameter
+                      : name == "DIAM90A" ? ir::DiameterMode::absolute_only
+                                          : ir::DiameterMode::radius;
+    a.data = ir::ModalSet{ir::Setting::diameter, static_cast<std::uint8_t>(mode), true, ir::FeedMemory::shared};
+  } else {
+    return refuse("language.statement", pos, "the axis " + spec->name + " has no diameter programming on this machine");
+  }
+  parts.actions.push_back(std::move(a));
+  return true;
+}
+
+bool StatementLowering::spindle_item(const syntax::Statement& s, Parts& parts) {
+  const Expr& target = s.args[0];
+  if (target.args.size() != 1 || target.args[0].kind != ExprKind::number || target.args[0].number < 0 ||
+      target.args[0].number > 31) {
+    return refuse("language.statement", s.pos,
+                  target.text + "[...]: the number of the spindle must be written as a number here");
+  }
+  Attribute attribute = Attribute::none;
+  const std::uint32_t before = c_.errors;
+  ir::Value v = exprs_.value_of(s.args[1], attribute);
+  if (c_.errors != before) return false;
+  const auto number = static_cast<std::uint8_t>(target.args[0].number);
+  ir::Action a;
+  a.pos = s.pos;
+  a.text = c_.slice(s.pos);
+  if (target.text == "LIMS") {
+    a.data = ir::SpindleLimit{number, std::move(v), false};
+  } else if (target.text == "S") {
+    a.data = ir::SetSpindle{number, std::move(v)};
+  } else {
+    a.data = ir::SpindleOrient{number, std::move(v), attribute == Attribute::ic};
+  }
+  parts.actions.push_back(std::move(a));
+  return true;
+}
+
+bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
+  const Expr& target = s.args[0];
+  if (target.args.size() != 1) {
+    c_.error("SIN-012", s.pos, target.text + "[] takes one axis");
+    return false;
+  }
+  const Expr& index = target.args[0];
+  const std::uint32_t before = c_.errors;
+  const std::string& word = target.text;
+  if (exprs_.is_undefined(index) || (index.kind == ExprKind::call && index.text == "SPI"))
+    return refuse("block.word", s.pos, word + "[" + std::string(c_.slice(index.pos)) +
+                                           "]: this axis is not one of the machine " + c_.machine.profile->name);
+  const ir::ExprPtr axis = exprs_.axis_operand(index);
+  if (!axis) return false;
+  const auto* literal = std::get_if<ir::AxisName>(&axis->node);
+  if (word == "FA") {
+    if (literal == nullptr) return refuse("block.word", s.pos, "FA[] of an axis in a variable is not carried yet");
+    ir::Assign::Item item;
+    item.pos = s.pos;
+    item.to_system = true;
+    item.system.text = word;
+    item.system.datum = ir::Datum::axis_feed;
+    item.system.axis = literal->axis;
+    item.value = exprs_.lower_as(s.args[1], ir::Type::real);
+    if (!item.value) return false;
+    parts.assign.items.push_back(std::move(item));
+    return true;
+  }
+  Attribute attribute = Attribute::none;
+  ir::Value value = exprs_.value_of(s.args[1], attribute);
+  if (c_.errors != before) return false;
+  ir::CoordWord coord;
+  if (!apply_attribute(attribute, coord))
+    return refuse("block.word", s.pos, "this way to give a position is not carried yet");
+  coord.value = std::move(value);
+  coord.pos = s.pos;
+  if (word == "IP") {
+    if (literal == nullptr || literal->axis > ir::axis::z)
+      return refuse("block.word", s.pos, "IP[] of an axis in a variable is not carried yet");
+    ir::CenterWord centre;
+    centre.axis = literal->axis;
+    centre.mode = attribute == Attribute::ac ? ir::CenterMode::absolute : ir::CenterMode::from_start;
+    if (attribute == Attribute::ac) centre.scale = ir::WordScale::modal;
+    centre.value = std::move(coord.value);
+    centre.pos = s.pos;
+    parts.centers.push_back(std::move(centre));
+    return true;
+  }
+  if (word == "POS") coord.positioning = ir::Positioning::alone;
+  if (word == "POSA") {
+    coord.positioning = ir::Positioning::alone_not_awaited;
+    c_.note("SIN-025", s.pos, "POSA: the axis moves beside the blocks that follow; its move is shown here");
+  }
+  if (literal != nullptr) {
+    coord.axis = literal->axis;
+    parts.coords.push_back(std::move(coord));
+    return true;
+  }
+  if (word != "AX" || coord.scale != ir::WordScale::modal || coord.direction != ir::RotaryDirection::as_value)
+    return refuse("block.word", s.pos, word + "[] of an axis in a variable is not carried this way yet");
+  parts.computed.push_back(ir::ComputedWord{axis, coord.mode, std::move(coord.value), s.pos});
+  return true;
+}
+
+/// The words of single axes join the motion of the block.
+bool StatementLowering::put_axis_words(Parts& parts, ir::Block& words) {
+  if (parts.coords.empty() && parts.computed.empty() && parts.centers.empty()) return true;
+  for (const auto& a : words.actions) {
+    if (!std::holds_alternative<ir::FrameOp>(a.data) && !std::holds_alternative<ir::PoleSet>(a.data) &&
+        !std::holds_alternative<ir::Dwell>(a.data))
+      continue;
+    return refuse("block.word", a.pos, "axes named by an index can't stand in this block");
+  }
+  ir::Motion& m = words.motion;
+  for (auto& c : parts.coords) {
+    for (const auto& other : m.coords) {
+      if (other.axis != c.axis) continue;
+      c_.error("SIN-005", c.pos, "this axis is written twice in this block");
+      return false;
+    }
+    m.coords.push_back(std::move(c));
+  }
+  for (auto& c : parts.centers) m.centers.push_back(std::move(c));
+  if (!parts.computed.empty()) {
+    ir::MotionExtra extra;
+    if (m.extra) extra = *m.extra;
+    for (auto& c : parts.computed) extra.computed.push_back(std::move(c));
+    m.extra = std::make_shared<const ir::MotionExtra>(std::move(extra));
+  }
+  words.has_motion = true;
+  return true;
+}
+
+}  // namespace cnctrans::sinumerik

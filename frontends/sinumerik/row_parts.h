@@ -1,0 +1,25 @@
+// What a row of items holds once it is sorted. Only for the .cpp files of StatementLowering.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "frontends/sinumerik/lower_statements.h"
+
+namespace cnctrans::sinumerik {
+
+struct StatementLowering::Parts {
+  ir::Assign assign;
+  syntax::Block words;  ///< the address words; `exprs` is the source block's
+  std::vector<std::pair<const GFunction*, WordPos>> indirect;
+  std::vector<ir::Action> actions;  ///< further actions (spindle positions, preparation stop)
+  std::vector<decltype(ir::Statement::node)> calls;
+  std::vector<ir::CoordWord> coords;        ///< positioning axes, axes named by a constant
+  std::vector<ir::ComputedWord> computed;   ///< axes named by a variable
+  std::vector<ir::CenterWord> centers;      ///< IP[..]
+  bool has_count = false;
+  ir::ExprPtr count;
+  WordPos count_pos;
+};
+
+}  // namespace cnctrans::sinumerik

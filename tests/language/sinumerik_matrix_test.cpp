@@ -1,0 +1,122 @@
+// The support matrix of docs/dialects/sinumerik.md is made from the tables of the dialect and the registry of missing
+// features. With CNCTRANS_WRITE_DOCS set the test writes it.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/g_functions.h"
+#include "dialects/sinumerik/operators.h"
+#include "ir/missing_features.h"
+#include "machine/options.h"
+#include "tests/language/markdown.h"
+
+namespace cnctrans {
+namespace {
+
+namespace facts = cnctrans::sinumerik;
+
+std::string reason(std::string_view key) {
+  return "kept as text, refused where it would run or be translated: " + std::string(ir::missing_feature(key).title) +
+         " (`" + std::string(key) + "`)";
+}
+
+std::string use_of(const facts::GFunction& g) {
+  using enum facts::GUse;
+  switch (g.use) {
+    case unsupported: return reason(facts::missing_feature(g));
+    case timing: return "kept as text: the programmed path is the same";
+    case compensation: return "kept as text: acts on the compensated path only";
+    case path: return g.b != 0 ? "carried as continuous path; the rounding is not (SIN-019)" : "carried";
+    case limit: return "carried for spindles; limits of the working area are kept as text";
+    case suppress: return "carried for straight moves";
+    case approach: return g.number == 75 ? "carried; the machine profile gives the points (`fixed_points`)" : "carried";
+    default: return "carried";
+  }
+}
+
+std::string g_table() {
+  std::string s = "| Code | Group | Support |\n|---|---|---|\n";
+  for (const auto& g : facts::g_functions()) {
+    s += "| " + std::string(g.name) + " | " + std::to_string(g.group) + (g.modal ? "" : " (block)") + " | " + use_of(g) +
+         " |\n";
+  }
+  s += "| G505-G599 | 8 | carried |\n";
+  return s;
+}
+
+std::string word_table() {
+  std::string s = "| Word | Support |\n|---|---|\n";
+  for (const auto& w : facts::named_words()) {
+    using enum facts::NamedWord;
+    s += "| " + std::string(w.name) + "= | " +
+         (w.use == unsupported    ? reason("block.word")
+          : w.use == timing       ? "kept as text: the programmed path is the same"
+          : w.use == compensation ? "kept as text: acts on the compensated path or the tool length only"
+                                  : "carried") +
+         " |\n";
+  }
+  s += "| POS[] POSA[] FA[] AX[] IP[] SPOS[] S[] LIMS[] G[8]= | carried |\n";
+  return s;
+}
+
+std::string procedure_table() {
+  std::string s = "| Procedure | Support |\n|---|---|\n";
+  for (const auto& p : facts::procedures()) {
+    using enum facts::Procedure;
+    s += "| " + std::string(p.name) + " | " +
+         (p.use == unsupported                  ? reason(facts::procedure_missing_feature(p.name))
+          : p.use == timing || p.use == screen ? "kept as text: the programmed path is the same"
+                                                : "carried") +
+         " |\n";
+  }
+  std::string rest;
+  for (const auto& n : facts::predefined_names()) rest += (rest.empty() ? "" : " ") + std::string(n);
+  return s + "| " + rest + " | " + reason("language.statement") + " |\n";
+}
+
+std::string function_table() {
+  std::string s = "| Function | Arguments | Result |\n|---|---|---|\n";
+  for (const auto& f : facts::functions) {
+    s += "| " + std::string(f.name) + " | " + std::to_string(f.arguments_min) +
+         (f.arguments_max == f.arguments_min ? "" : "-" + std::to_string(f.arguments_max)) + " | " +
+         std::string(ir::name(f.result)) + " |\n";
+  }
+  for (const auto& n : facts::axis_and_frame_functions()) s += "| " + std::string(n) + " | | axis or frame |\n";
+  return s;
+}
+
+std::string option_table() {
+  std::string s = "| Option | Values | Default | Meaning |\n|---|---|---|---|\n";
+  for (const auto& o : machine::option_specs()) {
+    if (o.name.rfind("sinumerik.", 0) != 0) continue;
+    std::string values(o.values);
+    for (char& c : values) c = c == '|' ? ' ' : c;
+    s += "| `" + std::string(o.name) + "` | " + values + " | " + std::string(o.fallback) + " | " +
+         std::string(o.meaning) + " |\n";
+  }
+  return s;
+}
+
+TEST(SupportMatrix, OfSinumerikIsTheOneOfTheTables) {
+  const std::string path = CNCTRANS_SOURCE_DIR "/docs/dialects/sinumerik.md";
+  const std::string text = testing::read_file(path);
+  const std::string begin = "<!-- begin of the support matrix -->\n", end = "<!-- end of the support matrix -->\n";
+  const auto from = text.find(begin), to = text.find(end);
+  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
+  const std::string made = "\n### G functions and named functions\n\n" + g_table() + "\n### Addresses\n\n" +
+                           word_table() + "\n### Procedures\n\n" + procedure_table() + "\n### Functions\n\n" +
+                           function_table() + "\n### Options of a machine profile\n\n" + option_table() + "\n";
+  const std::string whole = text.substr(0, from + begin.size()) + made + text.substr(to);
+  if (std::getenv("CNCTRANS_WRITE_DOCS") != nullptr) {  // NOLINT(concurrency-mt-unsafe)
+    std::ofstream(path, std::ios::binary) << whole;
+    return;
+  }
+  EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), made)
+      << "run this test with CNCTRANS_WRITE_DOCS=1 to write the matrix";
+}
+
+}  // namespace
+}  // namespace cnctrans
