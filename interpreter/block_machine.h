@@ -256,8 +256,8 @@ class BlockMachine final : public SystemData {
   std::map<std::int32_t, Frame> offset_shapes_;  ///< turn, scale and mirror of a row; missing: none
   std::map<ir::AxisId, double> active_offset_;   ///< fine part included
   Frame active_shape_;
-  Axes fine_shift_{};  ///< of the programmable frame; in the slot too
-  Axes axis_feed_{};   ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
+  Axes fine_shift_{};               ///< of the programmable frame; in the slot too
+  Axes axis_feed_{};                ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
   Axes increment_base_{};           ///< last programmed coordinate before a frame change, where that is what counts
   std::uint32_t base_pending_ = 0;  ///< bit n: an incremental word of axis n starts from there
   std::array<double, 3> feed_{};

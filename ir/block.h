@@ -98,7 +98,7 @@ struct MotionExtra {
   // probing
   Value probe_tolerance;
   bool has_probe_edge = false;
-  Value probe_edge;          ///< a move of another kind that measures: number of the probe, negative on its falling edge
+  Value probe_edge;  ///< a move of another kind that measures: number of the probe, negative on its falling edge
   bool probe_goes_on = false;  ///< the move is carried out to its end
   // fixed points of the machine
   bool has_fixed_point = false;
@@ -161,7 +161,7 @@ struct SpindleRun {
 };
 struct SpindleOrient {
   std::uint8_t number = 1;
-  Value angle;  ///< degrees
+  Value angle;               ///< degrees
   bool incremental = false;  ///< from the angle at which it stands
 };
 struct SpindleLimit {

@@ -155,14 +155,14 @@ enum class Datum : std::uint8_t {
   scale_factor,
   axis_scale,
   rotation_angle,
-  diameter_on,  ///< 1: words of a diameter axis are diameters
-  frame_programmed,  ///< whole frames: the programmable one
-  frame_settable,    ///< row args[0] of the table of settable frames
-  frame_active,      ///< the settable frame in force
-  frame_total,       ///< all of them
-  work_offset_fine,  ///< fine part of the work offset of row args[0]
+  diameter_on,        ///< 1: words of a diameter axis are diameters
+  frame_programmed,   ///< whole frames: the programmable one
+  frame_settable,     ///< row args[0] of the table of settable frames
+  frame_active,       ///< the settable frame in force
+  frame_total,        ///< all of them
+  work_offset_fine,   ///< fine part of the work offset of row args[0]
   settable_position,  ///< position before the programmable frame
-  measured_machine,  ///< of the last probing move
+  measured_machine,   ///< of the last probing move
   measured_work,
   probe_state,  ///< 1: probe args[0] was triggered
   axis_feed     ///< feed of `axis` when it is positioned by itself (mm/min, deg/min); 0: as fast as it goes

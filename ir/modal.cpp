@@ -20,10 +20,11 @@ constexpr std::array<std::string_view, 2> on_off_names{"off", "on"};
 constexpr std::array<std::string_view, 2> retract_names{"initial", "reference"};
 constexpr std::array<std::string_view, 2> feed_point_names{"centre", "contact"};
 constexpr std::array<std::string_view, 19> motion_names{
-    "modal",       "rapid",   "linear",          "arc_cw",
-    "arc_ccw",     "thread",  "thread_variable", "arc_through_point",
-    "arc_tangent", "spline",  "polynomial",      "probe_toward",
-    "probe_away",  "to_stop", "reference_point", "fixed_point", "tap_rigid", "tap_rigid_out", "tap_floating"};
+    "modal",       "rapid",         "linear",          "arc_cw",
+    "arc_ccw",     "thread",        "thread_variable", "arc_through_point",
+    "arc_tangent", "spline",        "polynomial",      "probe_toward",
+    "probe_away",  "to_stop",       "reference_point", "fixed_point",
+    "tap_rigid",   "tap_rigid_out", "tap_floating"};
 
 struct SettingRow {
   std::string_view name;

@@ -69,7 +69,7 @@ constexpr std::array specs{
     OptionSpec{"num.structured", "no|yes", "no", "structured statements may be written"},
     OptionSpec{"num.default_gear", "text", "M41", "gear word written when the source has none"},
     OptionSpec{"sinumerik.tool_change", "immediate|m6", "m6", "T changes at once, or selects for M6 (MD22550)"},
-    OptionSpec{"sinumerik.default_edge", "number", "1",
+    OptionSpec{"sinumerik.default_edge", "number", "0",
                "D that a tool change selects when none is written after its T (MD20270); 0: none"},
     OptionSpec{"sinumerik.undefined_names", "error|global", "error",
                "a name that nothing defines: refused, or a global user variable (GUD) that starts at 0"},

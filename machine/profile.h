@@ -20,9 +20,9 @@ struct AxisSpec {
   ir::AxisId id = ir::axis::x;
   std::string name;
   bool rotary = false;
-  bool diameter = false;       ///< words of this axis follow Setting::diameter
-  double start = 0;            ///< mm (radius) or degrees at program start
-  double reference_point = 0;  ///< machine coordinate of the reference point
+  bool diameter = false;               ///< words of this axis follow Setting::diameter
+  double start = 0;                    ///< mm (radius) or degrees at program start
+  double reference_point = 0;          ///< machine coordinate of the reference point
   std::vector<double> fixed_points{};  ///< machine coordinates of the fixed points 1, 2, ...
 };
 

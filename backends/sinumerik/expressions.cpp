@@ -138,6 +138,11 @@ std::string Expressions::name(const ir::SystemRef& s) {
     return {};
   }
   std::string text = own_name ? s.text : std::string(known->name);
+  if (s.datum == ir::Datum::call_has_argument && own_name && s.args.size() == 1) {  // counted from 1
+    if (const auto n = literal(s.args[0])) return text + '[' + std::to_string(static_cast<int>(*n) + 1) + ']';
+    const auto* less = std::get_if<ir::Binary>(&s.args[0]->node);
+    if (less != nullptr && literal(less->right) == 1.0) return text + '[' + index(less->left) + ']';
+  }
   std::vector<std::string> indices;
   if (s.datum == ir::Datum::work_offset || s.datum == ir::Datum::work_offset_fine) {
     for (const ir::ExprPtr& a : s.args) indices.push_back(index(a));

@@ -23,7 +23,7 @@ std::string Writer::list_text(const ir::Assign& a) const {
   const std::string text = source_word(a.items.front().pos);
   const std::string upper = to_upper_ascii(text);
   const ir::Assign::Item& first = a.items.front();
-  const std::string name = first.to_system ? to_upper_ascii(first.system.text)
+  const std::string name = first.to_system             ? to_upper_ascii(first.system.text)
                            : first.target.name.empty() ? std::string("R")
                                                        : to_upper_ascii(first.target.name);
   const bool list = upper.find("=(") != std::string::npos || upper.find("SET(") != std::string::npos ||

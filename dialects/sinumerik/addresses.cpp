@@ -229,27 +229,29 @@ constexpr std::string_view keywords[] = {
 /// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
 /// of these is never a variable.
 constexpr std::string_view predefined[] = {
-    "ADDFRAME", "AXCTSWE", "AXCTSWED", "AXTOSPI", "BLSYNC", "CALCPOSI", "CHECKSUM", "CHKDM", "CHKDNO",
-    "CORROF", "COUPRES", "CTAB", "CTABDEL", "CTABEXISTS", "CTABFNO", "CTABFPOL", "CTABFSEG", "CTABID",
-    "CTABINV", "CTABISLOCK", "CTABLOCK", "CTABMEMTYP", "CTABMPOL", "CTABMSEG", "CTABNO", "CTABNOMEM",
-    "CTABPERIOD", "CTABPOL", "CTABPOLID", "CTABSEG", "CTABSEGID", "CTABSEV", "CTABSSV", "CTABTEP", "CTABTEV",
-    "CTABTMAX", "CTABTMIN", "CTABTSP", "CTABTSV", "CTABUNLOCK", "DELDTG", "DELTOOLENV", "DIACYCOFA",
-    "DIAMCHAN", "DIAMCHANA", "DILF", "EGDEF", "EGDEL", "EGOFC", "EGOFS", "EGON", "EGONSYN", "EGONSYNE", "FDA",
-    "FILEDATE", "FILEINFO", "FILESIZE", "FILESTAT", "FILETIME", "FMA", "FOCOF", "FOCON", "FPO", "FPR",
-    "FPRAOF", "FTOC", "FXST", "FXSW", "GETACTT", "GETACTTD", "GETDNO", "GETFREELOC", "GETT", "GETTCOR",
-    "GETTENV", "GWPSOF", "GWPSON", "ICYCOF", "ICYCON", "ISVAR", "LENTOAX", "LIFTFAST", "MASLDEF", "MASLDEL",
-    "MASLOF", "MASLOFS", "MASLON", "MEAFRAME", "MEASURE", "MOV", "MVTOOL", "NEWT", "OMA1", "OMA2", "OMA3",
-    "OMA4", "OMA5", "ORIS", "OS", "OSB", "OSCILL", "OSCTRL", "OSE", "OSNSC", "OSP1", "OSP2", "OST1", "OST2",
-    "POLF", "POLFA", "POLFMASK", "POLFMLIN", "POSM", "POSRANGE", "PUNCHACC", "QECLRNOF", "QECLRNON",
-    "RDISABLE", "RESETMON", "SETDNO", "SETMTH", "SETTA", "SETTCOR", "SETTIA", "SIRELAY", "SIRELIN",
-    "SIRELOUT", "SIRELTIME", "SPI", "SR", "SRA", "ST", "STA", "STOPREOF", "STRINGIS", "SYNFCT", "TFGREF",
-    "TOOLENV", "WALCS"};
+    "ADDFRAME", "AXCTSWE",    "AXCTSWED",   "AXTOSPI",    "BLSYNC",    "CALCPOSI",   "CHECKSUM",  "CHKDM",
+    "CHKDNO",   "CORROF",     "COUPRES",    "CTAB",       "CTABDEL",   "CTABEXISTS", "CTABFNO",   "CTABFPOL",
+    "CTABFSEG", "CTABID",     "CTABINV",    "CTABISLOCK", "CTABLOCK",  "CTABMEMTYP", "CTABMPOL",  "CTABMSEG",
+    "CTABNO",   "CTABNOMEM",  "CTABPERIOD", "CTABPOL",    "CTABPOLID", "CTABSEG",    "CTABSEGID", "CTABSEV",
+    "CTABSSV",  "CTABTEP",    "CTABTEV",    "CTABTMAX",   "CTABTMIN",  "CTABTSP",    "CTABTSV",   "CTABUNLOCK",
+    "DELDTG",   "DELTOOLENV", "DIACYCOFA",  "DIAMCHAN",   "DIAMCHANA", "DILF",       "EGDEF",     "EGDEL",
+    "EGOFC",    "EGOFS",      "EGON",       "EGONSYN",    "EGONSYNE",  "FDA",        "FILEDATE",  "FILEINFO",
+    "FILESIZE", "FILESTAT",   "FILETIME",   "FMA",        "FOCOF",     "FOCON",      "FPO",       "FPR",
+    "FPRAOF",   "FTOC",       "FXST",       "FXSW",       "GETACTT",   "GETACTTD",   "GETDNO",    "GETFREELOC",
+    "GETT",     "GETTCOR",    "GETTENV",    "GWPSOF",     "GWPSON",    "ICYCOF",     "ICYCON",    "ISVAR",
+    "LENTOAX",  "LIFTFAST",   "MASLDEF",    "MASLDEL",    "MASLOF",    "MASLOFS",    "MASLON",    "MEAFRAME",
+    "MEASURE",  "MOV",        "MVTOOL",     "NEWT",       "OMA1",      "OMA2",       "OMA3",      "OMA4",
+    "OMA5",     "ORIS",       "OS",         "OSB",        "OSCILL",    "OSCTRL",     "OSE",       "OSNSC",
+    "OSP1",     "OSP2",       "OST1",       "OST2",       "POLF",      "POLFA",      "POLFMASK",  "POLFMLIN",
+    "POSM",     "POSRANGE",   "PUNCHACC",   "QECLRNOF",   "QECLRNON",  "RDISABLE",   "RESETMON",  "SETDNO",
+    "SETMTH",   "SETTA",      "SETTCOR",    "SETTIA",     "SIRELAY",   "SIRELIN",    "SIRELOUT",  "SIRELTIME",
+    "SPI",      "SR",         "SRA",        "ST",         "STA",       "STOPREOF",   "STRINGIS",  "SYNFCT",
+    "TFGREF",   "TOOLENV",    "WALCS"};
 
 /// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
 /// them.
-constexpr std::string_view carried_functions[] = {
-    "AXNAME", "AXSTRING", "CFINE", "CMIRROR", "CROT", "CROTS", "CRPL", "CSCALE", "CTRANS", "INVFRAME",
-    "ISAXIS", "MODAXVAL"};
+constexpr std::string_view carried_functions[] = {"AXNAME", "AXSTRING", "CFINE",  "CMIRROR",  "CROT",   "CROTS",
+                                                  "CRPL",   "CSCALE",   "CTRANS", "INVFRAME", "ISAXIS", "MODAXVAL"};
 
 char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;

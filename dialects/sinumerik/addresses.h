@@ -58,9 +58,9 @@ enum class Procedure : std::uint8_t {
   program_start,
   master_spindle,
   axis_setting,  ///< DIAMONA[X], SCC[X]: a setting of one axis
-  screen,      ///< operator screens, blanks, groups: no effect on machining
-  timing,      ///< dynamics, feed groups, single-block and display switches
-  unsupported  ///< acts on the machine and is not carried
+  screen,        ///< operator screens, blanks, groups: no effect on machining
+  timing,        ///< dynamics, feed groups, single-block and display switches
+  unsupported    ///< acts on the machine and is not carried
 };
 struct ProcedureRow {
   std::string_view name;

@@ -14,7 +14,7 @@ MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p) {
     if (m.code >= 0 && m.code < m_limit) m_codes[static_cast<std::size_t>(m.code)] = &m;
   }
   tool_word_changes = p.option("sinumerik.tool_change", "m6") == "immediate";
-  default_edge = parse_decimal(p.option("sinumerik.default_edge", "1")).value_or(1);
+  default_edge = parse_decimal(p.option("sinumerik.default_edge", "0")).value_or(0);
   undefined_names_are_global = p.option("sinumerik.undefined_names", "error") == "global";
 }
 

@@ -26,7 +26,7 @@ struct MachineFacts {
   std::array<const machine::MCode*, m_limit> m_codes{};  ///< null: no meaning known
   bool tool_word_changes = false;                        ///< T carries out the change (MD22550 = 0)
   bool undefined_names_are_global = false;               ///< undeclared names are global user variables
-  double default_edge = 1;                               ///< D that a tool change selects; 0: none
+  double default_edge = 0;                               ///< D that a tool change selects; 0: none
 
   [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis
   [[nodiscard]] ir::AxisId axis(std::string_view name) const;  ///< by name in capitals, also "X1" of the profile

@@ -149,8 +149,9 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   const std::uint32_t before = c_.errors;
   const std::string& word = target.text;
   if (exprs_.is_undefined(index) || (index.kind == ExprKind::call && index.text == "SPI"))
-    return refuse("block.word", s.pos, word + "[" + std::string(c_.slice(index.pos)) +
-                                           "]: this axis is not one of the machine " + c_.machine.profile->name);
+    return refuse("block.word", s.pos,
+                  word + "[" + std::string(c_.slice(index.pos)) + "]: this axis is not one of the machine " +
+                      c_.machine.profile->name);
   const ir::ExprPtr axis = exprs_.axis_operand(index);
   if (!axis) return false;
   const auto* literal = std::get_if<ir::AxisName>(&axis->node);

@@ -213,8 +213,8 @@ ir::ExprPtr ExprLowering::character_of(const Expr& e) {
   ir::ExprPtr text = named(whole);
   ir::ExprPtr at = text ? lower_as(e.args.back(), ir::Type::integer) : nullptr;
   if (!at) return nullptr;
-  return make_expr(ir::Call{ir::Function::substring, {std::move(text), std::move(at), ir::number(1)}},
-                   ir::Type::string, e.pos);
+  return make_expr(ir::Call{ir::Function::substring, {std::move(text), std::move(at), ir::number(1)}}, ir::Type::string,
+                   e.pos);
 }
 
 ir::ExprPtr ExprLowering::named(const Expr& e) {
@@ -226,10 +226,11 @@ ir::ExprPtr ExprLowering::named(const Expr& e) {
       auto name = frame_name(e);
       if (name && !name->component) return name->whole;
       if (name) {
-        return make_expr(ir::Call{ir::Function::frame_part, {name->whole, name->axis, name->component}},
-                         ir::Type::real, e.pos);
+        return make_expr(ir::Call{ir::Function::frame_part, {name->whole, name->axis, name->component}}, ir::Type::real,
+                         e.pos);
       }
-      if (c_.errors == before) c_.error("SIN-012", e.pos, e.text + " is a frame: its components are TR, FI, RT, SC, MI");
+      if (c_.errors == before)
+        c_.error("SIN-012", e.pos, e.text + " is a frame: its components are TR, FI, RT, SC, MI");
       return nullptr;
     }
   }
@@ -308,8 +309,8 @@ ir::ExprPtr ExprLowering::concat(const Expr& e) {
   ir::ExprPtr left = as_string(lower(e.args[0]));
   ir::ExprPtr right = as_string(lower(e.args[1]));
   if (!left || !right) return nullptr;
-  return make_expr(ir::Binary{ir::BinaryOp::concat, std::move(left), std::move(right), ir::Compare::exact}, ir::Type::string,
-              e.pos);
+  return make_expr(ir::Binary{ir::BinaryOp::concat, std::move(left), std::move(right), ir::Compare::exact},
+                   ir::Type::string, e.pos);
 }
 
 ir::ExprPtr ExprLowering::binary(const Expr& e) {
@@ -332,9 +333,15 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
   const auto is_number = [](ir::Type t) {
     return t == ir::Type::real || t == ir::Type::integer || t == ir::Type::boolean;
   };
-  if (relation && left->type == ir::Type::string && is_number(right->type) && !is_unknown_datum(right)) {
+  const bool counts = relation || (row->op != ir::BinaryOp::concat && row->op != ir::BinaryOp::power);
+  const auto is_character = [](const ir::ExprPtr& x) {
+    const auto* call = std::get_if<ir::Call>(&x->node);
+    return x->type == ir::Type::string && (std::holds_alternative<ir::VarRef>(x->node) ||
+                                           (call != nullptr && call->function == ir::Function::substring));
+  };
+  if (counts && is_character(left) && is_number(right->type) && !is_unknown_datum(right)) {
     left = convert(std::move(left), ir::Type::integer, e.args[0].pos);  // a CHAR beside a number
-  } else if (relation && right->type == ir::Type::string && is_number(left->type) && !is_unknown_datum(left)) {
+  } else if (counts && is_character(right) && is_number(left->type) && !is_unknown_datum(left)) {
     right = convert(std::move(right), ir::Type::integer, e.args[1].pos);
   }
   if (!left || !right) return nullptr;

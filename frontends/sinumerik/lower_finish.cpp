@@ -4,15 +4,16 @@
 #include <utility>
 
 #include "base/text.h"
-#include "ir/frame_angles.h"
 #include "frontends/sinumerik/lower_words.h"
+#include "ir/frame_angles.h"
 
 namespace cnctrans::sinumerik {
 
 using syntax::Word;
 
 void WordLowering::spindle_position(const Word& w, ir::Value value, Attribute attribute) {
-  push(ir::SpindleOrient{c_.master_spindle, std::move(value), attribute == Attribute::ic}, Rank::orient, ir::Order::before, w.pos);
+  push(ir::SpindleOrient{c_.master_spindle, std::move(value), attribute == Attribute::ic}, Rank::orient,
+       ir::Order::before, w.pos);
 }
 
 void WordLowering::named(const syntax::Block& block, const Word& w) {
@@ -172,10 +173,16 @@ void WordLowering::default_offset() {
     }
   }
   if (changes || !c_.offset_chosen) {
-    for (const auto& a : out_->actions) c_.offset_chosen = c_.offset_chosen || std::holds_alternative<ir::ToolOffset>(a.data);
+    for (const auto& a : out_->actions)
+      c_.offset_chosen = c_.offset_chosen || std::holds_alternative<ir::ToolOffset>(a.data);
   }
-  if (!changes || c_.offset_chosen || c_.machine.default_edge <= 0) return;
+  if (!changes || c_.offset_chosen) return;
   c_.offset_chosen = true;
+  if (c_.machine.default_edge <= 0) {
+    return c_.note("SIN-027", place,
+                   "no D is written since this tool was selected; most machines select D1 with the tool change",
+                   "write the D, or set the option sinumerik.default_edge in the machine profile");
+  }
   push(ir::ToolOffset{ir::Value(c_.machine.default_edge)}, Rank::offset, ir::Order::before, place, false);
 }
 
@@ -253,7 +260,8 @@ void WordLowering::finish_rotation(ir::FrameChange& change) {
     return;
   }
   change.has_angle = false;  // about Z, then the new Y, then the new X, in whatever order they are written
-  for (auto& c : coords) change.words.push_back(ir::FrameWord{c.axis, std::move(c.value), ir::WordScale::radius, c.pos});
+  for (auto& c : coords)
+    change.words.push_back(ir::FrameWord{c.axis, std::move(c.value), ir::WordScale::radius, c.pos});
 }
 
 /// ROTS, AROTS: one angle is that of ROT; two incline a plane.
@@ -266,8 +274,7 @@ void WordLowering::finish_solid_angles(ir::FrameChange& change) {
     if (!c.value.literal() || !is_geometry_axis(c.axis))
       return refuse("motion.transformation", special_pos_, "solid angles that are computed are not carried yet");
   }
-  const auto turns =
-      ir::solid_angles(coords[0].axis, coords[0].value.number, coords[1].axis, coords[1].value.number);
+  const auto turns = ir::solid_angles(coords[0].axis, coords[0].value.number, coords[1].axis, coords[1].value.number);
   for (ir::AxisId a = 0; a <= ir::axis::z; ++a)
     change.words.push_back(ir::FrameWord{a, ir::Value(turns[a]), ir::WordScale::radius, coords[0].pos});
 }
@@ -285,9 +292,8 @@ void WordLowering::finish_frame() {
   if (!out_->motion.centers.empty()) reject_axis_words("arc words can't stand with " + std::string(special_g_->name));
   auto change = std::make_shared<ir::FrameChange>();
   change->slot = ir::FrameSlot::chain;
-  const bool additive =
-      verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale ||
-      verb == FrameVerb::amirror || verb == FrameVerb::arots;
+  const bool additive = verb == FrameVerb::atrans || verb == FrameVerb::arot || verb == FrameVerb::ascale ||
+                        verb == FrameVerb::amirror || verb == FrameVerb::arots;
   const bool solid = (verb == FrameVerb::rots || verb == FrameVerb::arots) && coords.size() == 2;
   const WordPos whole = statement_pos();
   const bool empty = coords.empty() && !has_rpl_;

@@ -306,7 +306,16 @@ bool StatementLowering::structure(const Statement& s, ir::LineInfo& info) {
   };
   if (info.skip_mask != 0) c_.error("SIN-016", s.pos, "a structured statement can't be skipped with `/`");
   if (k == "ELSE") return structure_->else_branch(info) || unmatched(s, "structure");
-  if (k == "ENDIF") return structure_->close(Kind::if_, info) || unmatched(s, "structure");
+  if (k == "ENDIF" && !structure_->close(Kind::if_, info)) {  // IF .. GOTOF .. and ENDIF: real programs have it
+    c_.warning("SIN-010", s.pos, "this ENDIF closes no IF; the control passes over it");
+    ir::Opaque o;
+    o.text = c_.slice(s.pos);
+    o.feature = "language.statement";
+    o.harmless = true;
+    emit(info, std::move(o));
+    return true;
+  }
+  if (k == "ENDIF") return true;
   if (k == "ENDLOOP") return structure_->close(Kind::loop, info) || unmatched(s, "structure");
   if (k == "ENDFOR") return structure_->close(Kind::for_, info) || unmatched(s, "structure");
   if (k == "ENDWHILE") return structure_->close(Kind::while_, info) || unmatched(s, "structure");

@@ -104,8 +104,8 @@ std::optional<ExprLowering::FrameName> ExprLowering::frame_name(const Expr& e) {
 
 ir::ExprPtr ExprLowering::frame_function(const Expr& e) {
   if (e.text == "CRPL") {  // plane 1, 2, 3: G17, G18, G19
-    const bool fits = e.args.size() == 2 && e.args[0].kind == ExprKind::number && e.args[0].number >= 1 &&
-                      e.args[0].number <= 3;
+    const bool fits =
+        e.args.size() == 2 && e.args[0].kind == ExprKind::number && e.args[0].number >= 1 && e.args[0].number <= 3;
     if (!fits) {
       c_.keep("SIN-008", e.pos, "CRPL() is carried with the number of a plane (1, 2 or 3) and an angle only");
       return nullptr;
@@ -295,6 +295,9 @@ bool StatementLowering::offset_row(const ir::Expr& target, const ir::ExprPtr& va
 
 std::optional<bool> StatementLowering::assign_frame(const Expr& target, const Expr& value, WordPos pos,
                                                     ir::Assign& assign, std::vector<ir::Action>& actions) {
+  const bool shift = target.text == "$P_UIFR" && target.args.size() == 3 &&
+                     (target.args[2].text == "TR" || target.args[2].text == "FI");
+  if (shift) return std::nullopt;  // a value of the table of offsets
   const std::uint32_t before = c_.errors;
   auto name = exprs_.frame_name(target);
   if (c_.errors != before) return false;

@@ -93,9 +93,10 @@ bool StatementLowering::assign_undefined(const Expr& target, const Expr& value, 
                   target.text + " is an axis that the machine " + c_.machine.profile->name + " does not have");
   }
   if (reads_like_axis(target.text)) {
-    return refuse("language.statement", pos,
-                  target.text + " reads like an axis, and the machine " + c_.machine.profile->name + " has none of this name",
-                  "add the axis to the profile, or define the variable with DEF; the block is kept as text");
+    return refuse(
+        "language.statement", pos,
+        target.text + " reads like an axis, and the machine " + c_.machine.profile->name + " has none of this name",
+        "add the axis to the profile, or define the variable with DEF; the block is kept as text");
   }
   const std::uint32_t before = c_.errors;
   ir::Assign::Item item;

@@ -229,7 +229,8 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
       centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
   if (centre_letter) return center(axis, w, std::move(value), attribute);
   const bool machine_axis = special_ == Special::approach && w.extension == 1;  // G74 X1=0: the machine's own name
-  if (axis != ir::axis::none && (w.extension < 0 || machine_axis)) return coordinate(axis, w, std::move(value), attribute);
+  if (axis != ir::axis::none && (w.extension < 0 || machine_axis))
+    return coordinate(axis, w, std::move(value), attribute);
   if (attribute == Attribute::unsupported) {  // said already
     failed_ = true;
     return;

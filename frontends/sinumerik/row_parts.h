@@ -14,9 +14,9 @@ struct StatementLowering::Parts {
   std::vector<std::pair<const GFunction*, WordPos>> indirect;
   std::vector<ir::Action> actions;  ///< further actions (spindle positions, preparation stop)
   std::vector<decltype(ir::Statement::node)> calls;
-  std::vector<ir::CoordWord> coords;        ///< positioning axes, axes named by a constant
-  std::vector<ir::ComputedWord> computed;   ///< axes named by a variable
-  std::vector<ir::CenterWord> centers;      ///< IP[..]
+  std::vector<ir::CoordWord> coords;       ///< positioning axes, axes named by a constant
+  std::vector<ir::ComputedWord> computed;  ///< axes named by a variable
+  std::vector<ir::CenterWord> centers;     ///< IP[..]
   bool has_count = false;
   ir::ExprPtr count;
   WordPos count_pos;

@@ -24,24 +24,15 @@ struct DatumRow {
 };
 // What has a neutral meaning (motion reference 24.1); everything else is known by its name only.
 constexpr DatumRow data[] = {
-    {"$P_EP", ir::Datum::programmed_position, true},
-    {"$AA_IW", ir::Datum::work_position, true},
-    {"$AA_IM", ir::Datum::machine_position, true},
-    {"$P_TOOLNO", ir::Datum::tool_number, false},
-    {"$P_TOOLP", ir::Datum::next_tool, false},
-    {"$P_TOOL", ir::Datum::offset_number, false},
-    {"$P_TOOLR", ir::Datum::tool_radius, false},
-    {"$AC_ACTUAL_PARTS", ir::Datum::part_count, false},
-    {"$AC_CYCLE_TIME", ir::Datum::cycle_time, false},
-    {"$P_SUBPAR", ir::Datum::call_has_argument, false},
-    {"$AA_IB", ir::Datum::machine_position, true},
-    {"$AA_IBN", ir::Datum::machine_position, true},
-    {"$AA_IEN", ir::Datum::settable_position, true},
-    {"$AA_MW", ir::Datum::measured_work, true},
-    {"$AA_MM", ir::Datum::measured_machine, true},
-    {"$AC_MEA", ir::Datum::probe_state, false},
-    {"$P_UIFRNUM", ir::Datum::active_offset, false},
-    {"$P_F", ir::Datum::feed, false},
+    {"$P_EP", ir::Datum::programmed_position, true},  {"$AA_IW", ir::Datum::work_position, true},
+    {"$AA_IM", ir::Datum::machine_position, true},    {"$P_TOOLNO", ir::Datum::tool_number, false},
+    {"$P_TOOLP", ir::Datum::next_tool, false},        {"$P_TOOL", ir::Datum::offset_number, false},
+    {"$P_TOOLR", ir::Datum::tool_radius, false},      {"$AC_ACTUAL_PARTS", ir::Datum::part_count, false},
+    {"$AC_CYCLE_TIME", ir::Datum::cycle_time, false}, {"$P_SUBPAR", ir::Datum::call_has_argument, false},
+    {"$AA_IB", ir::Datum::machine_position, true},    {"$AA_IBN", ir::Datum::machine_position, true},
+    {"$AA_IEN", ir::Datum::settable_position, true},  {"$AA_MW", ir::Datum::measured_work, true},
+    {"$AA_MM", ir::Datum::measured_machine, true},    {"$AC_MEA", ir::Datum::probe_state, false},
+    {"$P_UIFRNUM", ir::Datum::active_offset, false},  {"$P_F", ir::Datum::feed, false},
     {"$P_S", ir::Datum::spindle_speed, false},
 };
 // FALSE in a plain run (reference-language 13).
@@ -113,6 +104,17 @@ ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
   for (ir::AxisId a = 0; a < std::size(geometry_axes); ++a) {
     if (e.text == geometry_axes[a]) return make_expr(ir::AxisName{a}, ir::Type::axis, e.pos);
   }
+  if (e.text == "$P_SUBPAR" && e.args.size() == 1) {  // counted from 1
+    ir::SystemRef given;
+    given.text = e.text;
+    given.datum = ir::Datum::call_has_argument;
+    auto n = lower_as(e.args[0], ir::Type::integer);
+    if (!n) return nullptr;
+    const auto constant = ir::constant_value(n);
+    given.args.push_back(constant ? ir::number(*constant - 1)
+                                  : ir::binary(ir::BinaryOp::subtract, std::move(n), ir::number(1)));
+    return make_expr(std::move(given), ir::Type::boolean, e.pos);
+  }
   const std::uint32_t before = c_.errors;
   const bool offset = e.text == "$P_UIFR" && e.args.size() == 3 && (e.args[2].text == "TR" || e.args[2].text == "FI");
   if (!offset) {
@@ -154,8 +156,8 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
     ref.datum = ir::Datum::active_modal;
     ref.text = e.text;
     ref.args = {ir::number(g.number), ir::number(setting), ir::number(value)};
-    auto term = ir::binary(ir::BinaryOp::multiply, ir::number(g.index),
-                           make_expr(std::move(ref), ir::Type::real, e.pos));
+    auto term =
+        ir::binary(ir::BinaryOp::multiply, ir::number(g.index), make_expr(std::move(ref), ir::Type::real, e.pos));
     sum = sum ? ir::binary(ir::BinaryOp::add, std::move(sum), std::move(term)) : std::move(term);
   }
   return sum ? ir::at(sum, e.pos) : nullptr;

@@ -126,6 +126,7 @@ void FrameState::translate(const FrameChange& c, const Facts& facts, const Block
       if (w.axis >= axes) continue;
       f.shift[w.axis] = moved.shift[w.axis];
       f.shift_scale[w.axis] = w.scale;
+      if (c.slot == FrameSlot::chain) f.shift[w.axis].reset();  // only the coarse or the fine part of it
     }
   }
 }

@@ -92,7 +92,8 @@ TEST(SinumerikExpressions, NamesThatNothingDefines) {  // 1.8, 3.3
   EXPECT_EQ(global.warnings(), "SIN-006");
   EXPECT_EQ(read("DEF INT A_B\nDEF REAL A_B\n").errors(), "SIN-022");
   EXPECT_EQ(read("X10\nDEF INT A_B\n").warnings(), "SIN-018");
-  EXPECT_EQ(read("DEF FRAME FR\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("DEF FRAME FR\nFR=CTRANS(X,5):CROT(Z,30)\n$P_PFRAME=FR\n").warnings(), "");
+  EXPECT_EQ(read("DEF FRAME FR\nR1=FR\n").errors(), "SIN-012");  // a frame is no number
   EXPECT_EQ(read("DEF REAL LST[3]\nLST[1]=2\nR1=LST[R2]\n").errors(), "");
   EXPECT_EQ(read("DEF REAL LST[3]\nR1=LST\n").warnings(), "SIN-008");
 }
@@ -149,7 +150,8 @@ TEST(SinumerikExpressions, MacrosAreWrittenOut) {  // 8.6
 TEST(SinumerikExpressions, PredefinedNamesAreNoVariables) {
   EXPECT_EQ(read("OSP1[Z]=10\n").warnings(), "SIN-008");
   EXPECT_EQ(read("SR=2\n").warnings(), "SIN-008");
-  EXPECT_EQ(read("DEF AXIS AX1\nAX1=AXNAME(\"X\")\n").warnings(), "SIN-007");
-  EXPECT_EQ(read("DEF REAL TAB1[3]\nSUBB(TAB1)\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("DEF AXIS AX1\nAX1=AXNAME(\"X\")\n").warnings(), "");
+  EXPECT_EQ(read("DEF REAL TAB1[3]\nSUBB(TAB1)\n").warnings(), "");
+  EXPECT_EQ(read("MX1=5\n").warnings(), "SIN-008");  // an axis of the machine builder
 }
 }  // namespace

@@ -128,7 +128,13 @@ TEST(SinumerikWords, ProgrammableFrames) {  // 14.5
   EXPECT_EQ(change(5)->words.at(0).value.number, 1);               // the value of MIRROR does not count
   EXPECT_EQ(change(6)->combine, ir::FrameCombine::clear);
   EXPECT_FALSE(block_of(r.program, 0).has_motion);
-  EXPECT_EQ(read("ROT X10 Y20\n").warnings(), "SIN-008");  // RPY of several axes: not carried
+  const auto turned = read("ROT X10 Y20\nG58 X3\nG59 X1\nROTS X30 Y20\n");
+  EXPECT_EQ(turned.warnings(), "");
+  const auto& both = *only<ir::FrameOp>(block_of(turned.program, 0)).change;
+  EXPECT_FALSE(both.has_angle);  // words are angles: about Z, then Y, then X
+  EXPECT_EQ(both.words.at(1).value.number, 20);
+  EXPECT_EQ(only<ir::FrameOp>(block_of(turned.program, 1)).change->combine, ir::FrameCombine::replace_named);
+  EXPECT_TRUE(only<ir::FrameOp>(block_of(turned.program, 2)).change->fine);
 }
 
 TEST(SinumerikWords, WorkOffsetsAndSuppression) {  // 14.5, motion 7.6
@@ -205,7 +211,7 @@ TEST(SinumerikWords, WhatCanNotBeReadIsRefused) {
   EXPECT_EQ(read("G2 X1 CR=5 I2\n").errors(), "SIN-005");
   EXPECT_EQ(read("R1 X5\n").errors(), "SIN-003");
   EXPECT_EQ(read("BSPLINE X1\n").warnings(), "SIN-008");
-  EXPECT_EQ(read("G58 X1\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("G58\n").errors(), "SIN-004");
   EXPECT_EQ(read("M1.5\n").errors(), "SIN-017");
   auto r = read("N10 G88 X5 ;why\nG0 X1\n");
   const auto& opaque = std::get<ir::Opaque>(r.program.routines[0].body[0].node);
@@ -222,7 +228,9 @@ TEST(SinumerikWords, WordsWithoutEffectOnThePathAreNoted) {
   EXPECT_EQ(r.codes(Severity::note), "SIN-009 SIN-009 SIN-009 SIN-009");
   EXPECT_EQ(block_of(r.program).motion.coords.size(), 1U);
   EXPECT_EQ(read("ACC[X]=50 OVRA[Y]=90\n").codes(Severity::note), "SIN-009 SIN-009");
-  EXPECT_EQ(read("POS[X]=50\n").warnings(), "SIN-008");
+  const auto pos = read("POS[X]=50\n");
+  EXPECT_EQ(pos.warnings(), "");
+  EXPECT_EQ(block_of(pos.program).motion.coords.at(0).positioning, ir::Positioning::alone);
 }
 
 }  // namespace

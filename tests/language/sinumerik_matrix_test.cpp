@@ -40,8 +40,8 @@ std::string use_of(const facts::GFunction& g) {
 std::string g_table() {
   std::string s = "| Code | Group | Support |\n|---|---|---|\n";
   for (const auto& g : facts::g_functions()) {
-    s += "| " + std::string(g.name) + " | " + std::to_string(g.group) + (g.modal ? "" : " (block)") + " | " + use_of(g) +
-         " |\n";
+    s += "| " + std::string(g.name) + " | " + std::to_string(g.group) + (g.modal ? "" : " (block)") + " | " +
+         use_of(g) + " |\n";
   }
   s += "| G505-G599 | 8 | carried |\n";
   return s;
@@ -67,9 +67,9 @@ std::string procedure_table() {
   for (const auto& p : facts::procedures()) {
     using enum facts::Procedure;
     s += "| " + std::string(p.name) + " | " +
-         (p.use == unsupported                  ? reason(facts::procedure_missing_feature(p.name))
+         (p.use == unsupported                 ? reason(facts::procedure_missing_feature(p.name))
           : p.use == timing || p.use == screen ? "kept as text: the programmed path is the same"
-                                                : "carried") +
+                                               : "carried") +
          " |\n";
   }
   std::string rest;
