@@ -1,0 +1,71 @@
+// Frame statements and poles (reference-language 14.5; motion reference 7.5).
+#include "backends/sinumerik/tables.h"
+#include "backends/sinumerik/writer.h"
+
+namespace cnctrans::backends::sinumerik {
+
+void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
+  const ir::FrameChange& c = *f.change;
+  if (c.slot == ir::FrameSlot::chain && c.combine == ir::FrameCombine::replace_named &&
+      c.kind == ir::FrameKind::translate) {
+    std::string text = c.fine ? "G59" : "G58";
+    for (const ir::FrameWord& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+    return add(std::move(text), Rank::head, a.pos);
+  }
+  const bool composes = c.combine == ir::FrameCombine::compose;
+  if (c.slot != ir::FrameSlot::chain || c.by_distance_mode ||
+      (!composes && c.combine != ir::FrameCombine::replace && c.combine != ir::FrameCombine::clear)) {
+    return refuse("TRN-202", a.pos, "this shift, rotation, scale or mirror has no counterpart here");
+  }
+  std::string_view verb = "TRANS";
+  if (c.kind == ir::FrameKind::rotate) verb = "ROT";
+  if (c.kind == ir::FrameKind::scale) verb = "SCALE";
+  if (c.kind == ir::FrameKind::mirror) verb = "MIRROR";
+  if (c.combine == ir::FrameCombine::clear) {
+    return add(std::string(same_dialect() && !a.text.empty() ? a.text : std::string_view("TRANS")), Rank::head, a.pos);
+  }
+  std::string text = (composes ? "A" : "") + std::string(verb);
+  if (c.has_angle) {
+    if (!c.words.empty()) return refuse("TRN-202", a.pos, "a rotation about a given centre has no counterpart here");
+    const bool by_axis = c.rotation_axis != ir::axis::none;
+    text += ' ' + word(by_axis ? axis_name(c.rotation_axis) : std::string_view("RPL"), c.angle, a.pos);
+  }
+  const auto one = [&](std::string_view address, const ir::Value& v, WordPos pos) {
+    text += ' ' + word(address, v, pos);
+  };
+  for (const ir::FrameWord& w : c.words) {
+    const bool scaled =
+        w.scale == ir::WordScale::modal || c.kind == ir::FrameKind::scale || c.kind == ir::FrameKind::mirror;
+    if (!scaled && program().lathe && w.axis == ir::axis::x) {
+      return refuse("TRN-202", w.pos, "a shift of X that is not in the diameter mode in force has no counterpart here");
+    }
+    if (c.kind == ir::FrameKind::scale && c.uniform_scale) {
+      for (const std::string_view axis : {"X", "Y", "Z"}) one(axis, w.value, w.pos);
+      break;
+    }
+    if (c.kind == ir::FrameKind::mirror) {
+      if (!w.value.is(0)) one(axis_name(w.axis), ir::Value(0), w.pos);
+      continue;
+    }
+    one(axis_name(w.axis), w.value, w.pos);
+  }
+  add(std::move(text), Rank::head, a.pos);
+}
+
+/// G111 from the zero point, G110 from the present point, G112 from the last pole.
+void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
+  std::string text = "G110";
+  if (p.at) {
+    if (p.at->combine == ir::FrameCombine::add) text = "G112";
+    if (p.at->combine == ir::FrameCombine::replace) text = "G111";
+    for (const ir::FrameWord& w : p.at->words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+  } else {
+    const auto plane = setting(Setting::plane);
+    if (!plane) return refuse("TRN-202", a.pos, "the plane in force is not known, and the polar origin needs it");
+    const ir::PlaneAxes axes = ir::plane_axes(static_cast<ir::Plane>(*plane));
+    text += ' ' + std::string(axis_name(axes.u)) + "0 " + std::string(axis_name(axes.v)) + '0';
+  }
+  add(std::move(text), Rank::head, a.pos);
+}
+
+}  // namespace cnctrans::backends::sinumerik
