@@ -208,6 +208,11 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
     return assign(target, expression(), w.pos, parts);
   }
   const std::string whole = w.extension >= 0 ? name + std::to_string(w.extension) : name;
+  if (w.equals && w.extension >= 0 && c_.symbol(whole) != nullptr) {  // a variable called F1
+    target.kind = ExprKind::name;
+    target.text = whole;
+    return assign(target, expression(), w.pos, parts);
+  }
   if (w.has_value && c_.symbol(whole) == nullptr && is_predefined(whole))
     return refuse("language.statement", w.pos, whole + " is not carried yet");
   if (name == "P" && w.has_value && w.extension < 0) {
