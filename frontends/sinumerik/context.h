@@ -37,6 +37,7 @@ struct Symbol {
   ir::Type type = ir::Type::real;
   ir::SpaceId space = space::real;
   std::uint8_t dimensions = 0;
+  bool character = false;                ///< a CHAR: also set by its code
   std::array<std::uint32_t, 3> sizes{};  ///< of the dimensions; 0: not known
 };
 

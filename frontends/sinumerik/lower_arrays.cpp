@@ -94,7 +94,10 @@ bool StatementLowering::assign_list(const ir::VarRef& target, ir::Type type, con
                     "a list over several dimensions needs literal indices and an array of known size");
     }
     const Expr& e = repeats ? list.args[0] : list.args[i];  // a gap writes 0
-    item.value = e.kind == ExprKind::missing ? zero_of(type) : exprs_.lower_as(e, type);
+    const bool character = symbol != nullptr && symbol->character;
+    item.value = e.kind == ExprKind::missing ? zero_of(type)
+                 : character                 ? exprs_.lower_character(e)
+                                             : exprs_.lower_as(e, type);
     if (!item.value) return false;
     item.pos = pos;
     out.items.push_back(std::move(item));
@@ -117,7 +120,7 @@ bool StatementLowering::assign_character(const Expr& target, const Expr& value, 
     if (!ref.indices.back()) return false;
   }
   const ir::ExprPtr at = exprs_.lower_as(target.args.back(), ir::Type::integer);
-  ir::ExprPtr character = exprs_.lower_as(value, ir::Type::string);
+  ir::ExprPtr character = exprs_.lower_character(value);
   if (!at || !character) return false;
   const ir::ExprPtr whole = ir::variable(ref, ir::Type::string);
   const ir::ExprPtr before = ir::call(ir::Function::substring, {whole, ir::number(0), at});

@@ -45,24 +45,28 @@ std::size_t element_count(const Expr& dimensions) {
 
 }  // namespace
 
+ir::ExprPtr StatementLowering::initial_value(const Expr& e, ir::Type type) {
+  return defines_characters_ ? exprs_.lower_character(e) : exprs_.lower_as(e, type);
+}
+
 bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t elements,
                                        std::vector<ir::ExprPtr>& out) {
   const bool list = e.kind == ExprKind::call && (e.text.empty() || e.text == "SET");
   const bool repeat = e.kind == ExprKind::call && e.text == "REP";
   if (!list && !repeat) {
-    out.push_back(exprs_.lower_as(e, type));
+    out.push_back(initial_value(e, type));
     return out.back() != nullptr;
   }
   if (list) {
     for (const Expr& value : e.args) {  // a gap is 0
-      out.push_back(value.kind == ExprKind::missing ? ir::number(0) : exprs_.lower_as(value, type));
+      out.push_back(value.kind == ExprKind::missing ? zero_of(type) : initial_value(value, type));
       if (!out.back()) return false;
     }
     return true;
   }
   if (e.args.empty() || elements == 0)
     return refuse("language.statement", e.pos, "REP() needs a value and an array of known size");
-  const ir::ExprPtr value = exprs_.lower_as(e.args[0], type);
+  const ir::ExprPtr value = initial_value(e.args[0], type);
   if (!value) return false;
   std::size_t count = elements;
   if (e.args.size() > 1) {
@@ -80,6 +84,7 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
                "DEF stands after the first executable block (alarm 14500): it is taken as if it stood before");
   }
   const auto type = type_of(s.args[0]);
+  defines_characters_ = s.args[0].text == "CHAR";
   const bool global = std::any_of(s.children.begin(), s.children.end(), [](const Statement& x) {
     return x.keyword == "ATTR" && (x.text == "NCK" || x.text == "CHAN");
   });
@@ -91,6 +96,7 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
     const std::string name = to_upper_ascii(v.text);
     Symbol symbol;
     symbol.dimensions = static_cast<std::uint8_t>(v.args[0].args.size());
+    symbol.character = defines_characters_;
     for (std::size_t i = 0; i < symbol.sizes.size() && i < v.args[0].args.size(); ++i) {
       const Expr& d = v.args[0].args[i];
       if (d.kind == ExprKind::number && d.number >= 1 && d.number <= 65535)
@@ -152,6 +158,7 @@ bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
     const std::size_t dimensions = p.args[2].args.size();
     Symbol symbol;
     symbol.dimensions = static_cast<std::uint8_t>(dimensions);
+    symbol.character = p.args[0].text == "CHAR";
     ir::Parameter out;
     out.name = name;
     if (dimensions != 0) {  // as it stands in the signature

@@ -90,12 +90,7 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
   const bool from_string = e->type == ir::Type::string;
   const bool to_string = type == ir::Type::string;
   if (to_string && (e->type == ir::Type::real || e->type == ir::Type::integer || e->type == ir::Type::boolean)) {
-    const auto* n = std::get_if<ir::Number>(&e->node);  // a CHAR by its code
-    if (n != nullptr && n->value >= 1 && n->value <= 127 && n->value == std::trunc(n->value))
-      return make_expr(ir::String{std::string(1, static_cast<char>(n->value))}, ir::Type::string, pos);
-    if (e->type != ir::Type::real)
-      return make_expr(ir::Call{ir::Function::character, {std::move(e)}}, ir::Type::string, pos);
-    c_.error("SIN-012", pos, "a REAL can't become a text or a CHAR", "use `<<` to make a text of a number");
+    c_.keep("SIN-012", pos, "a number for a text is not carried yet", "use `<<` to make a text of a number");
     return nullptr;
   }
   if (e->type == ir::Type::frame || type == ir::Type::frame) {
@@ -126,6 +121,17 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
   }
   if (const auto* n = std::get_if<ir::Number>(&e->node); n != nullptr && (n->value == 0 || n->value == 1)) return e;
   return make_expr(ir::Call{ir::Function::to_boolean, {std::move(e)}, ir::RoundHalf::away}, ir::Type::boolean, pos);
+}
+
+ir::ExprPtr ExprLowering::lower_character(const Expr& e) {
+  ir::ExprPtr value = lower(e);
+  if (!value || value->type == ir::Type::string) return value;
+  const auto* n = std::get_if<ir::Number>(&value->node);
+  if (n != nullptr && n->value >= 1 && n->value <= 127 && n->value == std::trunc(n->value))
+    return make_expr(ir::String{std::string(1, static_cast<char>(n->value))}, ir::Type::string, e.pos);
+  value = convert(std::move(value), ir::Type::integer, e.pos);
+  if (!value) return nullptr;
+  return make_expr(ir::Call{ir::Function::character, {std::move(value)}}, ir::Type::string, e.pos);
 }
 
 ir::ExprPtr ExprLowering::lower_as(const Expr& e, ir::Type type) {

@@ -29,6 +29,8 @@ class ExprLowering {
   ir::ExprPtr lower(const syntax::Expr& e);
   /// As `type`: INT rounds, BOOL is "not zero", STRING takes only strings. Null after an error.
   ir::ExprPtr lower_as(const syntax::Expr& e, ir::Type type);
+  /// For a CHAR: a text of one character, or its code.
+  ir::ExprPtr lower_character(const syntax::Expr& e);
   ir::ExprPtr convert(ir::ExprPtr e, ir::Type type, WordPos pos);
   /// A condition (any type; not zero is true).
   ir::ExprPtr condition(const syntax::Expr& e) { return lower(e); }

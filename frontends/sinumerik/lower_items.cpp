@@ -142,7 +142,7 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
   if (list) return assign_list(*ref, type, value, c_.symbol(target.text), pos, parts.assign);
   ir::Assign::Item item;
   item.target = std::move(*ref);
-  item.value = exprs_.lower_as(value, type);
+  item.value = symbol != nullptr && symbol->character ? exprs_.lower_character(value) : exprs_.lower_as(value, type);
   item.pos = pos;
   if (!item.value) return false;
   parts.assign.items.push_back(std::move(item));

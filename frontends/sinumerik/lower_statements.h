@@ -93,6 +93,7 @@ class StatementLowering {
 
   // definitions and calls (lower_calls.cpp)
   bool definition(const syntax::Statement& s, ir::LineInfo& info);
+  ir::ExprPtr initial_value(const syntax::Expr& e, ir::Type type);
   bool initial_values(const syntax::Expr& e, ir::Type type, std::size_t elements, std::vector<ir::ExprPtr>& out);
   bool proc(const syntax::Statement& s, ir::LineInfo& info);
   bool extern_declaration(const syntax::Statement& s, const syntax::Block& block, ir::LineInfo& info);
@@ -114,6 +115,7 @@ class StatementLowering {
   std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
   bool ended_ = false;
   bool executable_seen_ = false;
+  bool defines_characters_ = false;
   std::string_view feature_;  ///< why the block in work could not be carried
 };
 
