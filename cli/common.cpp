@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 
 namespace cnctrans::cli {
 
@@ -13,6 +15,7 @@ namespace {
 constexpr std::uint64_t kept_events = 2'000'000;
 
 bool run_limits(const Arguments& a, interpreter::Options& run) {
+  const auto* dialect = translator::find_dialect(a.dialect.empty() ? a.from : a.dialect);
   if (a.max_events) run.max_events = *a.max_events;
   run.max_steps = a.max_steps;
   for (const auto& item : a.set) {
@@ -31,7 +34,9 @@ bool run_limits(const Arguments& a, interpreter::Options& run) {
       usage_error("--skip wants levels such as 0,3 and not '" + a.skip + "'");
       return false;
     }
-    run.skip_mask = static_cast<std::uint16_t>(run.skip_mask | (1U << level));
+    // A mark without a number is that of the first switch, whatever its number: 0 always means it.
+    const unsigned first = dialect != nullptr ? static_cast<unsigned>(dialect->first_skip_switch) : 0;
+    run.skip_mask = static_cast<std::uint16_t>(run.skip_mask | (1U << (level > first ? level - first : 0)));
     levels.remove_prefix(static_cast<std::size_t>(end - levels.data()));
     if (!levels.empty() && levels.front() == ',') levels.remove_prefix(1);
   }
@@ -88,6 +93,13 @@ int usage_error(std::string_view message) {
   const std::string text = "cnctrans: " + std::string(message) + "\nTry 'cnctrans --help'.\n";
   write_all(stderr, text);
   return usage;
+}
+
+bool stdout_arrived(std::string* why) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  if (why != nullptr && errno != 0) *why = std::string(": ") + std::strerror(errno);
+  return false;
 }
 
 bool write_all(std::FILE* file, std::string_view bytes) {

@@ -18,6 +18,8 @@ bool run_options(const Arguments& a, translator::RunOptions& out);
 void print_diagnostics(const Arguments& a, const Diagnostics& diagnostics, const FileTable& files);
 int usage_error(std::string_view message);
 bool write_all(std::FILE* file, std::string_view bytes);
+/// What was printed on standard output has arrived. False when it has not (a full disk): main() says so at the end.
+bool stdout_arrived(std::string* why = nullptr);
 
 /// A progress line on stderr for jobs over a second, on a terminal only.
 class ProgressLine {

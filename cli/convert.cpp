@@ -97,7 +97,7 @@ int write_outputs(const Arguments& a, const translator::TranslateResult& result,
       return limit_or_difference;
     }
     for (const auto& out : result.outputs) write_all(stdout, out.bytes);
-    return std::fflush(stdout) == 0 ? ok : refused;
+    return stdout_arrived() ? ok : refused;
   }
   for (const auto& out : result.outputs) {
     fs::path path = target_path(a, out);

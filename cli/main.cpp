@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <new>
 
-#include "cli/commands.h"
+#include "cli/common.h"
 #include "cli/completion.h"
 #include "translator/version.h"
 
@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
     const int status = app.exit(e);
     return status == 0 ? 0 : cnctrans::cli::usage;
   }
-  try {
+  const auto command = [&] {
     if (run->parsed()) return cnctrans::cli::run(a);
     if (batch->parsed()) return cnctrans::cli::batch(a);
     if (verify->parsed()) return cnctrans::cli::verify(a);
@@ -146,10 +146,17 @@ int main(int argc, char** argv) {
     if (ir->parsed()) return cnctrans::cli::print_ir(a);
     if (list->parsed()) return cnctrans::cli::list_dialects(a);
     if (!completion->parsed()) return cnctrans::cli::convert(a);
+    std::fputs(cnctrans::cli::completion(app, a.shell).c_str(), stdout);
+    return static_cast<int>(cnctrans::cli::ok);
+  };
+  try {
+    const int status = command();
+    std::string why;
+    if (cnctrans::cli::stdout_arrived(&why)) return status;
+    cnctrans::cli::write_all(stderr, "cnctrans: the standard output can't be written" + why + "\n");
+    return status != cnctrans::cli::ok ? status : cnctrans::cli::usage;  // a result that did not arrive is no success
   } catch (const std::bad_alloc&) {
     std::fputs("cnctrans: not enough memory for this input\n", stderr);
     return cnctrans::cli::refused;
   }
-  std::fputs(cnctrans::cli::completion(app, a.shell).c_str(), stdout);
-  return cnctrans::cli::ok;
 }

@@ -55,8 +55,7 @@ int print_ir(const Arguments& a) {
   if (!profile) return usage_error(error);
   translator::Loader loader(*dialect, *profile, options.reader, options.libraries);
   Diagnostics diagnostics;
-  const ir::Program* program = loader.read_main(a.inputs.front(), diagnostics, &error);
-  if (program == nullptr) return usage_error(error);
+  const ir::Program* program = loader.read_main(source, diagnostics);
   print_diagnostics(a, diagnostics, loader.files());
   write_all(stdout, a.json ? ir::to_json(*program) + "\n" : ir::to_text(*program, {a.places}));
   return diagnostics.has_errors() ? refused : ok;

@@ -9,21 +9,32 @@ namespace cnctrans::cli {
 
 namespace {
 
-/// Where `--trace` and `--vars` write: a file (through a temporary) or standard output.
+/// Where `--trace` and `--vars` write: a file (through a temporary) or standard output. The first fault is kept.
 class Target {
  public:
-  bool open(const std::string& where, std::string* error) {
+  bool open(const std::string& where) {
     if (where == "-") return true;
     file_ = std::make_unique<AtomicFile>(where);
-    return file_->open(error);
+    good_ = file_->open(&error_);
+    return good_;
   }
-  bool write(std::string_view text, std::string* error) {
-    return file_ ? file_->write(text, error) : write_all(stdout, text);
+  void write(std::string_view text) {
+    if (good_) good_ = file_ ? file_->write(text, &error_) : write_all(stdout, text);
   }
-  bool close(std::string* error) { return file_ ? file_->commit(error) : std::fflush(stdout) == 0; }
+  [[nodiscard]] bool failed() const { return !good_; }
+  /// Everything written has arrived.
+  bool close() {
+    if (!file_) return stdout_arrived();
+    good_ = good_ && file_->commit(&error_);
+    if (!good_) write_all(stderr, "cnctrans: " + error_ + "\n");
+    return good_;
+  }
+  [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
   std::unique_ptr<AtomicFile> file_;
+  std::string error_;
+  bool good_ = true;
 };
 
 class JsonSink : public interpreter::TraceSink {
@@ -32,6 +43,7 @@ class JsonSink : public interpreter::TraceSink {
       : target_(target), files_(files), axes_(axes) {}
   ~JsonSink() override { flush(); }
   void on_event(const interpreter::Event& e) override {
+    if (target_.failed()) return;
     buffer_ += interpreter::to_json(e, files_, axes_);
     buffer_ += '\n';
     if (buffer_.size() > (1U << 16U)) flush();
@@ -39,8 +51,7 @@ class JsonSink : public interpreter::TraceSink {
 
  private:
   void flush() {
-    std::string ignored;
-    target_.write(buffer_, &ignored);
+    target_.write(buffer_);
     buffer_.clear();
   }
   Target& target_;
@@ -79,10 +90,9 @@ int run(const Arguments& a) {
   translator::RunOptions options;
   if (!run_options(a, options)) return usage;
   if (a.inputs.size() != 1) return usage_error("run takes one program");
-  std::string error;
   Target trace, vars;
-  if (!a.trace.empty() && !trace.open(a.trace, &error)) return usage_error(error);
-  if (!a.vars.empty() && !vars.open(a.vars, &error)) return usage_error(error);
+  if (!a.trace.empty() && !trace.open(a.trace)) return usage_error(trace.error());
+  if (!a.vars.empty() && !vars.open(a.vars)) return usage_error(vars.error());
   const auto make_sink = [&](const FileTable& files,
                              const std::vector<std::string>& axes) -> std::unique_ptr<interpreter::TraceSink> {
     if (a.trace.empty()) return std::make_unique<interpreter::TraceCounter>();
@@ -91,9 +101,11 @@ int run(const Arguments& a) {
   options.may_stream = a.trace.empty();
   const auto result = translator::run(a.inputs.front(), options, make_sink);
   if (!result.error.empty()) return usage_error(result.error);
-  if (!a.trace.empty() && !trace.close(&error)) return usage_error(error);
-  if (!a.vars.empty() && (!vars.write(vars_json(result.result), &error) || !vars.close(&error)))
-    return usage_error(error);
+  if (!a.trace.empty() && !trace.close()) return usage;
+  if (!a.vars.empty()) {
+    vars.write(vars_json(result.result));
+    if (!vars.close()) return usage;
+  }
   print_diagnostics(a, result.diagnostics, result.files);
   const auto& r = result.result;
   if (!a.quiet && a.trace.empty() && a.vars.empty()) {

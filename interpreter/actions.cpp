@@ -69,29 +69,32 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::SpindleOrient& a) const {
-    if (auto* s = m.spindle(a.number)) {
-      s->oriented = true;
-      s->state = ir::SpindleState::off;
-      s->angle = m.value(a.angle) + (a.incremental ? s->angle : 0);
-      m.emit_spindle(a.number);
-    }
+    const double angle = m.value(a.angle);
+    auto* s = m.spindle(a.number);
+    if (m.failure_.set || s == nullptr) return false;
+    s->oriented = true;
+    s->state = ir::SpindleState::off;
+    s->angle = angle + (a.incremental ? s->angle : 0);
+    m.emit_spindle(a.number);
     return true;
   }
   bool operator()(const ir::SpindleGear& /*a*/) const { return true; }
   bool operator()(const ir::ToolSelect& a) const {
     const bool changed_here = first_of<ir::ToolChange>(b) != nullptr;
     if (changed_here) return true;  // one event, at the change
-    m.select_tool(a);
+    if (!m.select_tool(a)) return false;
     m.emit_tool(a.changes);
     return true;
   }
   bool operator()(const ir::ToolChange& /*a*/) const {
-    if (const auto* t = first_of<ir::ToolSelect>(b)) m.select_tool(*t);
+    if (const auto* t = first_of<ir::ToolSelect>(b); t != nullptr && !m.select_tool(*t)) return false;
     m.emit_tool(true);
     return true;
   }
   bool operator()(const ir::ToolOffset& a) const {
-    m.offset_ = static_cast<std::int32_t>(std::lround(m.value(a.number)));
+    const double number = m.value(a.number);
+    if (m.failure_.set) return false;
+    m.offset_ = static_cast<std::int32_t>(std::lround(number));
     auto& e = m.plain(EventKind::offset);
     e.number = m.offset_;
     m.emitter_.emit(e);
@@ -104,7 +107,9 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::Dwell& a) const {
-    m.emit_dwell(m.value(a.value) * a.scale, a.revolutions);
+    const double amount = m.value(a.value) * a.scale;
+    if (m.failure_.set) return false;
+    m.emit_dwell(amount, a.revolutions);
     return true;
   }
   bool operator()(const ir::ExactStopBlock& /*a*/) const {
@@ -156,7 +161,7 @@ bool BlockMachine::settings_first(const ir::Block& b) {
 bool BlockMachine::actions(const ir::Block& b, bool after) {
   for (const auto& a : b.actions) {
     if ((a.order == ir::Order::after) != after) continue;
-    if (!std::visit(ActionRunner{*this, b, after}, a.data)) return false;
+    if (!std::visit(ActionRunner{*this, b, after}, a.data) || failure_.set) return false;
   }
   return !failure_.set;
 }
@@ -167,7 +172,9 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
     case ir::Setting::feed_mode: {
       const auto now = static_cast<ir::FeedMode>(m.value);
       if (now != modal_.feed_mode && m.feed_memory != ir::FeedMemory::per_mode) {
-        feed_[m.value] = m.feed_memory == ir::FeedMemory::shared ? feed_now() : 0;
+        const bool shared = m.feed_memory == ir::FeedMemory::shared;
+        feed_[m.value] = shared ? feed_now() : 0;
+        feed_degrees_[m.value] = shared ? feed_degrees() : 0;
       }
       modal_.feed_mode = now;
       return;
@@ -205,7 +212,9 @@ void BlockMachine::set_comp(ir::CompSide side) {
 }
 
 void BlockMachine::set_feed(const ir::SetFeed& f) {
-  feed_[static_cast<std::size_t>(modal_.feed_mode)] = value(f.value) * feed_unit();
+  const auto mode = static_cast<std::size_t>(modal_.feed_mode);
+  feed_degrees_[mode] = value(f.value);
+  feed_[mode] = feed_degrees_[mode] * feed_unit();
 }
 
 // --- spindle ---------------------------------------------------------------------------------------------------
@@ -280,9 +289,12 @@ void BlockMachine::emit_if_running(const ir::Block& b, int number) {
 
 // --- tool, coolant, machine functions --------------------------------------------------------------------------
 
-void BlockMachine::select_tool(const ir::ToolSelect& t) {
+bool BlockMachine::select_tool(const ir::ToolSelect& t) {
+  const double number = t.name.empty() ? value(t.number) : 0;
+  if (failure_.set) return false;
   tool_name_ = std::string(t.name);
-  tool_ = t.name.empty() ? static_cast<std::int32_t>(std::lround(value(t.number))) : 0;
+  tool_ = static_cast<std::int32_t>(std::lround(number));
+  return true;
 }
 
 void BlockMachine::emit_tool(bool change) {

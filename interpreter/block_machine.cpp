@@ -44,6 +44,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
     path_event_.to.known |= 1U << a.id;
   }
   feed_[static_cast<std::size_t>(modal_.feed_mode)] = profile.power_on_feed;
+  feed_degrees_ = feed_;
   for (auto& s : spindles_) s.mode = modal_.spindle_mode;
   set_units();
   load_offset(modal_.work_offset);

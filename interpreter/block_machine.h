@@ -33,6 +33,7 @@ struct Move {
   bool ccw = false;
   std::int32_t turns = 0;
   double feed = 0;
+  std::optional<double> feed_degrees;  ///< instead of `feed` when only rotary axes move
   ir::FeedMode feed_mode = ir::FeedMode::per_minute;
   double pitch = 0, pitch_change = 0, start_angle = 0;
   bool toward = true;
@@ -138,7 +139,7 @@ class BlockMachine final : public SystemData {
   void set_feed(const ir::SetFeed& f);
   void set_spindle_value(const ir::SetSpindle& s);
   void set_spindle_limit(const ir::SpindleLimit& l);
-  void select_tool(const ir::ToolSelect& t);
+  bool select_tool(const ir::ToolSelect& t);
   bool machine_function(const ir::MachineFunction& m);
   bool define_cycle(const ir::CycleDefine& c);
   void set_corner(const ir::Corner& c);
@@ -200,6 +201,8 @@ class BlockMachine final : public SystemData {
   Vec last_direction(const ir::PlaneAxes& plane) const;
   void arrived(const Move& move);
   [[nodiscard]] double feed_now() const { return feed_[static_cast<std::size_t>(modal_.feed_mode)]; }
+  /// Of a move of rotary axes alone: degrees, whatever the unit of length.
+  [[nodiscard]] double feed_degrees() const { return feed_degrees_[static_cast<std::size_t>(modal_.feed_mode)]; }
 
   // contours whose points follow from later blocks (contours.cpp)
   struct OpenElement {
@@ -260,7 +263,7 @@ class BlockMachine final : public SystemData {
   Axes axis_feed_{};                ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
   Axes increment_base_{};           ///< last programmed coordinate before a frame change, where that is what counts
   std::uint32_t base_pending_ = 0;  ///< bit n: an incremental word of axis n starts from there
-  std::array<double, 3> feed_{};
+  std::array<double, 3> feed_{}, feed_degrees_{};  ///< by FeedMode: in mm; the number programmed
   std::array<Spindle, 32> spindles_{};
   std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
   std::string tool_name_;

@@ -142,6 +142,7 @@ bool BlockMachine::cycle_path(const ir::cycles::CycleMove& m, const Axes& hole) 
   if (plane.u != hole_axis_) move.to[plane.u] = hole[plane.u] + m.du;
   if (plane.v != hole_axis_) move.to[plane.v] = hole[plane.v] + m.dv;
   move.feed = (m.has_feed ? m.feed : feed_now()) * m.feed_factor;
+  move.feed_degrees.reset();
   move.kind = m.step == CycleStep::rapid ? Move::Kind::rapid : Move::Kind::linear;
   if (m.step == CycleStep::thread) {
     move.kind = Move::Kind::thread;

@@ -78,6 +78,7 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
   move.to[ir::axis::x] = m.to.x;
   move.to[ir::axis::z] = m.to.z;
   move.feed = m.has_feed ? m.feed : feed_now();
+  move.feed_degrees.reset();
   switch (m.step) {
     case TurnStep::rapid: move.kind = Move::Kind::rapid; break;
     case TurnStep::arc:

@@ -62,7 +62,7 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
 bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   auto& to = path_event_.to.value;
   const std::array<double, 3> from{p_[0], p_[1], p_[2]};
-  bool moves = false;
+  bool moves = false, linear = false;
   for (const auto& w : m.coords) {
     const auto a = w.axis;
     if (!check_axis(a)) return false;
@@ -82,7 +82,10 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
     }
     p_[a] = x;
     x += frame_.t[a];
-    if (std::abs(x - to[a]) > no_move) moves = true;
+    if (std::abs(x - to[a]) > no_move) {
+      moves = true;
+      linear = linear || !axis.rotary;
+    }
     to[a] = x;
   }
   if (failure_.set) return false;
@@ -91,7 +94,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   last_was_arc_ = false;
   has_path_ = true;
   path_event_.kind = rapid ? EventKind::rapid : EventKind::linear;
-  path_event_.feed = feed_now();
+  path_event_.feed = linear ? feed_now() : feed_degrees();
   path_event_.feed_mode = modal_.feed_mode;
   emitter_.emit(path_event_);
   return true;
@@ -130,6 +133,7 @@ Move BlockMachine::move_from_here() const {
   move.from = move.to = p_;
   move.plane = modal_.plane;
   move.feed = feed_now();
+  move.feed_degrees = feed_degrees();
   move.feed_mode = modal_.feed_mode;
   move.file = failure_.where.file;
   move.line = failure_.where.line;

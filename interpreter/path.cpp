@@ -145,6 +145,7 @@ bool BlockMachine::join(Move& next) {
   corner.centre = f.centre;
   corner.ccw = f.ccw;
   if (p.has_feed) corner.feed = p.feed;
+  corner.feed_degrees.reset();
   pending_.reset();
   return emit_joint(first, corner);
 }
@@ -177,16 +178,17 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
     to = frame_.apply(to);
   }
   auto& e = path_event_;
-  bool moves = false;
+  bool moves = false, linear = move.kind == Move::Kind::arc || !move.feed_degrees;
   for (const auto a : axes_) {
     if (std::abs(to[a] - e.to.value[a]) <= no_move) continue;
     e.to.value[a] = to[a];
     moves = true;
+    linear = linear || !axis_[a].rotary;
   }
   if (!moves && move.kind != Move::Kind::arc) return true;
   e.file = move.file;
   e.line = move.line;
-  e.feed = move.feed;
+  e.feed = linear ? move.feed : *move.feed_degrees;
   e.feed_mode = move.feed_mode;
   e.in_machine = move.in_machine;
   switch (move.kind) {

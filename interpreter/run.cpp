@@ -11,6 +11,13 @@ namespace cnctrans::interpreter {
 
 namespace {
 constexpr std::uint64_t check_every = 65'536;
+
+/// Where an event belongs that no statement has caused: the first line of the main program.
+Span start_of(const ir::Program& program) {
+  FileId file = program.files.empty() ? 0 : program.files.front().file;
+  if (const auto* main = program.main(); main != nullptr && main->file != 0) file = main->file;
+  return {file, 1, 1, 1, 1};
+}
 }  // namespace
 
 Runner::Runner(const ir::Program& program, const machine::Profile& profile, const Options& options, TraceSink& sink,
@@ -41,6 +48,7 @@ Result Runner::run() {
   diagnostics_.append(found);
   if (diagnostics_.error_count() != before) return refuse();
   auto* main = routines_.main();
+  last_ = failure_.where = start_of(program_);
   Activation& a = calls_.emplace_back();
   a.flow = main;
   for (const auto& shape : main->locals) a.locals.push_back({shape, false, {}});
@@ -138,8 +146,10 @@ bool Runner::apply_setting(const std::string& name, const std::string& value) {
   } else if (variables_.place(*space, *index, p)) {
     Variables::assign(p, *x);
   }
-  if (failure_.set) diagnostics_.error(code::bad_set, {}, failure_.text);
-  return !failure_.set;
+  if (!failure_.set) return true;
+  failure_.code = code::bad_set;
+  diagnostics_.error(code::bad_set, {}, failure_.text);
+  return false;
 }
 
 // --- the loop --------------------------------------------------------------------------------------------------

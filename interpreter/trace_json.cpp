@@ -17,8 +17,12 @@ void append_json_number(std::string& out, double value) {
     out += "null";
     return;
   }
-  char buffer[32];
-  const auto [end, ec] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  // Shortest digits that read back to the same number; an exponent only where the plain form would be long.
+  const double size = std::abs(value);
+  const bool plain = size >= 1e-7 && size < 1e15;
+  char buffer[64];
+  const auto [end, ec] = plain ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                               : std::to_chars(buffer, buffer + sizeof buffer, value);
   out.append(buffer, end);
 }
 

@@ -1,6 +1,7 @@
 #include "interpreter/variables.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/text.h"
@@ -98,7 +99,15 @@ NamedVariable& Variables::global(const std::string& name, ir::Type type) {
 std::optional<double> preset_number(std::string_view text) {
   if (iequals_ascii(text, "true")) return 1;
   if (iequals_ascii(text, "false")) return 0;
-  return parse_decimal(text);
+  if (const auto x = parse_decimal(text)) return x;
+  // A number as other programs print it: 1e+05.
+  const auto first = text.find_first_not_of("+-");
+  if (first == std::string_view::npos || first > 1 || text[first] < '0' || text[first] > '9') return std::nullopt;
+  double x = 0;
+  if (text.front() == '+') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return x;
 }
 
 namespace {

@@ -40,6 +40,17 @@ struct LatheEvidence {
   }
 };
 
+/// The file is called as the routine: by its name, or by its number with or without what the control puts before it.
+bool stem_names(std::string_view stem, const ir::RoutineName& name, std::string_view before_number) {
+  if (!name.text.empty()) return stem == name.text;
+  if (name.number < 0) return false;
+  const std::string number = std::to_string(name.number);
+  if (!before_number.empty() && stem.starts_with(before_number) && stem.substr(before_number.size()) == number)
+    return true;
+  const auto digit = stem.find_first_not_of('0');
+  return !stem.empty() && (digit == std::string_view::npos ? "0" : stem.substr(digit)) == number;
+}
+
 }  // namespace
 
 bool looks_like_lathe(std::string_view text, char comment_open, char comment_close) {
@@ -81,6 +92,11 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
   return machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
 }
 
+bool can_reopen(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 void note_encoding(std::string_view text, std::uint32_t first_line, FileId file, Diagnostics& diagnostics) {
   SourceLine l;
   for (l.number = first_line - 1; take_line(text, l);) {
@@ -98,11 +114,9 @@ Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontend
                std::vector<std::string> libraries)
     : dialect_(dialect), profile_(profile), reader_(reader), folders_(std::move(libraries)) {}
 
-const ir::Program* Loader::read_main(const std::string& path, Diagnostics& diagnostics, std::string* error,
-                                     frontends::ReadStats* stats) {
-  const SourcePtr source = SourceText::open(path, error);
-  if (!source) return nullptr;
-  const fs::path parent = fs::path(path).parent_path();
+const ir::Program* Loader::read_main(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
+  const std::string& path = source->name();
+  const fs::path parent = can_reopen(path) ? fs::path(path).parent_path() : fs::path();
   folders_.insert(folders_.begin(), parent.empty() ? std::string(".") : parent.string());
   main_path_ = path;
   return read_source(source, diagnostics, stats);
@@ -193,11 +207,7 @@ const ir::Program* Loader::find(const ir::RoutineName& name) {
     if (p->find(name) != nullptr) return use(c);
   }
   for (auto& c : candidates_) {
-    const bool stem = !name.text.empty()
-                          ? c.stem == name.text
-                          : c.stem.find_first_not_of("0123456789") == std::string::npos && !c.stem.empty() &&
-                                c.stem.size() < 18 && std::stoll(c.stem) == name.number;
-    if (!stem || c.unreadable) continue;
+    if (!stem_names(c.stem, name, dialect_.numbered_stem) || c.unreadable) continue;
     if (!c.source) {
       std::string error;
       c.source = SourceText::open(c.path, &error);
@@ -207,12 +217,11 @@ const ir::Program* Loader::find(const ir::RoutineName& name) {
     // The file is the routine: its first routine answers to the stem's name.
     if (!p->routines.empty() && p->routines.front().name.empty()) p->routines.front().name = name;
     if (p->find(name) != nullptr) return use(c);
-    for (auto& r : p->routines) {
-      if (r.kind == ir::RoutineKind::main) {
-        r.name = name;
-        return use(c);
-      }
-    }
+    if (p->routines.empty()) continue;
+    const auto main = std::find_if(p->routines.begin(), p->routines.end(),
+                                   [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
+    (main != p->routines.end() ? *main : p->routines.front()).name = name;
+    return use(c);
   }
   return nullptr;
 }

@@ -20,6 +20,8 @@ namespace cnctrans::translator {
 /// unmistakable content (constant cutting speed or diameter programming without any Y word: lathe); else mill.
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
                                                const SourceText* source, std::string* error);
+/// True for a regular file: it can be opened and read as often as one likes. What has been read from a pipe is gone.
+bool can_reopen(const std::string& path);
 /// True when the text can only be for a lathe. Comments are skipped by the dialect's marks.
 bool looks_like_lathe(std::string_view text, char comment_open, char comment_close);
 
@@ -33,8 +35,8 @@ class Loader {
   Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
          std::vector<std::string> libraries);
 
-  /// Reads the main file. nullptr and `error` when it can't be opened.
-  const ir::Program* read_main(const std::string& path, Diagnostics& diagnostics, std::string* error,
+  /// Reads the main file, which has been opened: its folder is searched first. A pipe has no folder: the current one.
+  const ir::Program* read_main(const SourcePtr& source, Diagnostics& diagnostics,
                                frontends::ReadStats* stats = nullptr);
   const ir::Program* read_source(const SourcePtr& source, Diagnostics& diagnostics,
                                  frontends::ReadStats* stats = nullptr);

@@ -234,8 +234,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
 
   Loader loader(*from, *source_profile, options.reader, options.libraries);
   frontends::ReadStats stats;
-  const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error, &stats);
-  if (program == nullptr) return result;
+  const ir::Program* program = loader.read_main(source, result.diagnostics, &stats);
   result.lines = stats.lines;
 
   ir::Program source_program = *program;
@@ -315,8 +314,7 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
     const auto profile = choose_profile(dialect, machine, text.get(), &result.error);
     if (!profile) return false;
     Loader loader(dialect, *profile, options.reader, options.libraries);
-    const ir::Program* program = loader.read_main(path, diagnostics, &result.error);
-    if (program == nullptr) return false;
+    const ir::Program* program = loader.read_main(text, diagnostics);
     interpreter::Options run = options.run;
     if (!with_set) run.set.clear();
     replayed.result = replay(*program, *profile, run, loader, diagnostics, replayed.events);
@@ -344,7 +342,7 @@ RunResult run(
   if (!source) return result;
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
   if (!profile) return result;
-  if (options.may_stream && options.run.set.empty()) {
+  if (options.may_stream && options.run.set.empty() && can_reopen(path)) {
     FileTable files;
     const auto counter = make_sink(files, {});
     StreamRun streamed = run_stream(path, *dialect, *profile, options, *counter, files);
@@ -356,8 +354,7 @@ RunResult run(
     }
   }
   Loader loader(*dialect, *profile, options.reader, options.libraries);
-  const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error);
-  if (program == nullptr) return result;
+  const ir::Program* program = loader.read_main(source, result.diagnostics);
   result.axis_names = program->axis_names;
   const auto sink = make_sink(loader.files(), program->axis_names);
   interpreter::Options run_options = options.run;
@@ -394,8 +391,7 @@ CheckResult check(const std::string& path, const RunOptions& options) {
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
   if (!profile) return result;
   Loader loader(*dialect, *profile, options.reader, options.libraries);
-  const ir::Program* program = loader.read_main(path, result.diagnostics, &result.error, &result.stats);
-  if (program == nullptr) return result;
+  const ir::Program* program = loader.read_main(source, result.diagnostics, &result.stats);
   ir::check_well_formed(*program, result.diagnostics);
   result.files = loader.files();
   return result;

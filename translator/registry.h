@@ -18,6 +18,8 @@ struct Dialect {
   std::vector<std::string_view> mill_extensions;   ///< that say "mill", lower case
   std::vector<std::string_view> lathe_extensions;  ///< that say "lathe"
   std::vector<std::string_view> other_extensions;  ///< that a library folder may hold besides
+  int first_skip_switch = 0;                       ///< number of the first block-skip switch on the control
+  std::string_view numbered_stem;                  ///< what stands before the number in the file name of a subprogram
   char comment_open = ';';                         ///< marks of comments, for a look at a text before it is read
   char comment_close = 0;                          ///< 0: to the end of the line
   std::shared_ptr<const frontends::Frontend> frontend;

@@ -323,7 +323,7 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   result.outcome = StreamOutcome::needs_program;
   // In its own language a program keeps its spelling, which the stream does not look at closely enough.
   if (from == nullptr || !readable(*from) || to == nullptr || from == to || options.verify || options.annotate ||
-      options.reader != frontends::Reader::scanner)
+      options.reader != frontends::Reader::scanner || !can_reopen(path))
     return result;
   Windows look;
   if (!look.open(path, &result.error)) {
@@ -357,7 +357,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   if (!reader || options.reader != frontends::Reader::scanner) return run;
   interpreter::BlockRunner runner(profile, options.run, sink, run.diagnostics);
   ir::Statement statement;
-  Span last;
+  Span last{file, 1, 1, 1, 1};  // an empty program ends on its first line
   std::string_view window = windows.first;
   std::uint32_t number = 0;
   bool going = true;
