@@ -19,6 +19,7 @@
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
+#include "ir/program.h"
 #include "machine/profile.h"
 
 namespace cnctrans::interpreter {
@@ -66,6 +67,13 @@ class BlockMachine final : public SystemData {
 
   [[nodiscard]] const ir::ModalState& modal() const { return modal_; }
   void restore_modal(const ir::ModalState& state);
+  /// The program and routine that the next block belongs to: cycles look up their profiles there.
+  void belongs_to(const ir::Program* program, const ir::Routine* routine) {
+    program_ = program;
+    routine_ = routine;
+  }
+  /// Without frames, tool and cycles, ready to read the blocks of a profile.
+  void stand_for_contour(const ir::ModalState& state, std::optional<ir::cycles::TurnPoint> from);
 
   bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) override;
   bool write(const ir::SystemRef& ref, std::span<const double> args, double value) override;
@@ -227,6 +235,9 @@ class BlockMachine final : public SystemData {
   bool run_machining(const ir::NamedCycle& c);
   bool machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNumbers& out);
   bool machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense);
+  bool machining_path(const ir::cycles::TurnMove& m);
+  std::optional<ir::cycles::TurnProfile> machining_profile(const ir::NamedCycle& c,
+                                                           const ir::cycles::TurnNumbers& numbers);
 
   // cycles (cycles.cpp)
   bool run_cycle();
@@ -294,6 +305,9 @@ class BlockMachine final : public SystemData {
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;
   const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
+
+  const ir::Program* program_ = nullptr;
+  const ir::Routine* routine_ = nullptr;
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;

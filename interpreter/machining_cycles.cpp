@@ -1,9 +1,12 @@
 // Machining cycles of a lathe: the moves of the expansion, one event each.
 #include <algorithm>
+#include <cmath>
 
 #include "interpreter/block_machine.h"
+#include "interpreter/profile_contour.h"
 #include "interpreter/run_codes.h"
 #include "ir/cycles/machining.h"
+#include "ir/cycles/profile_blocks.h"
 
 namespace cnctrans::interpreter {
 
@@ -18,18 +21,33 @@ bool BlockMachine::machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNu
   for (const auto& [word, v] : c.words) {
     const auto* p = ir::cycles::find_parameter(word);
     if (p == nullptr) return failure_.fail(code::bad_cycle, "the cycle " + c.name + " has no parameter " + word);
-    double x = value(v);
-    switch (p->quantity) {
-      case Quantity::cross: x *= axis_[ir::axis::x].scale_absolute; break;
-      case Quantity::along: x *= axis_[ir::axis::z].scale_absolute; break;
-      case Quantity::length: x *= unit(); break;
-      case Quantity::feed: x *= feed_unit(); break;
-      case Quantity::centiseconds: x *= 0.01; break;
-      case Quantity::plain: break;
-    }
-    out[p->name] = x;
+    if (p->quantity == Quantity::text || ir::cycles::is_text(v)) continue;
+    ir::cycles::TurnUnits units;
+    units.cross = axis_[ir::axis::x].scale_absolute;
+    units.along = axis_[ir::axis::z].scale_absolute;
+    units.length = unit();
+    units.feed = feed_unit();
+    out[p->name] = value(v) * ir::cycles::factor_of(p->quantity, units);
   }
   return !failure_.set;
+}
+
+std::optional<ir::cycles::TurnProfile> BlockMachine::machining_profile(const ir::NamedCycle& c,
+                                                                       const ir::cycles::TurnNumbers& numbers) {
+  std::string error;
+  const auto fail = [&](std::string_view fault) {
+    failure_.fail(fault, error);
+    return std::nullopt;
+  };
+  if (program_ == nullptr) {
+    error = "a cycle with a profile needs the whole program";
+    return fail(code::needs_whole_program);
+  }
+  const auto blocks = ir::cycles::profile_blocks(*program_, *routine_, c, &error);
+  if (blocks.empty()) return fail(code::bad_cycle);
+  const auto start = ir::cycles::contour_start(numbers, modal_);
+  auto out = contour_of(profile_, start, blocks, values_, &error);
+  return out ? out : fail(code::bad_cycle);
 }
 
 bool BlockMachine::run_machining(const ir::NamedCycle& c) {
@@ -42,12 +60,20 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   if (!check_axis(ir::axis::x) || !check_axis(ir::axis::z)) return false;
   ir::cycles::TurnNumbers numbers;
   if (!machining_numbers(c, numbers)) return false;
-  // A length the source left out has the control's default of 1 mm in millimetres already.
   ir::cycles::TurnContext context;
   context.start = {p_[ir::axis::x], p_[ir::axis::z]};
   const auto tool = std::find_if(profile_.tools.begin(), profile_.tools.end(),
                                  [this](const auto& t) { return t.number == tool_in_spindle_; });
-  if (tool != profile_.tools.end()) context.nose_width = tool->nose_width;
+  if (tool != profile_.tools.end()) {
+    context.nose_width = tool->nose_width;
+    if (tool->length != tool->length_x) context.longer_in_x = tool->length_x > tool->length;
+  }
+  std::optional<ir::cycles::TurnProfile> contour;
+  if (ir::cycles::has_profile(c)) {
+    contour = machining_profile(c, numbers);
+    if (!contour) return false;
+    context.profile = &*contour;
+  }
   std::string error;
   const auto moves = ir::cycles::expand(*cycle, numbers, context, &error);
   if (!moves) {
@@ -61,10 +87,17 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   for (const auto& m : *moves) {
     if (!machining_move(m, sense)) return false;
   }
+  if (cycle->ends_modes) {
+    modal_.motion = ir::MotionKind::rapid;
+    // The feed of the last pass stays in force.
+    const auto last = std::find_if(moves->rbegin(), moves->rend(), [](const auto& m) { return m.has_feed; });
+    if (last != moves->rend()) feed_[static_cast<std::size_t>(modal_.feed_mode)] = last->feed;
+  }
   return true;
 }
 
 bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense) {
+  constexpr int live = 3;
   switch (m.step) {
     case TurnStep::dwell: emit_dwell(m.seconds, false); return true;
     case TurnStep::spindle_reverse:
@@ -72,13 +105,38 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
       return true;
     case TurnStep::spindle_restore: run_spindle(1, sense); return true;
     case TurnStep::spindle_stop: run_spindle(1, ir::SpindleState::off); return true;
-    default: break;
+    case TurnStep::spindle_orient:
+      spindles_[1].oriented = true;
+      spindles_[1].state = ir::SpindleState::off;
+      spindles_[1].angle = m.start_angle;
+      emit_spindle(1);
+      return true;
+    case TurnStep::live_run:
+      spindles_[live].mode = ir::SpindleMode::rpm;
+      spindles_[live].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = std::abs(m.speed);
+      run_spindle(live, m.speed < 0 ? ir::SpindleState::ccw : ir::SpindleState::cw);
+      return true;
+    case TurnStep::live_stop: run_spindle(live, ir::SpindleState::off); return true;
+    case TurnStep::comp_left: set_comp(ir::CompSide::left); return true;
+    case TurnStep::comp_right: set_comp(ir::CompSide::right); return true;
+    case TurnStep::comp_off: set_comp(ir::CompSide::off); return true;
+    default: return machining_path(m);
   }
+}
+
+bool BlockMachine::machining_path(const ir::cycles::TurnMove& m) {
   Move move = move_from_here();
   move.to[ir::axis::x] = m.to.x;
   move.to[ir::axis::z] = m.to.z;
-  move.feed = m.has_feed ? m.feed : feed_now();
+  move.feed = feed_now();
   move.feed_degrees.reset();
+  if (m.per_minute) {
+    move.feed_mode = ir::FeedMode::per_minute;
+    move.feed = feed_[static_cast<std::size_t>(ir::FeedMode::per_minute)];
+    if (!m.has_feed && move.feed == 0)
+      return failure_.fail(code::bad_cycle, "a cycle of a driven tool needs a feed in millimetres per minute");
+  }
+  if (m.has_feed) move.feed = m.feed;
   switch (m.step) {
     case TurnStep::rapid: move.kind = Move::Kind::rapid; break;
     case TurnStep::arc:
@@ -91,7 +149,10 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
       move.kind = Move::Kind::thread;
       ir::cycles::CycleMove like;
       like.pitch = m.pitch;
-      if (!cycle_pitch(like, move.pitch)) return false;
+      if (m.pitch == 0 && m.speed != 0)
+        move.pitch = move.feed / std::abs(m.speed);
+      else if (!cycle_pitch(like, move.pitch))
+        return false;
       move.start_angle = m.start_angle;
       move.pitch_change = m.pitch_change;
       break;

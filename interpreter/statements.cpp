@@ -30,6 +30,7 @@ void Runner::block(Instruction& in) {
       }
     }
   }
+  machine_.belongs_to(flow_->program, flow_->routine);
   if (!machine_.block(b, where, cycle)) {
     fail_state();
     return;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ir/contour.h"
+#include "ir/cycles/machining.h"
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
 
@@ -33,6 +34,7 @@ class Transfer {
     }
     if (runs_here_) cycle_moves();
     if (follows_) forget_positions();  // the end follows from the next element
+    if (machining_ != nullptr) machined();
     if (not_understood_) f_.forget();
   }
 
@@ -84,6 +86,13 @@ class Transfer {
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
     if (x.here && plain_hole) leaves_at(*hole);
+    const auto* named = x.cycle ? std::get_if<NamedCycle>(&x.cycle->node) : nullptr;
+    const auto* cycle = named != nullptr && !x.modal && x.here ? cycles::find_machining(named->name) : nullptr;
+    if (cycle != nullptr) {
+      runs_here_ = false;
+      machining_ = named;
+      kind_ = cycle;
+    }
     if (!x.modal) return;
     f_.cycle_active = f_.cycle_active_known = true;
     f_.cycle_is_hole = plain_hole;
@@ -213,10 +222,45 @@ class Transfer {
       set_position(w, left_at_ ? resolved(w, WordScale::modal, true, left_at_) : std::nullopt);
   }
 
+  const Value* word(std::string_view name) const {
+    for (const auto& [n, v] : machining_->words) {
+      if (n == name) return &v;
+    }
+    return nullptr;
+  }
+  /// Where a machining cycle leaves the tool, its feed and its motion function.
+  void machined() {
+    if (f_.cycle_active || !f_.cycle_active_known) return f_.forget();
+    if (kind_->ends_modes) {
+      f_.motion = MotionKind::rapid;
+      for (const std::string_view name : {"rough_feed", "finish_feed"}) {
+        const Value* v = word(name);
+        const auto n = v != nullptr ? known(*v) : std::nullopt;
+        if (v != nullptr && n != 0.0) f_.feed = n;
+      }
+    }
+    if (kind_->ends == cycles::CycleEnd::at_call) return;
+    const auto number = [this](std::string_view name) {
+      const Value* v = word(name);
+      return v != nullptr ? known(*v) : std::optional(0.0);
+    };
+    const auto depth = number("depth"), clearance = number("clearance");
+    std::optional<double> away;
+    if (depth && clearance) away = (*depth < 0 ? -1 : 1) * std::fabs(*clearance);
+    auto x = resolved(axis::x, WordScale::modal, true, number("x")), z = number("z");
+    auto& raised = kind_->face ? z : x;
+    raised = raised && away ? std::optional(*raised + *away) : std::nullopt;
+    const bool elsewhere = kind_->ends == cycles::CycleEnd::elsewhere;
+    f_.position[axis::x] = elsewhere ? std::nullopt : x;
+    f_.position[axis::z] = elsewhere ? std::nullopt : z;
+  }
+
   Facts& f_;
   std::uint32_t framed_;
   std::optional<double> left_at_;  ///< height after the hole of this block
   bool stays_ = false;             ///< the hole of this block ends where it began
+  const NamedCycle* machining_ = nullptr;
+  const cycles::MachiningCycle* kind_ = nullptr;
   bool runs_here_ = false;
   bool here_is_hole_ = false;
   bool not_understood_ = false, follows_ = false;

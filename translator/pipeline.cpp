@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "ir/text.h"
+#include "translator/contours.h"
 #include "translator/encode.h"
 #include "translator/readable.h"
 #include "translator/stream.h"
@@ -258,6 +259,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
 
   ir::Program work = source_program;
   end_main(work, result.diagnostics);
+  if (from != to) read_contours(work, *source_profile);
   const ir::LegaliseContext context{to->backend->capabilities_for(*target_profile),
                                     *source_profile,
                                     *target_profile,

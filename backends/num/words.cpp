@@ -1,4 +1,6 @@
 // Words of NUM blocks: motion, frames, cycles.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <algorithm>
@@ -414,8 +416,46 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
 
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const auto* hole = c.cycle ? std::get_if<ir::HoleCycle>(&c.cycle->node) : nullptr;
+  const auto* named = c.cycle ? std::get_if<ir::NamedCycle>(&c.cycle->node) : nullptr;
+  if (named != nullptr && same_dialect() && turning_cycle(a, *named)) return;
   if (hole == nullptr) return ProgramWriter::cycle_define(a, c);
   hole_cycle(a, *hole);
+}
+
+/// G33 and G64 in their own words; the points of a blank are the blocks that follow.
+bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
+  struct Row {
+    std::string_view cycle, parameter, address;
+  };
+  static constexpr std::array rows = {Row{"thread.chased", "x_end", "X"},
+                                      Row{"thread.chased", "z_end", "Z"},
+                                      Row{"thread.chased", "pitch", "K"},
+                                      Row{"thread.chased", "cone", "EA"},
+                                      Row{"thread.chased", "infeed_angle", "EB"},
+                                      Row{"thread.chased", "exit", "R"},
+                                      Row{"thread.chased", "depth", "P"},
+                                      Row{"thread.chased", "finish_stock", "Q"},
+                                      Row{"thread.chased", "starts", "F"},
+                                      Row{"thread.chased", "passes", "S"},
+                                      Row{"stock.blank", "first_label", "N"},
+                                      Row{"stock.blank", "last_label", "N"},
+                                      Row{"stock.blank", "stock_x", "I"},
+                                      Row{"stock.blank", "stock_z", "K"},
+                                      Row{"stock.blank", "step", "P"},
+                                      Row{"stock.blank", "axial_step", "R"}};
+  const bool stock = c.name == "stock.blank";
+  if (!stock && c.name != "thread.chased") return false;
+  std::string text = a.text.empty() ? (stock ? "G64" : "G33") : std::string(a.text);
+  const bool back = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "reversed"; });
+  std::vector<std::pair<std::string, ir::Value>> words = c.words;
+  if (back && words.size() > 1) std::swap(words[0].second, words[1].second);
+  for (const auto& [parameter, v] : words) {
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&c, &p = parameter](const Row& r) { return r.cycle == c.name && r.parameter == p; });
+    if (row != rows.end()) text += ' ' + word(row->address, v, a.pos);
+  }
+  add(std::move(text), Rank::setting, a.pos);
+  return true;
 }
 
 void Writer::cycle_cancel(const ir::Action& a) {

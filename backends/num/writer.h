@@ -64,6 +64,7 @@ class Writer final : public ProgramWriter {
   void shift(const ir::Action& a, const ir::FrameChange& c);
   void straight_extra(const ir::Motion& m, const ir::MotionExtra& e);
   void hole_cycle(const ir::Action& a, const ir::HoleCycle& c);
+  bool turning_cycle(const ir::Action& a, const ir::NamedCycle& c);
   void hole_levels(const ir::Action& a, const ir::HoleCycle& c);
   [[nodiscard]] std::string target_variable(const ir::VarRef& v);
 

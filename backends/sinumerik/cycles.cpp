@@ -1,5 +1,6 @@
 #include "backends/sinumerik/cycles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/turning.h"
 #include "ir/cycles/hole.h"
 
 namespace cnctrans::backends::sinumerik {
@@ -185,17 +187,42 @@ std::string_view arguments(const HoleCycle& c, Arguments& args) {
 }  // namespace
 
 bool native_cycle(const ir::Cycle& cycle) {
-  if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node)) return dialect::cycle(named->name) != nullptr;
+  if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node))
+    return dialect::cycle(named->name) != nullptr || dialect::turning_cycle(named->name) != nullptr;
   Arguments args;
   return !arguments(std::get<HoleCycle>(cycle.node), args).empty();
 }
 
+/// The parameter of the control for one of the IR.
+static std::string_view own_name(const dialect::TurningCycle* cycle, std::string_view word) {
+  if (cycle == nullptr) return word;
+  for (const auto& [own, neutral] : cycle->parameters) {
+    if (neutral == word) return own;
+  }
+  return word;
+}
+
+/// "LB100:LB140" with its quotes, or the name of a subprogram; empty: the cycle has no contour.
+static std::string contour_text(const ir::NamedCycle& cycle) {
+  std::string first, last;
+  for (const auto& [word, v] : cycle.words) {
+    const auto* s = v.expr ? std::get_if<ir::String>(&v.expr->node) : nullptr;
+    const std::string text = s != nullptr ? s->text : 'N' + std::to_string(static_cast<long>(v.number));
+    if (word == "routine") return '"' + text + '"';
+    if (word == "first_label") first = text;
+    if (word == "last_label") last = text;
+  }
+  return first.empty() ? std::string() : '"' + first + ':' + last + '"';
+}
+
 std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(const Value&)>& print) {
   Arguments args;
-  std::string name;
+  std::string name, contour;
   if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node)) {
-    name = named->name;
-    for (const auto& [word, value] : named->words) args[word] = value;
+    const auto* turning = dialect::turning_cycle(named->name);
+    name = turning != nullptr ? turning->name : named->name;
+    for (const auto& [word, value] : named->words) args[std::string(own_name(turning, word))] = value;
+    if (turning != nullptr) contour = contour_text(*named);
   } else {
     name = arguments(std::get<HoleCycle>(cycle.node), args);
   }
@@ -207,6 +234,10 @@ std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(c
     if (at < 0) continue;
     if (texts.size() <= static_cast<std::size_t>(at)) texts.resize(static_cast<std::size_t>(at) + 1);
     texts[static_cast<std::size_t>(at)] = print(value);
+  }
+  if (!contour.empty()) {
+    texts.resize(std::max<std::size_t>(texts.size(), 1));
+    texts[0] = contour;
   }
   std::string call = name + '(';
   for (std::size_t i = 0; i < texts.size(); ++i) call += (i == 0 ? "" : ",") + texts[i];

@@ -195,7 +195,7 @@ inline constexpr const GCode* g_code(double number) {
 /// What is missing for this function: a key of the registry of missing features; empty: it is carried.
 constexpr std::string_view missing_feature(const GCode& row) {
   switch (row.kind) {
-    case GKind::turning_cycle: return "cycle.turning";
+    case GKind::turning_cycle: return row.code == 33 || row.code == 64 ? "" : "cycle.turning";
     case GKind::milling_cycle: return "cycle.milling";
     case GKind::spline: return "motion.spline";
     case GKind::spatial_comp:

@@ -33,8 +33,10 @@ void FileReader::block(const Span& span, std::string_view text) {
   // Words first into a scratch block: a line that is refused leaves one Opaque statement and nothing else.
   const bool good = lower_.words(syntax_, span, text, scratch_, flow_);
   if (contour && lower_.state().turning_profile && good) {
-    report.note("NUM-040", {}, "a block of the blank's contour of G64; it is no move and is kept as text");
-    return opaque(span, text, "cycle.turning", false);
+    if (!lower_.blank_point(scratch_)) return refused();
+    report.note("NUM-040", {}, "a block of the blank's contour of G64: it is no move, the cycle has the point");
+    ++stats_.blocks_read;
+    return opaque(span, text, "cycle.turning", true);
   }
   if (!good) return refused();
   if (!assignments()) return refused();

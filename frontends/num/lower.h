@@ -31,6 +31,9 @@ struct TextState {
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
   bool contour_open = false;                   ///< the last element's end follows from the next one
   bool turning_profile = false;                ///< between G64 and G80: blocks are a contour, not moves
+  std::shared_ptr<ir::Cycle> stock;            ///< the G64 whose blank is being read
+  std::size_t blank_points = 0;
+  std::optional<ir::Value> blank_x, blank_z;  ///< the last point
 };
 
 /// What a word block holds besides words of a Block: a jump, a call, the program's end.
@@ -71,6 +74,8 @@ class Lowering {
   /// Value of a word that is no axis word.
   ir::Value value(const syntax::Word& w);
 
+  /// A block between G64 and G80: a point of the blank. False after a refusal.
+  bool blank_point(const ir::Block& block);
   /// The program of this Gxxx is at hand.
   void add_macro(std::int64_t number) { macros_.insert(number); }
 
@@ -147,6 +152,13 @@ class Lowering {
   void put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here);
   [[nodiscard]] ir::AxisId cycle_axis() const;
 
+  // turning.cpp
+  void turning_cycle(const Word& g);
+  void chased_thread(const Word& g);
+  void stock_removal(const Word& g);
+  std::optional<ir::Value> take_absolute(ir::AxisId axis);
+  void put_machining(const Word& g, std::shared_ptr<ir::Cycle> cycle);
+
   // flow.cpp
   bool jump(const Flow& flow, const syntax::Statement* test, ir::Statement& out);
   bool call(const Flow& flow, ir::Statement& out);
@@ -176,6 +188,7 @@ class Lowering {
     const Word* retract = nullptr;        ///< G75
     const Word* interruptible = nullptr;  ///< G10
     const Word* thread = nullptr;         ///< G38
+    const Word* turning = nullptr;        ///< G33, G64
     const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above
     bool motion = false;                  ///< a motion code stands in the block

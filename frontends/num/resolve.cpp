@@ -29,6 +29,7 @@ void Lowering::resolve() {
 void Lowering::resolve_special() {
   if (marks_.tool_axis != nullptr) tool_axis(*marks_.tool_axis);
   if (marks_.mirror != nullptr) mirror(*marks_.mirror);
+  if (marks_.turning != nullptr) turning_cycle(*marks_.turning);
   if (marks_.distance_count != 0) resolve_distance();
   if (marks_.machine_frame != nullptr) {
     const Word& w = *marks_.machine_frame;

@@ -280,9 +280,12 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       marks_.cycle_off = true;
       state_.cycle.reset();
       state_.turning_profile = false;
+      state_.stock.reset();
       return;
     case GKind::thread_segment: return mark(marks_.thread);
-    case GKind::turning_cycle: state_.turning_profile = row.code == 64; [[fallthrough]];
+    case GKind::turning_cycle:
+      if (row.code == 33 || row.code == 64) return mark(marks_.turning);
+      return missing(facts::missing_feature(row));
     case GKind::milling_cycle:
     case GKind::spline:
     case GKind::spatial_comp:

@@ -202,6 +202,7 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
     refuse(feature_of(row.family), pos, name + " is not carried yet");
     return nullptr;
   }
+  if (row.family == CycleFamily::turning) return turning(name, args, pos);
   std::vector<ir::Value> values;
   std::vector<bool> given;
   const std::uint32_t before = c_.errors;

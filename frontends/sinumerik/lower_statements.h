@@ -78,6 +78,7 @@ class StatementLowering {
 
   // cycles (lower_cycles.cpp)
   ir::CyclePtr cycle(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
+  ir::CyclePtr turning(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
 
   // flow (lower_flow.cpp)
   bool flow(const syntax::Block& block, ir::LineInfo info);

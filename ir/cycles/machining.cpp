@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "ir/cycles/blank_points.h"
 #include "ir/cycles/turning_moves.h"
 
 namespace cnctrans::ir::cycles {
@@ -55,7 +57,22 @@ constexpr std::array parameters = {
     Parameter{"first_label", Quantity::plain},
     Parameter{"last_label", Quantity::plain},
     Parameter{"program", Quantity::plain},
+    Parameter{"routine", Quantity::text},
+    Parameter{"contour", Quantity::text},
+    Parameter{"contour_fault", Quantity::text},
     Parameter{"live_speed", Quantity::plain},
+    Parameter{"size", Quantity::plain},
+    Parameter{"run_in", Quantity::length},
+    Parameter{"run_out", Quantity::length},
+    Parameter{"passes", Quantity::plain},
+    Parameter{"idle", Quantity::plain},
+    Parameter{"variant", Quantity::plain},
+    Parameter{"stock", Quantity::length},
+    Parameter{"chip_dwell", Quantity::plain},
+    Parameter{"chip_length", Quantity::length},
+    Parameter{"cone", Quantity::plain},
+    Parameter{"axial_step", Quantity::length},
+    Parameter{"reversed", Quantity::plain},
 };
 
 using Kind = MachiningKind;
@@ -67,15 +84,19 @@ constexpr std::array cycles = {
     MachiningCycle{"face.straight", Kind::straight, true, false, false},
     MachiningCycle{"turn.arc", Kind::arc, false, false, false},
     MachiningCycle{"face.arc", Kind::arc, true, false, false},
-    MachiningCycle{"turn.drill", Kind::drill, true, true, false},
-    MachiningCycle{"turn.thread", Kind::thread, false, true, false},
-    MachiningCycle{"face.thread", Kind::thread, true, true, false},
+    MachiningCycle{"turn.drill", Kind::drill, true, true, false, CycleEnd::approach},
+    MachiningCycle{"turn.thread", Kind::thread, false, true, false, CycleEnd::approach},
+    MachiningCycle{"face.thread", Kind::thread, true, true, false, CycleEnd::approach},
     MachiningCycle{"turn.groove", Kind::groove, false, true, false},
     MachiningCycle{"face.groove", Kind::groove, true, true, false},
-    MachiningCycle{"face.live_drill", Kind::live_drill, true, true, false},
-    MachiningCycle{"side.live_drill", Kind::live_drill, false, true, false},
-    MachiningCycle{"side.live_key", Kind::live_key, false, true, false},
-    MachiningCycle{"face.live_key", Kind::live_key, true, true, false},
+    MachiningCycle{"face.live_drill", Kind::live_drill, true, true, false, CycleEnd::approach},
+    MachiningCycle{"side.live_drill", Kind::live_drill, false, true, false, CycleEnd::approach},
+    MachiningCycle{"side.live_key", Kind::live_key, false, true, false, CycleEnd::approach},
+    MachiningCycle{"thread.counted", Kind::thread, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"thread.chased", Kind::thread, false, false, false},
+    MachiningCycle{"stock.contour", Kind::profile, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"stock.blank", Kind::profile, false, false, false},
+    MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
 
 template <class Table>
@@ -86,8 +107,44 @@ auto find(const Table& table, std::string_view name) -> decltype(table.data()) {
 
 }  // namespace
 
+double factor_of(Quantity quantity, const TurnUnits& units) {
+  switch (quantity) {
+    case Quantity::cross: return units.cross;
+    case Quantity::along: return units.along;
+    case Quantity::length: return units.length;
+    case Quantity::feed: return units.feed;
+    case Quantity::centiseconds: return 0.01;
+    case Quantity::plain:
+    case Quantity::text: break;
+  }
+  return 1;
+}
+
 const Parameter* find_parameter(std::string_view name) {
-  return find(parameters, name);
+  if (!name.starts_with("blank_")) return find(parameters, name);
+  struct Point {
+    std::array<char, 10> x{}, z{};
+  };
+  static const auto names = [] {
+    std::array<Point, most_blank_points> out;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      blank_name('x', k + 1).copy(out[k].x.data(), 9);
+      blank_name('z', k + 1).copy(out[k].z.data(), 9);
+    }
+    return out;
+  }();
+  static const auto table = [] {
+    std::vector<Parameter> out;
+    for (const auto& p : names) {
+      out.push_back({p.x.data(), Quantity::cross});
+      out.push_back({p.z.data(), Quantity::along});
+    }
+    return out;
+  }();
+  return find(table, name);
+}
+std::string blank_name(char axis, std::size_t point) {
+  return std::string("blank_") + axis + std::to_string(point);
 }
 const MachiningCycle* find_machining(std::string_view name) {
   return find(cycles, name);
@@ -96,20 +153,42 @@ const MachiningCycle* find_machining(std::string_view name) {
 std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const TurnNumbers& numbers,
                                             const TurnContext& context, std::string* error) {
   error->clear();
-  detail::Roles roles(cycle, numbers, context);
+  bool face = cycle.face;
+  if (cycle.kind == Kind::copy) {
+    const auto it = numbers.find("main_axis");
+    if (it == numbers.end() && !context.longer_in_x) {
+      *error = "the main axis of the cycle is not given and the lengths of the tool are not known";
+      return std::nullopt;
+    }
+    face = it != numbers.end() ? it->second != 0 : !*context.longer_in_x;
+  }
+  if (cycle.name == "stock.contour") {
+    const auto it = numbers.find("variant");
+    face = it != numbers.end() && std::fmod(std::abs(it->second), 2) == 0;
+  } else if (cycle.name == "stock.blank") {
+    face = numbers.contains("axial_step");
+  }
+  const MachiningCycle turned{cycle.name, cycle.kind, face, cycle.ends_comp, cycle.ends_modes};
+  detail::Roles roles(turned, numbers, context);
   bool done = false;
   switch (cycle.kind) {
     case Kind::straight:
     case Kind::arc: done = detail::straight_or_arc(cycle.kind == Kind::arc, roles, error); break;
     case Kind::drill: done = detail::axial_drill(roles, error); break;
-    case Kind::thread: done = detail::thread(roles, error); break;
+    case Kind::thread:
+      done = cycle.name == "thread.counted"  ? detail::counted_thread(roles, error)
+             : cycle.name == "thread.chased" ? detail::chased_thread(roles, error)
+                                             : detail::thread(roles, error);
+      break;
     case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;
     case Kind::profile:
-    case Kind::copy:
-    case Kind::live_drill:
-    case Kind::live_key:
-      *error = "the cycle " + std::string(cycle.name) + " is read and kept, not carried out yet";
+      done = cycle.name == "stock.contour" ? detail::contour_stock(roles, context, face, error)
+             : cycle.name == "stock.blank" ? detail::blank_stock(roles, context, face, error)
+                                           : detail::stock_removal(roles, context, face, false, error);
       break;
+    case Kind::copy: done = detail::stock_removal(roles, context, face, cycle.kind == Kind::copy, error); break;
+    case Kind::live_drill:
+    case Kind::live_key: done = detail::live_tool(roles, cycle.kind == Kind::live_key, error); break;
   }
   if (!done) return std::nullopt;
   return roles.take();

@@ -19,8 +19,14 @@ enum class Quantity : std::uint8_t {
   length,        ///< length in the unit in force; along X a radius
   feed,          ///< as F words
   centiseconds,  ///< hundredths of a second
-  plain          ///< degrees, counts, factors, codes, labels
+  plain,         ///< degrees, counts, factors, codes, labels
+  text           ///< names
 };
+/// What one unit of a word is in mm (radius), mm/min or mm/rev.
+struct TurnUnits {
+  double cross = 1, along = 1, length = 1, feed = 1;
+};
+double factor_of(Quantity quantity, const TurnUnits& units);
 struct Parameter {
   std::string_view name;
   Quantity quantity;
@@ -39,12 +45,18 @@ enum class MachiningKind : std::uint8_t {
   live_drill,  ///< with a driven tool
   live_key
 };
+enum class CycleEnd : std::uint8_t {
+  at_call,   ///< the tool is where the cycle was called
+  approach,  ///< at (x, z), away from the work by the clearance
+  elsewhere
+};
 struct MachiningCycle {
   std::string_view name;
   MachiningKind kind;
   bool face;        ///< infeed along Z, passes along X; else the other way round
   bool ends_comp;   ///< radius compensation is off afterwards
   bool ends_modes;  ///< rapid and absolute mode are in force afterwards
+  CycleEnd ends = CycleEnd::at_call;
 };
 /// The cycle of a node; nullptr when the name is no machining cycle.
 const MachiningCycle* find_machining(std::string_view name);
@@ -52,7 +64,32 @@ const MachiningCycle* find_machining(std::string_view name);
 struct TurnPoint {
   double x = 0, z = 0;  ///< mm in the work frame, x as radius
 };
-enum class TurnStep : std::uint8_t { rapid, feed, arc, thread, dwell, spindle_reverse, spindle_restore, spindle_stop };
+/// One element of a profile in mm of the work frame.
+struct ProfileElement {
+  TurnPoint from, to;
+  bool arc = false, ccw = false;  ///< the sense in the plane Z X
+  TurnPoint centre;
+};
+/// The finished part, and the blank where it is given too.
+struct TurnProfile {
+  std::vector<ProfileElement> part, blank;
+};
+enum class TurnStep : std::uint8_t {
+  rapid,
+  feed,
+  arc,
+  thread,
+  dwell,
+  spindle_reverse,
+  spindle_restore,
+  spindle_stop,
+  spindle_orient,  ///< to `start_angle`
+  live_run,        ///< the driven tool, `speed` rpm, negative: the other sense
+  live_stop,
+  comp_left,
+  comp_right,
+  comp_off
+};
 struct TurnMove {
   TurnStep step = TurnStep::rapid;
   TurnPoint to;
@@ -64,12 +101,16 @@ struct TurnMove {
   double start_angle = 0;  ///< degrees
   double pitch_change = 0;
   double seconds = 0;
+  double speed = 0;
+  bool per_minute = false;  ///< the feed in force is that of millimetres per minute, whatever the mode
 };
 /// Parameters in mm (radius), degrees, seconds, by name; what the source left out is not there.
 using TurnNumbers = std::map<std::string_view, double>;
 struct TurnContext {
-  TurnPoint start;        ///< of the tool when the cycle is called
-  double nose_width = 0;  ///< of the tool; 0: not known
+  TurnPoint start;                       ///< of the tool when the cycle is called
+  double nose_width = 0;                 ///< of the tool; 0: not known
+  std::optional<bool> longer_in_x;       ///< the tool is longer along X than along Z; nullopt: not known
+  const TurnProfile* profile = nullptr;  ///< of the cycles that have one
 };
 /// The moves; nullopt and a sentence in `error` when the cycle makes no sense from this place or is not carried out.
 std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const TurnNumbers& numbers,

@@ -139,41 +139,20 @@ bool groove(Roles& r, double nose_width, std::string* error) {
 
 /// On the axis (p along Z). Depth is positive toward minus.
 bool axial_drill(Roles& r, std::string* error) {
-  const RolePoint surface = r.point("x", "z");
-  const double depth = r.number("depth"), peck = r.number("peck");
-  if (std::abs(depth) < tiny) return *error = "the hole has no depth", false;
-  if (peck < 0) return *error = "the peck of the cycle is negative", false;
-  const double g = -sign(depth), start = surface.p - g * std::abs(r.number("clearance"));
-  const auto above = [&](double p) { return g * p < g * start ? start : p; };
-  r.rapid({start, surface.q});
-  if (peck < tiny) {  // tapping
-    const double kind = r.number("factor");
-    r.thread({surface.p - depth, surface.q});
-    r.dwell(r.number("dwell"));
-    r.act(TurnStep::spindle_reverse);
-    r.thread({start, surface.q});
-    r.act(kind == 0 ? TurnStep::spindle_restore : TurnStep::spindle_stop);
+  Hole hole;
+  if (!hole_of(r, hole, error)) return false;
+  r.rapid({hole.start, hole.q});
+  if (hole.peck >= tiny) {
+    pecks(r, hole, false);
     return true;
   }
-  double factor = r.number("factor");
-  if (factor == 0) factor = 1;
-  const double least = factor == 1 ? 0 : r.number("minimum_peck"), lift = std::abs(r.number("lift"));
-  const double gap = std::abs(r.number("reapproach", 1));
-  double z = surface.p, rest = std::abs(depth), next = peck;
-  for (int count = 0; rest > tiny && count < most_passes; ++count) {
-    double q = std::min(std::max(next, least), rest);
-    if (q < tiny || rest - q < tiny) q = rest;
-    if (count > 0) {
-      r.rapid({lift > 0 ? above(z - g * lift) : start, surface.q});
-      r.rapid({above(z - g * gap), surface.q});
-    }
-    z += g * q;
-    rest -= q;
-    next *= factor;
-    r.feed({z, surface.q});
-  }
+  const double kind = r.number("factor");
+  r.thread({hole.surface - hole.depth, hole.q});
+  if (r.number("dwell") > 0) r.act(TurnStep::spindle_stop);
   r.dwell(r.number("dwell"));
-  r.rapid({start, surface.q});
+  r.act(TurnStep::spindle_reverse);
+  r.thread({hole.start, hole.q});
+  r.act(kind == 0 ? TurnStep::spindle_restore : TurnStep::spindle_stop);
   return true;
 }
 

@@ -32,11 +32,17 @@ class Roles {
     return it == numbers_.end() ? otherwise : it->second;
   }
   [[nodiscard]] RolePoint point(std::string_view x, std::string_view z) const { return role({number(x), number(z)}); }
+  [[nodiscard]] const TurnNumbers& numbers() const { return numbers_; }
   [[nodiscard]] RolePoint here() const { return at_; }
 
   void rapid(RolePoint to) { go(TurnStep::rapid, to); }
-  void feed(RolePoint to, double f = 0) {
-    if (auto* m = go(TurnStep::feed, to)) set_feed(*m, f);
+  TurnMove* feed(RolePoint to, double f = 0) {
+    auto* m = go(TurnStep::feed, to);
+    if (m != nullptr) set_feed(*m, f);
+    return m;
+  }
+  void feed_per_minute(RolePoint to, double f = 0) {
+    if (auto* m = feed(to, f)) m->per_minute = true;
   }
   void arc(RolePoint to, RolePoint centre, double f = 0) {
     const RolePoint from = at_;
@@ -45,6 +51,14 @@ class Roles {
     m->centre = plain(centre);
     const TurnPoint a = plain(from);
     m->ccw = (a.z - m->centre.z) * (m->to.x - m->centre.x) - (a.x - m->centre.x) * (m->to.z - m->centre.z) > 0;
+    set_feed(*m, f);
+  }
+  /// `ccw`: with q to the right and p upward.
+  void arc(RolePoint to, RolePoint centre, bool ccw, double f) {
+    auto* m = go(TurnStep::arc, to);
+    if (m == nullptr) return;
+    m->centre = plain(centre);
+    m->ccw = ccw != face_;
     set_feed(*m, f);
   }
   TurnMove* thread(RolePoint to) { return go(TurnStep::thread, to); }
@@ -79,10 +93,25 @@ class Roles {
   std::vector<TurnMove> moves_;
 };
 
+/// A hole from its surface toward minus p (a positive depth).
+struct Hole {
+  double surface = 0, q = 0, start = 0, depth = 0, peck = 0;
+};
+bool hole_of(const Roles& r, Hole& hole, std::string* error);
+/// Drilling in pecks from the start and back; `per_minute`: the feed is that of a driven tool.
+void pecks(Roles& r, const Hole& hole, bool per_minute);
+
 /// Each returns false with a sentence when the cycle makes no sense from here.
 bool straight_or_arc(bool arc, Roles& r, std::string* error);
 bool thread(Roles& r, std::string* error);
 bool groove(Roles& r, double nose_width, std::string* error);
 bool axial_drill(Roles& r, std::string* error);
+bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, std::string* error);
+/// By the contour alone, and by the contour within a blank.
+bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
+bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
+bool counted_thread(Roles& r, std::string* error);
+bool chased_thread(Roles& r, std::string* error);
+bool live_tool(Roles& r, bool key, std::string* error);
 
 }  // namespace cnctrans::ir::cycles::detail

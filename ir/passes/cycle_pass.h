@@ -6,6 +6,7 @@
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/lower_cycles.h"
+#include "ir/passes/machining_moves.h"
 
 namespace cnctrans::ir::passes {
 
@@ -17,6 +18,7 @@ class CyclePass {
         facts_(facts),
         editor_(program, routine, context),
         uses_(label_uses(program, routine)),
+        turning_(program, routine, context),
         height_(uses_) {
     by_call_ = context.target.modal_cycle_by_call;
   }
@@ -26,6 +28,7 @@ class CyclePass {
     walk(editor_.routine.body, out);
     editor_.routine.body = std::move(out);
   }
+  [[nodiscard]] const std::set<std::uint32_t>& profiles() const { return turning_.profile_blocks(); }
 
  private:
   struct Active {
@@ -272,11 +275,14 @@ class CyclePass {
   // --- written out ----------------------------------------------------------------------------------------------
 
   void write_out(Statement&& s, Body&& pieces, Body& out);
+  void write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out);
+  void no_moves(Statement&& s, const std::string& why, Body& out);
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
   Editor editor_;
   LabelUses uses_;
+  TurnCycles turning_;
   ToolHeight height_;
   bool by_call_ = false;
   bool written_out_ = false;

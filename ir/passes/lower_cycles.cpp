@@ -128,13 +128,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
     error = "the height of the tool before it is not known here";
   else
     moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), &error);
-  if (!moves) {
-    refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + error,
-           "give the cycle's words and the height before it as numbers");
-    late_.clear();
-    out.push_back(std::move(s));
-    return;
-  }
+  if (!moves) return no_moves(std::move(s), error, out);
   position_rapid(b, context_);
   active_->height = moves->end_height;
   const std::size_t main = pieces.size();
@@ -167,10 +161,41 @@ std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active&
   return std::nullopt;
 }
 
+void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
+  refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + why,
+         "give the cycle's words and the place before it as numbers");
+  late_.clear();
+  out.push_back(std::move(s));
+}
+
+/// A machining cycle of a lathe: its moves, with a note.
+void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  std::string error;
+  auto moves = turning_.write_out(cycle, s, b, facts_.before(s), &error);
+  if (!moves) return no_moves(std::move(s), error, out);
+  context_.diagnostics.note("TRN-333", s.line.span,
+                            "the cycle is written out as its " + std::to_string(moves->size()) +
+                                " moves: the target has none that moves the same way");
+  const std::size_t main = pieces.size();
+  auto first = moves->begin();
+  if (b.empty() && first != moves->end()) s.node = std::move((first++)->node);
+  pieces.push_back(std::move(s));
+  for (; first != moves->end(); ++first) pieces.push_back(std::move(*first));
+  put_group(out, std::move(pieces), main);
+}
+
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const auto old_on = active_ && active_->on_target;
+  const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
+  if (named != nullptr && !d.modal && d.here && cycles::find_machining(named->name) != nullptr && !active_ &&
+      !native_form(d.cycle, b, facts, context_)) {
+    hold_back(b, false);
+    const NamedCycle cycle = *named;
+    return write_out_machining(std::move(s), cycle, std::move(pieces), out);
+  }
   Active a = define(d.cycle, d.trigger, b, facts);
   if (d.here) ran_ = a;
   const auto w = tool_axis(d.cycle, b, facts);
@@ -310,7 +335,13 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
       context.options.cycles == CycleWriting::native)
     return;
   const FactsOf facts(program, context);
-  for (auto& r : program.routines) CyclePass(program, r, context, facts).run();
+  std::set<std::uint32_t> profiles;
+  for (auto& r : program.routines) {
+    CyclePass pass(program, r, context, facts);
+    pass.run();
+    profiles.insert(pass.profiles().begin(), pass.profiles().end());
+  }
+  retire_profiles(program, profiles, facts);
 }
 
 }  // namespace cnctrans::ir::passes

@@ -216,13 +216,17 @@ TEST(NumLower, LatheWords) {  // 12, 27.1
   EXPECT_NE(arc.find("centre X follows_distance modal 30"), std::string::npos) << arc;
   EXPECT_EQ(line("G83 Z-20 P5 ER2", "num-lathe").find("axis Z") == std::string::npos, false)
       << line("G83 Z-20 P5 ER2", "num-lathe");
-  EXPECT_NE(line("G33 X10 Z-5 K1 P1 S4", "num-lathe").find("!NUM-004"), std::string::npos);
+  EXPECT_EQ(line("G33 X10 Z-5 K1 P1 S4", "num-lathe"),
+            "block cycle once named \"thread.chased\" (\"x_end\" 10, \"z_end\" -5, \"pitch\" 1, \"depth\" 1, "
+            "\"passes\" 4) as \"G33\"");
+  EXPECT_NE(line("G33 X10 Z-5 K1", "num-lathe").find("!NUM-004"), std::string::npos);
+  EXPECT_NE(line("G91 G33 X10 Z-5 K1 P1", "num-lathe").find("!NUM-026"), std::string::npos);
   EXPECT_NE(line("G33 X10 Z-5 K1").find("!NUM-002"), std::string::npos);
 }
 
 TEST(NumLower, ContourOfARoughingCycleIsNoMove) {  // 12.3
   const Outcome o = read("%1\nG64 N10 N20 I1 K0.5 P3\nX80 Z0\nX80 Z50\nG80 G97 S1000\nG0 X5\nM2\n", "num-lathe");
-  EXPECT_EQ(o.codes, "NUM-004 NUM-040 NUM-040");
+  EXPECT_EQ(o.codes, "NUM-040 NUM-040");
   const std::string s = body(o);
   EXPECT_NE(s.find("opaque \"X80 Z50\" feature \"cycle.turning\""), std::string::npos) << s;
   EXPECT_NE(s.find("rapid as \"G0\" X 5"), std::string::npos);

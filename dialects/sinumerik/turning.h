@@ -1,0 +1,44 @@
+// Turning cycles that the IR carries: their parameters and those of ir/cycles/machining (reference-language 18.4).
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace cnctrans::sinumerik {
+
+/// The parameter that names a contour: a subprogram, or two labels with a colon between them.
+inline constexpr std::string_view contour_parameter = "NPP";
+
+struct TurningCycle {
+  std::string_view name;                                                     ///< "CYCLE97"
+  std::string_view cycle;                                                    ///< name in the IR
+  std::array<std::pair<std::string_view, std::string_view>, 17> parameters;  ///< own name, name in the IR
+  std::string_view needs;  ///< own names that must be given, separated by one comma each
+};
+
+// clang-format off
+inline constexpr std::array turning_cycles = {
+    TurningCycle{"CYCLE95", "stock.contour",
+                 {{{"MID", "step"}, {"FALZ", "stock_z"}, {"FALX", "stock_x"}, {"FAL", "stock"}, {"FF1", "rough_feed"},
+                   {"FF2", "groove_feed"}, {"FF3", "finish_feed"}, {"VARI", "variant"}, {"DT", "chip_dwell"},
+                   {"DAM", "chip_length"}, {"VRT", "withdrawal"}}},
+                 "NPP,VARI"},
+    TurningCycle{"CYCLE97", "thread.counted",
+                 {{{"PIT", "pitch"}, {"MPIT", "size"}, {"SPL", "z"}, {"FPL", "z_end"}, {"DM1", "x"}, {"DM2", "x_end"},
+                   {"APP", "run_in"}, {"ROP", "run_out"}, {"TDEP", "depth"}, {"FAL", "finish_stock"},
+                   {"IANG", "infeed_angle"}, {"NSP", "start_angle"}, {"NRC", "passes"}, {"NID", "idle"},
+                   {"VARI", "variant"}, {"NUMT", "starts"}, {"VRT", "withdrawal"}}},
+                 "FPL,DM1,DM2,TDEP,VARI"},
+};
+// clang-format on
+
+/// By its own name (capitals), or by the name in the IR; null: none.
+inline constexpr const TurningCycle* turning_cycle(std::string_view name) {
+  for (const auto& c : turning_cycles) {
+    if (c.name == name || c.cycle == name) return &c;
+  }
+  return nullptr;
+}
+
+}  // namespace cnctrans::sinumerik

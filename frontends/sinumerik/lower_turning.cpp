@@ -1,0 +1,77 @@
+// Turning cycles: CYCLE95, CYCLE97 (reference-language 18.4).
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "base/text.h"
+#include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/turning.h"
+#include "frontends/sinumerik/lower_statements.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Expr;
+using syntax::ExprKind;
+
+namespace {
+
+/// A label as a contour names it: an identifier, or N with digits.
+ir::Value label_value(std::string_view text) {
+  const std::string name = to_upper_ascii(std::string(text));
+  const bool number = name.size() > 1 && name.size() < 10 && name[0] == 'N' &&
+                      std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (number) return ir::Value(static_cast<double>(std::stol(name.substr(1))));
+  return ir::Value(ir::string_literal(name));
+}
+
+void contour(const std::string& text, ir::NamedCycle& out) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) {
+    out.words.emplace_back("routine", ir::Value(ir::string_literal(to_upper_ascii(text))));
+    return;
+  }
+  out.words.emplace_back("first_label", label_value(trim(std::string_view(text).substr(0, colon))));
+  out.words.emplace_back("last_label", label_value(trim(std::string_view(text).substr(colon + 1))));
+}
+
+}  // namespace
+
+ir::CyclePtr StatementLowering::turning(const std::string& name, const std::vector<Expr>& args, WordPos pos) {
+  const CycleRow& row = *sinumerik::cycle(name);
+  const TurningCycle& cycle = *turning_cycle(name);
+  const std::uint32_t before = c_.errors;
+  ir::NamedCycle out;
+  out.name = std::string(cycle.cycle);
+  const auto at = [&](std::string_view parameter) -> const Expr* {
+    const int i = parameter_index(row, parameter);
+    if (i < 0 || static_cast<std::size_t>(i) >= args.size()) return nullptr;
+    const Expr& e = args[static_cast<std::size_t>(i)];
+    return e.kind == ExprKind::missing ? nullptr : &e;
+  };
+  for (std::string_view rest = cycle.needs; !rest.empty();) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const std::string parameter(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    if (at(parameter) == nullptr) c_.error("SIN-021", pos, name + " needs its parameter " + parameter);
+  }
+  if (const Expr* e = at(contour_parameter)) {
+    if (e->kind != ExprKind::string || trim(e->text).empty())
+      c_.error("SIN-021", e->pos, "the contour of " + name + " is a fixed name, or two labels with a colon");
+    else
+      contour(e->text, out);
+  }
+  for (const auto& [own, neutral] : cycle.parameters) {
+    const Expr* e = own.empty() ? nullptr : at(own);
+    if (e == nullptr) continue;
+    Attribute attribute = Attribute::none;
+    out.words.emplace_back(std::string(neutral), exprs_.value_of(*e, attribute));
+    if (attribute != Attribute::none)
+      c_.error("SIN-012", e->pos, "AC() and IC() have no meaning in the call of a cycle");
+  }
+  if (c_.errors != before) return nullptr;
+  auto made = std::make_shared<ir::Cycle>();
+  made->node = std::move(out);
+  return made;
+}
+
+}  // namespace cnctrans::sinumerik

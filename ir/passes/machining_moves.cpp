@@ -1,0 +1,397 @@
+#include "ir/passes/machining_moves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.h"
+#include "ir/cycles/profile_blocks.h"
+#include "ir/passes/blocks.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+using cycles::TurnMove;
+using cycles::TurnNumbers;
+using cycles::TurnStep;
+
+const NamedCycle* machining_of(const Block& b) {
+  for (const auto& a : b.actions) {
+    const auto* d = std::get_if<CycleDefine>(&a.data);
+    const auto* named = d != nullptr && d->cycle ? std::get_if<NamedCycle>(&d->cycle->node) : nullptr;
+    if (named != nullptr && cycles::find_machining(named->name) != nullptr) return named;
+  }
+  return nullptr;
+}
+
+std::optional<double> known(const Value& v) {
+  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
+}
+
+cycles::TurnUnits units_of(const ModalState& m) {
+  cycles::TurnUnits u;
+  u.along = u.length = u.feed = m.units == Units::inch ? 25.4 : 1;
+  u.cross = m.diameter == DiameterMode::radius ? u.length : u.length / 2;
+  return u;
+}
+
+std::optional<double> feed_in(const Block& b, const Facts& facts) {
+  std::optional<double> feed = facts.feed;
+  for (const auto& a : b.actions) {
+    if (const auto* f = std::get_if<SetFeed>(&a.data); f != nullptr && a.order != Order::after) feed = known(f->value);
+  }
+  return feed;
+}
+
+/// Moves as blocks.
+class Writer {
+ public:
+  Writer(const LineInfo& like, const ModalState& modes, std::optional<double> feed, const TurnState& state)
+      : modes_(modes), unit_(modes.units == Units::inch ? 25.4 : 1), feed_(feed), state_(state) {
+    line_.span = like.span;
+    line_.skip_mask = like.skip_mask;
+  }
+  Body blocks;
+  cycles::TurnPoint at;
+
+  bool add(const TurnMove& m, std::string* error) {
+    switch (m.step) {
+      case TurnStep::dwell: return put(Dwell{Value{m.seconds}, 1, false});
+      case TurnStep::spindle_stop: return put(SpindleRun{1, SpindleState::off});
+      case TurnStep::spindle_reverse:
+      case TurnStep::spindle_restore: {
+        if (!state_.spindle || *state_.spindle == SpindleState::off)
+          return *error = "whether the spindle runs, and in which sense, can't be seen in the text", false;
+        const bool cw = (*state_.spindle == SpindleState::cw) == (m.step == TurnStep::spindle_restore);
+        return put(SpindleRun{1, cw ? SpindleState::cw : SpindleState::ccw});
+      }
+      case TurnStep::spindle_orient: return put(SpindleOrient{1, Value{m.start_angle}});
+      case TurnStep::live_run: {
+        Block b;
+        b.actions.push_back(action(SetSpindle{live, Value{std::abs(m.speed)}}));
+        b.actions.push_back(action(SpindleRun{live, m.speed < 0 ? SpindleState::ccw : SpindleState::cw}));
+        blocks.push_back(made(line_, std::move(b)));
+        return true;
+      }
+      case TurnStep::live_stop: return put(SpindleRun{live, SpindleState::off});
+      case TurnStep::comp_left: return comp(CompSide::left);
+      case TurnStep::comp_right: return comp(CompSide::right);
+      case TurnStep::comp_off: return comp(CompSide::off);
+      default: return move(m, error);
+    }
+  }
+  /// Rapid is in force afterwards; else the feed is as before.
+  bool finish(bool ends_modes, std::string* error) {
+    if (!ends_modes && changed_) {
+      if (!feed_) return *error = "the feed after the cycle's own one is not known here", false;
+      put(SetFeed{Value{*feed_}, false});
+    }
+    if (!ends_modes) return true;
+    for (auto it = blocks.rbegin(); it != blocks.rend(); ++it) {
+      auto* b = std::get_if<Block>(&it->node);
+      if (b == nullptr || !b->has_motion) continue;
+      if (b->motion.kind == MotionKind::rapid) {
+        b->motion.keeps_modal = true;
+        return true;
+      }
+      break;
+    }
+    Block b;
+    b.has_motion = true;
+    b.motion.kind = MotionKind::rapid;
+    b.motion.explicit_code = true;
+    blocks.push_back(made(line_, std::move(b)));
+    return true;
+  }
+
+ private:
+  static constexpr std::uint8_t live = 3;
+
+  template <class Data>
+  bool put(Data data) {
+    blocks.push_back(make_block(line_, action(std::move(data))));
+    return true;
+  }
+  bool comp(CompSide side) {
+    pending_comp_ = side;
+    return true;
+  }
+  void coordinate(Motion& m, AxisId axis, double value) const {
+    CoordWord c;
+    c.axis = axis;
+    c.mode = WordMode::absolute;
+    c.scale = axis == axis::x ? WordScale::radius : WordScale::modal;
+    c.value = Value{value / unit_};
+    m.coords.push_back(c);
+  }
+  void centre(Motion& m, AxisId axis, double value) const {
+    CenterWord c;
+    c.axis = axis;
+    c.mode = CenterMode::from_start;
+    c.scale = WordScale::radius;
+    c.value = Value{value / unit_};
+    m.centers.push_back(c);
+  }
+  bool feed(const TurnMove& m, Block& b, std::string* error) {
+    if (m.has_feed) {
+      if (last_feed_ == m.feed && changed_) return true;
+      b.actions.push_back(action(SetFeed{Value{m.feed / unit_}, false}));
+      changed_ = true;
+      last_feed_ = m.feed;
+    } else if (changed_) {
+      if (!feed_) return *error = "the feed after the cycle's own one is not known here", false;
+      b.actions.push_back(action(SetFeed{Value{*feed_}, false}));
+      changed_ = false;
+    }
+    return true;
+  }
+  bool thread(const TurnMove& m, Motion& motion, std::string* error) {
+    double pitch = m.pitch;
+    if (pitch == 0 && feed_ && modes_.feed_mode == FeedMode::per_rev) pitch = *feed_ * unit_;
+    if (pitch == 0 && feed_ && modes_.feed_mode == FeedMode::per_minute && m.speed != 0)
+      pitch = *feed_ * unit_ / std::abs(m.speed);
+    if (pitch == 0) return *error = "the pitch follows from a feed and a speed that are not known here", false;
+    auto extra = std::make_shared<MotionExtra>();
+    extra->has_lead = true;
+    extra->lead = Value{pitch / unit_};
+    const bool along = std::abs(m.to.z - at.z) >= std::abs(m.to.x - at.x);
+    extra->lead_axis = along ? axis::z : axis::x;
+    if (m.start_angle != 0) {
+      extra->has_start_angle = true;
+      extra->start_angle = Value{m.start_angle};
+    }
+    motion.kind = MotionKind::thread;
+    if (m.pitch_change != 0) {
+      motion.kind = MotionKind::thread_variable;
+      extra->lead_change = Value{m.pitch_change / unit_};
+    }
+    motion.extra = std::move(extra);
+    return true;
+  }
+  bool move(const TurnMove& m, std::string* error) {
+    Block b;
+    if (pending_comp_) {
+      ModalSet set;
+      set.setting = Setting::comp;
+      set.value = static_cast<std::uint8_t>(*pending_comp_);
+      b.actions.push_back(action(set));
+      pending_comp_.reset();
+    }
+    if (m.per_minute && modes_.feed_mode != FeedMode::per_minute)
+      return *error = "the feed in millimetres per minute is not the one in force here", false;
+    b.has_motion = true;
+    Motion& motion = b.motion;
+    motion.explicit_code = true;
+    motion.keeps_modal = false;
+    motion.kind = MotionKind::rapid;
+    if (m.step == TurnStep::thread) {
+      if (!thread(m, motion, error)) return false;
+    } else if (m.step != TurnStep::rapid) {
+      motion.kind = m.step == TurnStep::feed ? MotionKind::linear : m.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
+      if (!feed(m, b, error)) return false;
+    }
+    const bool whole = m.step == TurnStep::arc;
+    const auto same = [](double to, double from) { return std::abs(to - from) <= 1e-9; };  // false: not known
+    if (whole || !same(m.to.x, at.x)) coordinate(motion, axis::x, m.to.x);
+    if (whole || !same(m.to.z, at.z)) coordinate(motion, axis::z, m.to.z);
+    if (whole) {
+      centre(motion, axis::x, m.centre.x - at.x);
+      centre(motion, axis::z, m.centre.z - at.z);
+    }
+    at = m.to;
+    blocks.push_back(made(line_, std::move(b)));
+    return true;
+  }
+
+  LineInfo line_;
+  ModalState modes_;
+  double unit_;
+  std::optional<double> feed_;
+  TurnState state_;
+  std::optional<CompSide> pending_comp_;
+  bool changed_ = false;
+  double last_feed_ = 0;
+};
+
+/// The only sense in which the program ever turns its spindle; nullopt: both, or none.
+std::optional<SpindleState> only_sense(const Program& program) {
+  bool cw = false, ccw = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* run = std::get_if<SpindleRun>(&a.data);
+        if (run == nullptr || run->number != 1) continue;
+        cw = cw || run->state == SpindleState::cw;
+        ccw = ccw || run->state == SpindleState::ccw;
+      }
+    });
+  }
+  if (cw == ccw) return std::nullopt;
+  return cw ? SpindleState::cw : SpindleState::ccw;
+}
+
+void follow(const Block& b, TurnState& state) {
+  for (const auto& a : b.actions) {
+    if (const auto* run = std::get_if<SpindleRun>(&a.data); run != nullptr && run->number == 1)
+      state.spindle = run->state;
+    if (std::holds_alternative<SpindleOrient>(a.data)) state.spindle = SpindleState::off;
+    if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
+      const auto n = known(t->number);
+      state.tool = n ? std::optional(static_cast<std::int32_t>(std::lround(*n))) : std::nullopt;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<ModalState> modes_at(const Block& b, const Facts& facts, const ModalState& power_on) {
+  ModalState m = power_on;
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  const auto diameter = setting_in<DiameterMode>(b, facts, Setting::diameter);
+  const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+  const auto feed = setting_in<FeedMode>(b, facts, Setting::feed_mode);
+  if (!units || !diameter || !distance || !feed) return std::nullopt;
+  m.units = *units;
+  m.diameter = *diameter;
+  m.distance = *distance;
+  m.feed_mode = *feed;
+  return m;
+}
+
+bool machining_numbers(const NamedCycle& cycle, const ModalState& modes, TurnNumbers& out) {
+  for (const auto& [word, v] : cycle.words) {
+    const auto* p = cycles::find_parameter(word);
+    if (p == nullptr) return false;
+    if (p->quantity == cycles::Quantity::text || cycles::is_text(v)) continue;
+    const auto n = known(v);
+    if (!n) return false;
+    out[p->name] = *n * cycles::factor_of(p->quantity, units_of(modes));
+  }
+  return true;
+}
+
+namespace {
+
+/// The words of a block, for a person to read.
+std::string shown(const Statement& s) {
+  const auto& b = std::get<Block>(s.node);
+  std::string out;
+  const auto add = [&out](std::string_view text) {
+    if (text.empty()) return;
+    if (!out.empty()) out += ' ';
+    out += text;
+  };
+  const auto word = [&](std::string_view letter, const Value& v) {
+    if (v.literal()) add(std::string(letter) + (v.text.empty() ? shortest(v.number) : std::string(v.text)));
+  };
+  if (!s.line.number.empty()) add(s.line.number_mark + std::string(s.line.number));
+  add(b.motion.code_text);
+  for (const auto& c : b.motion.coords) word(fixed_axis_name(c.axis), c.value);
+  for (const auto& c : b.motion.centers) word(c.axis == axis::x ? "I" : c.axis == axis::y ? "J" : "K", c.value);
+  if (b.motion.radius_given) word("R", b.motion.radius);
+  for (const auto& a : b.actions) {
+    add(a.text);
+    if (const auto* corner = std::get_if<Corner>(&a.data)) word("", corner->value);
+  }
+  return out;
+}
+
+}  // namespace
+
+void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, const FactsOf& facts) {
+  if (blocks.empty()) return;
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      if (blocks.count(s.id) == 0 || !std::holds_alternative<Block>(s.node) || facts.before(s).reachable) return;
+      CommentText c;
+      c.text = program.keep(" " + shown(s));
+      c.place = CommentPlace::own_line;
+      s.line.comments.insert(s.line.comments.begin(), c);
+      s.line.number = {};
+      s.line.labels.clear();
+      s.node = Block{};
+    });
+  }
+}
+
+TurnCycles::TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
+    : context_(context) {
+  const LabelUses uses = label_uses(program, routine);
+  TurnState state;
+  const auto sense = only_sense(program);
+  for_each_statement(routine.body, [&](const Statement& s) {
+    for (const auto& l : labels_on(s.line)) {
+      if (!uses.is_target(l)) continue;
+      // It runs one way only: that it runs has been seen before, and the label is reached from there or later.
+      if (!(sense && state.spindle == sense)) state.spindle.reset();
+      state.tool.reset();
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) {
+      if (!ToolHeight::keeps(s) && !std::holds_alternative<Jump>(s.node)) state = TurnState{};
+      return;
+    }
+    follow(*b, state);
+    const auto* named = machining_of(*b);
+    if (named == nullptr) return;
+    Site& site = sites_[s.id];
+    site.state = state;
+    if (!cycles::has_profile(*named)) return;
+    site.profile = cycles::contour_in(*named, &site.fault);
+    if (!site.profile) return;
+    std::string error;
+    for (const auto* block : cycles::profile_blocks(program, routine, *named, &error))
+      profile_blocks_.insert(block->id);
+  });
+}
+
+std::optional<Body> TurnCycles::write_out(const NamedCycle& named, const Statement& s, const Block& b,
+                                          const Facts& facts, std::string* error) const {
+  const auto* cycle = cycles::find_machining(named.name);
+  const auto it = sites_.find(s.id);
+  if (cycle == nullptr || it == sites_.end()) return *error = "cycles of this kind are not carried yet", std::nullopt;
+  const Site& site = it->second;
+  const auto m = modes_at(b, facts, context_.source_machine.power_on);
+  TurnNumbers numbers;
+  if (!m) return *error = "units, diameters or absolute and incremental are not known here", std::nullopt;
+  if (!machining_numbers(named, *m, numbers))
+    return *error = "its words are computed when the program runs", std::nullopt;
+  // Cycles that end at a place of their own begin at one as well, with a rapid to it.
+  const bool anywhere = cycle->ends != cycles::CycleEnd::at_call;
+  if (!anywhere && (!facts.position[axis::x] || !facts.position[axis::z]))
+    return *error = "the place of the tool before it is not known here", std::nullopt;
+  const double unit = m->units == Units::inch ? 25.4 : 1;
+  cycles::TurnContext context;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  context.start = {facts.position[axis::x].value_or(unknown) * unit, facts.position[axis::z].value_or(unknown) * unit};
+  const auto& tools = context_.source_machine.tools;
+  const auto tool =
+      std::find_if(tools.begin(), tools.end(), [&](const auto& t) { return t.number == site.state.tool; });
+  if (tool != tools.end()) {
+    context.nose_width = tool->nose_width;
+    if (tool->length != tool->length_x) context.longer_in_x = tool->length_x > tool->length;
+  }
+  if (cycles::has_profile(named)) {
+    if (!site.profile) return *error = site.fault, std::nullopt;
+    context.profile = &*site.profile;
+  }
+  auto moves = cycles::expand(*cycle, numbers, context, error);
+  if (!moves) return std::nullopt;
+  for (auto& move : *moves) {
+    if (move.step == TurnStep::thread && move.speed == 0) move.speed = facts.spindle.value_or(0);
+    if (move.step == TurnStep::arc && setting_in<Plane>(b, facts, Setting::plane) != Plane::zx)
+      return *error = "its arcs need the plane of Z and X", std::nullopt;
+  }
+  Writer writer(s.line, *m, feed_in(b, facts), site.state);
+  writer.at = context.start;
+  for (const auto& move : *moves) {
+    if (!writer.add(move, error)) return std::nullopt;
+  }
+  if (!writer.finish(cycle->ends_modes, error)) return std::nullopt;
+  return std::move(writer.blocks);
+}
+
+}  // namespace cnctrans::ir::passes

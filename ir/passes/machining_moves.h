@@ -1,0 +1,52 @@
+// Machining cycles of a lathe written out move by move.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "ir/cycles/machining.h"
+#include "ir/passes/lower_cycles.h"
+
+namespace cnctrans::ir::passes {
+
+/// What the text says of spindle and tool at a block; nullopt: paths may disagree.
+struct TurnState {
+  std::optional<SpindleState> spindle;
+  std::optional<std::int32_t> tool;
+};
+
+/// Modes as far as they are known before a block and by its own words; nullopt: units, diameters, distance or feed mode
+/// are not known.
+std::optional<ModalState> modes_at(const Block& b, const Facts& facts, const ModalState& power_on);
+/// The parameters in mm; false: some are known only when the program runs.
+bool machining_numbers(const NamedCycle& cycle, const ModalState& modes, cycles::TurnNumbers& out);
+
+/// The machining cycles of a routine with what has to be known of the program around them, found before any pass takes
+/// its statements apart.
+class TurnCycles {
+ public:
+  TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context);
+
+  /// The moves as blocks; nullopt with a sentence: they can't be told here.
+  [[nodiscard]] std::optional<Body> write_out(const NamedCycle& cycle, const Statement& s, const Block& b,
+                                              const Facts& facts, std::string* error) const;
+  /// Ids of the blocks that the profiles of written out cycles stand in.
+  [[nodiscard]] const std::set<std::uint32_t>& profile_blocks() const { return profile_blocks_; }
+
+ private:
+  struct Site {
+    TurnState state;
+    std::optional<cycles::TurnProfile> profile;
+    std::string fault;  ///< why there is no profile
+  };
+  const LegaliseContext& context_;
+  std::map<std::uint32_t, Site> sites_;  ///< by id
+  std::set<std::uint32_t> profile_blocks_;
+};
+
+/// Blocks of profiles that nothing runs become comments: on the target no cycle reads them any more.
+void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, const FactsOf& facts);
+
+}  // namespace cnctrans::ir::passes

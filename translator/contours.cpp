@@ -1,0 +1,68 @@
+#include "translator/contours.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "interpreter/profile_contour.h"
+#include "ir/cycles/profile_blocks.h"
+#include "ir/passes/machining_moves.h"
+
+namespace cnctrans::translator {
+
+namespace {
+
+/// The cycle of an action that has a profile; null: it has none.
+const ir::NamedCycle* profiled(const ir::Action& a) {
+  const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+  const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
+  return named != nullptr && ir::cycles::has_profile(*named) ? named : nullptr;
+}
+
+void read_one(ir::NamedCycle& cycle, const ir::Program& program, const ir::Routine& routine, const ir::Block& b,
+              const ir::Facts& facts, const machine::Profile& machine) {
+  const auto modes = ir::passes::modes_at(b, facts, machine.power_on);
+  ir::cycles::TurnNumbers numbers;
+  if (!modes || !ir::passes::machining_numbers(cycle, *modes, numbers))
+    return ir::cycles::put_contour_fault(cycle, "its words or the modes in force are known only when the program runs");
+  std::string error;
+  const auto blocks = ir::cycles::profile_blocks(program, routine, cycle, &error);
+  if (blocks.empty()) return ir::cycles::put_contour_fault(cycle, error);
+  const auto start = ir::cycles::contour_start(numbers, *modes);
+  const auto contour = interpreter::contour_of(machine, start, blocks, nullptr, &error);
+  if (contour)
+    ir::cycles::put_contour(cycle, *contour);
+  else
+    ir::cycles::put_contour_fault(cycle, error);
+}
+
+}  // namespace
+
+void read_contours(ir::Program& program, const machine::Profile& source_machine) {
+  bool any = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&any](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i)
+        any = any || profiled(b->actions[i]) != nullptr;
+    });
+  }
+  if (!any) return;
+  ir::number_statements(program);
+  const auto table = ir::analyse(program, source_machine.power_on);
+  for (auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](ir::Statement& s) {
+      auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr) return;
+      for (auto& a : b->actions) {
+        const auto* named = profiled(a);
+        if (named == nullptr) continue;
+        ir::NamedCycle copy = *named;
+        read_one(copy, program, r, *b, table.before(s.id), source_machine);
+        std::get<ir::CycleDefine>(a.data).cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(copy)});
+      }
+    });
+  }
+}
+
+}  // namespace cnctrans::translator
