@@ -86,6 +86,9 @@ void Writer::comp(const ir::Action& a, ir::CompSide side) {
 
 void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
   constexpr std::string_view codes[] = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+  if (w.off && shifts_)
+    return refuse(no_word, a.pos, "offsets off in a program that shifts its origin has no counterpart here",
+                  "take the shift back in the source instead");
   if (w.off) {  // a row of zeros
     std::string zero = "G10 L2 P" + std::to_string(facts::zero_offset_row);
     for (const auto& axis : profile().axes) zero += ' ' + axis.name + '0';

@@ -32,6 +32,8 @@ Writer::Writer(const ir::Program& source, const WriteOptions& write_options, Dia
     : ProgramWriter(source, write_options, linuxcnc::style, sink), expressions_(program()) {
   each_action(program(), [this](const ir::Action& a) {
     has_spindle_limit_ = has_spindle_limit_ || std::holds_alternative<ir::SpindleLimit>(a.data);
+    const auto* f = std::get_if<ir::FrameOp>(&a.data);
+    shifts_ = shifts_ || (f != nullptr && f->change->combine != ir::FrameCombine::clear);
   });
 }
 

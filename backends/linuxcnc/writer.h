@@ -71,7 +71,7 @@ class Writer final : public ProgramWriter {
   std::vector<std::string> loops_;  ///< labels of the loops that are open, innermost last
   bool block_css_ = false;          ///< the block being written switches constant cutting speed on
   bool block_spindle_ = false;      ///< ... and sets the speed
-  bool tolerance_noted_ = false, has_spindle_limit_ = false;
+  bool tolerance_noted_ = false, has_spindle_limit_ = false, shifts_ = false;
   std::string offset_;  ///< number of the offset selected last in this routine
 };
 
