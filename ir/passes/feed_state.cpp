@@ -1,6 +1,7 @@
 #include "ir/passes/feed_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ir/passes/flow_states.h"
 
@@ -98,9 +99,19 @@ void FeedDomain::change_mode(const ModalSet& set, std::optional<std::uint8_t> be
 
 void FeedDomain::settle(const Block& b, const Facts& facts, FeedState& state) const {
   auto mode = setting<std::uint8_t>(facts, Setting::feed_mode);
+  auto units = setting<std::uint8_t>(facts, Setting::units);
   for (const auto& a : b.actions) {
-    if (set_of(a, Setting::units) != nullptr) {  // the same number of another unit, on both controls
-      for (auto& s : state.slots) s.value.reset();
+    if (const auto* u = set_of(a, Setting::units)) {  // the same feed said in another unit
+      const double factor = u->value == static_cast<std::uint8_t>(Units::inch) ? 1 / 25.4 : 25.4;
+      for (std::size_t i = 0; i < state.slots.size(); ++i) {
+        auto& value = state.slots[i].value;
+        if (!value || units == u->value || i == static_cast<std::size_t>(FeedMode::inverse_time)) continue;
+        if (units && u->feed_too)
+          value = std::round(*value * factor * 1e9) / 1e9;
+        else
+          value.reset();
+      }
+      units = u->value;
     } else if (const auto* m = set_of(a, Setting::feed_mode)) {
       change_mode(*m, mode, state);
       mode = m->value;
