@@ -56,6 +56,7 @@ void LowerState::start_routine(bool subroutine) {
   plane_from_caller_ = in_subroutine_ = subroutine;
   comp_by_text = ir::CompSide::off;
   motion_by_text = ir::MotionKind::modal;
+  cycle_by_text = nullptr;
 }
 
 void LowerState::plane_code(ir::Plane plane) {

@@ -16,7 +16,10 @@ class CyclePass {
         context_(context),
         facts_(facts),
         editor_(program, routine, context),
-        height_(label_uses(program, routine)) {
+        uses_(label_uses(program, routine)),
+        height_(uses_),
+        sense_(program) {
+    if (routine.kind != RoutineKind::main) sense_.forget();
     by_call_ = context.target.modal_cycle_by_call;
   }
 
@@ -32,6 +35,8 @@ class CyclePass {
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
     bool on_target = false;            ///< the target's own cycle is in force
+    bool deferred = false;             ///< the first point on the target defines it
+    bool maybe_on_target = false;      ///< in force on one of the ways that lead here
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
   };
@@ -48,7 +53,17 @@ class CyclePass {
     }
   }
 
+  /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle.
+  void join(const Statement& s) {
+    if (!active_ || by_call_ || !active_->deferred || !active_->on_target) return;
+    const auto names = labels_on(s.line);
+    if (std::none_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); })) return;
+    active_->on_target = false;
+    active_->maybe_on_target = true;
+  }
+
   void one(Statement&& s, Body& out) {
+    join(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     const bool harmless = ToolHeight::keeps(s);
     const std::size_t first = out.size();
@@ -61,6 +76,9 @@ class CyclePass {
     std::optional<double> initial;
     if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
+    const auto names = labels_on(seen.line);
+    const bool entered = std::any_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); });
+    sense_.follow(seen, (b != nullptr || harmless) && !entered && seen.line.skip_mask == 0);
   }
   void lower(Statement&& s, Body& out) {
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
@@ -121,15 +139,36 @@ class CyclePass {
     Active a;
     a.source = with_fixed_bases(cycle, setting_in<Distance>(b, facts, Setting::distance));
     a.trigger = trigger;
+    if (const auto* hole = std::get_if<HoleCycle>(&cycle->node); hole != nullptr && hole->keeps_initial) {
+      a.source = changed(std::get<HoleCycle>(a.source->node));
+      a.height = active_->height;
+      a.defined_at = active_->defined_at;
+      if (auto native = native_form(a.source, b, facts, context_, in_units(a.defined_at, b, facts), sense_.now()))
+        a.native = *native;
+      return a;
+    }
     const auto w = tool_axis(cycle, b, facts);
     if (w) a.height = height_mm(b, facts, *w);
     if (!a.height && w) a.height = height_.at(*w);
     a.defined_at = a.height;
-    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts))) a.native = *native;
+    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts), sense_.now()))
+      a.native = *native;
     return a;
   }
+  /// The cycle in force with the words of the change.
+  CyclePtr changed(HoleCycle change) const {
+    const auto& before = std::get<HoleCycle>(active_->source->node);
+    change.keeps_initial = false;
+    if (!change.reference.given) change.reference = before.reference;
+    if (!change.bottom.given) change.bottom = before.bottom;
+    auto whole = std::make_shared<Cycle>();
+    whole->node = std::move(change);
+    return whole;
+  }
+  /// A pattern: as one of the target's, else a block for each point.
+  void pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   void cancel_statement(Statement&& s, Body& out) {
-    const bool on = active_->on_target;
+    const bool on = active_->on_target || active_->maybe_on_target;
     active_.reset();
     if (on) {
       if (!by_call_) {
@@ -153,6 +192,7 @@ class CyclePass {
   void modal_call(Statement&& s, Body& out) {
     const ModalCall m = std::get<ModalCall>(s.node);
     active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
+    active_->deferred = true;
     if (by_call_ && active_->native) {
       std::get<ModalCall>(s.node).cycle = active_->native;
       active_->on_target = true;
@@ -221,7 +261,7 @@ class CyclePass {
     // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
     const Facts& facts = facts_.before(s);
     const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
-    const bool on = active_ ? active_->on_target : !defines_again && !written_out_ && !none;
+    const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
     active_.reset();
     if (!on || defines_again) return;
     if (by_call_)
@@ -264,7 +304,9 @@ class CyclePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   Editor editor_;
+  LabelUses uses_;
   ToolHeight height_;
+  SpindleSense sense_;
   bool by_call_ = false;
   bool written_out_ = false;
   std::optional<Active> active_;

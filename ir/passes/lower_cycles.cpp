@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ir/cycles/pattern.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
@@ -103,7 +104,7 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const bool sets = sets_retract_plane(b);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
-  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts));
+  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now());
   const bool was_native = active_->native != nullptr;
   const auto w = cycle_axis(*hole, b, facts);
   const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
@@ -126,7 +127,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   else if (!height)
     error = "the height of the tool before it is not known here";
   else
-    moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), &error);
+    moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), sense_.now(), &error);
   if (!moves) {
     refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + error,
            "give the cycle's words and the height before it as numbers");
@@ -144,9 +145,58 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
+void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  const auto& named = std::get<NamedCycle>(d.cycle->node);
+  const Facts& facts = facts_.before(s);
+  ran_ = active_;
+  const bool plain = !active_ || (active_->native && active_->on_target);
+  if (plain) {
+    if (auto native = native_pattern(named, b, facts, context_)) {
+      b.actions.push_back(action(CycleDefine{*native, false, true, d.trigger}));
+      return put(out, std::move(pieces), std::move(s));
+    }
+  }
+  std::string error;
+  auto points = pattern_blocks(named, s.line, b, facts, &error);
+  if (!points) {
+    refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
+           "give the pattern's words and the place before it as numbers");
+    out.push_back(std::move(s));
+    return;
+  }
+  const auto id = s.id;
+  const LineInfo like = s.line;
+  const bool bare = b.empty();
+  if (!bare || points->empty()) put(out, std::move(pieces), std::move(s));
+  bool first = bare;
+  for (auto& p : *points) {
+    p.id = id;
+    if (first) p.line = like;
+    Body before;
+    if (first) before = std::move(pieces);
+    first = false;
+    if (active_)
+      point(std::move(p), std::move(before), out);
+    else
+      put(out, std::move(before), std::move(p));
+  }
+}
+
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
+  if (const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
+      named != nullptr && cycles::find_pattern(named->name) != nullptr)
+    return pattern(std::move(s), d, std::move(pieces), out);
+  if (const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
+      hole != nullptr && hole->keeps_initial &&
+      !(active_ && std::holds_alternative<HoleCycle>(active_->source->node))) {
+    refuse(s, program_, context_, "TRN-330", "the words of a cycle are changed, and which cycle is in force can't be seen here",
+           "write the cycle again");
+    out.push_back(std::move(s));
+    return;
+  }
   const auto old_on = active_ && active_->on_target;
   Active a = define(d.cycle, d.trigger, b, facts);
   if (d.here) ran_ = a;
