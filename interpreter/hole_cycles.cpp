@@ -144,9 +144,7 @@ bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, 
     case CycleStep::spindle_stop: run_spindle(1, ir::SpindleState::off); break;
     case CycleStep::spindle_cw: run_spindle(1, ir::SpindleState::cw); break;
     case CycleStep::spindle_ccw: run_spindle(1, ir::SpindleState::ccw); break;
-    case CycleStep::spindle_speed:
-      spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount;
-      break;
+    case CycleStep::spindle_speed: spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount; break;
     case CycleStep::spindle_orient:
       spindles_[1].oriented = true;
       spindles_[1].state = ir::SpindleState::off;

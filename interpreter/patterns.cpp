@@ -51,9 +51,7 @@ bool BlockMachine::to_point(const ir::cycles::PatternPoint& to) {
   Move move = move_from_here();
   move.to[plane.u] = to.u;
   move.to[plane.v] = to.v;
-  move.kind = to.way == Way::rapid    ? Move::Kind::rapid
-              : to.way == Way::linear ? Move::Kind::linear
-                                      : Move::Kind::arc;
+  move.kind = to.way == Way::rapid ? Move::Kind::rapid : to.way == Way::linear ? Move::Kind::linear : Move::Kind::arc;
   if (move.kind != Move::Kind::rapid) move.feed = to.feed;
   if (move.kind == Move::Kind::arc) {
     move.plane = modal_.plane;

@@ -49,8 +49,8 @@ std::uint32_t number_statements(Program& program) {
 }
 
 namespace {
-constexpr std::array<std::string_view, 12> hole_names{"drill",        "peck_full", "peck_break", "tap",
-                                                      "tap_floating", "ream",      "bore",       "bore_stop",
+constexpr std::array<std::string_view, 12> hole_names{"drill",        "peck_full", "peck_break",  "tap",
+                                                      "tap_floating", "ream",      "bore",        "bore_stop",
                                                       "bore_shift",   "back_bore", "bore_manual", "mill"};
 constexpr std::array<std::string_view, 5> base_names{"absolute", "from_initial", "from_reference", "from_surface",
                                                      "distance_mode"};

@@ -58,8 +58,8 @@ class StateFilter {
 };
 
 /// The strokes of a tap: a thread, and back along it. In between and until the tool cuts again the sense of the spindle
-/// follows from the path, so only the sense that stays counts: the command is moved to where it matters. The orientation
-/// before the first stroke is part of the tap as well.
+/// follows from the path, so only the sense that stays counts: the command is moved to where it matters. The
+/// orientation before the first stroke is part of the tap as well.
 class Taps {
  public:
   explicit Taps(const std::vector<Event>& events) { sort(events); }

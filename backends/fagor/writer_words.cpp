@@ -5,8 +5,8 @@
 #include "backends/fagor/capabilities.h"
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
-#include "dialects/fagor/cycles.h"
 #include "base/text.h"
+#include "dialects/fagor/cycles.h"
 
 namespace cnctrans::backends::fagor {
 namespace {

@@ -359,9 +359,10 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
   if (!retract_at_call) add(level_word("ER", retract, a.pos), Rank::motion_extra);
   const bool same = !retract_at_call && ir::equal(retract.value, c.reference.value);
   if (!same_dialect() && c.retract.given && !c.approach_by_retract && !same && !retract_at_call) {
-    diagnostics().warning("TRN-243", current().line.span,
-                          "the height of the tool before this cycle is not known; it goes to the retract plane first here",
-                          "the hole is the same; check the move to the retract plane");
+    diagnostics().warning(
+        "TRN-243", current().line.span,
+        "the height of the tool before this cycle is not known; it goes to the retract plane first here",
+        "the hole is the same; check the move to the retract plane");
   }
   if (reference_at_call || same) return;
   if (!later_family(profile()))
@@ -411,8 +412,7 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
   if (c.pecks.law == ir::PeckLaw::linear) add(word("Q", c.pecks.minimum, a.pos), Rank::motion_extra);
   const bool inch = setting(ir::Setting::units) == code_value(ir::Units::inch);
   const bool usual = c.pecks.reapproach.is(inch ? facts::reapproach / 25.4 : facts::reapproach);
-  if (chips ? !zero(c.pecks.reapproach) : !usual)
-    add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
+  if (chips ? !zero(c.pecks.reapproach) : !usual) add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
 }
 
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {

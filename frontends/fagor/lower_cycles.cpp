@@ -127,10 +127,8 @@ void BlockLowerer::hole_cycle(const GWord& g) {
 /// What the code makes of its words besides levels and dwell.
 bool BlockLowerer::cycle_parameters(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c) {
   switch (g.row->value) {
-    case 69:
-      return variable_pecks(g, words, c);
-    case 83:
-      return equal_pecks(g, *words[index('J')], c);
+    case 69: return variable_pecks(g, words, c);
+    case 83: return equal_pecks(g, *words[index('J')], c);
     case 84:
       c.kind = ir::HoleKind::tap_floating;
       if (const Word* r = words[index('R')]; r && (r->expr >= 0 || r->number != 0)) {

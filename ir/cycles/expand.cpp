@@ -147,8 +147,8 @@ void shifted_bore(const HoleNumbers& h, Path& path, double retract) {
 
 /// The sense after the cycle, before the retract or behind it; kinds that leave the spindle alone have none.
 void restore_spindle(const HoleNumbers& h, Path& path) {
-  const bool switches = h.kind == HoleKind::tap || h.kind == HoleKind::tap_floating ||
-                        h.kind == HoleKind::bore_shift || h.kind == HoleKind::bore_stop;
+  const bool switches = h.kind == HoleKind::tap || h.kind == HoleKind::tap_floating || h.kind == HoleKind::bore_shift ||
+                        h.kind == HoleKind::bore_stop;
   spindle(path, h.spindle_after, switches ? std::optional(CycleStep::spindle_restore) : std::nullopt);
 }
 

@@ -13,27 +13,27 @@ constexpr double tiny = 1e-9;
 constexpr double most_points = 10'000;
 
 constexpr std::array patterns = {
-    Pattern{"points.line", PatternKind::line, true},    Pattern{"points.outline", PatternKind::outline, true},
-    Pattern{"points.grid", PatternKind::grid, true},    Pattern{"points.circle", PatternKind::circle, true},
-    Pattern{"points.arc", PatternKind::arc, true},      Pattern{"points.chord", PatternKind::chord, true},
-    Pattern{"points.row", PatternKind::row, false},     Pattern{"points.ring", PatternKind::ring, false},
+    Pattern{"points.line", PatternKind::line, true},      Pattern{"points.outline", PatternKind::outline, true},
+    Pattern{"points.grid", PatternKind::grid, true},      Pattern{"points.circle", PatternKind::circle, true},
+    Pattern{"points.arc", PatternKind::arc, true},        Pattern{"points.chord", PatternKind::chord, true},
+    Pattern{"points.row", PatternKind::row, false},       Pattern{"points.ring", PatternKind::ring, false},
     Pattern{"points.matrix", PatternKind::matrix, false}, Pattern{"points.frame", PatternKind::frame, false},
 };
 
 constexpr std::array parameters = {
-    PatternParameter{"u", PatternQuantity::length},        PatternParameter{"v", PatternQuantity::length},
-    PatternParameter{"length", PatternQuantity::length},   PatternParameter{"step", PatternQuantity::length},
-    PatternParameter{"count", PatternQuantity::plain},     PatternParameter{"length2", PatternQuantity::length},
-    PatternParameter{"step2", PatternQuantity::length},    PatternParameter{"count2", PatternQuantity::plain},
-    PatternParameter{"angle", PatternQuantity::plain},     PatternParameter{"side_angle", PatternQuantity::plain},
-    PatternParameter{"centre_u", PatternQuantity::length}, PatternParameter{"centre_v", PatternQuantity::length},
-    PatternParameter{"radius", PatternQuantity::length},   PatternParameter{"first", PatternQuantity::length},
+    PatternParameter{"u", PatternQuantity::length},         PatternParameter{"v", PatternQuantity::length},
+    PatternParameter{"length", PatternQuantity::length},    PatternParameter{"step", PatternQuantity::length},
+    PatternParameter{"count", PatternQuantity::plain},      PatternParameter{"length2", PatternQuantity::length},
+    PatternParameter{"step2", PatternQuantity::length},     PatternParameter{"count2", PatternQuantity::plain},
+    PatternParameter{"angle", PatternQuantity::plain},      PatternParameter{"side_angle", PatternQuantity::plain},
+    PatternParameter{"centre_u", PatternQuantity::length},  PatternParameter{"centre_v", PatternQuantity::length},
+    PatternParameter{"radius", PatternQuantity::length},    PatternParameter{"first", PatternQuantity::length},
     PatternParameter{"angle_step", PatternQuantity::plain}, PatternParameter{"total", PatternQuantity::plain},
     PatternParameter{"axis_angle", PatternQuantity::plain}, PatternParameter{"chord", PatternQuantity::length},
-    PatternParameter{"way", PatternQuantity::plain},       PatternParameter{"way_feed", PatternQuantity::feed},
-    PatternParameter{"skip1", PatternQuantity::plain},     PatternParameter{"skip2", PatternQuantity::plain},
-    PatternParameter{"skip3", PatternQuantity::plain},     PatternParameter{"skip4", PatternQuantity::plain},
-    PatternParameter{"skip5", PatternQuantity::plain},     PatternParameter{"skip6", PatternQuantity::plain},
+    PatternParameter{"way", PatternQuantity::plain},        PatternParameter{"way_feed", PatternQuantity::feed},
+    PatternParameter{"skip1", PatternQuantity::plain},      PatternParameter{"skip2", PatternQuantity::plain},
+    PatternParameter{"skip3", PatternQuantity::plain},      PatternParameter{"skip4", PatternQuantity::plain},
+    PatternParameter{"skip5", PatternQuantity::plain},      PatternParameter{"skip6", PatternQuantity::plain},
     PatternParameter{"skip7", PatternQuantity::plain},
 };
 
@@ -43,7 +43,9 @@ auto find(const Table& table, std::string_view name) -> decltype(table.data()) {
   return it == table.end() ? nullptr : &*it;
 }
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
 
 class Builder {
  public:
@@ -144,7 +146,7 @@ class Builder {
 
   void set_way(PatternPoint& p) const {
     const double way = number("way");
-    p.way = way == 1 ? PatternPoint::Way::linear
+    p.way = way == 1   ? PatternPoint::Way::linear
             : way == 2 ? PatternPoint::Way::cw
             : way == 3 ? PatternPoint::Way::ccw
                        : PatternPoint::Way::rapid;
@@ -253,7 +255,8 @@ class Builder {
     return true;
   }
 
-  // --- points left out -------------------------------------------------------------------------------------------------
+  // --- points left out
+  // -------------------------------------------------------------------------------------------------
 
   /// Numbers count from the point after the tool's. They rise, and 10.013 is 10 to 13.
   bool leave_out() {
@@ -265,7 +268,8 @@ class Builder {
       const double to = part == 0 ? from : part;
       if (from <= before || to < from) return fail("the numbers of the points left out do not rise from 1");
       before = to;
-      for (double k = from; k <= to && k < static_cast<double>(out.size()); ++k) out[static_cast<std::size_t>(k)] = true;
+      for (double k = from; k <= to && k < static_cast<double>(out.size()); ++k)
+        out[static_cast<std::size_t>(k)] = true;
     }
     std::size_t number = 0;
     std::erase_if(points_, [&](const PatternPoint&) { return out[++number]; });
@@ -281,8 +285,12 @@ class Builder {
 
 }  // namespace
 
-const Pattern* find_pattern(std::string_view name) { return find(patterns, name); }
-const PatternParameter* find_pattern_parameter(std::string_view name) { return find(parameters, name); }
+const Pattern* find_pattern(std::string_view name) {
+  return find(patterns, name);
+}
+const PatternParameter* find_pattern_parameter(std::string_view name) {
+  return find(parameters, name);
+}
 
 std::optional<std::vector<PatternPoint>> pattern_points(const Pattern& pattern, const PatternNumbers& numbers, double u,
                                                         double v, std::string* error) {

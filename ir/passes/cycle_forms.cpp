@@ -79,7 +79,7 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
 
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
                                     const LegaliseContext& context, std::optional<double> initial,
-                                    std::optional<SpindleState> sense) {
+                                    std::optional<SpindleState> sense, TapNeeds* needs) {
   const auto& native = context.target.native_cycle;
   if (!native || context.options.cycles == CycleWriting::explode) return std::nullopt;
   const auto* hole = std::get_if<HoleCycle>(&cycle->node);
@@ -90,12 +90,13 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     if (!native(*made)) return std::nullopt;
     return CyclePtr(std::move(made));
   };
-  if (!tap_forms(*hole, b, facts, sense).empty()) {
-    for (const auto& form : tap_forms(*hole, b, facts, sense)) {
-      auto said = std::make_shared<Cycle>();
-      said->node = form;
-      if (auto found = native_form(said, b, facts, context, initial)) return found;
-    }
+  for (auto& form : tap_forms(*hole, b, facts, needs != nullptr ? sense : std::nullopt)) {
+    auto said = std::make_shared<Cycle>();
+    said->node = std::move(form.cycle);
+    auto found = native_form(said, b, facts, context, initial);
+    if (!found) continue;
+    *needs = form.needs;
+    return found;
   }
   HoleCycle h = with_absolute_levels(*hole, b, facts, initial);
   if (h.retract.given && h.retract.base == h.reference.base && equal(h.retract.value, h.reference.value)) {

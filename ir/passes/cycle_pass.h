@@ -34,8 +34,9 @@ class CyclePass {
     CyclePtr source;
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
-    bool on_target = false;            ///< the target's own cycle is in force
-    bool deferred = false;             ///< the first point on the target defines it
+    bool on_target = false;  ///< the target's own cycle is in force
+    bool deferred = false;   ///< the first point on the target defines it
+    TapNeeds needs;
     bool maybe_on_target = false;      ///< in force on one of the ways that lead here
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
@@ -143,7 +144,8 @@ class CyclePass {
       a.source = changed(std::get<HoleCycle>(a.source->node));
       a.height = active_->height;
       a.defined_at = active_->defined_at;
-      if (auto native = native_form(a.source, b, facts, context_, in_units(a.defined_at, b, facts), sense_.now()))
+      if (auto native =
+              native_form(a.source, b, facts, context_, in_units(a.defined_at, b, facts), sense_.now(), &a.needs))
         a.native = *native;
       return a;
     }
@@ -151,7 +153,7 @@ class CyclePass {
     if (w) a.height = height_mm(b, facts, *w);
     if (!a.height && w) a.height = height_.at(*w);
     a.defined_at = a.height;
-    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts), sense_.now()))
+    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts), sense_.now(), &a.needs))
       a.native = *native;
     return a;
   }
@@ -167,13 +169,47 @@ class CyclePass {
   }
   /// A pattern: as one of the target's, else a block for each point.
   void pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
+  /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
+  void feed_for_tap(Block& b, const Active& a) const {
+    if (!a.needs.feed || by_call_) return;
+    std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
+    b.actions.push_back(action(SetFeed{Value{*a.needs.feed}, false}));
+  }
+  static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts) {
+    if (!a.needs.feed || !facts.feed) return std::nullopt;
+    return action(SetFeed{Value{*facts.feed}, false});
+  }
+  /// The way to the hole would be driven at the tap's feed.
+  bool refuse_feed_of_tap(Statement& s, const Active& a) {
+    if (!a.needs.feed) return false;
+    refuse(s, program_, context_, "TRN-330",
+           "a tap whose pitch is a feed there, with a way to the hole that is no rapid",
+           "go to the holes in rapid, or set F to pitch times speed before the cycle");
+    return true;
+  }
+  /// A new F or S at a point would give the tap another pitch on one of the two controls only.
+  void check_tap(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (!active_ || !active_->native || !active_->needs.bound || b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (!std::holds_alternative<SetFeed>(a.data) && !std::holds_alternative<SetSpindle>(a.data)) continue;
+      context_.diagnostics.error(
+          "TRN-330", s.line.span,
+          "a new feed or speed while a tap is active: its pitch would follow on one control only",
+          "end the cycle before the change and define it again");
+      return;
+    }
+  }
+
   void cancel_statement(Statement&& s, Body& out) {
     const bool on = active_->on_target || active_->maybe_on_target;
+    const auto feed = feed_after_tap(*active_, facts_.before(s));
     active_.reset();
     if (on) {
       if (!by_call_) {
         Block b;
         b.actions.push_back(action(CycleCancel{}));
+        if (feed) b.actions.push_back(*feed);
         s.node = std::move(b);
       }
       out.push_back(std::move(s));
@@ -261,6 +297,7 @@ class CyclePass {
     // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
     const Facts& facts = facts_.before(s);
     const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
+    const auto feed = active_ && !by_call_ ? feed_after_tap(*active_, facts) : std::nullopt;
     const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
     active_.reset();
     if (!on || defines_again) return;
@@ -268,6 +305,9 @@ class CyclePass {
       pieces.push_back(off_statement(s.line, true));
     else
       b.actions.insert(b.actions.begin(), action(CycleCancel{}));
+    const bool own = std::any_of(b.actions.begin(), b.actions.end(),
+                                 [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
+    if (feed && !own) b.actions.push_back(*feed);
   }
 
   void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);

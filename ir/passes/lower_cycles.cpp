@@ -13,6 +13,7 @@
 namespace cnctrans::ir::passes {
 
 void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
+  check_tap(s);
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const bool was_on = active_->on_target;
@@ -70,11 +71,16 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     return put(out, std::move(pieces), std::move(s));
   }
   if (as_is) {
+    feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
     active_->on_target = true;
     return put(out, std::move(pieces), std::move(s));
   }
   // Moved there in another way than the target's cycle does: the move, then one run of the cycle.
+  if (refuse_feed_of_tap(s, *active_)) {
+    out.push_back(std::move(s));
+    return;
+  }
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
   late_ = take_after(b);
@@ -104,7 +110,8 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const bool sets = sets_retract_plane(b);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
-  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now());
+  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now(),
+                          &active_->needs);
   const bool was_native = active_->native != nullptr;
   const auto w = cycle_axis(*hole, b, facts);
   const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
@@ -192,8 +199,8 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
   if (const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
       hole != nullptr && hole->keeps_initial &&
       !(active_ && std::holds_alternative<HoleCycle>(active_->source->node))) {
-    refuse(s, program_, context_, "TRN-330", "the words of a cycle are changed, and which cycle is in force can't be seen here",
-           "write the cycle again");
+    refuse(s, program_, context_, "TRN-330",
+           "the words of a cycle are changed, and which cycle is in force can't be seen here", "write the cycle again");
     out.push_back(std::move(s));
     return;
   }
@@ -227,6 +234,10 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
     if (target_rapid && point_here && way_to_hole(b, facts, context_) != MotionKind::rapid) {
       // The target would go there in rapid: the move, then one run of the cycle.
+      if (refuse_feed_of_tap(s, a)) {
+        out.push_back(std::move(s));
+        return;
+      }
       if (old_on) pieces.push_back(off_statement(s.line, false));
       const LineInfo like = s.line;
       const std::size_t main = pieces.size();
@@ -236,7 +247,9 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
       put_group(out, std::move(pieces), main);
       return;
     }
+    feed_for_tap(b, a);
     b.actions.push_back(action(native));
+    if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) late_.push_back(*feed);
     if (d.modal) {
       a.on_target = true;
       active_ = a;

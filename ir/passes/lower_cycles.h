@@ -16,13 +16,22 @@ std::optional<AxisId> cycle_axis(const HoleCycle& c, const Block& b, const Facts
 HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts,
                                std::optional<double> initial = std::nullopt);
 /// The form of the cycle that the target writes natively; nullopt: none.
+/// What a tap in other words asks of the blocks around it.
+struct TapNeeds {
+  std::optional<double> feed;  ///< F while the cycle is in force, program units: it gives the pitch
+  bool bound = false;          ///< a new F or S under the cycle would change the pitch on one of the two controls
+};
+struct TapForm {
+  HoleCycle cycle;
+  TapNeeds needs;
+};
 /// `sense`: of the spindle before the cycle, when it is known; taps need it on targets that ask for it in numbers.
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
                                     const LegaliseContext& context, std::optional<double> initial = std::nullopt,
-                                    std::optional<SpindleState> sense = std::nullopt);
+                                    std::optional<SpindleState> sense = std::nullopt, TapNeeds* needs = nullptr);
 /// The words of a tap that the target lacks, said in another way: see cycle_taps.cpp. Best first.
-std::vector<HoleCycle> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
-                                 std::optional<SpindleState> sense);
+std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
+                               std::optional<SpindleState> sense);
 /// The sense in which the spindle turns, by the text; a stopped one is started clockwise by a tap.
 class SpindleSense {
  public:
