@@ -160,10 +160,6 @@ void BlockLowerer::change_cycle(const GWord& g) {
   ir::HoleCycle c = *state_.cycle_by_text;
   const ir::AxisId axis = ir::plane_axes(state_.plane_by_text()).w;
   const Word* z = take_coordinate(axis);
-  if (coord_count_ != 0) {
-    state_.error("FAG-014", g.word->pos, "G79 takes no point (error 163)");
-    return;
-  }
   const Word* i = take('I');
   const Word* j = code == 83 ? take('J') : nullptr;
   const Word* k = code == 83 ? nullptr : take('K');
@@ -175,6 +171,10 @@ void BlockLowerer::change_cycle(const GWord& g) {
   }
   bool more = false;
   if (code == 69 && !change_pecks(c, more)) return;
+  if (coord_count_ != 0) {
+    state_.error("FAG-014", g.word->pos, "G79 takes no point (error 163)");
+    return;
+  }
   if (!z && !i && !j && !k && !more) {
     if (unused_ != 0)
       keep(g, "cycle.hole", "the change of this cycle's parameter is kept as text");
