@@ -73,6 +73,15 @@ const Value* word(const NamedCycle& c, std::string_view name) {
 
 }  // namespace
 
+const NamedCycle* pattern_in(const Block& b) {
+  for (const auto& a : b.actions) {
+    const auto* d = std::get_if<CycleDefine>(&a.data);
+    const auto* named = d != nullptr && d->cycle ? std::get_if<NamedCycle>(&d->cycle->node) : nullptr;
+    if (named != nullptr && cycles::find_pattern(named->name) != nullptr) return named;
+  }
+  return nullptr;
+}
+
 std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
                                    std::string* error) {
   const auto* row = cycles::find_pattern(pattern.name);
@@ -83,6 +92,10 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
     return std::nullopt;
   }
   const bool known = at->at_u && at->at_v;
+  if (!known && row->from_tool && facts.modal_call != 0) {
+    *error = "it counts from the tool, and where the modal subprogram leaves it is not known here";
+    return std::nullopt;
+  }
   if (!known && row->kind == PatternKind::row && numbers->contains("count") && numbers->at("count") > 1) {
     *error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
     return std::nullopt;

@@ -45,6 +45,8 @@ class SpindleSense {
   bool only_cw_ = true;
   std::optional<SpindleState> state_ = SpindleState::cw;
 };
+/// The pattern that stands in the block; nullptr: none.
+const NamedCycle* pattern_in(const Block& b);
 /// The points of a pattern as blocks with a move each; empty and a text in `error`: it can't be said.
 std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
                                    std::string* error);
