@@ -99,6 +99,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   };
   marks_ = b.actions.empty() ? ir::contour::Marks{} : ir::contour::marks_of(b);
   if (b.actions.empty()) {
+    pattern_here_ = false;
     if (axis_word() || (b.has_motion && !motion(b, with_cycle))) return false;
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;
@@ -109,7 +110,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     return f != nullptr && f->block_only;
   });
   machining_ = nullptr;
-  feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = false;
+  feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
   if (!(cycle_defined_here_ && cycle_waits_) && axis_word()) return false;
@@ -120,7 +121,9 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");
   }
   if (machining_ != nullptr && with_cycle && !run_machining(*machining_)) return false;
-  if (hole_ && with_cycle) {
+  if (pattern_here_ && with_cycle) {
+    if (!run_pattern()) return false;
+  } else if (hole_ && with_cycle) {
     const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
     if (runs && !run_cycle()) return false;
     if (once_) hole_.reset();

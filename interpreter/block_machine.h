@@ -19,6 +19,7 @@
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
+#include "ir/cycles/pattern.h"
 #include "ir/program.h"
 #include "machine/profile.h"
 
@@ -88,6 +89,9 @@ class BlockMachine final : public SystemData {
   }
   [[nodiscard]] bool preset_unread(const std::string& name) const { return unread_.count(name) != 0; }
   std::uint64_t arguments_given = 0;  ///< of the present call level
+  bool single_points = false;         ///< a pattern stops at each point: a modal subprogram runs there
+  /// A pattern in work has further points.
+  [[nodiscard]] bool points_left() const { return pattern_here_ && next_point_ < points_.size(); }
 
  private:
   struct AxisState {
@@ -239,6 +243,11 @@ class BlockMachine final : public SystemData {
   std::optional<ir::cycles::TurnProfile> machining_profile(const ir::NamedCycle& c,
                                                            const ir::cycles::TurnNumbers& numbers);
 
+  // patterns (patterns.cpp)
+  bool start_pattern(const ir::NamedCycle& c);
+  bool run_pattern();
+  bool to_point(const ir::cycles::PatternPoint& to);
+
   // cycles (cycles.cpp)
   bool run_cycle();
   bool resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cycles::HoleNumbers>& out, ir::AxisId& axis);
@@ -305,6 +314,10 @@ class BlockMachine final : public SystemData {
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;
   const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
+  const ir::NamedCycle* pattern_ = nullptr;    ///< the pattern in work
+  bool pattern_here_ = false;                  ///< it stands in the block at hand
+  std::vector<ir::cycles::PatternPoint> points_;
+  std::size_t next_point_ = 0;
 
   const ir::Program* program_ = nullptr;
   const ir::Routine* routine_ = nullptr;

@@ -116,7 +116,7 @@ void Runner::modal_call(const ir::ModalCall& m) {
       modal_.flow = callee;
       if (!bind(m.call, *callee, modal_.arguments)) return;
       if (m.here) {
-        run_modal_call();
+        run_modal_call(at_ + 1);
         return;
       }
     }
@@ -124,9 +124,10 @@ void Runner::modal_call(const ir::ModalCall& m) {
   go_to(at_ + 1);
 }
 
-void Runner::run_modal_call() {
+/// `next`: where control goes on behind it.
+void Runner::run_modal_call(std::uint32_t next) {
   const bool goes_on = modal_.keeps_locals;
-  if (!enter(*modal_.flow, modal_.arguments, modal_.call->level, at_ + 1, 1)) return;
+  if (!enter(*modal_.flow, modal_.arguments, modal_.call->level, next, 1)) return;
   if (goes_on && calls_.back().opened_level) {
     auto& level = variables_.level();
     level.value = modal_.left_behind.value;

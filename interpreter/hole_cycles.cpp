@@ -21,12 +21,25 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
   context.level_unit = axis_[axis].scale_absolute;
   context.feed_unit = feed_unit();
   context.distance = modal_.distance;
-  context.height = p_[axis];
+  context.height = hole->keeps_initial && hole_ ? hole_->initial : p_[axis];
   const auto evaluate = [this](const ir::Value& v) -> std::optional<double> {
     const double x = value(v);
     if (failure_.set) return std::nullopt;
     return x;
   };
+  // A change of the cycle in force: the levels it does not name stay where they are.
+  std::optional<ir::HoleCycle> merged;
+  if (hole->keeps_initial) {
+    if (!hole_) return failure_.fail(code::bad_cycle, "the words of a cycle are changed, and no cycle is active");
+    merged = *hole;
+    const auto stays = [&](ir::Level& l, double height) {
+      if (l.given) return;
+      l = ir::Level{ir::Value(height / context.level_unit), ir::LevelBase::absolute, ir::LevelBase::absolute, true};
+    };
+    stays(merged->reference, hole_->reference);
+    stays(merged->bottom, hole_->bottom);
+    hole = &*merged;
+  }
   std::string error;
   out = ir::cycles::resolve(*hole, context, evaluate, &error);
   if (out) return true;
@@ -38,6 +51,10 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   if (named != nullptr && !c.modal && c.here && ir::cycles::find_machining(named->name) != nullptr) {
     machining_ = named;
     return true;
+  }
+  if (named != nullptr && !c.modal && c.here && ir::cycles::find_pattern(named->name) != nullptr) {
+    pattern_here_ = true;
+    return start_pattern(*named);
   }
   std::optional<ir::cycles::HoleNumbers> numbers;
   ir::AxisId axis = ir::axis::z;
@@ -101,7 +118,9 @@ bool BlockMachine::run_cycle() {
   if (!error.empty()) return failure_.fail(code::not_carried, error);
   const bool taps = hole_->kind == ir::HoleKind::tap || hole_->kind == ir::HoleKind::tap_floating;
   auto& spindle = spindles_[1];
-  if (taps && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
+  // A tap that turns the spindle itself by its pitch needs none running.
+  const bool turns_itself = hole_->orient_first || hole_->spindle_bottom == ir::SpindleStep::none;
+  if (taps && !turns_itself && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
   const auto sense = spindle.state;
   const Axes hole = p_;
   for (const auto& m : moves) {
@@ -123,6 +142,9 @@ bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, 
       if (sense != ir::SpindleState::off || spindles_[1].oriented) run_spindle(1, sense);
       break;
     case CycleStep::spindle_stop: run_spindle(1, ir::SpindleState::off); break;
+    case CycleStep::spindle_cw: run_spindle(1, ir::SpindleState::cw); break;
+    case CycleStep::spindle_ccw: run_spindle(1, ir::SpindleState::ccw); break;
+    case CycleStep::spindle_speed: spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount; break;
     case CycleStep::spindle_orient:
       spindles_[1].oriented = true;
       spindles_[1].state = ir::SpindleState::off;

@@ -92,7 +92,7 @@ class Runner {
   void repeat(const ir::Repeat& r);
   void call(const ir::CallRoutine& c);
   void modal_call(const ir::ModalCall& m);
-  void run_modal_call();
+  void run_modal_call(std::uint32_t next);
   Flow* callee_of(const ir::CallRoutine& c);
   bool range_in(Flow& flow, const ir::LabelRef& first, const ir::LabelRef& last, bool order_free, std::uint32_t& begin,
                 std::uint32_t& end);

@@ -31,6 +31,7 @@ void Runner::block(Instruction& in) {
     }
   }
   machine_.belongs_to(flow_->program, flow_->routine);
+  machine_.single_points = modal_.active && in_modal_ == 0;
   if (!machine_.block(b, where, cycle)) {
     fail_state();
     return;
@@ -41,7 +42,7 @@ void Runner::block(Instruction& in) {
   }
   if (modal_.active && cycle && in_modal_ == 0 && machine_.runs_modal_call(b)) {
     modal_.keeps_locals = again;
-    run_modal_call();
+    run_modal_call(machine_.points_left() ? at_ : at_ + 1);
     return;
   }
   go_to(at_ + 1);

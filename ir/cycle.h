@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,7 +38,16 @@ enum class HoleKind : std::uint8_t {
   bore_stop,
   bore_shift,
   back_bore,
-  bore_manual
+  bore_manual,
+  mill  ///< pockets, slots, faces and bosses: see `MillWords`
+};
+/// What a cycle does with the spindle at one of its steps.
+enum class SpindleStep : std::uint8_t {
+  usual,  ///< what the kind does by itself
+  none,   ///< nothing
+  cw,
+  ccw,
+  off
 };
 /// How the pecks shrink.
 enum class PeckLaw : std::uint8_t {
@@ -74,6 +84,12 @@ enum class CycleTrigger : std::uint8_t {
   path_motion       ///< every later block with path motion
 };
 
+/// Kind `mill`: a row of ir/cycles/milling.h and its parameters by name.
+struct MillWords {
+  std::string shape;
+  std::vector<std::pair<std::string, Value>> words;
+};
+
 struct HoleCycle {
   HoleKind kind = HoleKind::drill;
   AxisId axis = axis::none;  ///< tool axis; none: the normal of the plane in force
@@ -95,6 +111,17 @@ struct HoleCycle {
   Value orient_angle, shift_u, shift_v, shift_w;
   bool reference_may_be_below = false;
   bool approach_by_retract = false;  ///< first rapid to the retract level, then to the reference plane
+  bool keeps_initial = false;        ///< changes words of the cycle in force, whose initial plane stays; does not run
+  bool orient_first = false;         ///< taps: the spindle is oriented to `orient_angle` on the reference plane
+  SpindleStep spindle_before = SpindleStep::usual;  ///< on the reference plane, before the feed; usual: nothing
+  SpindleStep spindle_bottom = SpindleStep::usual;  ///< usual: taps reverse, spindle-stop boring stops
+  SpindleStep spindle_after = SpindleStep::usual;   ///< usual: back to the sense before the cycle
+  bool spindle_after_retract = false;               ///< `spindle_after` acts behind the retract, not before it
+  Value speed;                                      ///< rev/min of the spindle in the cycle when `has_speed`
+  bool has_speed = false;
+  Value speed_out;  ///< rev/min on the way out when `has_speed_out`
+  bool has_speed_out = false;
+  MillWords mill;
 };
 
 /// A cycle that the IR carries by its source's own name and words until its node is written; see missing_features.

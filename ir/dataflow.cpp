@@ -97,7 +97,7 @@ class Analysis {
   void note_cycle(const CyclePtr& cycle) {
     const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
     cycles_.any = true;
-    cycles_.other_than_holes |= hole == nullptr || hole->axis != axis::none;
+    cycles_.other_than_holes |= hole == nullptr || hole->axis != axis::none || hole->kind == HoleKind::mill;
   }
   void note_cycles(const Statement& s) {
     if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) note_cycle(m->cycle);

@@ -36,7 +36,7 @@ template <> struct EnumText<Distance> : NamedByFunction<Distance, Distance::incr
 template <> struct EnumText<Units> : NamedByFunction<Units, Units::inch> {};
 template <> struct EnumText<MotionKind> : NamedByFunction<MotionKind, MotionKind::tap_floating> {};
 template <> struct EnumText<Setting> : NamedByFunction<Setting, Setting::feed_override> {};
-template <> struct EnumText<HoleKind> : NamedByFunction<HoleKind, HoleKind::bore_manual> {};
+template <> struct EnumText<HoleKind> : NamedByFunction<HoleKind, HoleKind::mill> {};
 template <> struct EnumText<LevelBase> : NamedByFunction<LevelBase, LevelBase::distance_mode> {};
 template <> struct EnumText<PeckLaw> : NamedByFunction<PeckLaw, PeckLaw::balanced> {};
 template <> struct EnumText<Type> : NamedByFunction<Type, Type::frame> {};
@@ -55,6 +55,7 @@ inline constexpr NameList<3> center_names{"from_start", "absolute", "follows_dis
 inline constexpr NameList<4> frame_use_names{"normal", "machine", "machine_with_length", "no_programmable"};
 inline constexpr NameList<3> feed_memory_names{"shared", "per_mode", "cleared"};
 inline constexpr NameList<3> spindle_state_names{"off", "cw", "ccw"};
+inline constexpr NameList<5> spindle_step_names{"usual", "none", "cw", "ccw", "off"};
 inline constexpr NameList<6> frame_slot_names{"preset", "shift", "rotation", "scale", "mirror", "chain"};
 inline constexpr NameList<4> frame_kind_names{"translate", "rotate", "scale", "mirror"};
 inline constexpr NameList<6> frame_combine_names{"replace", "replace_named", "add", "compose", "clear", "preset"};
@@ -73,6 +74,7 @@ inline constexpr NameList<2> locality_names{"global", "file_local"};
 inline constexpr NameList<2> encoding_names{"utf8", "windows1252"};
 inline constexpr NameList<3> eol_names{"lf", "crlf", "cr"};
 
+template <> struct EnumText<SpindleStep> : NamedByTable<spindle_step_names> {};
 template <> struct EnumText<Compare> : NamedByTable<compare_names> {};
 template <> struct EnumText<RoundHalf> : NamedByTable<half_names> {};
 template <> struct EnumText<WordMode> : NamedByTable<word_mode_names> {};

@@ -274,6 +274,11 @@ void fields(V& v, T& x) {
   v.opt("dwell", x.dwell);
   v.given("first_feed_factor", x.has_first_feed_factor, x.first_feed_factor);
 }
+template <class V, Is<MillWords> T>
+void fields(V& v, T& x) {
+  v.item("shape", x.shape);
+  v.pairs("words", x.words);
+}
 template <class V, Is<HoleCycle> T>
 void fields(V& v, T& x) {
   v.item("kind", x.kind);
@@ -297,6 +302,15 @@ void fields(V& v, T& x) {
   v.opt("shift_w", x.shift_w);
   v.flag("reference_may_be_below", x.reference_may_be_below);
   v.flag("approach_by_retract", x.approach_by_retract);
+  v.flag("keeps_initial", x.keeps_initial);
+  v.flag("orient_first", x.orient_first);
+  v.opt("spindle_before", x.spindle_before, SpindleStep::usual);
+  v.opt("spindle_bottom", x.spindle_bottom, SpindleStep::usual);
+  v.opt("spindle_after", x.spindle_after, SpindleStep::usual);
+  v.flag("spindle_after_retract", x.spindle_after_retract);
+  v.given("speed", x.has_speed, x.speed);
+  v.given("speed_out", x.has_speed_out, x.speed_out);
+  v.group("mill", x.mill);
 }
 template <class V, Is<NamedCycle> T>
 void fields(V& v, T& x) {

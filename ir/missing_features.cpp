@@ -9,11 +9,11 @@ namespace {
 // Keys in alphabetical order. A row disappears in the commit that builds the feature.
 constexpr std::array features{
     MissingFeature{"block.word", "a word whose meaning is not carried", "no IR action for it yet"},
-    MissingFeature{"cycle.hole", "hole cycles beyond drilling and pecking (tapping, boring, variable pecks)",
-                   "the node carries them; their sequence is not confirmed on every control"},
+    MissingFeature{"cycle.hole", "parameters of hole cycles whose meaning is not sure",
+                   "the cycles are carried; these words are not described where the project looks them up"},
     MissingFeature{"cycle.milling", "milling cycles (pockets, slots, faces, bosses)",
-                   "the cycle nodes are planned; only hole cycles are carried"},
-    MissingFeature{"cycle.pattern", "hole patterns", "points of a pattern are not expanded yet"},
+                   "their passes depend on the version of the control; only the walls and the floor are known"},
+    MissingFeature{"cycle.pattern", "free lists of hole positions", "lines, circles and grids are carried"},
     MissingFeature{"cycle.turning",
                    "turning cycles whose moves are not described (undercuts, thread chains, contour grooves)",
                    "read and kept; their sequence is not in the references"},

@@ -49,9 +49,9 @@ std::uint32_t number_statements(Program& program) {
 }
 
 namespace {
-constexpr std::array<std::string_view, 11> hole_names{"drill",        "peck_full", "peck_break", "tap",
-                                                      "tap_floating", "ream",      "bore",       "bore_stop",
-                                                      "bore_shift",   "back_bore", "bore_manual"};
+constexpr std::array<std::string_view, 12> hole_names{"drill",        "peck_full", "peck_break",  "tap",
+                                                      "tap_floating", "ream",      "bore",        "bore_stop",
+                                                      "bore_shift",   "back_bore", "bore_manual", "mill"};
 constexpr std::array<std::string_view, 5> base_names{"absolute", "from_initial", "from_reference", "from_surface",
                                                      "distance_mode"};
 constexpr std::array<std::string_view, 7> law_names{"none",      "constant", "count",   "arithmetic",

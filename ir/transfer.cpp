@@ -82,7 +82,7 @@ class Transfer {
   }
   void operator()(const CycleDefine& x) {
     const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
-    const bool plain_hole = hole != nullptr && hole->axis == axis::none;
+    const bool plain_hole = hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
     if (x.here && plain_hole) leaves_at(*hole);
@@ -308,7 +308,7 @@ void detail::apply(const Statement& statement, Facts& facts, std::uint32_t frame
     const auto* hole = m->cycle ? std::get_if<HoleCycle>(&m->cycle->node) : nullptr;
     facts.cycle_active = !m->off && m->cycle != nullptr;
     facts.cycle_active_known = true;
-    facts.cycle_is_hole = !m->off && hole != nullptr && hole->axis == axis::none;
+    facts.cycle_is_hole = !m->off && hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
     facts.modal_call = m->off || m->cycle ? 0 : -1;
   }
 }

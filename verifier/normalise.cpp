@@ -27,7 +27,8 @@ class StateFilter {
   bool changes(const Event& e) {
     switch (e.kind) {
       case EventKind::spindle: {
-        Spindle now{e.state, e.css, e.state == "off" ? 0 : e.value, e.has_limit ? e.limit : 0, e.angle};
+        Spindle now{e.state, e.css, e.state == "off" ? 0 : e.value, e.has_limit ? e.limit : 0,
+                    e.state == "oriented" ? e.angle : 0};
         auto& known = spindles_[e.number];
         if (known == now) return false;
         known = now;
@@ -54,6 +55,74 @@ class StateFilter {
   }
   std::map<std::int32_t, Spindle> spindles_;
   std::string coolant_ = "off", comp_ = "off", offset_;
+};
+
+/// The strokes of a tap: a thread, and back along it. In between and until the tool cuts again the sense of the spindle
+/// follows from the path, so only the sense that stays counts: the command is moved to where it matters. The
+/// orientation before the first stroke is part of the tap as well.
+class Taps {
+ public:
+  explicit Taps(const std::vector<Event>& events) { sort(events); }
+  std::vector<const Event*> order;
+
+ private:
+  /// Back from where `stroke_` went to, along the same line.
+  bool goes_back(const Event& e) const {
+    if (stroke_ == nullptr || from_ == nullptr || e.to.known != stroke_->to.known) return false;
+    double dot = 0, out = 0, back = 0;
+    for (std::size_t i = 0; i < e.to.value.size(); ++i) {
+      if ((e.to.known >> i & 1U) == 0) continue;
+      const double a = stroke_->to.value[i] - from_->to.value[i], b = e.to.value[i] - stroke_->to.value[i];
+      dot += a * b;
+      out += a * a;
+      back += b * b;
+    }
+    return out > 0 && back > 0 && dot < 0 && dot * dot > out * back * (1 - 1e-9);
+  }
+  void flush() {
+    if (held_ != nullptr) order.push_back(held_);
+    held_ = nullptr;
+  }
+  void sort(const std::vector<Event>& events) {
+    order.reserve(events.size());
+    for (const auto& e : events) one(e);
+    flush();
+  }
+  void one(const Event& e) {
+    if (e.kind == EventKind::spindle && (stroke_ != nullptr || e.state == "oriented")) {
+      if (stroke_ == nullptr) flush();
+      held_ = &e;
+      return;
+    }
+    if (e.kind == EventKind::spindle) flush();
+    if (!is_barrier(e.kind)) {
+      order.push_back(&e);
+      return;
+    }
+    const bool thread = e.kind == EventKind::thread;
+    if (thread && goes_back(e)) {
+      tap_ = true;
+    } else if (thread && held_ != nullptr && held_->state == "oriented" && (stroke_ == nullptr || tap_)) {
+      held_ = nullptr;
+      tap_ = false;
+    } else if (!(e.kind == EventKind::dwell && stroke_ != nullptr) && !(e.kind == EventKind::rapid && tap_)) {
+      flush();
+      tap_ = false;
+      stroke_ = nullptr;
+    }
+    order.push_back(&e);
+    if (thread) {
+      from_ = last_;
+      stroke_ = &e;
+    }
+    if (is_motion(e.kind)) last_ = &e;
+  }
+
+  const Event* last_ = nullptr;    ///< the last motion
+  const Event* from_ = nullptr;    ///< the motion before the stroke
+  const Event* stroke_ = nullptr;  ///< the last thread
+  const Event* held_ = nullptr;    ///< a command of the spindle that waits
+  bool tap_ = false;               ///< the thread was run back
 };
 
 }  // namespace
@@ -101,7 +170,9 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     }
     out.erase(kept, out.end());
   };
-  for (const auto& e : events) {
+  const Taps taps(events);
+  for (const Event* event : taps.order) {
+    const Event& e = *event;
     if (e.kind == EventKind::feed_stop) continue;  // timing, not path: see docs/verify.md
     if (e.kind == EventKind::offset && !keep_offsets) continue;
     if (e.kind == EventKind::tool && !e.change && !keep_selections) continue;

@@ -14,6 +14,8 @@ namespace cnctrans::verifier {
 
 /// Drops commands that change nothing (the spindle already runs so, the coolant is already so, the same offset or
 /// compensation side again) and orders the state changes of each stretch by kind, keeping the order inside a kind.
+/// The senses of the spindle inside a tap (a thread and back along it) follow from the path and are not compared; the
+/// sense that stays is, where the tool cuts again.
 /// `keep_selections`: tools that are only made ready; a turret has no such event.
 std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets,
                                                  bool keep_selections);

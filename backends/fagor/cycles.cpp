@@ -42,7 +42,10 @@ std::optional<Value> coordinate(const HoleCycle& c, const Level& l) {
 
 bool plain_hole(const HoleCycle& c) {
   return !c.has_feed && !c.has_feed_out && !c.dwell_in_revolutions && zero(c.dwell_top) && c.axis == ir::axis::none &&
-         !c.approach_by_retract && !c.reference_may_be_below && !c.pecks.has_first_feed_factor;
+         !c.approach_by_retract && !c.reference_may_be_below && !c.pecks.has_first_feed_factor &&
+         c.kind != ir::HoleKind::mill && !c.orient_first && !c.has_speed && !c.has_speed_out &&
+         c.spindle_before == ir::SpindleStep::usual && c.spindle_bottom == ir::SpindleStep::usual &&
+         c.spindle_after == ir::SpindleStep::usual && !c.spindle_after_retract;
 }
 
 /// Equal pecks, and the control's own 1 mm above the last bottom: G83.

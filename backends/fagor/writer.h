@@ -2,6 +2,7 @@
 // (writer_frames.cpp), motion and cycles (writer_motion.cpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -110,6 +111,7 @@ class Writer : public ProgramWriter {
   [[nodiscard]] std::string cycle_retract(const ir::Action& a, const CycleWords& w);
   void cycle_approach(const CycleWords& w);
   bool machining_cycle(const ir::Action& a, const ir::CycleDefine& c);
+  void cycle_change(const ir::Action& a, const ir::HoleCycle& change);
   [[nodiscard]] bool absolute_center(const ir::CenterWord& c);
 
   bool lathe_;
@@ -118,6 +120,7 @@ class Writer : public ProgramWriter {
   ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written
   bool after_offset_ = false;                ///< the last thing written is a work offset
   bool offset_before_ = false;               ///< the same, for the block at hand
+  std::optional<ir::HoleCycle> last_hole_;   ///< the last hole cycle written, for changes of it
 };
 
 }  // namespace cnctrans::backends::fagor

@@ -6,6 +6,7 @@
 #include "backends/fagor/writer.h"
 #include "base/text.h"
 #include "dialects/fagor/cycles.h"
+#include "dialects/fagor/patterns.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -276,10 +277,12 @@ void Writer::cycle_approach(const CycleWords& w) {
   further_line({});
 }
 
-/// A cycle of the lathe in the letters of its own (ch. 9), in the order of its words.
+/// A cycle of the lathe (ch. 9) or a pattern of the mill (25.4) in the letters of its own, in the order of its words.
 bool Writer::machining_cycle(const ir::Action& a, const ir::CycleDefine& c) {
   const auto* named = std::get_if<ir::NamedCycle>(&c.cycle->node);
-  const auto* row = named != nullptr && lathe_ ? dialects::fagor::find_cycle(named->name) : nullptr;
+  const auto* row = named == nullptr ? nullptr
+                    : lathe_         ? dialects::fagor::find_cycle(named->name)
+                                     : dialects::fagor::find_pattern(named->name);
   if (row == nullptr) return false;
   std::string text = same_dialect() && !a.text.empty() ? std::string(a.text) : "G" + std::to_string(row->code);
   for (const auto& [parameter, v] : named->words) {
@@ -295,8 +298,49 @@ bool Writer::machining_cycle(const ir::Action& a, const ir::CycleDefine& c) {
   return true;
 }
 
+/// G79 with the words that differ from those of the cycle in force.
+void Writer::cycle_change(const ir::Action& a, const ir::HoleCycle& change) {
+  const auto plane = same_dialect() ? plane_by_text_ : known<ir::Plane>(ir::Setting::plane);
+  if (!last_hole_ || !plane) return refuse(no_cycle, a.pos, "which cycle is changed here depends on the path");
+  ir::HoleCycle whole = change;
+  if (!change.reference.given) whole.reference = last_hole_->reference;
+  if (!change.bottom.given) whole.bottom = last_hole_->bottom;
+  whole.keeps_initial = false;
+  const auto now = cycle_words(ir::Cycle{whole}), before = cycle_words(ir::Cycle{*last_hole_});
+  if (!now || !before) return refuse(no_cycle, a.pos, "this change of a cycle has no counterpart here");
+  last_hole_ = whole;
+  const auto letter_of = [](const CycleWords& w, char letter) -> const ir::Value* {
+    for (const auto& [l, v] : w.more) {
+      if (l == letter) return &v;
+    }
+    return nullptr;
+  };
+  const bool depth = change.bottom.given && (!now->count || !ir::equal(now->depth, before->depth));
+  const bool count = now->count && before->count && !ir::equal(*now->count, *before->count);
+  const bool dwell = now->dwell && (!before->dwell || !ir::equal(*now->dwell, *before->dwell));
+  add("G79", Rank::frame, a.pos);
+  if (change.reference.given) add(word(axis_name(ir::plane_axes(*plane).w), now->reference, a.pos), Rank::center);
+  const bool nothing = !change.reference.given && !depth && !count && !dwell;
+  bool other = false;
+  for (const auto& [letter, v] : now->more) {
+    const auto* old = letter_of(*before, letter);
+    other = other || old == nullptr || !ir::equal(*old, v);
+  }
+  if (depth || (nothing && !other && !now->dwell)) add(word("I", now->depth, a.pos), Rank::radius);
+  for (const auto& [letter, v] : now->more) {
+    const auto* old = letter_of(*before, letter);
+    if (old == nullptr || !ir::equal(*old, v)) add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
+  }
+  if (dwell || (nothing && !other && now->dwell)) add(word("K", *now->dwell, a.pos), Rank::motion_extra);
+  if (count) add(word("J", *now->count, a.pos), Rank::motion_extra);
+}
+
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   if (machining_cycle(a, c)) return;
+  if (const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node)) {
+    if (hole->keeps_initial) return cycle_change(a, *hole);
+    last_hole_ = *hole;
+  }
   // Another axis than the plane's own was chosen by G15, which stands in the text.
   ir::Cycle along_normal = *c.cycle;
   ir::AxisId chosen = ir::axis::none;

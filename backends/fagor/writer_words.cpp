@@ -6,6 +6,7 @@
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "base/text.h"
+#include "dialects/fagor/cycles.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -112,9 +113,15 @@ bool Writer::implied(const ir::Action& a) {
   if (const ir::FrameChange* f = frame_change(a); f != nullptr && f->combine == ir::FrameCombine::clear && offset) {
     return f->slot == ir::FrameSlot::preset || (same_dialect() && f->slot == ir::FrameSlot::shift);
   }
+  if (holds<ir::CycleCancel>(a) && same_dialect()) {  // the plane and the search for home end a cycle by themselves
+    const bool home_here = block_->has_motion && block_->motion.kind == ir::MotionKind::reference_point;
+    return home_here || std::any_of(block_->actions.begin(), block_->actions.end(),
+                                    [](const ir::Action& other) { return sets(other, ir::Setting::plane); });
+  }
   const auto machining = [](const ir::Action& other) {
     const auto* d = std::get_if<ir::CycleDefine>(&other.data);
-    return d != nullptr && d->cycle && std::holds_alternative<ir::NamedCycle>(d->cycle->node);
+    const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
+    return named != nullptr && dialects::fagor::find_cycle(named->name) != nullptr;
   };
   if (std::any_of(block_->actions.begin(), block_->actions.end(), machining))
     return sets(a, ir::Setting::comp) || sets(a, ir::Setting::distance);  // ch. 9: how the cycle leaves

@@ -1,6 +1,7 @@
 #include "backends/num/style.h"
 
 #include <array>
+#include <cmath>
 
 #include "dialects/num/functions.h"
 #include "dialects/num/limits.h"
@@ -138,6 +139,18 @@ bool at_call(const ir::Level& l) {
   return l.given && l.base == ir::LevelBase::from_initial && zero(l.value);
 }
 
+/// The tip is freed as G86 does it: by 2 mm in the direction of the stop.
+bool oriented_clearance(const ir::HoleCycle& c) {
+  if (!c.orient_angle.literal()) return c.shift_u.expr != nullptr && c.shift_v.expr != nullptr;
+  if (!c.shift_u.literal() || !c.shift_v.literal()) return false;
+  const double angle = c.orient_angle.number * std::acos(-1.0) / 180;
+  const auto fits = [&](double length) {
+    return std::fabs(c.shift_u.number - length * std::cos(angle)) < 1e-6 &&
+           std::fabs(c.shift_v.number - length * std::sin(angle)) < 1e-6;
+  };
+  return fits(facts::oriented_clearance) || fits(facts::oriented_clearance / 25.4);
+}
+
 }  // namespace
 
 const Style& style() {
@@ -190,10 +203,22 @@ bool native_hole(const ir::HoleCycle& c) {
     case ir::HoleKind::peck_full:
     case ir::HoleKind::peck_break: break;
     case ir::HoleKind::tap_floating:
-      if (!zero(c.dwell_bottom) || !zero(c.pitch)) return false;
+    case ir::HoleKind::tap:
+      if (!zero(c.dwell_bottom) || c.pecks.law != ir::PeckLaw::none || zero(c.pitch) == (c.kind == ir::HoleKind::tap))
+        return false;
+      break;
+    case ir::HoleKind::bore_shift:
+      if (!zero(c.dwell_bottom) || !zero(c.shift_w) || !oriented_clearance(c)) return false;
+      break;
+    case ir::HoleKind::bore_manual:  // the spindle turns on
+      if (!zero(c.dwell_bottom) || c.spindle_bottom != ir::SpindleStep::none) return false;
       break;
     default: return false;
   }
+  const bool own_spindle = c.spindle_before != ir::SpindleStep::usual || c.spindle_after != ir::SpindleStep::usual ||
+                           c.orient_first || c.has_speed || c.has_speed_out || c.spindle_after_retract;
+  if (own_spindle || c.keeps_initial) return false;
+  if (c.kind != ir::HoleKind::bore_manual && c.spindle_bottom != ir::SpindleStep::usual) return false;
   if (chips && !zero(c.dwell_bottom)) return false;
   if (c.has_feed || c.has_feed_out || !zero(c.dwell_top) || c.dwell_in_revolutions || c.reference_may_be_below)
     return false;

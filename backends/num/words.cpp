@@ -370,6 +370,12 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
   const bool reference_at_call = at_call(c.reference);
   if (!retract_at_call) add(level_word("ER", retract, a.pos), Rank::motion_extra);
   const bool same = !retract_at_call && ir::equal(retract.value, c.reference.value);
+  if (!same_dialect() && c.retract.given && !c.approach_by_retract && !same && !retract_at_call) {
+    diagnostics().warning(
+        "TRN-243", current().line.span,
+        "the height of the tool before this cycle is not known; it goes to the retract plane first here",
+        "the hole is the same; check the move to the retract plane");
+  }
   if (reference_at_call || same) return;
   if (!later_family(profile()))
     return refuse(no_cycle, a.pos, "this control has no separate plane where the feed starts (EH)",
@@ -387,7 +393,10 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
   const std::string_view code = [&]() -> std::string_view {
     switch (c.kind) {
       case ir::HoleKind::peck_full: return "G83";
+      case ir::HoleKind::tap:
       case ir::HoleKind::tap_floating: return "G84";
+      case ir::HoleKind::bore_shift: return "G86";
+      case ir::HoleKind::bore_manual: return "G88";
       case ir::HoleKind::ream: return dwells ? "G89" : "G85";
       case ir::HoleKind::peck_break: return "G87";
       default: return dwells ? "G82" : "G81";
@@ -407,11 +416,15 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
   hole_levels(a, c);
   if (incremental) add("G91", Rank::motion_extra);
   if (dwells) add(word("EF", c.dwell_scale == 1 ? dwell : ir::scale(dwell, c.dwell_scale), a.pos), Rank::motion_extra);
+  if (c.kind == ir::HoleKind::tap) add(word("K", c.pitch, a.pos), Rank::motion_extra);
+  if (c.kind == ir::HoleKind::bore_shift && !zero(c.orient_angle))
+    add(word("EC", c.orient_angle, a.pos), Rank::motion_extra);
   if (!peck) return;
   add(word("P", c.pecks.first, a.pos), Rank::motion_extra);
   if (c.pecks.law == ir::PeckLaw::linear) add(word("Q", c.pecks.minimum, a.pos), Rank::motion_extra);
-  if (chips ? !zero(c.pecks.reapproach) : !c.pecks.reapproach.is(1))
-    add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
+  const bool inch = setting(ir::Setting::units) == code_value(ir::Units::inch);
+  const bool usual = c.pecks.reapproach.is(inch ? facts::reapproach / 25.4 : facts::reapproach);
+  if (chips ? !zero(c.pecks.reapproach) : !usual) add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
 }
 
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {

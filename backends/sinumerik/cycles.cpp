@@ -163,15 +163,88 @@ bool pecks(const HoleCycle& c, Arguments& args) {
   return !p.lift.literal() || p.lift.number > 0;
 }
 
+/// Number of a sense as this control takes it; 0: none.
+Value sense(ir::SpindleStep s) {
+  switch (s) {
+    case ir::SpindleStep::cw: return Value(3);
+    case ir::SpindleStep::ccw: return Value(4);
+    case ir::SpindleStep::off: return Value(5);
+    default: return Value(0);
+  }
+}
+
+/// The sense after a tap is switched behind the retract; that is the same when there is none.
+bool switched_last(const HoleCycle& c) {
+  if (c.spindle_after == ir::SpindleStep::none || c.spindle_after_retract) return true;
+  return c.retract.given && c.retract.base == c.reference.base && ir::equal(c.retract.value, c.reference.value);
+}
+
+std::string_view tap(const HoleCycle& c, Arguments& args) {
+  if (c.spindle_after == ir::SpindleStep::usual || !switched_last(c)) return {};
+  if (!zero(c.dwell_bottom)) args["DTB"] = seconds(c, c.dwell_bottom);
+  args["SDAC"] = sense(c.spindle_after);
+  if (!zero(c.pitch)) args["PIT"] = c.pitch;
+  if (c.kind == HoleKind::tap_floating) {
+    if (c.pecks.law != ir::PeckLaw::none || c.orient_first || c.has_speed || c.has_speed_out) return {};
+    if (c.spindle_bottom == ir::SpindleStep::none || c.spindle_bottom == ir::SpindleStep::off) return {};
+    if (c.rigid && (zero(c.pitch) || !zero(c.dwell_bottom))) return {};
+    args["SDR"] = sense(c.spindle_bottom);
+    args["ENC"] = Value(c.rigid ? 0 : zero(c.pitch) ? 1 : 11);
+    return "CYCLE840";
+  }
+  if (c.spindle_bottom != ir::SpindleStep::none || zero(c.pitch) || !c.orient_first) return {};
+  args["POSS"] = c.orient_angle;
+  args["SST"] = c.has_speed ? c.speed : Value(0);
+  args["SST1"] = c.has_speed_out ? c.speed_out : Value(0);
+  if (c.pecks.law == ir::PeckLaw::none) return "CYCLE84";
+  if (c.pecks.law != ir::PeckLaw::constant) return {};
+  args["VARI"] = Value(zero(c.pecks.lift) ? 2 : 1);
+  args["DAM"] = c.pecks.first;
+  if (!zero(c.pecks.lift)) args["VRT"] = c.pecks.lift;
+  return "CYCLE84";
+}
+
+/// Boring and reaming. Without a feed of its own reaming is CYCLE89: both feeds are the feed in force.
+std::string_view bore(const HoleCycle& c, Arguments& args) {
+  if (!zero(c.dwell_bottom)) args["DTB"] = seconds(c, c.dwell_bottom);
+  const bool plain = c.spindle_after == ir::SpindleStep::usual || c.spindle_after == ir::SpindleStep::none;
+  switch (c.kind) {
+    case HoleKind::ream:
+    case HoleKind::bore:
+      if (!c.has_feed && !c.has_feed_out) return "CYCLE89";
+      if (c.has_feed) args["FFR"] = c.feed;
+      if (c.has_feed_out) args["RFF"] = c.feed_out;
+      return "CYCLE85";
+    case HoleKind::bore_shift:
+      if (c.spindle_after != ir::SpindleStep::none) return {};
+      args["SDIR"] = sense(c.spindle_before);
+      args["RPA"] = c.shift_u;
+      args["RPO"] = c.shift_v;
+      args["RPAP"] = c.shift_w;
+      args["POSS"] = c.orient_angle;
+      return "CYCLE86";
+    case HoleKind::bore_manual:
+      if (!plain || c.spindle_bottom != ir::SpindleStep::usual) return {};
+      args["SDIR"] = sense(c.spindle_before);
+      return zero(c.dwell_bottom) ? "CYCLE87" : "CYCLE88";
+    default: return {};
+  }
+}
+
 /// Name of the standard cycle and its arguments; empty: it can't be said exactly.
 std::string_view arguments(const HoleCycle& c, Arguments& args) {
-  if (c.has_feed || c.has_feed_out || c.reference_may_be_below || c.approach_by_retract) return {};
+  const bool taps = c.kind == HoleKind::tap || c.kind == HoleKind::tap_floating;
+  const bool reams = c.kind == HoleKind::ream || c.kind == HoleKind::bore;
+  if ((c.has_feed || c.has_feed_out) && !reams) return {};
+  if (c.reference_may_be_below || c.approach_by_retract || c.keeps_initial) return {};
   const bool pecking = c.kind == HoleKind::peck_full || c.kind == HoleKind::peck_break;
-  if (c.axis != ir::axis::none && (!pecking || c.axis > ir::axis::z)) return {};
+  if (c.axis != ir::axis::none && (!(pecking || taps) || c.axis > ir::axis::z)) return {};
   if (c.axis != ir::axis::none) args["AXN"] = Value(c.axis + 1);
   if (!c.retract.given || c.retract.base != LevelBase::absolute) return {};
   args["RTP"] = c.retract.value;
   if (!planes(c, args) || !bottom(c, args)) return {};
+  if (taps) return tap(c, args);
+  if (c.has_speed || c.has_speed_out || c.orient_first) return {};
   switch (c.kind) {
     case HoleKind::drill:
       if (!zero(c.dwell_top) || c.pecks.has_first_feed_factor) return {};
@@ -180,15 +253,41 @@ std::string_view arguments(const HoleCycle& c, Arguments& args) {
       return "CYCLE82";
     case HoleKind::peck_full:
     case HoleKind::peck_break: return pecks(c, args) ? "CYCLE83" : std::string_view{};
-    default: return {};
+    default: return bore(c, args);
   }
+}
+
+const dialect::PatternRow* pattern_of(std::string_view name) {
+  for (const auto& p : dialect::patterns()) {
+    if (p.pattern == name) return &p;
+  }
+  return nullptr;
+}
+
+/// The pattern's parameters stand in the order of the call; a frame is the variant 1 behind them.
+std::string pattern_call(const dialect::PatternRow& row, const ir::NamedCycle& c,
+                         const std::function<std::string(const Value&)>& print) {
+  std::string call = std::string(row.name) + '(';
+  std::string_view rest = row.parameters;
+  for (bool first = true; !rest.empty(); first = false) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view name = rest.substr(0, comma);
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+    if (!first) call += ',';
+    for (const auto& [word, value] : c.words) {
+      if (word == name) call += print(value);
+    }
+  }
+  if (row.pattern == "points.frame") call += ",1";
+  return call + ')';
 }
 
 }  // namespace
 
 bool native_cycle(const ir::Cycle& cycle) {
   if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node))
-    return dialect::cycle(named->name) != nullptr || dialect::turning_cycle(named->name) != nullptr;
+    return dialect::cycle(named->name) != nullptr || dialect::turning_cycle(named->name) != nullptr ||
+           pattern_of(named->name) != nullptr;
   Arguments args;
   return !arguments(std::get<HoleCycle>(cycle.node), args).empty();
 }
@@ -219,6 +318,7 @@ std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(c
   Arguments args;
   std::string name, contour;
   if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node)) {
+    if (const auto* p = pattern_of(named->name)) return pattern_call(*p, *named, print);
     const auto* turning = dialect::turning_cycle(named->name);
     name = turning != nullptr ? turning->name : named->name;
     for (const auto& [word, value] : named->words) args[std::string(own_name(turning, word))] = value;

@@ -69,10 +69,12 @@ enum class Use : std::uint8_t {
   spindle_couple,       ///< G30 G77S G78S: the second spindle follows the main one
   hole_cycle,           ///< `value`: the code: letters in hole_cycles
   cycle_cancel,
-  machining,  ///< a cycle of the lathe; letters in cycle_rows
-  call,       ///< G180..G189, G380..G399: subroutine of the same number
-  no_path,    ///< no effect on the path: carried with a note; `feature`
-  refused     ///< not translated yet; `feature` is the key in the missing-features registry
+  cycle_change,  ///< G79
+  machining,     ///< a cycle of the lathe; letters in cycle_rows
+  pattern,       ///< multiple machining of the mill; letters in pattern_rows
+  call,          ///< G180..G189, G380..G399: subroutine of the same number
+  no_path,       ///< no effect on the path: carried with a note; `feature`
+  refused        ///< not translated yet; `feature` is the key in the missing-features registry
 };
 
 struct GCode {

@@ -205,7 +205,7 @@ constexpr std::string_view missing_feature(const GCode& row) {
     case GKind::synchronise: return "language.synchronised";
     case GKind::save_values:
     case GKind::concatenation: return "language.statement";
-    case GKind::hole_cycle: return row.code == 86 || row.code == 88 ? "cycle.hole" : "";
+    case GKind::hole_cycle: return "";
     default: return {};
   }
 }

@@ -19,7 +19,9 @@ inline constexpr std::int32_t linear_decimals = 3, linear_decimals_inch = 4, rot
 inline constexpr std::int32_t call_depth = 8, structure_depth = 15;
 inline constexpr std::size_t block_length = 118;
 inline constexpr std::size_t message_length = 39;
-inline constexpr double arc_tolerance = 0.02;  ///< mm
-inline constexpr double power_on_feed = 1000;  ///< mm/min
+inline constexpr double arc_tolerance = 0.02;    ///< mm
+inline constexpr double oriented_clearance = 2;  ///< mm, G86
+inline constexpr double reapproach = 1;          ///< mm above the last depth, G83
+inline constexpr double power_on_feed = 1000;    ///< mm/min
 
 }  // namespace cnctrans::dialects::num

@@ -12,19 +12,19 @@ constexpr CycleRow rows[] = {
     {"CYCLE82", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,GMODE,DMODE,AMODE"},
     {"CYCLE83", drilling, true,
      "RTP,RFP,SDIS,DP,DPR,FDEP,FDPR,DAM,DTB,DTS,FRF,VARI,AXN,MDEP,VRT,DTD,DIS1,GMODE,DMODE,AMODE"},
-    {"CYCLE84", drilling, false,
+    {"CYCLE84", drilling, true,
      "RTP,RFP,SDIS,DP,DPR,DTB,SDAC,MPIT,PIT,POSS,SST,SST1,AXN,PITA,TECHNO,VARI,DAM,VRT,PITM,PTAB,PTABA,GMODE,DMODE,"
      "AMODE"},
-    {"CYCLE840", drilling, false, "RTP,RFP,SDIS,DP,DPR,DTB,SDR,SDAC,ENC,MPIT,PIT,AXN"},
-    {"CYCLE85", drilling, false, "RTP,RFP,SDIS,DP,DPR,DTB,FFR,RFF"},
-    {"CYCLE86", drilling, false, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR,RPA,RPO,RPAP,POSS"},
-    {"CYCLE87", drilling, false, "RTP,RFP,SDIS,DP,DPR,SDIR"},
-    {"CYCLE88", drilling, false, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR"},
-    {"CYCLE89", drilling, false, "RTP,RFP,SDIS,DP,DPR,DTB"},
+    {"CYCLE840", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDR,SDAC,ENC,MPIT,PIT,AXN"},
+    {"CYCLE85", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,FFR,RFF"},
+    {"CYCLE86", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR,RPA,RPO,RPAP,POSS"},
+    {"CYCLE87", drilling, true, "RTP,RFP,SDIS,DP,DPR,SDIR"},
+    {"CYCLE88", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR"},
+    {"CYCLE89", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB"},
     // 18.2 patterns
-    {"HOLES1", pattern, false, "SPCA,SPCO,STA1,FDIS,DBH,NUM"},
-    {"HOLES2", pattern, false, "CPA,CPO,RAD,STA1,INDA,NUM"},
-    {"CYCLE801", pattern, false, "SPCA,SPCO,STA,DIS1,DIS2,NUM1,NUM2,VARI,UMODE,ANG1,ANG2,HIDE,NSP,DMODE"},
+    {"HOLES1", pattern, true, "SPCA,SPCO,STA1,FDIS,DBH,NUM"},
+    {"HOLES2", pattern, true, "CPA,CPO,RAD,STA1,INDA,NUM"},
+    {"CYCLE801", pattern, true, "SPCA,SPCO,STA,DIS1,DIS2,NUM1,NUM2,VARI,UMODE,ANG1,ANG2,HIDE,NSP,DMODE"},
     {"CYCLE802", pattern, false, ""},
     // 18.3 milling
     {"LONGHOLE", milling, false, "RTP,RFP,SDIS,DP,DPR,NUM,LENG,CPA,CPO,RAD,STA1,INDA,FFD,FFP1,MID"},
@@ -93,7 +93,35 @@ constexpr CycleRow rows[] = {
     {"CYCLE998", measuring, false, ""},
 };
 
+constexpr PatternRow pattern_rows[] = {
+    {"HOLES1", "points.row", "u,v,angle,first,step,count"},
+    {"HOLES2", "points.ring", "u,v,radius,angle,angle_step,count"},
+    {"CYCLE801", "points.matrix", "u,v,angle,step,step2,count,count2"},
+    {"CYCLE801", "points.frame", "u,v,angle,step,step2,count,count2"},
+};
+
+/// Coarse pitch series of the metric thread (ISO 261), first choice sizes and the usual ones between.
+struct Thread {
+  double size, pitch;
+};
+constexpr Thread threads[] = {
+    {3, 0.5},   {3.5, 0.6}, {4, 0.7}, {5, 0.8},  {6, 1},    {7, 1},    {8, 1.25}, {10, 1.5},
+    {12, 1.75}, {14, 2},    {16, 2},  {18, 2.5}, {20, 2.5}, {22, 2.5}, {24, 3},   {27, 3},
+    {30, 3.5},  {33, 3.5},  {36, 4},  {39, 4},   {42, 4.5}, {45, 4.5}, {48, 5},
+};
+
 }  // namespace
+
+std::span<const PatternRow> patterns() {
+  return pattern_rows;
+}
+
+double coarse_pitch(double size) {
+  for (const auto& t : threads) {
+    if (t.size == size) return t.pitch;
+  }
+  return 0;
+}
 
 std::span<const CycleRow> cycles() {
   return rows;
@@ -107,7 +135,10 @@ const CycleRow* cycle(std::string_view capitals) {
 }
 
 int parameter_index(const CycleRow& row, std::string_view name) {
-  std::string_view rest = row.parameters;
+  return parameter_index(row.parameters, name);
+}
+
+int parameter_index(std::string_view rest, std::string_view name) {
   for (int i = 0; !rest.empty(); ++i) {
     const std::size_t comma = rest.find(',');
     if (rest.substr(0, comma) == name) return i;

@@ -9,6 +9,7 @@
 #include "base/saturate.h"
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/m_codes.h"
+#include "dialects/fagor/patterns.h"
 #include "frontends/fagor/letters.h"
 #include "frontends/fagor/lower_expr.h"
 
@@ -23,7 +24,7 @@ using ir::Order;
 /// Its words follow an order of their own, not that of a plain block.
 bool has_own_words(const facts::GCode& row) {
   return row.use == Use::refused || row.use == Use::no_path || row.use == Use::call || row.use == Use::hole_cycle ||
-         row.use == Use::machining;
+         row.use == Use::cycle_change || row.use == Use::machining || row.use == Use::pattern;
 }
 
 std::string word_name(const syntax::Word& w) {
@@ -88,6 +89,7 @@ void BlockLowerer::gather_g(const Word& w) {
     return;
   }
   if (row->use == Use::machining) cycle_row_ = facts::find_cycle(row->code);
+  if (row->use == Use::pattern) cycle_row_ = facts::find_pattern(row->code);
   g_[g_count_++] = {row, &w};
 }
 

@@ -67,6 +67,12 @@ class BlockLowerer {
   void look_ahead(const GWord& g);
   void hole_cycle(const GWord& g);
   void machining_cycle(const GWord& g);
+  void pattern(const GWord& g);
+  void change_cycle(const GWord& g);
+  void end_cycle();
+  bool change_pecks(ir::HoleCycle& c, bool& changed);
+  bool change_equal_pecks(const GWord& g, const Word* i, const Word* j, ir::HoleCycle& c);
+  bool cycle_parameters(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c);
   bool gather_cycle_word(const Word& w, char c);
   const Word* take_coordinate(ir::AxisId axis);
   const Word* take_cycle_word(char c, const Word& depth);

@@ -79,7 +79,10 @@ void BlockLowerer::apply_special(const GWord& g) {
     case Use::spindle_couple: couple_spindles(g); return;
     case Use::hole_cycle: hole_cycle(g); return;
     case Use::machining: machining_cycle(g); return;
+    case Use::pattern: pattern(g); return;
+    case Use::cycle_change: change_cycle(g); return;
     case Use::cycle_cancel:
+      state_.cycle_by_text = nullptr;
       act(ir::CycleCancel{}, g.word);
       result_->needs_program = true;
       return;
@@ -154,7 +157,21 @@ void BlockLowerer::compensation(const GWord& g) {
   }
 }
 
+/// A cycle in force ends with its plane and with the search for home (25.2).
+void BlockLowerer::end_cycle() {
+  if (!state_.cycle_by_text) return;
+  const bool defines = std::any_of(g_.begin(), g_.begin() + static_cast<std::ptrdiff_t>(g_count_),
+                                   [](const GWord& other) { return other.row->use == Use::hole_cycle; });
+  const bool cancels = std::any_of(g_.begin(), g_.begin() + static_cast<std::ptrdiff_t>(g_count_),
+                                   [](const GWord& other) { return other.row->use == Use::cycle_cancel; });
+  if (defines || cancels) return;
+  state_.cycle_by_text = nullptr;
+  act(ir::CycleCancel{}, nullptr);
+  result_->needs_program = true;
+}
+
 void BlockLowerer::plane(const GWord& g, ir::Plane p) {
+  if (p != state_.plane_now()) end_cycle();
   state_.plane_code(p);
   ir::ModalSet set;
   set.setting = ir::Setting::plane;
@@ -268,6 +285,7 @@ void BlockLowerer::home(const GWord& g) {
   }
   home_ = g.word;
   compensations_off();
+  end_cycle();
   if (state_.lathe()) return;
   ir::ModalSet off;
   off.setting = ir::Setting::length_comp;

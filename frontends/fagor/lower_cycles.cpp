@@ -117,13 +117,19 @@ void BlockLowerer::hole_cycle(const GWord& g) {
     c.dwell_bottom = value(*k);
     c.dwell_scale = 0.01;
   }
-  switch (code) {
-    case 69:
-      if (!variable_pecks(g, words, c)) return;
-      break;
-    case 83:
-      if (!equal_pecks(g, *words[index('J')], c)) return;
-      break;
+  if (!cycle_parameters(g, words, c)) return;
+  state_.cycle_by_text = std::make_shared<const ir::HoleCycle>(c);
+  state_.cycle_code_by_text = code;
+  ir::CycleDefine define;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
+  act(std::move(define), g.word);
+}
+
+/// What the code makes of its words besides levels and dwell.
+bool BlockLowerer::cycle_parameters(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c) {
+  switch (g.row->value) {
+    case 69: return variable_pecks(g, words, c);
+    case 83: return equal_pecks(g, *words[index('J')], c);
     case 84:
       c.kind = ir::HoleKind::tap_floating;
       if (const Word* r = words[index('R')]; r && (r->expr >= 0 || r->number != 0)) {
@@ -131,7 +137,7 @@ void BlockLowerer::hole_cycle(const GWord& g) {
         c.rigid = true;
         if (r->expr >= 0 || r->number != 1) {
           keep(g, "cycle.hole", the_function(*g.word) + " with another R than 0 or 1 is kept as text");
-          return;
+          return false;
         }
       }
       break;
@@ -140,7 +146,117 @@ void BlockLowerer::hole_cycle(const GWord& g) {
     case 89: c.kind = ir::HoleKind::bore; break;
     default: break;
   }
+  return true;
+}
+
+/// G79: words of the active cycle from the next point on. The levels it does not name stay as they are.
+void BlockLowerer::change_cycle(const GWord& g) {
+  cycle_ = true;
+  result_->needs_program = true;
+  if (!state_.cycle_by_text) {
+    keep(g, "cycle.hole", "G79 where no cycle stands above it is kept as text (error 157 without an active cycle)");
+    return;
+  }
+  const int code = state_.cycle_code_by_text;
+  ir::HoleCycle c = *state_.cycle_by_text;
+  const ir::AxisId axis = ir::plane_axes(state_.plane_by_text()).w;
+  const Word* z = take_coordinate(axis);
+  const Word* i = take('I');
+  const Word* j = code == 83 ? take('J') : nullptr;
+  const Word* k = code == 83 ? nullptr : take('K');
+  if (k) {
+    c.dwell_bottom = value(*k);
+    c.dwell_scale = 0.01;
+    if (code == 69) c.pecks.dwell = c.dwell_bottom;
+    if (code == 82 || code == 81) c.kind = ir::HoleKind::drill;
+  }
+  bool more = false;
+  if (code == 69 && !change_pecks(c, more)) return;
+  if (coord_count_ != 0) {
+    state_.error("FAG-014", g.word->pos, "G79 takes no point (error 163)");
+    return;
+  }
+  if (!z && !i && !j && !k && !more) {
+    if (unused_ != 0)
+      keep(g, "cycle.hole", "the change of this cycle's parameter is kept as text");
+    else
+      state_.error("FAG-014", g.word->pos, "G79 needs a parameter of the cycle (error 71)");
+    return;
+  }
+  if (z) {
+    c.reference.value = value(*z);
+    c.reference.base = ir::LevelBase::distance_mode;
+  }
+  if (code == 83) {
+    if (!change_equal_pecks(g, i, j, c)) return;
+  } else if (i) {
+    c.bottom.value = value(*i);
+  }
+  state_.cycle_by_text = std::make_shared<const ir::HoleCycle>(c);
+  c.keeps_initial = true;
+  c.reference.given = z != nullptr;
+  c.bottom.given = i != nullptr || code == 83;
   ir::CycleDefine define;
+  define.here = false;
+  define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
+  act(std::move(define), g.word);
+}
+
+/// B C L of G69.
+bool BlockLowerer::change_pecks(ir::HoleCycle& c, bool& changed) {
+  for (const char letter : std::string_view("BCL")) {
+    const Word* w = take(letter);
+    if (!w && letter != 'L') w = take_coordinate(ir::fixed_axis(letter));
+    if (!w) continue;
+    if (letter != 'L' && w->expr < 0 && w->number <= 0) {
+      state_.error("FAG-013", w->pos, std::string("the ") + letter + " of G69 must be greater than zero (error 1042)");
+      return false;
+    }
+    (letter == 'B' ? c.pecks.first : letter == 'C' ? c.pecks.reapproach : c.pecks.minimum) = value(*w);
+    changed = true;
+  }
+  return true;
+}
+
+/// I and J of G83: the other one stays.
+bool BlockLowerer::change_equal_pecks(const GWord& g, const Word* i, const Word* j, ir::HoleCycle& c) {
+  if (j && !whole_from_one(*j)) {
+    state_.error("FAG-014", g.word->pos, "G83 needs the number of pecks J, a whole number from 1");
+    return false;
+  }
+  const ir::Value count = j ? value(*j) : c.pecks.count;
+  if (!count.literal() || (!i && (!c.bottom.value.literal() || !c.pecks.count.literal()))) {
+    keep(g, "cycle.hole", "a change of G83 by values that only the run knows is kept as text");
+    return false;
+  }
+  const ir::Value peck = i ? value(*i) : ir::Value(c.bottom.value.number / c.pecks.count.number);
+  c.bottom.value = peck.literal()
+                       ? ir::Value(peck.number * count.number)
+                       : ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(peck), ir::as_expr(count)));
+  c.pecks.first = magnitude(peck);
+  c.pecks.count = count;
+  return true;
+}
+
+/// G60 to G65: the points at which the machining in force is repeated.
+void BlockLowerer::pattern(const GWord& g) {
+  cycle_ = true;
+  result_->needs_program = true;
+  ir::NamedCycle c;
+  c.name = std::string(cycle_row_->cycle);
+  std::uint32_t there = 0;
+  for (std::size_t i = 0; i < cycle_word_count_; ++i) {
+    const Word& w = *cycle_words_[i];
+    there |= bit(word_letter(w));
+    c.words.emplace_back(std::string(facts::find_letter(*cycle_row_, word_letter(w))->parameter), value(w));
+  }
+  for (const auto& l : cycle_row_->letters) {
+    if (l.letter == 0 || !l.mandatory || (there & bit(l.letter)) != 0) continue;
+    state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the word " + l.letter);
+    return;
+  }
+  ir::CycleDefine define;
+  define.modal = false;
   define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});
   act(std::move(define), g.word);
 }

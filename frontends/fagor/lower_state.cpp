@@ -61,6 +61,7 @@ void LowerState::start_routine(bool subroutine) {
   spindle_ = 1;
   longitudinal_ = ir::axis::none;
   spindle_sure_ = longitudinal_sure_ = !subroutine;
+  cycle_by_text = nullptr;
 }
 
 void LowerState::plane_code(ir::Plane plane) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "dialects/fagor/g_codes.h"
 #include "frontends/common/syntax.h"
+#include "ir/cycle.h"
 #include "ir/program.h"
 #include "machine/profile.h"
 
@@ -108,6 +110,8 @@ class LowerState {
   ir::CompSide comp_by_text = ir::CompSide::off;
   ir::Units units_by_text = ir::Units::metric;
   ir::MotionKind motion_by_text = ir::MotionKind::modal;
+  std::shared_ptr<const ir::HoleCycle> cycle_by_text;  ///< the hole cycle in force
+  int cycle_code_by_text = 0;                          ///< its G number
   FileFacts facts;
 
  private:

@@ -1,13 +1,15 @@
-// Hole cycles G81..G85, G87, G89 (reference 11). G86 and G88 are read and refused.
+// Hole cycles G81..G89 (reference 11).
 #include <cmath>
 #include <utility>
 
 #include "base/saturate.h"
+#include "dialects/num/limits.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/lower.h"
 
 namespace cnctrans::frontends::num {
 
+namespace facts = dialects::num;
 using slot::e;
 using slot::letter;
 
@@ -74,6 +76,15 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
       return false;
     }
   }
+  if (const Word* k = number == 84 ? use(letter('K')) : nullptr) {  // the spindle follows the axis by its pitch
+    cycle.kind = ir::HoleKind::tap;
+    cycle.rigid = true;
+    cycle.pitch = value(*k);
+  }
+  if (const Word* ec = number == 86 ? use(e('C')) : nullptr) {
+    cycle.orient_angle = value(*ec);
+    oriented_clearance(cycle);
+  }
   if (ep != nullptr) cycle.pecks.reapproach = value(*ep);
   if (es != nullptr) return equal_pecks(cycle, *es, p != nullptr ? p : q);
   if (p == nullptr && q == nullptr) return true;
@@ -97,6 +108,21 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
   cycle.pecks.first = value(*p);
   if (falling) cycle.pecks.minimum = value(*q);
   return true;
+}
+
+/// G86 frees the tip by 2 mm in the direction of the oriented stop, taken as an angle to the abscissa.
+void Lowering::oriented_clearance(ir::HoleCycle& cycle) {
+  const double length = state_.inch ? facts::oriented_clearance / 25.4 : facts::oriented_clearance;
+  const auto part = [&](ir::Function f) {
+    if (cycle.orient_angle.literal()) {
+      const double angle = cycle.orient_angle.number * std::acos(-1.0) / 180;
+      const double x = length * (f == ir::Function::cos ? std::cos(angle) : std::sin(angle));
+      return ir::Value(std::round(x * 1e12) / 1e12);
+    }
+    return ir::Value(ir::binary(ir::BinaryOp::multiply, ir::number(length), ir::call(f, {cycle.orient_angle.expr})));
+  };
+  cycle.shift_u = part(ir::Function::cos);
+  cycle.shift_v = part(ir::Function::sin);
 }
 
 /// ES: so many equal pecks between the plane where the feed starts and the bottom.
@@ -147,7 +173,12 @@ void Lowering::define_cycle(const Word& g) {
     case 84: cycle.kind = ir::HoleKind::tap_floating; break;
     case 85:
     case 89: cycle.kind = ir::HoleKind::ream; break;
+    case 86: cycle.kind = ir::HoleKind::bore_shift; break;
     case 87: cycle.kind = ir::HoleKind::peck_break; break;
+    case 88:  // the spindle turns on while the operator looks at the hole
+      cycle.kind = ir::HoleKind::bore_manual;
+      cycle.spindle_bottom = ir::SpindleStep::none;
+      break;
     default:
       report_.refuse("NUM-004", g.pos,
                      "`" + std::string(text_of(g)) + "`: the sequence of this cycle is not carried yet", {},
@@ -160,7 +191,8 @@ void Lowering::define_cycle(const Word& g) {
     return;
   }
   if (settings_.lathe || state_.tool_axis != ir::axis::none) cycle.axis = cycle_axis();
-  if (number == 83) cycle.pecks.reapproach = ir::Value(1);
+  if (number == 83) cycle.pecks.reapproach = ir::Value(state_.inch ? facts::reapproach / 25.4 : facts::reapproach);
+  if (number == 86) oriented_clearance(cycle);
   cycle.approach_by_retract = true;
   if (!cycle_bottom(cycle, g)) return;
   // Without ER the tool goes back to the height from which the cycle was called.

@@ -30,6 +30,7 @@ struct TextState {
   int cycle_code = 0;                          ///< its G number
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
   bool contour_open = false;                   ///< the last element's end follows from the next one
+  bool inch = false;                           ///< G70
   bool turning_profile = false;                ///< between G64 and G80: blocks are a contour, not moves
   std::shared_ptr<ir::Cycle> stock;            ///< the G64 whose blank is being read
   std::size_t blank_points = 0;
@@ -148,6 +149,7 @@ class Lowering {
   bool refuses_new_depth();
   bool cycle_words(ir::HoleCycle& cycle, int number);
   bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);
+  void oriented_clearance(ir::HoleCycle& cycle);
   bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);
   void put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here);
   [[nodiscard]] ir::AxisId cycle_axis() const;

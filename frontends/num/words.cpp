@@ -235,7 +235,9 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       state_.plane = static_cast<ir::Plane>(row.value);
       return setting(w, ir::Setting::plane, state_.plane);
     case GKind::comp: return setting(w, ir::Setting::comp, static_cast<ir::CompSide>(row.value));
-    case GKind::units: return setting(w, ir::Setting::units, static_cast<ir::Units>(row.value));
+    case GKind::units:
+      state_.inch = static_cast<ir::Units>(row.value) == ir::Units::inch;
+      return setting(w, ir::Setting::units, static_cast<ir::Units>(row.value));
     case GKind::feed_mode: return setting(w, ir::Setting::feed_mode, static_cast<ir::FeedMode>(row.value));
     case GKind::spindle_mode:
       if (row.value == facts::u8(ir::SpindleMode::css)) mark(marks_.css);

@@ -296,6 +296,10 @@ bool StatementLowering::modal_call(const Statement& s, ir::LineInfo& info) {
     return true;
   }
   if (sinumerik::cycle(s.text) != nullptr) {
+    if (sinumerik::cycle(s.text)->family == CycleFamily::pattern) {
+      c_.error("SIN-021", s.pos, s.text + " is no cycle that MCALL can run: it gives the positions for one");
+      return false;
+    }
     out.cycle = cycle(s.text, s.args, s.pos);
     if (!out.cycle) return false;
   } else {

@@ -1,4 +1,4 @@
-// Standard drilling cycles: CYCLE81, CYCLE82, CYCLE83 (reference-language 18.1).
+// Standard drilling cycles: CYCLE81 to CYCLE89, CYCLE840 (reference-language 18.1).
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -173,6 +173,133 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
   return axis_of_hole(a, hole, c, pos);
 }
 
+/// The sense that a parameter asks for: 3 and 4 as M3 and M4, 5 as M5; 0: `otherwise`.
+bool sense_of(const Arguments& a, std::string_view name, bool may_stop, ir::SpindleStep otherwise, ir::SpindleStep& out,
+              FileContext& c, WordPos pos) {
+  const ir::Value v = a.get(name);
+  out = otherwise;
+  if (v.is(0)) return true;
+  if (v.is(3)) return out = ir::SpindleStep::cw, true;
+  if (v.is(4)) return out = ir::SpindleStep::ccw, true;
+  if (v.is(5) && may_stop) return out = ir::SpindleStep::off, true;
+  c.error("SIN-021", pos, std::string(name) + (may_stop ? " must be 3, 4 or 5" : " must be 3 or 4") + ", as a number");
+  return false;
+}
+
+/// The sense after a tapping cycle. Without one the spindle is left as the cycle leaves it.
+bool sense_after(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  if (!sense_of(a, "SDAC", true, ir::SpindleStep::none, hole.spindle_after, c, pos)) return false;
+  if (hole.spindle_after == ir::SpindleStep::none)
+    c.warning("SIN-021", pos, "without SDAC (3, 4 or 5) it is not said how the spindle turns after the cycle");
+  hole.spindle_after_retract = true;
+  return true;
+}
+
+/// The pitch from PIT, or from the size of a metric thread (MPIT); its sign is the hand.
+bool pitch(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  if (a.says("PITA") && !a.get("PITA").is(1)) {
+    c.error("SIN-021", pos, "a pitch in threads per inch, inches or modules (PITA) is not carried yet");
+    return false;
+  }
+  hole.pitch = a.get("PIT");
+  if (!a.says("MPIT")) return true;
+  if (a.says("PIT")) {
+    c.error("SIN-021", pos, "MPIT and PIT are both given");
+    return false;
+  }
+  const ir::Value size = a.get("MPIT");
+  const double coarse = size.literal() ? coarse_pitch(std::fabs(size.number)) : 0;
+  if (coarse == 0) {
+    c.error("SIN-021", pos, "MPIT must be the size of a metric thread, 3 to 48, as a number");
+    return false;
+  }
+  hole.pitch = ir::Value(size.number < 0 ? -coarse : coarse);
+  return true;
+}
+
+/// CYCLE84: the spindle follows the axis (G331, G332); nothing is reversed by a command.
+bool rigid_tap(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  hole.kind = ir::HoleKind::tap;
+  hole.rigid = true;
+  if (!pitch(a, hole, c, pos) || !sense_after(a, hole, c, pos)) return false;
+  if (hole.pitch.is(0)) {
+    c.error("SIN-021", pos, "CYCLE84 needs its pitch: PIT or MPIT");
+    return false;
+  }
+  hole.spindle_bottom = ir::SpindleStep::none;
+  hole.orient_first = true;
+  hole.orient_angle = a.get("POSS");
+  hole.has_speed = a.says("SST");
+  hole.speed = a.get("SST");
+  hole.has_speed_out = a.says("SST1");
+  hole.speed_out = a.get("SST1");
+  const ir::Value vari = a.get("VARI");
+  if (!vari.is(0) && !vari.is(1) && !vari.is(2)) {
+    c.error("SIN-021", pos, "VARI must be 0 (one stroke), 1 (chip breaking) or 2 (swarf removal)");
+    return false;
+  }
+  if (!vari.is(0) && a.says("DAM")) {
+    hole.pecks.law = ir::PeckLaw::constant;
+    hole.pecks.first = absolute_value(a.get("DAM"));
+    if (vari.is(1)) hole.pecks.lift = a.says("VRT") ? a.get("VRT") : ir::Value(1);
+  }
+  return axis_of_hole(a, hole, c, pos);
+}
+
+/// CYCLE840: with an encoder (ENC 0) the dwell has no effect.
+bool floating_tap(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  hole.kind = ir::HoleKind::tap_floating;
+  if (!pitch(a, hole, c, pos) || !sense_after(a, hole, c, pos)) return false;
+  if (!sense_of(a, "SDR", false, ir::SpindleStep::usual, hole.spindle_bottom, c, pos)) return false;
+  const ir::Value enc = a.get("ENC");
+  if (!enc.is(0) && !enc.is(1) && !enc.is(11)) {
+    c.error("SIN-021", pos, "this ENC is not carried yet: 0, 1 and 11 are");
+    return false;
+  }
+  hole.rigid = enc.is(0);
+  if (hole.rigid) hole.dwell_bottom = ir::Value(0);
+  if (hole.rigid && hole.pitch.is(0)) {
+    c.error("SIN-021", pos, "CYCLE840 with an encoder (ENC 0) needs its pitch: PIT or MPIT");
+    return false;
+  }
+  if (hole.pitch.literal()) hole.pitch = absolute_value(hole.pitch);
+  return axis_of_hole(a, hole, c, pos);
+}
+
+bool ream(const Arguments& a, ir::HoleCycle& hole) {
+  hole.kind = ir::HoleKind::ream;
+  hole.has_feed = a.says("FFR");
+  hole.feed = a.get("FFR");
+  hole.has_feed_out = a.says("RFF");
+  hole.feed_out = a.get("RFF");
+  return true;
+}
+
+bool oriented_bore(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  hole.kind = ir::HoleKind::bore_shift;
+  hole.orient_angle = a.get("POSS");
+  hole.shift_u = a.get("RPA");
+  hole.shift_v = a.get("RPO");
+  hole.shift_w = a.get("RPAP");
+  hole.spindle_after = ir::SpindleStep::none;
+  return sense_of(a, "SDIR", false, ir::SpindleStep::usual, hole.spindle_before, c, pos);
+}
+
+/// What the cycle does beside going down to the bottom and back.
+bool kind_of(std::string_view name, const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  if (name == "CYCLE83") return pecks(a, hole, c, pos);
+  if (name == "CYCLE84") return rigid_tap(a, hole, c, pos);
+  if (name == "CYCLE840") return floating_tap(a, hole, c, pos);
+  if (name == "CYCLE85") return ream(a, hole);
+  if (name == "CYCLE86") return oriented_bore(a, hole, c, pos);
+  if (name == "CYCLE87" || name == "CYCLE88") {
+    hole.kind = ir::HoleKind::bore_manual;
+    return sense_of(a, "SDIR", false, ir::SpindleStep::usual, hole.spindle_before, c, pos);
+  }
+  if (name == "CYCLE89") hole.kind = ir::HoleKind::bore;
+  return true;
+}
+
 /// The modes behind the newer signatures: only those that mean the same as none.
 bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
   if (!a.says("AMODE")) return true;
@@ -192,6 +319,38 @@ bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     hole.dwell_in_revolutions = true;
   }
   return true;
+}
+
+/// HOLES1, HOLES2, CYCLE801 (18.2): positions for the modal cycle.
+ir::CyclePtr pattern(const std::string& name, const CycleRow& row, const Arguments& a, FileContext& c, WordPos pos) {
+  const bool frame = a.get("VARI").is(1);
+  for (const std::string_view other : {"ANG1", "ANG2", "HIDE", "NSP"}) {
+    if (!a.given(other) || a.get(other).is(0)) continue;
+    c.error("SIN-021", pos, name + " with " + std::string(other) + " is not carried yet");
+    return nullptr;
+  }
+  if (a.says("VARI") && !frame) {
+    c.error("SIN-021", pos, "VARI must be 0 (grid) or 1 (frame)");
+    return nullptr;
+  }
+  for (const PatternRow& p : patterns()) {
+    if (p.name != name || (frame && p.pattern != "points.frame")) continue;
+    ir::NamedCycle named;
+    named.name = std::string(p.pattern);
+    std::string_view rest = p.parameters, places = row.parameters;
+    while (!rest.empty()) {
+      const auto next = [](std::string_view& list) {
+        const std::size_t comma = list.find(',');
+        const std::string_view one = list.substr(0, comma);
+        list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 1);
+        return one;
+      };
+      const std::string_view parameter = next(rest), place = next(places);
+      named.words.emplace_back(std::string(parameter), a.get(place));
+    }
+    return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(named)});
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -215,6 +374,7 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   }
   if (c_.errors != before) return nullptr;
   const Arguments a(row, std::move(values), std::move(given));
+  if (row.family == CycleFamily::pattern) return pattern(name, row, a, c_, pos);
   if (!a.given("RTP")) {
     c_.error("SIN-021", pos, name + " needs its planes: RTP, RFP, SDIS and a depth");
     return nullptr;
@@ -226,7 +386,7 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);
   dwell(a.get("DTB"), hole, c_, pos);
-  if (name == "CYCLE83" && !pecks(a, hole, c_, pos)) return nullptr;
+  if (!kind_of(name, a, hole, c_, pos)) return nullptr;
   if (!modes(a, hole, c_, pos)) return nullptr;
   auto out = std::make_shared<ir::Cycle>();
   out->node = std::move(hole);

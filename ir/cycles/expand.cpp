@@ -1,6 +1,7 @@
 // Numbers of a hole cycle -> moves of one hole.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ir/cycles/hole.h"
 
@@ -103,12 +104,36 @@ void pecks(const HoleNumbers& h, Path& path) {
   }
 }
 
+/// The spindle at a step; `usual` is what the kind does by itself.
+void spindle(Path& path, SpindleStep step, std::optional<CycleStep> usual) {
+  switch (step) {
+    case SpindleStep::usual:
+      if (usual) path.spindle(*usual);
+      break;
+    case SpindleStep::none: break;
+    case SpindleStep::cw: path.spindle(CycleStep::spindle_cw); break;
+    case SpindleStep::ccw: path.spindle(CycleStep::spindle_ccw); break;
+    case SpindleStep::off: path.spindle(CycleStep::spindle_stop); break;
+  }
+}
+
+/// Taps may break the chip: back by the lift, or to the reference plane when there is none.
 void tap(const HoleNumbers& h, Path& path) {
+  if (h.orient_first) path.spindle(CycleStep::spindle_orient, h.orient_angle);
+  if (h.has_speed) path.spindle(CycleStep::spindle_speed, h.speed);
+  double z = h.reference;
+  const auto sizes = peck_sizes(h, std::abs(h.reference - h.bottom));
+  for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
+    z -= h.up * sizes[i];
+    path.thread(z);
+    path.dwell(h.dwell_bottom);
+    path.thread(h.lift > 0 ? h.up * std::min(h.up * h.reference, h.up * z + h.lift) : h.reference);
+  }
   path.thread(h.bottom);
   path.dwell(h.dwell_bottom);
-  path.spindle(CycleStep::spindle_reverse);
+  spindle(path, h.spindle_bottom, CycleStep::spindle_reverse);
+  if (h.has_speed_out) path.spindle(CycleStep::spindle_speed, h.speed_out);
   path.thread(h.reference);
-  path.spindle(CycleStep::spindle_restore);
 }
 
 void shifted_bore(const HoleNumbers& h, Path& path, double retract) {
@@ -118,7 +143,13 @@ void shifted_bore(const HoleNumbers& h, Path& path, double retract) {
   path.rapid(h.bottom + h.shift_w, h.shift_u, h.shift_v);
   path.rapid(h.reference, h.shift_u, h.shift_v);
   path.rapid(retract, 0, 0);
-  path.spindle(CycleStep::spindle_restore);
+}
+
+/// The sense after the cycle, before the retract or behind it; kinds that leave the spindle alone have none.
+void restore_spindle(const HoleNumbers& h, Path& path) {
+  const bool switches = h.kind == HoleKind::tap || h.kind == HoleKind::tap_floating || h.kind == HoleKind::bore_shift ||
+                        h.kind == HoleKind::bore_stop;
+  spindle(path, h.spindle_after, switches ? std::optional(CycleStep::spindle_restore) : std::nullopt);
 }
 
 void balanced(const HoleNumbers& h, double depth, std::vector<double>& sizes) {
@@ -216,6 +247,7 @@ std::vector<CycleMove> expand(const HoleNumbers& h, double height, RetractPlane 
   const double retract = retract_level(h, plane);
   if (h.approach_by_retract && h.has_retract) path.rapid(retract);
   path.rapid(h.reference);
+  spindle(path, h.spindle_before, std::nullopt);
   switch (h.kind) {
     case HoleKind::drill:
       path.feed(h.bottom, h.first_feed_factor);
@@ -234,23 +266,26 @@ std::vector<CycleMove> expand(const HoleNumbers& h, double height, RetractPlane 
     case HoleKind::bore_stop:
       path.feed(h.bottom);
       path.dwell(h.dwell_bottom);
-      path.spindle(CycleStep::spindle_stop);
+      spindle(path, h.spindle_bottom, CycleStep::spindle_stop);
       path.rapid(retract);
-      path.spindle(CycleStep::spindle_restore);
       break;
     case HoleKind::bore_manual:
       path.feed(h.bottom);
       path.dwell(h.dwell_bottom);
-      path.spindle(CycleStep::spindle_stop);
+      spindle(path, h.spindle_bottom, CycleStep::spindle_stop);
       path.spindle(CycleStep::operator_stop);
       break;
     case HoleKind::bore_shift: shifted_bore(h, path, retract); break;
     case HoleKind::back_bore:
-      *error = "boring from the back is not carried out yet";
+    case HoleKind::mill:
+      *error = h.kind == HoleKind::mill ? "milling cycles have an expansion of their own"
+                                        : "boring from the back is not carried out yet";
       moves.clear();
       return moves;
   }
+  if (!h.spindle_after_retract) restore_spindle(h, path);
   path.rapid(retract);
+  if (h.spindle_after_retract) restore_spindle(h, path);
   return moves;
 }
 

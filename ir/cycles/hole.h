@@ -39,6 +39,12 @@ struct HoleNumbers {
   double first_feed_factor = 1;
   double pitch = 0;  ///< mm per rev; 0: feed over spindle speed
   double orient_angle = 0, shift_u = 0, shift_v = 0, shift_w = 0;
+  bool orient_first = false, rigid = false;
+  SpindleStep spindle_before = SpindleStep::usual, spindle_bottom = SpindleStep::usual,
+              spindle_after = SpindleStep::usual;
+  bool spindle_after_retract = false;
+  bool has_speed = false, has_speed_out = false;
+  double speed = 0, speed_out = 0;  ///< rev/min
 };
 
 /// Value of a word; nullopt when it is not known (then resolve() gives up without a text).
@@ -57,6 +63,9 @@ enum class CycleStep : std::uint8_t {
   spindle_reverse,  ///< the sense opposite to the one at the start of the cycle
   spindle_restore,  ///< the sense at the start of the cycle
   spindle_stop,
+  spindle_cw,
+  spindle_ccw,
+  spindle_speed,   ///< `amount` rev/min from here on
   spindle_orient,  ///< to `amount` degrees
   operator_stop
 };

@@ -89,7 +89,8 @@ bool sensible(const HoleCycle& c, HoleNumbers& n, std::string* error) {
   }
   n.up = n.reference > n.bottom ? 1 : -1;
   const bool pecks = n.kind == HoleKind::peck_full || n.kind == HoleKind::peck_break;
-  if (pecks && n.law != PeckLaw::none && n.first < 1e-9) {
+  const bool tap = n.kind == HoleKind::tap || n.kind == HoleKind::tap_floating;
+  if ((pecks || tap) && n.law != PeckLaw::none && n.first < 1e-9) {
     *error = "the first peck of the cycle is zero";
     return false;
   }
@@ -127,6 +128,16 @@ std::optional<HoleNumbers> resolve(const HoleCycle& c, const HoleContext& contex
   n.shift_v = read.length(c.shift_v);
   n.shift_w = read.length(c.shift_w);
   n.approach_by_retract = c.approach_by_retract;
+  n.orient_first = c.orient_first;
+  n.rigid = c.rigid;
+  n.spindle_before = c.spindle_before;
+  n.spindle_bottom = c.spindle_bottom;
+  n.spindle_after = c.spindle_after;
+  n.spindle_after_retract = c.spindle_after_retract;
+  n.has_speed = c.has_speed;
+  if (c.has_speed) n.speed = read.raw(c.speed);
+  n.has_speed_out = c.has_speed_out;
+  if (c.has_speed_out) n.speed_out = read.raw(c.speed_out);
   double first_level = 0;
   if (c.pecks.first_to.given) first_level = read.level(c.pecks.first_to, n.surface, n.reference);
   if (!read.known()) return std::nullopt;

@@ -78,7 +78,8 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
 }
 
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
-                                    const LegaliseContext& context, std::optional<double> initial) {
+                                    const LegaliseContext& context, std::optional<double> initial,
+                                    std::optional<SpindleState> sense, TapNeeds* needs) {
   const auto& native = context.target.native_cycle;
   if (!native || context.options.cycles == CycleWriting::explode) return std::nullopt;
   const auto* hole = std::get_if<HoleCycle>(&cycle->node);
@@ -89,6 +90,14 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     if (!native(*made)) return std::nullopt;
     return CyclePtr(std::move(made));
   };
+  for (auto& form : tap_forms(*hole, b, facts, needs != nullptr ? sense : std::nullopt)) {
+    auto said = std::make_shared<Cycle>();
+    said->node = std::move(form.cycle);
+    auto found = native_form(said, b, facts, context, initial);
+    if (!found) continue;
+    *needs = form.needs;
+    return found;
+  }
   HoleCycle h = with_absolute_levels(*hole, b, facts, initial);
   if (h.retract.given && h.retract.base == h.reference.base && equal(h.retract.value, h.reference.value)) {
     h.approach_by_retract = false;  // both are one plane
@@ -100,6 +109,11 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
   const bool straight = literal && height && std::fabs(*height - h.retract.value.number) < 1e-9;
   const bool downward = literal && height && h.bottom.value.literal() && h.bottom.base == LevelBase::absolute &&
                         *height >= h.retract.value.number && h.retract.value.number >= h.bottom.value.number;
+  if ((straight || downward) && !h.approach_by_retract) {  // over the retract level is the same way here
+    h.approach_by_retract = true;
+    if (auto form = accepted(h)) return form;
+    h.approach_by_retract = false;
+  }
   if (auto form = accepted(h)) return form;
   if (straight || downward) {
     h.approach_by_retract = !h.approach_by_retract;
@@ -234,8 +248,20 @@ Motion along(MotionKind kind, AxisId axis, double value) {
 /// Steps of a hole as blocks.
 class Writer {
  public:
-  Writer(const LineInfo& like, AxisId axis, double unit, std::optional<double> feed)
-      : like_(like), axis_(axis), unit_(unit), feed_(feed) {}
+  Writer(const LineInfo& like, AxisId axis, Plane plane, double unit, std::optional<double> feed,
+         std::optional<SpindleState> sense)
+      : like_(like), axis_(axis), plane_(plane), unit_(unit), feed_(feed), sense_(sense) {}
+
+  /// The feed in force goes on behind the hole.
+  bool finish(std::string* error) {
+    if (!changed_) return true;
+    if (!feed_) {
+      *error = "the feed after the cycle's own one is not known here";
+      return false;
+    }
+    blocks.push_back(make_block(like_, action(SetFeed{Value{*feed_}, false})));
+    return true;
+  }
 
   bool add(const cycles::CycleMove& m, std::string* error) {
     switch (m.step) {
@@ -244,11 +270,25 @@ class Writer {
       case cycles::CycleStep::dwell:
         blocks.push_back(make_block(like_, action(Dwell{Value{m.amount}, 1, m.revolutions})));
         return true;
-      case cycles::CycleStep::spindle_stop: blocks.push_back(make_block(like_, action(SpindleRun{}))); return true;
+      case cycles::CycleStep::spindle_stop: return spindle(SpindleState::off);
+      case cycles::CycleStep::spindle_cw: return spindle(SpindleState::cw);
+      case cycles::CycleStep::spindle_ccw: return spindle(SpindleState::ccw);
+      case cycles::CycleStep::spindle_restore:
+      case cycles::CycleStep::spindle_reverse:
+        if (!sense_) {
+          *error = "the sense of the spindle before the cycle is not known here";
+          return false;
+        }
+        return spindle((*sense_ == SpindleState::cw) == (m.step == cycles::CycleStep::spindle_restore)
+                           ? SpindleState::cw
+                           : SpindleState::ccw);
+      case cycles::CycleStep::spindle_orient:
+        blocks.push_back(make_block(like_, action(SpindleOrient{1, Value{m.amount}})));
+        return true;
       case cycles::CycleStep::operator_stop:
         blocks.push_back(make_block(like_, action(Stop{}, Order::after)));
         return true;
-      default: *error = "the spindle moves of this cycle can't be written out"; return false;
+      default: *error = "the strokes of a tap can't be written out"; return false;
     }
   }
 
@@ -257,13 +297,10 @@ class Writer {
 
  private:
   bool move(const cycles::CycleMove& m, std::string* error) {
-    if (m.du != 0 || m.dv != 0) {
-      *error = "the cycle moves sideways in the hole";
-      return false;
-    }
     Block b;
     b.has_motion = true;
     b.motion = along(m.step == cycles::CycleStep::rapid ? MotionKind::rapid : MotionKind::linear, axis_, m.w / unit_);
+    sideways(b.motion, m);
     const bool own_feed = m.has_feed || m.feed_factor != 1;
     if (own_feed && !m.has_feed && !feed_) {
       *error = "the feed of the first peck depends on a feed that is not known here";
@@ -286,21 +323,49 @@ class Writer {
     return true;
   }
 
+  bool spindle(SpindleState state) {
+    blocks.push_back(make_block(like_, action(SpindleRun{1, state})));
+    return true;
+  }
+  /// The tool leaves the middle of the hole, or comes back to it.
+  void sideways(Motion& motion, const cycles::CycleMove& m) {
+    const auto axes = plane_axes(plane_);
+    const bool moves = std::fabs(m.du - du_) > 1e-9 || std::fabs(m.dv - dv_) > 1e-9;
+    if (moves && std::fabs(m.w - last) < 1e-9) motion.coords.clear();
+    const auto add = [&](AxisId axis, double by) {
+      if (std::fabs(by) < 1e-9) return;
+      CoordWord c;
+      c.axis = axis;
+      c.mode = WordMode::incremental;
+      c.value = Value{by / unit_};
+      motion.coords.push_back(c);
+    };
+    add(axes.u, m.du - du_);
+    add(axes.v, m.dv - dv_);
+    du_ = m.du;
+    dv_ = m.dv;
+  }
+
   LineInfo like_;
   AxisId axis_;
+  Plane plane_;
   double unit_;
   std::optional<double> feed_;
+  std::optional<SpindleState> sense_;
+  double du_ = 0, dv_ = 0;
   bool changed_ = false;
 };
 
 }  // namespace
 
 std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
-                                 double height, double defined_at, std::string* error) {
+                                 double height, double defined_at, std::optional<SpindleState> sense,
+                                 std::string* error) {
   const auto axis_id = cycle_axis(c, b, facts);
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-  if (!axis_id || !units || !distance) {
+  const auto in_plane = setting_in<Plane>(b, facts, Setting::plane);
+  if (!axis_id || !units || !distance || !in_plane) {
     *error = "plane, units or absolute and incremental are not known here";
     return std::nullopt;
   }
@@ -326,11 +391,12 @@ std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const
   LineInfo line;
   line.span = like.span;
   line.skip_mask = like.skip_mask;
-  Writer writer(line, *axis_id, unit, facts.feed);
+  Writer writer(line, *axis_id, *in_plane, unit, facts.feed, sense);
   writer.last = height;
   for (const auto& m : moves) {
     if (!writer.add(m, error)) return std::nullopt;
   }
+  if (!writer.finish(error)) return std::nullopt;
   return Explosion{std::move(writer.blocks), writer.last};
 }
 

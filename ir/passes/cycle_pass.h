@@ -19,7 +19,9 @@ class CyclePass {
         editor_(program, routine, context),
         uses_(label_uses(program, routine)),
         turning_(program, routine, context),
-        height_(uses_) {
+        height_(uses_),
+        sense_(program) {
+    if (routine.kind != RoutineKind::main) sense_.forget();
     by_call_ = context.target.modal_cycle_by_call;
   }
 
@@ -36,7 +38,10 @@ class CyclePass {
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
     bool single = false;               ///< not every way to a point leads through the first one: each gets its own run
-    bool on_target = false;            ///< the target's own cycle is in force
+    bool on_target = false;  ///< the target's own cycle is in force
+    bool deferred = false;   ///< the first point on the target defines it
+    TapNeeds needs;
+    bool maybe_on_target = false;      ///< in force on one of the ways that lead here
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
   };
@@ -53,7 +58,17 @@ class CyclePass {
     }
   }
 
+  /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle.
+  void join(const Statement& s) {
+    if (!active_ || by_call_ || !active_->deferred || !active_->on_target) return;
+    const auto names = labels_on(s.line);
+    if (std::none_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); })) return;
+    active_->on_target = false;
+    active_->maybe_on_target = true;
+  }
+
   void one(Statement&& s, Body& out) {
+    join(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     const bool harmless = ToolHeight::keeps(s);
     const std::size_t first = out.size();
@@ -67,6 +82,9 @@ class CyclePass {
     std::optional<double> initial;
     if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
+    const auto names = labels_on(seen.line);
+    const bool entered = std::any_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); });
+    sense_.follow(seen, (b != nullptr || harmless) && !entered && seen.line.skip_mask == 0);
   }
   /// A modal call whose cycle the target defines at the first point, and a branch comes before that point.
   void branch_before_first_point(const Statement& s) {
@@ -135,20 +153,76 @@ class CyclePass {
     Active a;
     a.source = with_fixed_bases(cycle, setting_in<Distance>(b, facts, Setting::distance));
     a.trigger = trigger;
+    if (const auto* hole = std::get_if<HoleCycle>(&cycle->node); hole != nullptr && hole->keeps_initial) {
+      a.source = changed(std::get<HoleCycle>(a.source->node));
+      a.height = active_->height;
+      a.defined_at = active_->defined_at;
+      if (auto native =
+              native_form(a.source, b, facts, context_, in_units(a.defined_at, b, facts), sense_.now(), &a.needs))
+        a.native = *native;
+      return a;
+    }
     const auto w = tool_axis(cycle, b, facts);
     if (w) a.height = height_mm(b, facts, *w);
     if (!a.height && w) a.height = height_.at(*w);
     a.defined_at = a.height;
-    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts))) a.native = *native;
+    if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts), sense_.now(), &a.needs))
+      a.native = *native;
     return a;
   }
+  /// The cycle in force with the words of the change.
+  CyclePtr changed(HoleCycle change) const {
+    const auto& before = std::get<HoleCycle>(active_->source->node);
+    change.keeps_initial = false;
+    if (!change.reference.given) change.reference = before.reference;
+    if (!change.bottom.given) change.bottom = before.bottom;
+    auto whole = std::make_shared<Cycle>();
+    whole->node = std::move(change);
+    return whole;
+  }
+  /// A pattern: as one of the target's, else a block for each point.
+  void pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
+  /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
+  void feed_for_tap(Block& b, const Active& a) const {
+    if (!a.needs.feed || by_call_) return;
+    std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
+    b.actions.push_back(action(SetFeed{Value{*a.needs.feed}, false}));
+  }
+  static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts) {
+    if (!a.needs.feed || !facts.feed) return std::nullopt;
+    return action(SetFeed{Value{*facts.feed}, false});
+  }
+  /// The way to the hole would be driven at the tap's feed.
+  bool refuse_feed_of_tap(Statement& s, const Active& a) {
+    if (!a.needs.feed) return false;
+    refuse(s, program_, context_, "TRN-330",
+           "a tap whose pitch is a feed there, with a way to the hole that is no rapid",
+           "go to the holes in rapid, or set F to pitch times speed before the cycle");
+    return true;
+  }
+  /// A new F or S at a point would give the tap another pitch on one of the two controls only.
+  void check_tap(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (!active_ || !active_->native || !active_->needs.bound || b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (!std::holds_alternative<SetFeed>(a.data) && !std::holds_alternative<SetSpindle>(a.data)) continue;
+      context_.diagnostics.error(
+          "TRN-330", s.line.span,
+          "a new feed or speed while a tap is active: its pitch would follow on one control only",
+          "end the cycle before the change and define it again");
+      return;
+    }
+  }
+
   void cancel_statement(Statement&& s, Body& out) {
-    const bool on = active_->on_target;
+    const bool on = active_->on_target || active_->maybe_on_target;
+    const auto feed = feed_after_tap(*active_, facts_.before(s));
     active_.reset();
     if (on) {
       if (!by_call_) {
         Block b;
         b.actions.push_back(action(CycleCancel{}));
+        if (feed) b.actions.push_back(*feed);
         s.node = std::move(b);
       }
       out.push_back(std::move(s));
@@ -167,6 +241,7 @@ class CyclePass {
   void modal_call(Statement&& s, Body& out) {
     const ModalCall m = std::get<ModalCall>(s.node);
     active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
+    active_->deferred = true;
     if (by_call_ && active_->native) {
       std::get<ModalCall>(s.node).cycle = active_->native;
       active_->on_target = true;
@@ -235,13 +310,17 @@ class CyclePass {
     // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
     const Facts& facts = facts_.before(s);
     const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
-    const bool on = active_ ? active_->on_target : !defines_again && !written_out_ && !none;
+    const auto feed = active_ && !by_call_ ? feed_after_tap(*active_, facts) : std::nullopt;
+    const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
     active_.reset();
     if (!on || defines_again) return;
     if (by_call_)
       pieces.push_back(off_statement(s.line, true));
     else
       b.actions.insert(b.actions.begin(), action(CycleCancel{}));
+    const bool own = std::any_of(b.actions.begin(), b.actions.end(),
+                                 [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
+    if (feed && !own) b.actions.push_back(*feed);
   }
 
   std::optional<Value> leave_by_own_move(CyclePtr& cycle, const Active& a) const;
@@ -284,6 +363,7 @@ class CyclePass {
   LabelUses uses_;
   TurnCycles turning_;
   ToolHeight height_;
+  SpindleSense sense_;
   bool by_call_ = false;
   bool written_out_ = false;
   std::optional<Active> active_;

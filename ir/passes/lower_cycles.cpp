@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ir/cycles/pattern.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
@@ -12,6 +13,7 @@
 namespace cnctrans::ir::passes {
 
 void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
+  check_tap(s);
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const bool was_on = active_->on_target;
@@ -70,11 +72,16 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     return put(out, std::move(pieces), std::move(s));
   }
   if (as_is) {
+    feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
     active_->on_target = true;
     return put(out, std::move(pieces), std::move(s));
   }
   // Moved there in another way than the target's cycle does: the move, then one run of the cycle.
+  if (refuse_feed_of_tap(s, *active_)) {
+    out.push_back(std::move(s));
+    return;
+  }
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
   late_ = take_after(b);
@@ -104,7 +111,8 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const bool sets = sets_retract_plane(b);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
-  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts));
+  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now(),
+                          &active_->needs);
   const bool was_native = active_->native != nullptr;
   const auto w = cycle_axis(*hole, b, facts);
   const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
@@ -127,7 +135,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   else if (!height)
     error = "the height of the tool before it is not known here";
   else
-    moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), &error);
+    moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), sense_.now(), &error);
   if (!moves) return no_moves(std::move(s), error, out);
   position_rapid(b, context_);
   active_->height = moves->end_height;
@@ -185,9 +193,58 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
   put_group(out, std::move(pieces), main);
 }
 
+void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  const auto& named = std::get<NamedCycle>(d.cycle->node);
+  const Facts& facts = facts_.before(s);
+  ran_ = active_;
+  const bool plain = !active_ || (active_->native && active_->on_target);
+  if (plain) {
+    if (auto native = native_pattern(named, b, facts, context_)) {
+      b.actions.push_back(action(CycleDefine{*native, false, true, d.trigger}));
+      return put(out, std::move(pieces), std::move(s));
+    }
+  }
+  std::string error;
+  auto points = pattern_blocks(named, s.line, b, facts, &error);
+  if (!points) {
+    refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
+           "give the pattern's words and the place before it as numbers");
+    out.push_back(std::move(s));
+    return;
+  }
+  const auto id = s.id;
+  const LineInfo like = s.line;
+  const bool bare = b.empty();
+  if (!bare || points->empty()) put(out, std::move(pieces), std::move(s));
+  bool first = bare;
+  for (auto& p : *points) {
+    p.id = id;
+    if (first) p.line = like;
+    Body before;
+    if (first) before = std::move(pieces);
+    first = false;
+    if (active_)
+      point(std::move(p), std::move(before), out);
+    else
+      put(out, std::move(before), std::move(p));
+  }
+}
+
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
+  if (const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
+      named != nullptr && cycles::find_pattern(named->name) != nullptr)
+    return pattern(std::move(s), d, std::move(pieces), out);
+  if (const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
+      hole != nullptr && hole->keeps_initial &&
+      !(active_ && std::holds_alternative<HoleCycle>(active_->source->node))) {
+    refuse(s, program_, context_, "TRN-330",
+           "the words of a cycle are changed, and which cycle is in force can't be seen here", "write the cycle again");
+    out.push_back(std::move(s));
+    return;
+  }
   const auto old_on = active_ && active_->on_target;
   const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
   if (named != nullptr && !d.modal && d.here && cycles::find_machining(named->name) != nullptr && !active_ &&
@@ -225,6 +282,10 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
     if (target_rapid && point_here && way_to_hole(b, facts, context_) != MotionKind::rapid) {
       // The target would go there in rapid: the move, then one run of the cycle.
+      if (refuse_feed_of_tap(s, a)) {
+        out.push_back(std::move(s));
+        return;
+      }
       if (old_on) pieces.push_back(off_statement(s.line, false));
       const LineInfo like = s.line;
       const std::size_t main = pieces.size();
@@ -236,7 +297,9 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     }
     std::optional<Value> leave;
     if (!d.modal) leave = leave_by_own_move(native.cycle, a);
+    feed_for_tap(b, a);
     b.actions.push_back(action(native));
+    if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) late_.push_back(*feed);
     if (leave) {
       const LineInfo like = s.line;
       const std::size_t main = pieces.size();

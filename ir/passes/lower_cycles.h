@@ -16,8 +16,43 @@ std::optional<AxisId> cycle_axis(const HoleCycle& c, const Block& b, const Facts
 HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts,
                                std::optional<double> initial = std::nullopt);
 /// The form of the cycle that the target writes natively; nullopt: none.
+/// What a tap in other words asks of the blocks around it.
+struct TapNeeds {
+  std::optional<double> feed;  ///< F while the cycle is in force, program units: it gives the pitch
+  bool bound = false;          ///< a new F or S under the cycle would change the pitch on one of the two controls
+};
+struct TapForm {
+  HoleCycle cycle;
+  TapNeeds needs;
+};
+/// `sense`: of the spindle before the cycle, when it is known; taps need it on targets that ask for it in numbers.
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
-                                    const LegaliseContext& context, std::optional<double> initial = std::nullopt);
+                                    const LegaliseContext& context, std::optional<double> initial = std::nullopt,
+                                    std::optional<SpindleState> sense = std::nullopt, TapNeeds* needs = nullptr);
+/// The words of a tap that the target lacks, said in another way: see cycle_taps.cpp. Best first.
+std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
+                               std::optional<SpindleState> sense);
+/// The sense in which the spindle turns, by the text; a stopped one is started clockwise by a tap.
+class SpindleSense {
+ public:
+  explicit SpindleSense(const Program& program);
+  /// Behind the statement. `straight`: control comes to the next statement only from here.
+  void follow(const Statement& s, bool straight);
+  void forget();
+  [[nodiscard]] std::optional<SpindleState> now() const { return only_cw_ ? SpindleState::cw : state_; }
+
+ private:
+  bool only_cw_ = true;
+  std::optional<SpindleState> state_ = SpindleState::cw;
+};
+/// The pattern that stands in the block; nullptr: none.
+const NamedCycle* pattern_in(const Block& b);
+/// The points of a pattern as blocks with a move each; empty and a text in `error`: it can't be said.
+std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
+                                   std::string* error);
+/// A pattern in the words of the target, from the point where the tool stands; nullopt: none.
+std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b, const Facts& facts,
+                                       const LegaliseContext& context);
 
 /// The moves of one hole as blocks, from `height` (mm); empty and a text in `error`: it can't be expanded.
 struct Explosion {
@@ -25,7 +60,8 @@ struct Explosion {
   double end_height = 0;  ///< mm
 };
 std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
-                                 double height, double defined_at, std::string* error);
+                                 double height, double defined_at, std::optional<SpindleState> sense,
+                                 std::string* error);
 /// Where the tool stands along its axis, by the text: after cycles the dataflow does not say.
 class ToolHeight {
  public:

@@ -5,6 +5,7 @@
 #include "ir/passes/call_graph.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/lower_cycles.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
 
@@ -79,6 +80,11 @@ class ModalCalls {
       out.push_back(std::move(s));
       return;
     }
+    if (const auto* pattern = pattern_in(*b)) {
+      if (active_) return points(std::move(s), *pattern, out);
+      out.push_back(std::move(s));  // each of its points runs the target's own modal call
+      return;
+    }
     const bool only_moves = b->repeat_given != 0 && b->repeat.is(0);
     if (only_moves) {
       b->repeat_given = 0;
@@ -109,6 +115,24 @@ class ModalCalls {
     out.push_back(made(like, *on_target_));
     wrapped_in_ = &out;
     wrapped_size_ = out.size();
+  }
+  /// The subprogram runs at each point of a pattern.
+  void points(Statement&& s, const NamedCycle& pattern, Body& out) {
+    const LineInfo like = s.line;
+    std::string error;
+    auto blocks = pattern_blocks(pattern, like, std::get<Block>(s.node), facts_.before(s), &error);
+    if (!blocks) {
+      refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
+             "give the pattern's words and the place before it as numbers");
+      out.push_back(std::move(s));
+      return;
+    }
+    bool first = true;
+    for (auto& p : *blocks) {
+      if (first) p.line = like;
+      first = false;
+      written_out(std::move(p), out);
+    }
   }
   static ModalCall off_call() {
     ModalCall off;

@@ -42,6 +42,9 @@ struct BlockValues {
     one(h.shift_u, Role::cycle_length);
     one(h.shift_v, Role::cycle_length);
     one(h.shift_w, Role::cycle_length);
+    if (h.has_speed) one(h.speed, Role::cycle_other);
+    if (h.has_speed_out) one(h.speed_out, Role::cycle_other);
+    for (auto& [word, value] : h.mill.words) one(value, Role::cycle_other);
   }
   void cycle(Cycle& c) {
     if (auto* h = std::get_if<HoleCycle>(&c.node)) {

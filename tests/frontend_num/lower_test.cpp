@@ -188,7 +188,7 @@ TEST(NumLower, DrillingCycles) {  // 11
   EXPECT_NE(line("G83 Z-23 ER1").find("hole drill"), std::string::npos);
   EXPECT_NE(line("G81 X1").find("!NUM-026"), std::string::npos);
   EXPECT_NE(line("G81 Z-1 P3").find("!NUM-027"), std::string::npos);
-  EXPECT_NE(line("G86 Z-1").find("!NUM-004"), std::string::npos);
+  EXPECT_NE(line("G86 Z-1 EC90").find("hole bore_shift"), std::string::npos);
   EXPECT_EQ(line("G83 Z-12 P10 ER1 \nX50\nG80 G97 S1000").substr(0, 5), "block");
 }
 

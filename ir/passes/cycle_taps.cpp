@@ -1,0 +1,147 @@
+// Taps in the words of another control: the pitch as feed over speed or as a number, the sense behind the cycle as what
+// it was before or as a number (equivalences 22.5).
+#include <cmath>
+
+#include "ir/passes/lower_cycles.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+bool is_tap(const HoleCycle& c) {
+  return c.kind == HoleKind::tap || c.kind == HoleKind::tap_floating;
+}
+
+std::optional<double> speed_of(const Block& b, const Facts& facts) {
+  std::optional<double> speed = facts.spindle;
+  for (const auto& a : b.actions) {
+    if (const auto* s = std::get_if<SetSpindle>(&a.data); s != nullptr && s->number == 1)
+      speed = s->value.literal() ? std::optional(s->value.number) : std::nullopt;
+  }
+  return speed;
+}
+
+/// Pitch that feed and speed in force give, in program units; nullopt: not known.
+std::optional<double> pitch_by_feed(const Block& b, const Facts& facts) {
+  std::optional<double> feed = facts.feed;
+  const auto speed = speed_of(b, facts);
+  for (const auto& a : b.actions) {
+    if (const auto* f = std::get_if<SetFeed>(&a.data))
+      feed = f->value.literal() ? std::optional(f->value.number) : std::nullopt;
+  }
+  const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
+  if (!mode || !feed || *feed <= 0) return std::nullopt;
+  if (*mode == FeedMode::per_rev) return feed;
+  if (*mode != FeedMode::per_minute || !speed || *speed <= 0) return std::nullopt;
+  return *feed / *speed;
+}
+
+SpindleStep step_of(SpindleState s) {
+  return s == SpindleState::ccw ? SpindleStep::ccw : SpindleStep::cw;
+}
+
+}  // namespace
+
+std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
+                               std::optional<SpindleState> sense) {
+  std::vector<TapForm> forms;
+  if (!is_tap(c) || c.pecks.law != PeckLaw::none || !sense) return forms;
+  const auto by_feed = pitch_by_feed(b, facts);
+  if (c.spindle_after == SpindleStep::usual) {
+    // The sense in numbers. A spindle that follows the axis is oriented first there.
+    TapForm f{c, {}};
+    HoleCycle& h = f.cycle;
+    h.spindle_after = step_of(*sense);
+    h.spindle_after_retract = true;
+    if (h.kind == HoleKind::tap) {
+      f.needs.bound = h.pitch.is(0);
+      if (h.pitch.is(0) && !by_feed) return forms;
+      if (h.pitch.is(0)) h.pitch = Value{*by_feed};
+      if (*sense == SpindleState::ccw) h.pitch = negate(h.pitch);
+      h.spindle_bottom = SpindleStep::none;
+      h.orient_first = true;
+      if (const auto speed = speed_of(b, facts); speed && !h.has_speed) {
+        f.needs.bound = h.has_speed = true;
+        h.speed = Value{*speed};
+      }
+    }
+    forms.push_back(std::move(f));
+    return forms;
+  }
+  // The other way round: the sense is what it was before, the pitch is what feed and speed give.
+  const auto speed = speed_of(b, facts);
+  const bool same_speed = !c.has_speed_out || (c.has_speed && equal(c.speed, c.speed_out));
+  const bool speed_holds = !c.has_speed || (c.speed.literal() && speed && std::fabs(c.speed.number - *speed) < 1e-9);
+  const bool same_hand =
+      c.kind != HoleKind::tap || !c.pitch.literal() || (c.pitch.number > 0) == (*sense == SpindleState::cw);
+  const bool reversed = c.spindle_bottom == SpindleStep::usual ||
+                        (c.kind == HoleKind::tap && c.spindle_bottom == SpindleStep::none) ||
+                        (c.spindle_bottom != step_of(*sense) && c.spindle_bottom != SpindleStep::none &&
+                         c.spindle_bottom != SpindleStep::off);
+  if (c.spindle_after != step_of(*sense) || !same_speed || !speed_holds || !same_hand || !reversed) return forms;
+  TapForm f{c, {}};
+  HoleCycle& h = f.cycle;
+  h.spindle_after = h.spindle_bottom = SpindleStep::usual;
+  h.spindle_after_retract = h.orient_first = h.has_speed = h.has_speed_out = false;
+  h.orient_angle = h.speed = h.speed_out = Value{};
+  h.rigid = h.kind == HoleKind::tap;
+  if (h.rigid && (!c.pitch.literal() || c.pitch.number > 0)) {  // its own word for the pitch
+    forms.push_back(f);
+    if (c.has_speed) forms.back().needs.bound = true;
+  }
+  h.pitch = Value{};
+  if (!c.pitch.is(0)) {
+    const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
+    if (!c.pitch.literal() || !facts.feed || !mode) return forms;
+    const double pitch = std::fabs(c.pitch.number);
+    f.needs.bound = true;
+    if (!by_feed || std::fabs(pitch - *by_feed) > 1e-9) {
+      if (*mode == FeedMode::per_rev)
+        f.needs.feed = pitch;
+      else if (*mode == FeedMode::per_minute && speed)
+        f.needs.feed = std::round(pitch * *speed * 1e6) / 1e6;
+      else
+        return forms;
+    }
+  }
+  forms.push_back(std::move(f));
+  return forms;
+}
+
+SpindleSense::SpindleSense(const Program& program) {
+  const auto turns_back = [this](const HoleCycle& c) {
+    for (const SpindleStep s : {c.spindle_before, c.spindle_after}) only_cw_ = only_cw_ && s != SpindleStep::ccw;
+  };
+  const auto look = [&](const CyclePtr& cycle) {
+    const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+    if (hole != nullptr) turns_back(*hole);
+  };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) look(m->cycle);
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        if (const auto* run = std::get_if<SpindleRun>(&a.data)) only_cw_ = only_cw_ && run->state != SpindleState::ccw;
+        if (const auto* d = std::get_if<CycleDefine>(&a.data)) look(d->cycle);
+      }
+    });
+  }
+}
+
+void SpindleSense::forget() {
+  state_.reset();
+}
+
+void SpindleSense::follow(const Statement& s, bool straight) {
+  if (!straight) state_.reset();
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr) return;
+  for (const auto& a : b->actions) {
+    const auto* run = std::get_if<SpindleRun>(&a.data);
+    if (run != nullptr && run->number == 1)
+      state_ = run->state == SpindleState::ccw ? SpindleState::ccw : SpindleState::cw;
+  }
+}
+
+}  // namespace cnctrans::ir::passes
