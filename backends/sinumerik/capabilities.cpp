@@ -65,6 +65,8 @@ void expressions(ir::Capabilities& c) {  // reference-language 4
   // Said by others of its functions:
   c.functions.insert({ir::Function::atan, ir::Function::floor, ir::Function::log10, ir::Function::to_integer,
                       ir::Function::to_boolean, ir::Function::to_string});
+  for (auto f = static_cast<int>(ir::Function::last_index_of); f <= static_cast<int>(ir::Function::frame_with); ++f)
+    c.functions.insert(static_cast<ir::Function>(f));  // searches in texts, characters, axes and frames
   c.system_data = has_system_name;
   c.word_decimals = c.word_decimals_inch = 6;
   c.spaces = dialect::variable_spaces();
@@ -104,7 +106,9 @@ void words(ir::Capabilities& c) {  // reference-language 14
   c.inverse_time = true;
   c.length_comp_switch = false;
   c.frame_rotation = c.frame_chain = true;
-  c.frames = {{ir::FrameSlot::chain, {ir::FrameCombine::replace, ir::FrameCombine::compose, ir::FrameCombine::clear}}};
+  c.frames = {{ir::FrameSlot::chain,
+               {ir::FrameCombine::replace, ir::FrameCombine::compose, ir::FrameCombine::clear,
+                ir::FrameCombine::replace_named}}};
   c.work_offset_rows = 99;
   c.work_offset_off = true;
   c.units_with_feed = c.units_geometry_only = true;

@@ -4,7 +4,28 @@
 
 namespace cnctrans::backends::sinumerik {
 
+/// The words at this place of the source line stand there already: they were written for the statement before, which
+/// was made of the same words.
+bool Writer::stands_already(WordPos pos) {
+  const Span& line = current().line.span;
+  const bool same = written_column_ != 0 && pos.column == written_column_ && line.file == written_line_.file &&
+                    line.line == written_line_.line;
+  if (!same) {
+    written_column_ = pos.column;
+    written_line_ = line;
+  }
+  return same;
+}
+
 void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
+  // $P_PFRAME=CTRANS(X,5):CROT(Z,30), ROTS X10 Y20: several changes, or angles that were computed, in the words of the
+  // source
+  const bool whole = a.text.find('=') != std::string_view::npos || a.text.find("ROTS ") != std::string_view::npos ||
+                     a.text.find("rots ") != std::string_view::npos;
+  if (same_dialect() && whole) {
+    if (!stands_already(a.pos)) add(std::string(a.text), Rank::head, a.pos);
+    return;
+  }
   const ir::FrameChange& c = *f.change;
   if (c.slot == ir::FrameSlot::chain && c.combine == ir::FrameCombine::replace_named &&
       c.kind == ir::FrameKind::translate) {

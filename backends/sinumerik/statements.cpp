@@ -33,7 +33,13 @@ std::string Writer::list_text(const ir::Assign& a) const {
 }
 
 void Writer::assign(const ir::Assign& a) {
-  if (std::string text = list_text(a); !text.empty()) return add(std::move(text), Rank::head, a.items.front().pos);
+  if (same_dialect() && !a.items.empty() && list_written_ && stands_already(a.items.front().pos)) return;
+  list_written_ = false;
+  if (std::string text = list_text(a); !text.empty()) {
+    list_written_ = true;
+    stands_already(a.items.front().pos);
+    return add(std::move(text), Rank::head, a.items.front().pos);
+  }
   for (const ir::Assign::Item& item : a.items) {
     if (std::string part = expressions_.component_assignment(item); !part.empty()) {
       if (refused_problem(item.pos)) return;

@@ -144,10 +144,6 @@ bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
 
 bool Writer::spelling_is_whole_word(const ir::Action& a) const {
   if (std::holds_alternative<ir::CycleDefine>(a.data)) return !a.text.empty() && a.text.back() == ')';
-  if (std::holds_alternative<ir::FrameOp>(a.data)) {  // $P_PFRAME=CTRANS(X,5):CROT(Z,30), ROTS X10 Y20
-    return a.text.find('=') != std::string_view::npos || a.text.find("ROTS ") != std::string_view::npos ||
-           a.text.find("rots ") != std::string_view::npos;
-  }
   if (const auto* c = std::get_if<ir::Corner>(&a.data)) return c->feed == nullptr;
   if (std::holds_alternative<ir::SpindleLimit>(a.data)) return a.text.front() == 'L' || a.text.front() == 'l';
   return ProgramWriter::spelling_is_whole_word(a);

@@ -106,7 +106,12 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] std::optional<double> travel(const ir::CoordWord& w);
   [[nodiscard]] std::string source_word(WordPos pos) const;
 
+  bool stands_already(WordPos pos);
+
   Expressions expressions_;
+  Span written_line_;  ///< where the words stand that were last written as the source has them
+  std::uint32_t written_column_ = 0;
+  bool list_written_ = false;  ///< the statement before was a list of values in the words of the source
   bool uses_css_ = false;
   std::string group_code_;  ///< G94 G95 G96... of the block being written
   bool group_written_ = false;
