@@ -351,6 +351,7 @@ bool BlockMachine::positioning_moves(const ir::Motion& m) {
     const double feed = axis_feed_[w.axis];
     move.kind = feed > 0 ? Move::Kind::linear : Move::Kind::rapid;
     move.feed = feed;
+    move.feed_degrees.reset();
     move.feed_mode = ir::FeedMode::per_minute;
     if (!send(move)) return false;
   }

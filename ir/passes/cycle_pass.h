@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "ir/passes/blocks.h"
@@ -26,6 +27,11 @@ class CyclePass {
   }
 
   void run() {
+    for_each_statement(editor_.routine.body, [this](Statement& s) {
+      each_label_ref(s, [&](LabelRef& l, bool is_end) {
+        if (!is_end) first_use_.emplace(std::pair{l.is_number, l.text}, s.id);
+      });
+    });
     Body out;
     walk(editor_.routine.body, out);
     editor_.routine.body = std::move(out);
@@ -37,9 +43,10 @@ class CyclePass {
     CyclePtr source;
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
-    bool single = false;               ///< not every way to a point leads through the first one: each gets its own run
-    bool on_target = false;  ///< the target's own cycle is in force
-    bool deferred = false;   ///< the first point on the target defines it
+    bool single = false;           ///< not every way to a point leads through the first one: each gets its own run
+    bool on_target = false;        ///< the target's own cycle is in force
+    bool deferred = false;         ///< the first point on the target defines it
+    std::uint32_t defined_in = 0;  ///< the statement of that point
     TapNeeds needs;
     bool maybe_on_target = false;      ///< in force on one of the ways that lead here
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
@@ -62,9 +69,16 @@ class CyclePass {
   void join(const Statement& s) {
     if (!active_ || by_call_ || !active_->deferred || !active_->on_target) return;
     const auto names = labels_on(s.line);
-    if (std::none_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); })) return;
+    if (std::none_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l) && !behind(l); }))
+      return;
     active_->on_target = false;
     active_->maybe_on_target = true;
+  }
+
+  /// All that leads to the label stands behind the point that defines the target's cycle.
+  [[nodiscard]] bool behind(const LabelRef& l) const {
+    const auto it = first_use_.find({l.is_number, l.text});
+    return !uses_.computed && it != first_use_.end() && it->second > active_->defined_in;
   }
 
   void one(Statement&& s, Body& out) {
@@ -88,7 +102,9 @@ class CyclePass {
   }
   /// A modal call whose cycle the target defines at the first point, and a branch comes before that point.
   void branch_before_first_point(const Statement& s) {
-    if (!active_ || by_call_ || active_->on_target || active_->trigger != CycleTrigger::path_motion) return;
+    if (!active_ || by_call_ || active_->on_target || active_->maybe_on_target ||
+        active_->trigger != CycleTrigger::path_motion)
+      return;
     bool branch = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
                   std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node);
     for (const auto& l : labels_on(s.line)) branch = branch || uses_.is_target(l);
@@ -362,6 +378,7 @@ class CyclePass {
   Editor editor_;
   LabelUses uses_;
   TurnCycles turning_;
+  std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
   ToolHeight height_;
   SpindleSense sense_;
   bool by_call_ = false;

@@ -75,6 +75,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
     active_->on_target = true;
+    active_->defined_in = s.id;
     return put(out, std::move(pieces), std::move(s));
   }
   // Moved there in another way than the target's cycle does: the move, then one run of the cycle.

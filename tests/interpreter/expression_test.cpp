@@ -173,7 +173,7 @@ TEST(Set, NumberedNamedArraysAndData) {
 TEST(Set, FaultsAreRefused) {
   Options o;
   o.set = {{"R999", "1"}};
-  EXPECT_THAT(run_lines("block rapid X 1", mill(), o).lines, ElementsAre("end error RUN-004"));
+  EXPECT_THAT(run_lines("block rapid X 1", mill(), o).lines, ElementsAre("end error RUN-106"));
   o.set = {{"R1", "abc"}};
   const auto r = run_lines("block rapid X 1", mill(), o);
   EXPECT_THAT(r.lines, ElementsAre("end error RUN-106"));
