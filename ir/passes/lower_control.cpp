@@ -1,5 +1,6 @@
 // Control flow (equivalences 20): structured statements and switches become jumps where the target lacks them.
 #include <algorithm>
+#include <set>
 
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
@@ -328,10 +329,10 @@ class ComputedJumps {
 
   void run() {
     std::vector<LabelRef> labels;
+    std::set<std::string> numbers;
     for_each_statement(editor_.routine.body, [&](const Statement& s) {
       for (const auto& l : labels_on(s.line)) {
-        const auto same = [&l](const LabelRef& have) { return same_label(have, l); };
-        if (l.is_number && std::none_of(labels.begin(), labels.end(), same)) labels.push_back(l);
+        if (l.is_number && numbers.insert(l.text).second) labels.push_back(l);
       }
     });
     // The values are looked up now: while the body is rewritten the program is not whole.

@@ -165,6 +165,9 @@ class LabelPass {
     bool renumber = false;
     std::map<std::pair<bool, std::string>, std::size_t> seen;
     for (std::size_t i = 0; i < marks_.size(); ++i) {
+      if (marks_[i].used) used_marks_[{marks_[i].label.is_number, marks_[i].label.text}].push_back(i);
+    }
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
       Mark& m = marks_[i];
       const auto key = std::make_pair(m.label.is_number, m.label.text);
       const bool duplicate = !seen.emplace(key, i).second;
@@ -190,9 +193,10 @@ class LabelPass {
 
   /// An unused label that the target can't carry or that would be found in place of another.
   void drop_if_needed(Mark& m, bool duplicate) const {
-    const bool first_of_used = std::any_of(marks_.begin(), marks_.end(), [&](const Mark& o) {
-      return &o != &m && o.used && same_label(o.label, m.label) && !o.renamed;
-    });
+    const auto used = used_marks_.find({m.label.is_number, m.label.text});
+    const bool first_of_used =
+        used != used_marks_.end() && std::any_of(used->second.begin(), used->second.end(),
+                                                 [&](std::size_t o) { return &marks_[o] != &m && !marks_[o].renamed; });
     if (!m.label.is_number) {
       if (!target_.identifier_labels || duplicate || first_of_used) m.renamed = LabelRef{};
       return;
@@ -315,6 +319,7 @@ class LabelPass {
   Routine& routine_;
   const LegaliseContext& context_;
   const Capabilities& target_;
+  std::map<std::pair<bool, std::string>, std::vector<std::size_t>> used_marks_;  ///< by label, while names are given
   std::vector<Mark> marks_;
   std::vector<Use> uses_;
   std::map<const Statement*, std::size_t> positions_;
