@@ -20,6 +20,16 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool changed = follow_retract_plane(b, facts);
   const bool hole_here = triggers(b, facts);
   const LineInfo like = s.line;
+  // A modal cycle of the target is in force on the same ways as the source's; one that each point gets is not.
+  const bool follows =
+      active_->native && (by_call_ || (active_->on_target && !active_->single && !active_->maybe_on_target));
+  if (hole_here && !follows && !facts.cycle_active_known) {
+    refuse(s, program_, context_, "TRN-331",
+           "whether a cycle is active here depends on the path that leads here, and the target needs to know it",
+           "cancel the cycle on every path, or define it on every path");
+    out.push_back(std::move(s));
+    return;
+  }
   if (changed && !active_->native && was_on) {
     active_->on_target = false;
     pieces.push_back(off_statement(like, by_call_));
@@ -71,6 +81,9 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     if (target_rapid) by_itself(b);
     return put(out, std::move(pieces), std::move(s));
   }
+  const bool maybe_on = active_->maybe_on_target && !active_->on_target;
+  if (maybe_on) pieces.push_back(off_statement(like, false));  // else the way to the point would run it
+  active_->maybe_on_target = false;
   if (as_is) {
     feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
