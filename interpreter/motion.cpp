@@ -96,6 +96,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   path_event_.kind = rapid ? EventKind::rapid : EventKind::linear;
   path_event_.feed = linear ? feed_now() : feed_degrees();
   path_event_.feed_mode = modal_.feed_mode;
+  path_event_.in_machine = false;
   emitter_.emit(path_event_);
   return true;
 }
