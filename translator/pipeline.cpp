@@ -263,7 +263,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   const ir::LegaliseContext context{to->backend->capabilities_for(*target_profile),
                                     *source_profile,
                                     *target_profile,
-                                    {options.cycles},
+                                    {options.cycles, options.unsupported != backends::Unsupported::error},
                                     result.diagnostics};
   ir::legalise(work, context);
   if (refused(result.diagnostics, options)) {  // the writer would only say the same again

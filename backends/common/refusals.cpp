@@ -104,7 +104,9 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
     refusal_moves_ = false;
     return;
   }
-  refuse("TRN-205", {}, "'" + o.text + "' is not translated");
+  std::string source(trim(source_line(current_->line.span)));
+  refuse("TRN-205", {}, "'" + (source.empty() ? o.text : source) + "' is not translated",
+         "translate the line by hand before the program is run: what follows is written as if it stood there");
 }
 
 /// The structured statement being written, with all that it encloses. Without a text it is refused already.

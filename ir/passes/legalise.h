@@ -18,6 +18,7 @@ namespace cnctrans::ir {
 enum class CycleWriting : std::uint8_t { native, explode };
 struct LegaliseOptions {
   CycleWriting cycles = CycleWriting::native;
+  bool goes_on = false;  ///< the translation is written although blocks are refused: they are left out
 };
 
 /// What became of a name of the source, for the head comment and the report.
@@ -47,9 +48,6 @@ bool legalise(Program& program, const LegaliseContext& context);
 /// Names of the passes in order, for `cnctrans ir --passes` and tests; run one by name.
 std::vector<std::string_view> pass_names();
 bool run_pass(std::string_view name, Program& program, const LegaliseContext& context);
-
-/// The passes that look at one block under a known modal state and nothing else: a stream runs them on single blocks.
-std::vector<std::string_view> block_local_passes();
 
 /// The passes that look at one block and the modal state before it only (for streams), in order.
 std::vector<std::string_view> block_local_passes();

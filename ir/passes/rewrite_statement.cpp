@@ -263,7 +263,9 @@ void refuse(Statement& s, const Program& program, const LegaliseContext& context
   context.diagnostics.error(code, word_span(s.line.span, pos), std::move(message), std::move(hint));
   Opaque o;
   o.text = to_text(s, program);
-  o.feature.clear();  // said already: what follows is looked at as if this statement had changed nothing
+  // Nothing will be written: what follows is looked at as if this statement had changed nothing, so that it is not
+  // blamed for it. When the rest is written all the same, nothing is known behind it.
+  if (context.options.goes_on) o.feature = "language.statement";
   s.node = std::move(o);
 }
 
