@@ -194,8 +194,8 @@ std::string_view tap(const HoleCycle& c, Arguments& args) {
   }
   if (c.spindle_bottom != ir::SpindleStep::none || zero(c.pitch) || !c.orient_first) return {};
   args["POSS"] = c.orient_angle;
-  args["SST"] = c.has_speed ? c.speed : Value(0);
-  args["SST1"] = c.has_speed_out ? c.speed_out : Value(0);
+  if (c.has_speed) args["SST"] = c.speed;
+  if (c.has_speed_out) args["SST1"] = c.speed_out;
   if (c.pecks.law == ir::PeckLaw::none) return "CYCLE84";
   if (c.pecks.law != ir::PeckLaw::constant) return {};
   args["VARI"] = Value(zero(c.pecks.lift) ? 2 : 1);

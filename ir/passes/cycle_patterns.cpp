@@ -115,11 +115,11 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
     block.motion.explicit_code = true;
     block.motion.keeps_modal = false;
     const bool arc = p.way == PatternPoint::Way::cw || p.way == PatternPoint::Way::ccw;
-    if (arc || !known || std::fabs(p.u - u) > 1e-9)
+    if (arc || std::fabs(p.u - u) > 1e-9 || (!known && absolute))
       block.motion.coords.push_back(coordinate(at->u, absolute ? p.u : p.u - u, absolute));
-    if (arc || !known || std::fabs(p.v - v) > 1e-9)
+    if (arc || std::fabs(p.v - v) > 1e-9 || (!known && absolute))
       block.motion.coords.push_back(coordinate(at->v, absolute ? p.v : p.v - v, absolute));
-    if (block.motion.coords.empty()) block.motion.coords.push_back(coordinate(at->u, p.u, true));
+    if (block.motion.coords.empty()) block.motion.coords.push_back(coordinate(at->u, absolute ? p.u : 0, absolute));
     if (arc) {
       *error = "the tool goes from point to point on arcs";
       return std::nullopt;

@@ -1,6 +1,7 @@
 // Taps in the words of another control: the pitch as feed over speed or as a number, the sense behind the cycle as what
 // it was before or as a number (equivalences 22.5).
 #include <cmath>
+#include <utility>
 
 #include "ir/passes/lower_cycles.h"
 
@@ -30,6 +31,8 @@ std::optional<double> pitch_by_feed(const Block& b, const Facts& facts) {
       feed = f->value.literal() ? std::optional(f->value.number) : std::nullopt;
   }
   const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
+  // In inches a feed may still be metric.
+  if (setting_in<Units>(b, facts, Setting::units) != Units::metric) return std::nullopt;
   if (!mode || !feed || *feed <= 0) return std::nullopt;
   if (*mode == FeedMode::per_rev) return feed;
   if (*mode != FeedMode::per_minute || !speed || *speed <= 0) return std::nullopt;
@@ -38,6 +41,24 @@ std::optional<double> pitch_by_feed(const Block& b, const Facts& facts) {
 
 SpindleStep step_of(SpindleState s) {
   return s == SpindleState::ccw ? SpindleStep::ccw : SpindleStep::cw;
+}
+
+/// The pitch as F over S, with the F that takes. False: it can't be said.
+bool pitch_as_feed(TapForm& f, const Block& b, const Facts& facts) {
+  const Value pitch = std::exchange(f.cycle.pitch, Value{});
+  if (pitch.is(0)) return true;
+  const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
+  if (!pitch.literal() || !facts.feed || !mode || setting_in<Units>(b, facts, Setting::units) != Units::metric)
+    return false;
+  const double size = std::fabs(pitch.number);
+  const auto by_feed = pitch_by_feed(b, facts), speed = speed_of(b, facts);
+  f.needs.bound = true;
+  if (by_feed && std::fabs(size - *by_feed) <= 1e-9) return true;
+  if (*mode == FeedMode::per_rev)
+    f.needs.feed = size;
+  else if (*mode == FeedMode::per_minute && speed && *speed > 0)
+    f.needs.feed = std::round(size * *speed * 1e6) / 1e6;
+  return f.needs.feed.has_value();
 }
 
 }  // namespace
@@ -66,6 +87,16 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
       }
     }
     forms.push_back(std::move(f));
+    if (c.kind != HoleKind::tap) return forms;
+    // Or only the pitch in the other way.
+    TapForm same{c, {}};
+    if (c.pitch.is(0)) {
+      same.cycle.pitch = Value{*by_feed};
+      same.needs.bound = true;
+      forms.push_back(std::move(same));
+    } else if (pitch_as_feed(same, b, facts)) {
+      forms.push_back(std::move(same));
+    }
     return forms;
   }
   // The other way round: the sense is what it was before, the pitch is what feed and speed give.
@@ -89,21 +120,7 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
     forms.push_back(f);
     if (c.has_speed) forms.back().needs.bound = true;
   }
-  h.pitch = Value{};
-  if (!c.pitch.is(0)) {
-    const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
-    if (!c.pitch.literal() || !facts.feed || !mode) return forms;
-    const double pitch = std::fabs(c.pitch.number);
-    f.needs.bound = true;
-    if (!by_feed || std::fabs(pitch - *by_feed) > 1e-9) {
-      if (*mode == FeedMode::per_rev)
-        f.needs.feed = pitch;
-      else if (*mode == FeedMode::per_minute && speed)
-        f.needs.feed = std::round(pitch * *speed * 1e6) / 1e6;
-      else
-        return forms;
-    }
-  }
+  if (!pitch_as_feed(f, b, facts)) return forms;
   forms.push_back(std::move(f));
   return forms;
 }

@@ -78,7 +78,8 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   const bool as_is =
       !active_->single && (simple || (active_->trigger == CycleTrigger::plane_axis_word && !target_rapid));
   if (as_is && active_->on_target) {
-    if (target_rapid) by_itself(b);
+    // A code that does not stay is said: without it the writer would put the one that stays in force.
+    if (target_rapid && (b.motion.keeps_modal || facts.motion == MotionKind::rapid)) by_itself(b);
     return put(out, std::move(pieces), std::move(s));
   }
   const bool maybe_on = active_->maybe_on_target && !active_->on_target;
@@ -109,11 +110,11 @@ void CyclePass::plain(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   // A block that is no point, while the target's own cycle would make it one or take its words for the depth.
   const bool refused_word = context_.target_machine.option("cycle.axis_word") == "refused" && active_->native &&
-                            active_->on_target && !by_call_ && b.has_motion && b.motion.moves() &&
-                            b.motion.frame == FrameUse::normal;
+                            (active_->on_target || active_->maybe_on_target) && !by_call_ && b.has_motion &&
+                            b.motion.moves() && b.motion.frame == FrameUse::normal;
   if (refused_word) {
     pieces.push_back(off_statement(s.line, false));
-    active_->on_target = false;
+    active_->on_target = active_->maybe_on_target = false;
   }
   const Facts& facts = facts_.before(s);
   const auto w = tool_axis(active_->source, b, facts);
