@@ -78,18 +78,27 @@ class Checker {
       case Op::end: return;
       case Op::opaque: {
         const auto& o = std::get<ir::Opaque>(in.statement->node);
-        if (o.harmless || is_read(o)) break;
+        if (o.harmless || is_read(o) || told(flow, at)) break;
         diagnostics_.error(code::opaque, in.statement->line.span,
                            "this statement is not understood and may move the machine or change its state",
                            "the program cannot be run; see the diagnostic of the reader for the same line");
         break;
       }
+      case Op::fault:
+        diagnostics_.error(code::opaque, in.statement != nullptr ? in.statement->line.span : in.fault->span,
+                           fault_text(*in.fault), "the program is not run");
+        break;
       case Op::stray_exit:
         diagnostics_.error(code::exit_outside, in.statement->line.span, "an exit stands outside of every loop");
         break;
       default: break;
     }
     reach(flow, at + 1);
+  }
+
+  /// The reader's error for this statement has been given as the reason already.
+  static bool told(const Flow& flow, std::uint32_t at) {
+    return at > 0 && flow.code[at - 1].op == Op::fault && flow.code[at - 1].statement == flow.code[at].statement;
   }
 
   void missing_label(const ir::Statement& s, const std::string& text) {

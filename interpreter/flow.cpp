@@ -90,7 +90,14 @@ namespace {
 
 class Builder {
  public:
-  Builder(Flow& flow, std::uint16_t skip_mask) : flow_(flow), skip_mask_(skip_mask) {}
+  Builder(Flow& flow, const Options& options) : flow_(flow), options_(options), skip_mask_(options.skip_mask) {}
+
+  /// An error of the routine's header, or of the routine as a whole.
+  void header(const ir::Routine& routine) {
+    if (routine.header.span.known()) return fault_of(routine.header);
+    const auto file = routine.file == 0 && !routine.body.empty() ? routine.body.front().line.span.file : routine.file;
+    add_fault(file, 0, 0);
+  }
 
   void body(const ir::Body& body) {
     std::vector<Open> open;
@@ -105,6 +112,7 @@ class Builder {
       if (skipped || own_skip) {
         add(Op::nothing);
       } else {
+        fault_of(s.line, &s);
         statement(s);
       }
     }
@@ -138,6 +146,17 @@ class Builder {
   void mark_line(const ir::LineInfo& line) {
     std::vector<Open> ignored;
     mark(line, ignored);
+    fault_of(line);
+  }
+
+  /// Control that comes to a line with an error stops there.
+  void fault_of(const ir::LineInfo& line, const ir::Statement* s = nullptr) {
+    const auto& at = line.span;
+    if (at.known()) add_fault(at.file, at.line, std::max(at.line, at.end_line), s);
+  }
+  void add_fault(FileId file, std::uint32_t first, std::uint32_t last, const ir::Statement* s = nullptr) {
+    const Diagnostic* found = options_.fault ? options_.fault(file, first, last) : nullptr;
+    if (found != nullptr) flow_.code[add(Op::fault, s)].fault = found;
   }
 
   std::uint32_t add(Op op, const ir::Statement* s = nullptr, std::uint32_t target = nowhere) {
@@ -239,6 +258,7 @@ class Builder {
   }
 
   Flow& flow_;
+  const Options& options_;
   std::uint16_t skip_mask_;
   const ir::Statement* current_ = nullptr;
   std::vector<std::vector<std::uint32_t>> loops_;  ///< exits of the open loops
@@ -269,13 +289,19 @@ void collect_locals(const ir::Program& program, const ir::Routine& routine, Flow
 
 }  // namespace
 
-Flow build_flow(const ir::Program& program, const ir::Routine& routine, std::uint16_t skip_mask) {
+std::string fault_text(const Diagnostic& fault) {
+  return "this line has an error and is not carried out (" + fault.code + ": " + fault.message + ")";
+}
+
+Flow build_flow(const ir::Program& program, const ir::Routine& routine, const Options& options) {
   Flow flow;
   flow.routine = &routine;
   flow.program = &program;
   flow.names.program = &program;
   collect_locals(program, routine, flow);
-  Builder(flow, skip_mask).body(routine.body);
+  Builder builder(flow, options);
+  builder.header(routine);
+  builder.body(routine.body);
   for (auto& [key, places] : flow.labels) {
     std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
   }

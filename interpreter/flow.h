@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/expressions.h"
+#include "interpreter/interpreter.h"
 #include "ir/program.h"
 
 namespace cnctrans::interpreter {
@@ -34,6 +35,7 @@ enum class Op : std::uint8_t {
   message,
   declare,
   opaque,
+  fault,      ///< a line that reading gave an error for
   stray_exit  ///< an Exit outside of loops
 };
 
@@ -44,6 +46,7 @@ struct Instruction {
   ExprId expr = no_expr;               ///< compiled at first use
   const ir::Statement* statement = nullptr;
   const ir::Jump* jump_node = nullptr;  ///< jump
+  const Diagnostic* fault = nullptr;    ///< fault
 };
 
 /// A labelled block: its instructions are begin..end-1 (all statements of its source line).
@@ -74,8 +77,10 @@ std::string label_key(std::string_view text, bool is_number);
 /// A label as the program wrote it, for messages.
 std::string label_text(std::string_view key);
 
-/// Blocks whose skip level is in `skip_mask` are left out; their labels stay.
-Flow build_flow(const ir::Program& program, const ir::Routine& routine, std::uint16_t skip_mask);
+/// Blocks whose skip level is on are left out; their labels stay. A line that reading gave an error for is a fault.
+Flow build_flow(const ir::Program& program, const ir::Routine& routine, const Options& options);
+/// What a reached fault is to the run.
+std::string fault_text(const Diagnostic& fault);
 
 /// Name of a routine for messages.
 std::string routine_text(const ir::RoutineName& name);

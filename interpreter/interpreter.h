@@ -26,6 +26,8 @@ struct Options {
   /// Finds a routine that the program itself does not have (library); null when there is none. The program returned
   /// stays alive as long as the callback does; its spaces are matched to the main program's by prefix.
   std::function<const ir::Program*(const ir::RoutineName&)> library;
+  /// The error that reading gave for one of these lines; null: none. A statement there is not carried out.
+  std::function<const Diagnostic*(FileId file, std::uint32_t first_line, std::uint32_t last_line)> fault;
 };
 
 struct Result {

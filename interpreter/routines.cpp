@@ -33,7 +33,7 @@ Flow* Routines::flow(const ir::Program& program, const ir::Routine& routine) {
   auto& u = unit(program);
   auto& slot = u.flows[&routine];
   if (!slot) {
-    slot = std::make_unique<Flow>(build_flow(program, routine, options_.skip_mask));
+    slot = std::make_unique<Flow>(build_flow(program, routine, options_));
     slot->names.spaces = &u.spaces;
   }
   return slot.get();

@@ -236,6 +236,7 @@ void Runner::step(Instruction& in) {
       }
       go_to(at_ + 1);
       return;
+    case Op::fault: failure_.fail(code::opaque, fault_text(*in.fault)); return;
     case Op::stray_exit: failure_.fail(code::exit_outside, "an exit stands outside of every loop"); return;
   }
 }

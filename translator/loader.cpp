@@ -126,9 +126,11 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   const FileId id = files_.add(source);
   if (source->encoding() != Encoding::utf8) note_encoding(source->text(), 1, id, diagnostics);
   const frontends::ReadOptions options{reader_, &profile_};
+  const std::size_t said = diagnostics.all().size();
   mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));
   ir::Program& program = *mains_.back();
   program.texts->hold(source);
+  note_faults(program, id, diagnostics, said);
   ir::number_statements(program);
   return &program;
 }
@@ -186,6 +188,7 @@ ir::Program* Loader::load(Candidate& c) {
     if (c.source->encoding() != Encoding::utf8) note_encoding(c.source->text(), 1, id, c.diagnostics);
     c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, c.diagnostics, nullptr));
     c.program->texts->hold(c.source);
+    note_faults(*c.program, id, c.diagnostics, 0);
     ir::number_statements(*c.program);
   }
   return c.program.get();

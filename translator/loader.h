@@ -47,6 +47,9 @@ class Loader {
   /// Diagnostics of library files that were used.
   [[nodiscard]] const Diagnostics& library_diagnostics() const { return library_diagnostics_; }
   FileTable& files() { return files_; }
+  /// The error that reading gave for one of these lines (see interpreter::Options::fault). Errors on lines without a
+  /// statement stand at the next statement of their routine.
+  [[nodiscard]] const Diagnostic* fault(FileId file, std::uint32_t first_line, std::uint32_t last_line) const;
 
  private:
   struct Candidate {
@@ -59,6 +62,7 @@ class Loader {
   };
   void list_candidates();
   ir::Program* load(Candidate& c);
+  void note_faults(const ir::Program& program, FileId file, const Diagnostics& said, std::size_t from);
   bool may_hold(Candidate& c, const ir::RoutineName& name);
 
   const Dialect& dialect_;
@@ -72,6 +76,10 @@ class Loader {
   bool listed_ = false;
   std::vector<const ir::Program*> called_;
   Diagnostics library_diagnostics_;
+  std::map<std::pair<FileId, std::uint32_t>, Diagnostic> faults_;  ///< line 0: of a routine without header
 };
+
+/// Errors as warnings: what the run has not come to.
+Diagnostics as_warnings(const Diagnostics& diagnostics);
 
 }  // namespace cnctrans::translator

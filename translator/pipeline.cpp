@@ -70,6 +70,7 @@ void join_libraries(ir::Program& program, Loader& loader, Diagnostics& diagnosti
 interpreter::Result replay(const ir::Program& program, const machine::Profile& profile, interpreter::Options options,
                            Loader& loader, Diagnostics& diagnostics, std::vector<interpreter::Event>& events) {
   options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
+  options.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };
   interpreter::TraceRecorder recorder;
   auto result = interpreter::run(program, profile, options, recorder, diagnostics);
   events = std::move(recorder.events);
@@ -316,12 +317,15 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
     const auto profile = choose_profile(dialect, machine, text.get(), &result.error);
     if (!profile) return false;
     Loader loader(dialect, *profile, options.reader, options.libraries);
+    Diagnostics running;
     const ir::Program* program = loader.read_main(text, diagnostics);
     interpreter::Options run = options.run;
     if (!with_set) run.set.clear();
-    replayed.result = replay(*program, *profile, run, loader, diagnostics, replayed.events);
+    replayed.result = replay(*program, *profile, run, loader, running, replayed.events);
     replayed.start = verifier::start_of(*profile);
     diagnostics.append(loader.library_diagnostics());
+    if (replayed.result.reason != interpreter::EndReason::error) diagnostics = as_warnings(diagnostics);
+    diagnostics.append(running);
     files = loader.files();
     return true;
   };
@@ -356,13 +360,18 @@ RunResult run(
     }
   }
   Loader loader(*dialect, *profile, options.reader, options.libraries);
+  Diagnostics running;
   const ir::Program* program = loader.read_main(source, result.diagnostics);
   result.axis_names = program->axis_names;
   const auto sink = make_sink(loader.files(), program->axis_names);
   interpreter::Options run_options = options.run;
   run_options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
-  result.result = interpreter::run(*program, *profile, run_options, *sink, result.diagnostics);
+  run_options.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };
+  result.result = interpreter::run(*program, *profile, run_options, *sink, running);
   result.diagnostics.append(loader.library_diagnostics());
+  // A line that the run has not come to spoils nothing.
+  if (result.result.reason != interpreter::EndReason::error) result.diagnostics = as_warnings(result.diagnostics);
+  result.diagnostics.append(running);
   result.files = loader.files();
   return result;
 }

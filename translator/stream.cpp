@@ -370,10 +370,12 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
     SourceLine line;
     while (take_line(window, line)) {
       line.number = ++number;
-      // Lines after the end are read as well: one that can't be read refuses the program before anything moves.
+      // Lines after the end are read as well: what they have to report belongs to the program.
+      const auto errors = run.diagnostics.error_count();
       const auto kind = reader->read(line, statement, run.diagnostics);
+      if (run.diagnostics.error_count() != errors) return run;  // which lines are reached tells the whole program
       if (kind == frontends::StreamLine::no_statement) continue;
-      if (kind == frontends::StreamLine::needs_program || (going && run.diagnostics.has_errors())) return run;
+      if (kind == frontends::StreamLine::needs_program) return run;
       if (!going) continue;
       last = statement.line.span;
       going = runner.step(statement) && kind != frontends::StreamLine::program_end;

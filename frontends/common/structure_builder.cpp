@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
+
 namespace cnctrans::frontends {
 
 namespace {
@@ -81,15 +83,51 @@ ir::Statement* StructureBuilder::last() {
   return b.empty() ? nullptr : &b.back();
 }
 
-std::vector<Span> StructureBuilder::finish() {
+namespace {
+
+/// The code of a line as it stands in the source: without skip mark, number, labels and comment.
+std::string code_of(const ir::LineInfo& line, const SourceText* source) {
+  const std::string_view text = source != nullptr ? source->line_text(line.span.line) : std::string_view{};
+  std::size_t from = 0, to = text.size();
+  const auto past = [&](std::string_view word, char mark) {
+    if (word.empty() || word.data() < text.data() || word.data() > text.data() + text.size()) return;
+    from = std::max(from, static_cast<std::size_t>(word.data() - text.data()) + word.size());
+    if (mark != 0)
+      from = std::max(from, text.find(mark, from) == std::string_view::npos ? from : text.find(mark, from) + 1);
+  };
+  past(line.number, 0);
+  for (const auto label : line.labels) past(label, ':');
+  if (from == 0 && line.skip_mask != 0 && text.starts_with('/')) {
+    from = text.find_first_not_of("0123456789", 1);
+    if (from == std::string_view::npos) from = to;
+  }
+  for (const auto& c : line.comments) {
+    if (c.pos.column > from) to = std::min<std::size_t>(to, c.pos.column - 1);
+  }
+  return std::string(from < to ? trim(text.substr(from, to - from)) : std::string_view{});
+}
+
+ir::Statement unread(ir::LineInfo line, const SourceText* source) {
+  ir::Statement s;
+  s.node = ir::Opaque{code_of(line, source), "text.unread", false};
+  s.line = std::move(line);
+  return s;
+}
+
+}  // namespace
+
+std::vector<Span> StructureBuilder::finish(const SourceText* source) {
   std::vector<Span> places;
   for (const Open& o : open_) places.push_back(o.statement.line.span);
-  while (!open_.empty()) {
-    ir::Statement done = std::move(open_.back().statement);
-    open_.pop_back();
-    auto* until = std::get_if<ir::Until>(&done.node);
-    if (until != nullptr && !until->condition) until->condition = ir::number(0);  // its end was never read
-    add(std::move(done));
+  std::vector<Open> open = std::move(open_);
+  open_.clear();
+  for (Open& o : open) {
+    add(unread(std::move(o.statement.line), source));
+    auto* branches = std::get_if<ir::If>(&o.statement.node);
+    for (auto& s : branches != nullptr ? branches->then_body : body_of(o)) add(std::move(s));
+    if (branches == nullptr || !branches->has_else) continue;
+    add(unread(std::move(branches->else_line), source));
+    for (auto& s : branches->else_body) add(std::move(s));
   }
   return places;
 }

@@ -30,8 +30,10 @@ class StructureBuilder {
   [[nodiscard]] bool in_loop() const;
   /// Ends of the body being filled (to look at or change the last statement); null when it is empty.
   [[nodiscard]] ir::Statement* last();
-  /// Closes what is still open; the places where those constructs begin, outermost first.
-  std::vector<Span> finish();
+  /// What is still open has no end in its program: the lines that open it and divide it stand as unread statements, the
+  /// rest between them as it would without. The places where those constructs begin, outermost first. `source` has
+  /// the lines.
+  std::vector<Span> finish(const SourceText* source);
 
  private:
   struct Open {

@@ -163,7 +163,7 @@ void FileReader::end_routine() {
   if (!open_) return;
   if (blank_ != 0) close_blank({file_, static_cast<std::uint32_t>(source_->lines().size() + 1), 1, 0, 0});
   open_ = false;
-  for (const Span& s : builder_.finish()) {
+  for (const Span& s : builder_.finish(source_.get())) {
     diagnostics_.error("NUM-022", s, "the statement that begins here has no end in this program",
                        "add ENDI, ENDW, ENDF or UNTIL");
   }

@@ -135,7 +135,7 @@ void FileReading::begin_routine(std::string_view name, bool sub) {
 
 void FileReading::end_routine() {
   if (!open_) return;
-  statements_.end_routine();
+  statements_.end_routine(source_.get());
   open_ = false;
   program_.routines.push_back(std::move(routine_));
 }

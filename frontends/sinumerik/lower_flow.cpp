@@ -26,9 +26,9 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.motion = c_.machine.profile->power_on.motion;
 }
 
-void StatementLowering::end_routine() {
+void StatementLowering::end_routine(const SourceText* source) {
   if (!structure_) return;
-  for (const Span& place : structure_->finish()) {
+  for (const Span& place : structure_->finish(source)) {
     c_.diagnostics.error("SIN-010", place, "this structure has no end in its program",
                          "write its ENDIF, ENDWHILE, ENDFOR, ENDLOOP or UNTIL");
   }

@@ -23,8 +23,8 @@ class StatementLowering {
 
   /// A routine begins: its statements go to `body`. Names, labels and structure start afresh.
   void begin_routine(ir::Routine& routine);
-  /// The routine ends: structures that are still open are reported and closed.
-  void end_routine();
+  /// The routine ends: the lines of structures that are still open are reported and unread. `source` has the lines.
+  void end_routine(const SourceText* source);
   /// The last block so far ends the routine, whatever leads to it (M30, M17, RET outside all structures).
   [[nodiscard]] bool ended() const { return ended_; }
 
