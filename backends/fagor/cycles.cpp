@@ -92,9 +92,11 @@ bool variable_pecks(const HoleCycle& c, CycleWords& w) {
   const bool usual_gap = p.reapproach.is(1) || p.reapproach.is(1 / 25.4);
   if (!usual_gap || !p.reapproach.text.empty()) w.more.emplace_back('C', p.reapproach);
   if (c.surface.given) {
-    const bool below = c.surface.base == LevelBase::from_reference && c.surface.value.literal();
-    if (!p.first_from_surface || !below) return false;
-    w.more.emplace_back('D', Value(std::fabs(c.surface.value.number)));
+    const Value& v = c.surface.value;
+    const auto* minus = v.literal() ? nullptr : std::get_if<ir::Unary>(&v.expr->node);
+    if (!p.first_from_surface || c.surface.base != LevelBase::from_reference || (!v.literal() && minus == nullptr))
+      return false;
+    w.more.emplace_back('D', minus != nullptr ? Value(minus->operand) : Value(std::fabs(v.number)));
   }
   if (!zero(c.dwell_bottom)) {
     w.dwell = c.dwell_bottom;
@@ -147,6 +149,7 @@ std::optional<CycleWords> cycle_words(const ir::Cycle& cycle) {
   const auto* c = std::get_if<HoleCycle>(&cycle.node);
   if (c == nullptr || !plain_hole(*c)) return std::nullopt;
   CycleWords w;
+  if (!c->dwell_bottom.literal() && c->dwell_scale != 0.01) return std::nullopt;  // K is in hundredths
   if (!reference_word(*c, w) || !retract_words(*c, w)) return std::nullopt;
   if (c->kind == ir::HoleKind::drill) {
     if (c->pecks.law != ir::PeckLaw::none || !c->bottom.given) return std::nullopt;

@@ -308,14 +308,16 @@ bool BlockLowerer::variable_pecks(const GWord& g, const std::array<const Word*, 
   const Word* d = word('D');
   if (!d || (d->expr < 0 && d->number == 0)) return true;
   // The surface lies D from the reference plane toward the bottom: downward, unless the words say otherwise.
-  const bool literal = d->expr < 0 && c.bottom.value.literal() && c.reference.value.literal();
-  if (!literal || c.reference.base != ir::LevelBase::distance_mode) {
-    keep(g, "cycle.hole", "the D of G69 beside a depth that only the run knows: the block is kept as text");
-    return false;
+  const bool known =
+      c.bottom.value.literal() && c.reference.value.literal() && c.reference.base == ir::LevelBase::distance_mode;
+  const bool upward = known && c.bottom.value.number >= c.reference.value.number;
+  if (!known) {
+    state_.note("FAG-044", g.word->pos,
+                "the surface is taken to lie below the reference plane: the depth is known when the program runs");
   }
   c.surface.given = true;
   c.surface.base = ir::LevelBase::from_reference;
-  c.surface.value = ir::Value(c.bottom.value.number < c.reference.value.number ? -d->number : d->number);
+  c.surface.value = upward ? value(*d) : ir::negate(value(*d));
   c.pecks.first_from_surface = true;
   return true;
 }

@@ -54,6 +54,37 @@ void note_base(const Level& l, std::optional<Value>& base) {
 
 }  // namespace
 
+namespace {
+
+/// Dwells in another unit: `scale` seconds.
+HoleCycle rescaled(HoleCycle c, double scale_to) {
+  const double factor = c.dwell_scale / scale_to;
+  for (Value* v : {&c.dwell_bottom, &c.dwell_top, &c.pecks.dwell}) {
+    if (!v->is(0)) *v = v->literal() ? Value(std::round(v->number * factor * 1e9) / 1e9) : scale(*v, factor);
+  }
+  c.dwell_scale = scale_to;
+  return c;
+}
+
+/// The cycle and its other names: reaming and boring with a dwell move alike, and a computed dwell may have to be
+/// counted in seconds or in hundredths.
+std::vector<HoleCycle> same_moves(const HoleCycle& c) {
+  std::vector<HoleCycle> all{c};
+  if (c.kind == HoleKind::ream || c.kind == HoleKind::bore) {
+    all.push_back(c);
+    all.back().kind = c.kind == HoleKind::ream ? HoleKind::bore : HoleKind::ream;
+  }
+  if (c.dwell_bottom.literal() && c.dwell_top.literal() && c.pecks.dwell.literal()) return all;
+  for (std::size_t i = 0, n = all.size(); i < n; ++i) {
+    for (const double unit : {1.0, 0.01}) {
+      if (unit != c.dwell_scale) all.push_back(rescaled(all[i], unit));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
 HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts, std::optional<double> initial) {
   HoleCycle out = c;
   Bases bases;
@@ -85,10 +116,12 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
   const auto* hole = std::get_if<HoleCycle>(&cycle->node);
   if (hole == nullptr) return native(*cycle) ? std::optional(cycle) : std::nullopt;
   const auto accepted = [&](const HoleCycle& h) -> std::optional<CyclePtr> {
-    auto made = std::make_shared<Cycle>();
-    made->node = h;
-    if (!native(*made)) return std::nullopt;
-    return CyclePtr(std::move(made));
+    for (const HoleCycle& same : same_moves(h)) {
+      auto made = std::make_shared<Cycle>();
+      made->node = same;
+      if (native(*made)) return CyclePtr(std::move(made));
+    }
+    return std::nullopt;
   };
   for (auto& form : tap_forms(*hole, b, facts, needs != nullptr ? sense : std::nullopt)) {
     auto said = std::make_shared<Cycle>();
@@ -378,10 +411,7 @@ std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const
     return v.literal() ? std::optional<double>(v.number) : constant_value(v.expr);
   };
   const auto numbers = cycles::resolve(c, context, literal, error);
-  if (!numbers) {
-    if (error->empty()) *error = "its words are computed when the program runs";
-    return std::nullopt;
-  }
+  if (!numbers) return std::nullopt;
   const auto plane = setting_in<RetractPlane>(b, facts, Setting::retract_plane).value_or(RetractPlane::initial);
   const auto moves = cycles::expand(*numbers, height, plane, error);
   if (moves.empty()) {

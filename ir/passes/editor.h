@@ -75,4 +75,7 @@ class Editor {
   bool reported_ = false;
 };
 
+/// Loops and branches that a pass has made, as the target has them: jumps where it lacks the structure.
+void lower_structures(Editor& editor, Body& body);
+
 }  // namespace cnctrans::ir::passes

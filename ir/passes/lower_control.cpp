@@ -394,6 +394,10 @@ class ComputedJumps {
 
 }  // namespace
 
+void lower_structures(Editor& editor, Body& body) {
+  ControlPass(editor).body(body);
+}
+
 void lower_control(Program& program, const LegaliseContext& context) {
   for (auto& r : program.routines) {
     Editor editor(program, r, context);

@@ -147,10 +147,16 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   if (w && !height) height = height_mm(b, facts, *w);
   if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
-  else if (!height)
-    error = "the height of the tool before it is not known here";
-  else
+  else if (height)
     moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), sense_.now(), &error);
+  if (!moves && error.empty()) {
+    const auto initial = active_->defined_at ? active_->defined_at : height;
+    bool downward = false;
+    moves = explode_computed(*hole, s.line, b, facts, initial, sense_.now(), editor_, &downward, &error);
+    if (moves && downward)
+      context_.diagnostics.note("TRN-334", s.line.span,
+                                "the hole is taken to go downward: how deep it is only the run knows");
+  }
   if (!moves) return no_moves(std::move(s), error, out);
   position_rapid(b, context_);
   active_->height = moves->end_height;

@@ -54,14 +54,20 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
 std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b, const Facts& facts,
                                        const LegaliseContext& context);
 
-/// The moves of one hole as blocks, from `height` (mm); empty and a text in `error`: it can't be expanded.
+/// The moves of one hole as blocks, from `height` (mm); empty and a text in `error`: it can't be expanded. Without a
+/// text: some of its words only the run knows.
 struct Explosion {
   Body blocks;
-  double end_height = 0;  ///< mm
+  std::optional<double> end_height;  ///< mm, when it is a number
 };
 std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
                                  double height, double defined_at, std::optional<SpindleState> sense,
                                  std::string* error);
+/// The same with words that only the run knows: expressions, and a loop over the pecks. `downward`: set when the hole
+/// is taken to go downward because no number says so.
+std::optional<Explosion> explode_computed(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
+                                          std::optional<double> defined_at, std::optional<SpindleState> sense,
+                                          Editor& editor, bool* downward, std::string* error);
 /// Where the tool stands along its axis, by the text: after cycles the dataflow does not say.
 class ToolHeight {
  public:
