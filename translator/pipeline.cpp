@@ -259,14 +259,17 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   result.files = loader.files();
 
   ir::Program work = source_program;
-  end_main(work, result.diagnostics);
+  // In its own language for its own machine a program is legal as it stands.
+  const std::string& source_name = options.machine.empty() ? source_profile->name : options.machine;
+  const bool as_it_stands = from == to && source_name == target_name && options.cycles == ir::CycleWriting::native;
+  if (!as_it_stands) end_main(work, result.diagnostics);
   if (from != to) read_contours(work, *source_profile);
   const ir::LegaliseContext context{to->backend->capabilities_for(*target_profile),
                                     *source_profile,
                                     *target_profile,
                                     {options.cycles, options.unsupported != backends::Unsupported::error},
                                     result.diagnostics};
-  ir::legalise(work, context);
+  if (!as_it_stands) ir::legalise(work, context);
   if (refused(result.diagnostics, options)) {  // the writer would only say the same again
     result.files = loader.files();
     result.refused = true;

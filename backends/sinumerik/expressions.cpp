@@ -89,6 +89,8 @@ Expressions::Expressions(const ir::Program& program, bool own)
     : ExpressionPrinter(program, expression_style, NumberFormat{15, 12, own}), own_(own) {}
 
 std::string Expressions::assigned(const ir::ExprPtr& e, ir::Type type) {
+  const auto* text = e ? std::get_if<ir::String>(&e->node) : nullptr;
+  if (own_ && text != nullptr && text->text == "\"") return "34";  // a CHAR: the mark itself can't stand in a text
   if (type == ir::Type::integer) {
     if (const ir::Call* c = as_call(e, ir::Function::to_integer)) return print(c->args[0]);
   }
@@ -206,7 +208,10 @@ std::optional<Printed> Expressions::active_code(const ir::ExprPtr& e) {
   const auto* ref = std::get_if<ir::SystemRef>(&at->node);
   if (ref == nullptr || ref->text != "$P_GG" || ref->args.empty()) return std::nullopt;
   const auto number = literal(ref->args[0]);
-  const dialect::GFunction* g = number ? dialect::g_function(static_cast<std::int32_t>(*number)) : nullptr;
+  const auto code = static_cast<std::int32_t>(number.value_or(0));
+  const dialect::GFunction* g = !number    ? nullptr
+                                : code < 0 ? dialect::g_function(-code / 100, -code % 100)
+                                           : dialect::g_function(code);
   if (g == nullptr) return std::nullopt;
   return Printed{"$P_GG[" + std::to_string(g->group) + ']', primary_level, false};
 }
@@ -292,6 +297,33 @@ std::string Expressions::component_assignment(const ir::Assign::Item& item) {
   return component(c->args[0], c->args[1], c->args[2]) + '=' + print(c->args[3]);
 }
 
+/// `NAME[5]="X"`: the reader makes the whole text of it. Empty: no such assignment.
+std::string Expressions::character_assignment(const ir::Assign::Item& item) {
+  const auto binary = [](const ir::ExprPtr& e, ir::BinaryOp op) {
+    const auto* b = e ? std::get_if<ir::Binary>(&e->node) : nullptr;
+    return b != nullptr && b->op == op ? b : nullptr;
+  };
+  const auto part = [&item](const ir::ExprPtr& e, std::size_t size) {
+    const auto* c = e ? std::get_if<ir::Call>(&e->node) : nullptr;
+    const bool fits = c != nullptr && c->function == ir::Function::substring && c->args.size() == size &&
+                      ir::equal(c->args[0], ir::variable(item.target, ir::Type::string));
+    return fits ? c : nullptr;
+  };
+  const auto* whole = binary(item.value, ir::BinaryOp::concat);
+  const auto* front = whole != nullptr ? binary(whole->left, ir::BinaryOp::concat) : nullptr;
+  const auto* before = front != nullptr ? part(front->left, 3) : nullptr;
+  const auto* after = before != nullptr ? part(whole->right, 2) : nullptr;
+  const auto* next = after != nullptr ? binary(after->args[1], ir::BinaryOp::add) : nullptr;
+  if (next == nullptr || literal(before->args[1]) != 0.0 || literal(next->right) != 1.0 ||
+      !ir::equal(before->args[2], next->left)) {
+    return {};
+  }
+  std::string text = name(item.target);
+  const bool indexed = !item.target.indices.empty();
+  if (indexed) text.pop_back();
+  return text + (indexed ? "," : "[") + index(next->left) + "]=" + assigned(front->right, ir::Type::string);
+}
+
 std::optional<Printed> Expressions::frame_call(const ir::Call& c) {
   switch (c.function) {
     case ir::Function::frame_chain: {
@@ -299,6 +331,15 @@ std::optional<Printed> Expressions::frame_call(const ir::Call& c) {
       return Printed{outer + ':' + operand(c.args[1], chain_level + 1, true), chain_level, false};
     }
     case ir::Function::frame_part: return Printed{component(c.args[0], c.args[1], c.args[2]), primary_level, false};
+    case ir::Function::substring: {  // NAME[5]: one character
+      const auto* n = c.args.size() == 3 && c.args[2] ? std::get_if<ir::Number>(&c.args[2]->node) : nullptr;
+      const auto* v = c.args[0] ? std::get_if<ir::VarRef>(&c.args[0]->node) : nullptr;
+      if (n == nullptr || v == nullptr || n->value != 1 || !n->text.empty()) return std::nullopt;
+      std::string text = name(*v);
+      const bool indexed = !v->indices.empty();
+      if (indexed) text.pop_back();
+      return Printed{text + (indexed ? "," : "[") + index(c.args[1]) + ']', primary_level, false};
+    }
     case ir::Function::axis_text: return Printed{"AXSTRING(" + print(c.args[0]) + ')', primary_level, false};
     case ir::Function::character:
     case ir::Function::character_code: return print_node(c.args[0]);  // the language converts by itself

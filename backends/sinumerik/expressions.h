@@ -23,6 +23,7 @@ class Expressions final : public ExpressionPrinter {
   ir::Type type_of(const ir::VarRef& v) const;
   /// `F1[X,TR]=5` for an assignment that only changes one component of its frame; empty for any other.
   std::string component_assignment(const ir::Assign::Item& item);
+  std::string character_assignment(const ir::Assign::Item& item);
 
  protected:
   std::string variable(const ir::ExprPtr& e, const ir::VarRef& v) override;

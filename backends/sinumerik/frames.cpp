@@ -29,7 +29,7 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   const ir::FrameChange& c = *f.change;
   if (c.slot == ir::FrameSlot::chain && c.combine == ir::FrameCombine::replace_named &&
       c.kind == ir::FrameKind::translate) {
-    std::string text = c.fine ? "G59" : "G58";
+    std::string text = same_dialect() && !a.text.empty() ? std::string(a.text) : c.fine ? "G59" : "G58";
     for (const ir::FrameWord& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
     return add(std::move(text), Rank::head, a.pos);
   }
@@ -46,6 +46,7 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
     return add(std::string(same_dialect() && !a.text.empty() ? a.text : std::string_view("TRANS")), Rank::head, a.pos);
   }
   std::string text = (composes ? "A" : "") + std::string(verb);
+  if (same_dialect() && !a.text.empty()) text = a.text;
   if (c.has_angle) {
     if (!c.words.empty()) return refuse("TRN-202", a.pos, "a rotation about a given centre has no counterpart here");
     const bool by_axis = c.rotation_axis != ir::axis::none;
@@ -76,9 +77,11 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
 /// G111 from the zero point, G110 from the present point, G112 from the last pole.
 void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
   std::string text = "G110";
+  const bool own = same_dialect() && !a.text.empty();
   if (p.at) {
     if (p.at->combine == ir::FrameCombine::add) text = "G112";
     if (p.at->combine == ir::FrameCombine::replace) text = "G111";
+    if (own) text = a.text;
     for (const ir::FrameWord& w : p.at->words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
   } else {
     const auto plane = setting(Setting::plane);

@@ -46,6 +46,11 @@ void Writer::assign(const ir::Assign& a) {
       add(std::move(part), Rank::head, item.pos);
       continue;
     }
+    if (std::string part = same_dialect() ? expressions_.character_assignment(item) : std::string{}; !part.empty()) {
+      if (refused_problem(item.pos)) return;
+      add(std::move(part), Rank::head, item.pos);
+      continue;
+    }
     std::string text = item.to_system ? expressions_.name(item.system) : expressions_.name(item.target);
     const ir::Type type = item.to_system ? ir::Type::real : expressions_.type_of(item.target);
     text += '=';
@@ -234,6 +239,7 @@ std::string Writer::call_text(const ir::CallRoutine& c) {
     return "CALL \"L\"<<" + expressions_.operand(implied ? rounded->args[0] : c.computed, primary_level, false);
   }
   std::string text = sub_name(c.routine);
+  if (c.arguments.empty() && legal_name(text).empty() && c.routine.number < 0) return "CALL \"" + text + '"';
   if (!c.arguments.empty()) {
     text += '(';
     for (std::size_t i = 0; i < c.arguments.size(); ++i) {
@@ -311,7 +317,7 @@ void Writer::message(const ir::Message& m) {
       const bool own_number = same_dialect() || (number && *number >= first_user_alarm && *number <= 69999);
       text = "SETAL(";
       if (own_number && m.number) {
-        text += expressions_.print(m.number);
+        text += expressions_.assigned(m.number, ir::Type::integer);
       } else if (number && *number >= 0 && *number <= 4999) {
         text += std::to_string(first_user_alarm + static_cast<std::int64_t>(*number));
       } else {

@@ -240,7 +240,8 @@ void Writer::machine_function(const ir::Action& a, const ir::MachineFunction& m)
 
 void Writer::dwell(const ir::Action& a, const ir::Dwell& d) {
   const ir::Value amount = d.scale == 1 ? d.value : ir::scale(d.value, d.scale);
-  add("G4 " + word(d.revolutions ? "S" : "F", amount, a.pos), Rank::setting, a.pos);
+  const std::string code = same_dialect() && !a.text.empty() ? std::string(a.text) : "G4";
+  add(code + ' ' + word(d.revolutions ? "S" : "F", amount, a.pos), Rank::setting, a.pos);
 }
 
 // ---- cycles, corners -----------------------------------------------------------------------------------------------

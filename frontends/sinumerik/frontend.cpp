@@ -154,6 +154,7 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
   const std::string upper = to_upper_ascii(name);
   const bool sub = names_subprogram(name) || upper.rfind("SPF", 0) == 0;
   if (!fresh_ || routine_.header.span.known() || !routine_.body.empty()) {
+    if (blank_ != 0) close_blank();
     end_routine();
     begin_routine(name, sub);
   }

@@ -106,7 +106,8 @@ bool StatementLowering::assign_list(const ir::VarRef& target, ir::Type type, con
 }
 
 ir::ExprPtr StatementLowering::zero_of(ir::Type type) {
-  return type == ir::Type::string ? ir::string_literal({}) : ir::number(0);
+  if (type == ir::Type::string) return ir::string_literal({});
+  return make_expr(ir::Number{0, "0", true}, ir::Type::integer, WordPos{});
 }
 
 /// `NAME[5]="X"`: the text with another character at this place.

@@ -129,6 +129,16 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
   out.type = *type;
   out.space = *place;
   out.type_text = type_text(s.args[0], c_);
+  const auto is = [](std::string_view keyword) {
+    return [keyword](const Statement& x) { return x.keyword == keyword; };
+  };
+  const auto first = std::find_if(s.children.begin(), s.children.end(), is("VAR"));
+  if (first != s.children.end() && std::any_of(s.children.begin(), s.children.end(), is("ATTR"))) {
+    // NCK REAL PHU 21 LLI 0: the attributes stand before and behind the type
+    constexpr std::uint32_t keyword_length = 3;
+    const std::uint32_t from = s.pos.column + keyword_length;
+    if (first->pos.column > from) out.type_text = trim(c_.slice(WordPos{from, first->pos.column - from}));
+  }
   emit(info, std::move(out));
   return true;
 }

@@ -68,8 +68,8 @@ ir::ExprPtr ExprLowering::lower(const Expr& e) {
       n.text = e.text;
       const bool based = !e.text.empty() && e.text.front() == '\'';
       n.integer = based || e.text.find_first_of(".Xx") == std::string::npos;
-      if (based || e.text.find_first_of("Xx") != std::string::npos)
-        n.text.clear();  // only plain decimals travel as text
+      if (!based && e.text.find_first_of("Xx") != std::string::npos)
+        n.text.clear();  // plain decimals travel as text, 'H1F' for its own language
       const ir::Type type = n.integer ? ir::Type::integer : ir::Type::real;
       return make_expr(std::move(n), type, e.pos);
     }
@@ -455,6 +455,10 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
       inner->pos.length == inner->args[0].pos.length + 1 &&
       inner->args[0].text.find_first_of("XxHB'") == std::string::npos) {
     return ir::Value(-inner->args[0].number, c_.slice(inner->pos));
+  }
+  if (inner->kind == ExprKind::unary && inner->text == "+" && inner->args[0].kind == ExprKind::number &&
+      inner->pos.length == inner->args[0].pos.length + 1) {
+    return ir::Value(inner->args[0].number, c_.slice(inner->pos));
   }
   ir::ExprPtr expr = lower(*inner);
   if (expr && (expr->type == ir::Type::string || expr->type == ir::Type::axis)) {

@@ -58,6 +58,11 @@ ir::ExprPtr ExprLowering::axis_operand(const Expr& e) {
   ir::ExprPtr axis = lower(e);
   if (!axis) return nullptr;
   if (axis->type == ir::Type::axis) return axis;
+  if (const auto* datum = std::get_if<ir::SystemRef>(&axis->node);
+      datum != nullptr && datum->datum == ir::Datum::other) {  // its type is not known
+    c_.keep("SIN-006", e.pos, std::string(c_.slice(e.pos)) + " is not defined in this program; an axis is needed here");
+    return nullptr;
+  }
   c_.error("SIN-012", e.pos, "an axis is needed here");
   return nullptr;
 }

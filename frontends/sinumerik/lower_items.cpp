@@ -70,6 +70,16 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
     return refuse("language.system_variable", pos,
                   "writing " + target.text + " is not carried yet: it could change what the machine does");
   }
+  item.value = exprs_.lower(value);
+  if (!item.value) return false;
+  if (tool_data && (item.value->type == ir::Type::string || item.value->type == ir::Type::axis)) {
+    ir::Action a;  // the name of a tool, an axis of a tool carrier
+    a.pos = pos;
+    a.text = c_.slice(pos);
+    a.data = ir::OpaqueWord{a.text};
+    parts.actions.push_back(std::move(a));
+    return true;
+  }
   item.value = exprs_.lower_as(value, ir::Type::real);
   if (!item.value) return false;
   parts.assign.items.push_back(std::move(item));

@@ -155,7 +155,8 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
     ir::SystemRef ref;
     ref.datum = ir::Datum::active_modal;
     ref.text = e.text;
-    ref.args = {ir::number(g.number), ir::number(setting), ir::number(value)};
+    const int code = g.number >= 0 ? g.number : -(100 * g.group + g.index);  // DIAMON and its like have no number
+    ref.args = {ir::number(code), ir::number(setting), ir::number(value)};
     auto term =
         ir::binary(ir::BinaryOp::multiply, ir::number(g.index), make_expr(std::move(ref), ir::Type::real, e.pos));
     sum = sum ? ir::binary(ir::BinaryOp::add, std::move(sum), std::move(term)) : std::move(term);
