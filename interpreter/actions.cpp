@@ -87,8 +87,9 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::ToolChange& /*a*/) const {
-    if (const auto* t = first_of<ir::ToolSelect>(b); t != nullptr && !m.select_tool(*t)) return false;
-    m.emit_tool(true);
+    const auto* t = first_of<ir::ToolSelect>(b);
+    if (t != nullptr && !m.select_tool(*t)) return false;
+    if (t != nullptr || !m.tool_came_with_t_) m.emit_tool(true);
     return true;
   }
   bool operator()(const ir::ToolOffset& a) const {
@@ -184,7 +185,10 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
       return;
     case ir::Setting::units: modal_.units_feed_too = m.feed_too; break;
     case ir::Setting::plane:
-      if (policy_.plane_resets_pole) pole_ = {};
+      if (policy_.plane_resets_pole) {
+        pole_ = {};
+        pole_set_ = false;
+      }
       break;
     default: break;
   }
@@ -294,6 +298,7 @@ bool BlockMachine::select_tool(const ir::ToolSelect& t) {
   if (failure_.set) return false;
   tool_name_ = std::string(t.name);
   tool_ = static_cast<std::int32_t>(std::lround(number));
+  tool_came_with_t_ = t.changes;
   return true;
 }
 
@@ -353,7 +358,9 @@ bool BlockMachine::profile_function(const machine::MCode& m) {
       spindles_[1].state = ir::SpindleState::off;
       emit_spindle(1);
       break;
-    case MMeaning::tool_change: emit_tool(true); break;
+    case MMeaning::tool_change:
+      if (!tool_came_with_t_) emit_tool(true);
+      break;
     case MMeaning::coolant_off: emit_coolant("off"); break;
     case MMeaning::coolant_flood: emit_coolant("flood"); break;
     case MMeaning::coolant_mist: emit_coolant("mist"); break;

@@ -168,7 +168,10 @@ Vec BlockMachine::last_direction(const ir::PlaneAxes& plane) const {
 /// Full turns: given, or from a pitch: total turns = travel / pitch, the arc itself included.
 bool BlockMachine::arc_turns(const ir::Motion& m, Move& move) {
   const auto plane = ir::plane_axes(move.plane);
-  if (policy_.pole_follows_arc) pole_ = move.centre;
+  if (policy_.pole_follows_arc) {
+    pole_ = move.centre;
+    pole_set_ = true;
+  }
   if (!m.extra) return !failure_.set;
   if (m.extra->has_turns) {
     const double n = std::round(value(m.extra->turns));

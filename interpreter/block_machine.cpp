@@ -27,6 +27,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.nearest_pitch = is("helix.pitch_mismatch", "nearest");
   policy_.machine_metric = is("machine_move.units", "machine");
   policy_.pole_follows_arc = is("polar.pole_follows_arc", "yes");
+  policy_.pole_stays = is("polar.pole_stays", "yes");
   policy_.plane_resets_pole = is("polar.plane_resets_pole", "yes");
   policy_.start_angle_stays = is("thread.start_angle", "modal");
   policy_.machine_absolute = is("machine_move.words", "absolute");

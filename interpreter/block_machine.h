@@ -115,8 +115,8 @@ class BlockMachine final : public SystemData {
     bool cycle_rapid = false, rotary_triggers = false, modal_words = false, keeps_programmed = false,
          centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
-         start_angle_stays = false, position_as_words = false, machine_absolute = false, offsets_at_once = false,
-         preset_is_offset = false;
+         pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
+         offsets_at_once = false, preset_is_offset = false;
     bool data_modal = false;  ///< machine data in the units of the program
   };
   struct Pending {
@@ -286,8 +286,10 @@ class BlockMachine final : public SystemData {
   std::array<double, 3> feed_{}, feed_degrees_{};  ///< by FeedMode: in mm; the number programmed
   std::array<Spindle, 32> spindles_{};
   std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
+  bool tool_came_with_t_ = false;  ///< the tool selected last was changed by its T: M6 has nothing left to do
   std::string tool_name_;
   Vec pole_;
+  bool pole_set_ = false;   ///< by the program, not the zero point of the plane
   double start_angle_ = 0;  ///< of a thread, where it stays in force
 
   // the last path element, for tangents

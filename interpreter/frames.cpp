@@ -97,6 +97,14 @@ bool BlockMachine::use_frame(const Frame& f) {
     }
     p_[a] = seen[a];
   }
+  if (policy_.pole_stays && pole_set_ && f.linear_part() == frame_.linear_part()) {
+    const auto plane = ir::plane_axes(modal_.plane);
+    Axes pole = p_;
+    pole[plane.u] = pole_.u;
+    pole[plane.v] = pole_.v;
+    pole = inverse.apply(frame_.apply(pole));
+    pole_ = {pole[plane.u], pole[plane.v]};
+  }
   frame_ = f;
   inverse_ = inverse;
   plain_frame_ = f.is_translation();
@@ -267,6 +275,7 @@ bool BlockMachine::stretch(const ir::FrameChange& c, ir::FrameCombine combine, F
 /// the present point; an absolute pole without words: the zero point of the work frame.
 void BlockMachine::set_pole(const ir::PoleSet& p) {
   const auto plane = ir::plane_axes(modal_.plane);
+  pole_set_ = true;
   const Vec here{p_[plane.u], p_[plane.v]};
   if (p.at == nullptr) {
     pole_ = here;

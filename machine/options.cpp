@@ -43,6 +43,8 @@ constexpr std::array specs{
                "words of a move in machine coordinates: increments in incremental mode, or positions in any mode"},
     OptionSpec{"polar.plane_resets_pole", "no|yes", "no", "a plane function puts the pole to the zero point"},
     OptionSpec{"polar.pole_follows_arc", "no|yes", "no", "the centre of an arc becomes the pole"},
+    OptionSpec{"polar.pole_stays", "no|yes", "no",
+               "a pole that the program has set stays in its place when the zero point moves, or moves along"},
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},

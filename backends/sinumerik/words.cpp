@@ -49,7 +49,7 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
     (m.setting == Setting::feed_mode ? feed : spindle) = m.value;
   }
   if (!named || same_dialect()) return;
-  const bool sets_spindle = spindle.has_value();
+  const bool sets_spindle = spindle.has_value(), names_feed = feed.has_value();
   const auto feed_before = setting(Setting::feed_mode);
   const auto spindle_before = uses_css_ ? setting(Setting::spindle_mode) : code_value(ir::SpindleMode::rpm);
   if (!feed) feed = feed_before;
@@ -65,6 +65,10 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
                           spindle_before != code_value(ir::SpindleMode::rpm);
   if (leaves_css && feed_mode == ir::FeedMode::per_rev) group_code_ = "G97";
   if (leaves_css && feed_mode == ir::FeedMode::per_minute) group_code_ = "G971";
+  // Speed in rpm that holds already: the programmer's G97 stays one; with a feed per minute it would be G971.
+  const bool again = sets_spindle && !leaves_css && spindle_mode == ir::SpindleMode::rpm && !names_feed;
+  if (again && feed_mode == ir::FeedMode::per_rev) group_code_ = "G97";
+  if (again && feed_mode != ir::FeedMode::per_rev) group_written_ = true;
   if (group_code_.empty())
     refuse("TRN-202", {}, "inverse-time feed with constant cutting speed has no counterpart here");
 }

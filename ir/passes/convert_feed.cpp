@@ -1,5 +1,7 @@
 // The feed (equivalences 14.1): controls keep F over a change of the feed mode, keep one F for each mode, or forget it.
 // The target gets an explicit F before the next cut whenever it would not have the source's feed there.
+#include <algorithm>
+
 #include "base/text.h"
 #include "ir/passes/feed_state.h"
 #include "ir/passes/flow_states.h"
@@ -64,6 +66,21 @@ class FeedPass {
   const FlowStates<FeedDomain>& states_;
 };
 
+/// The feed mode that a code of the spindle mode brings along, where it holds already: the target's code for the
+/// spindle mode leaves the feed mode alone.
+void drop_implied(Block& b, const Facts& before) {
+  const bool spindle = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return m != nullptr && m->setting == Setting::spindle_mode;
+  });
+  if (!spindle) return;
+  const auto mode = setting<std::uint8_t>(before, Setting::feed_mode);
+  std::erase_if(b.actions, [mode](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return m != nullptr && m->setting == Setting::feed_mode && a.text.empty() && mode == m->value;
+  });
+}
+
 }  // namespace
 
 void convert_feed(Program& program, const LegaliseContext& context) {
@@ -76,9 +93,10 @@ void convert_feed(Program& program, const LegaliseContext& context) {
     for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
   }
   for (auto& r : program.routines) {
-    for_each_statement(r.body, [&context](Statement& s) {
+    for_each_statement(r.body, [&context, &facts](Statement& s) {
       auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) return;
+      drop_implied(*b, facts.before(s));
       for (auto& a : b->actions) {
         if (auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::feed_mode) {
           m->feed_memory = context.target.feed_memory;

@@ -7,21 +7,12 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/polar_words.h"
 #include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
-
-/// Without the last bits of sines and cosines.
-double clean(double x) {
-  return std::round(x * 1e9) / 1e9 + 0.0;
-}
-
-struct Point2 {
-  double u = 0, v = 0;
-  bool operator==(const Point2&) const = default;
-};
 
 class PolePass {
  public:
@@ -29,13 +20,20 @@ class PolePass {
       : program_(program), context_(context), facts_(facts) {
     source_resets_ = context.source_machine.option("polar.plane_resets_pole") == "yes";
     target_resets_ = context.target_machine.option("polar.plane_resets_pole") == "yes";
+    target_stays_ = context.target_machine.option("polar.pole_stays") == "yes";
+    stays_ = context.source_machine.option("polar.pole_stays") == "yes";
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
   }
 
   // A domain of FlowStates: the pole before each statement.
-  using State = std::optional<Point2>;
+  struct Pole : Point2 {
+    bool set = false;    ///< by the program: on some controls it stays in its place when the zero point moves
+    bool stale = false;  ///< the zero point has moved since
+    bool operator==(const Pole&) const = default;
+  };
+  using State = std::optional<Pole>;
   [[nodiscard]] static State start(const Routine& r, bool called) {
-    return r.kind == RoutineKind::main && !called ? State(Point2{}) : std::nullopt;
+    return r.kind == RoutineKind::main && !called ? State(Pole{}) : std::nullopt;
   }
   void transfer(const Statement& s, State& state) const {
     const auto* b = std::get_if<Block>(&s.node);
@@ -72,11 +70,19 @@ class PolePass {
     const auto* b = std::get_if<Block>(&s.node);
     if (const auto* o = std::get_if<Opaque>(&s.node)) return !o->harmless;
     if (b == nullptr) return false;
+    if (zero_counts() && b->has_motion && b->motion.extra) return true;
     return (follows_arc_ && b->has_motion && !b->motion.centers.empty()) ||
-           std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+           std::any_of(b->actions.begin(), b->actions.end(), [this](const Action& a) {
              const auto* m = std::get_if<ModalSet>(&a.data);
-             return std::holds_alternative<PoleSet>(a.data) || (m != nullptr && m->setting == Setting::plane);
+             return std::holds_alternative<PoleSet>(a.data) || (zero_counts() && moves_zero(a)) ||
+                    (m != nullptr && m->setting == Setting::plane);
            });
+  }
+  bool zero_counts() const { return stays_ != target_stays_; }
+  static bool moves_zero(const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    return std::holds_alternative<WorkOffset>(a.data) ||
+           (f != nullptr && f->change && f->change->kind == FrameKind::translate);
   }
   void forget_point() {
     at_.reset();
@@ -125,6 +131,7 @@ class PolePass {
         if (!plane_code(actions)) problem = "where the pole of the polar words behind this plane function lies";
         continue;
       }
+      if (zero_counts() && moves_zero(a) && pole_ && pole_->set) pole_->stale = true;
       if (const auto* p = std::get_if<PoleSet>(&a.data)) {
         place = a.pos;
         radius_.reset();
@@ -139,20 +146,27 @@ class PolePass {
     }
     b.actions = std::move(actions);
     polar_arc_done_ = is_polar_arc(b, facts);
+    const bool about = is_polar_line(b, facts) || (polar_arc_done_ && b.motion.centers.empty());
+    const auto whole = factors(b, facts, Distance::absolute);
+    if (about && pole_ && pole_->stale && !stays_ && whole) {  // the target's stayed behind
+      if (context_.target.polar) b.actions.push_back(action(PoleSet{absolute(*pole_, whole->u, whole->v)}));
+      pole_->stale = false;
+    } else if (about && pole_ && pole_->stale) {
+      problem = "the pole, which stays in its place when the zero point moves,";
+    }
     if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts)) {
       problem = "the start or the centre of this arc by polar words";
-      place = b.motion.code_pos;
     }
     if (is_polar_line(b, facts)) {
       const bool done = polar_words(b, facts);
       if (problem.empty() && !done && !context_.target.polar) {
         problem = "the pole of these polar words, or the point before them,";
-        place = b.motion.code_pos;
       }
-    } else if (!polar_arc_done_ && b.has_motion && b.motion.moves()) {
-      forget_point();
+    } else if (!polar_arc_done_) {
+      follow_point(b, facts);
     }
     settle(s);
+    if (place.column == 0) place = b.motion.code_pos;
     if (!problem.empty() && !quiet_) {
       refuse(s, program_, context_, "TRN-316", std::string(problem) + " is not known here, and the target needs it",
              "give the pole and the point before it as numbers", place);
@@ -161,10 +175,42 @@ class PolePass {
     if (follows_arc_ && b.has_motion && !b.motion.centers.empty()) pole_.reset();
   }
 
+  /// The point of the polar words over a block without such words: moves along other axes leave it where it is.
+  void follow_point(const Block& b, const Facts& facts) {
+    const bool moved_zero = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+             std::holds_alternative<CycleDefine>(a.data);
+    });
+    if (moved_zero) return forget_point();
+    if (!b.has_motion || !b.motion.moves()) return;
+    const bool plain = plane_ && b.motion.frame == FrameUse::normal && !b.motion.extra;
+    if (!plain) return forget_point();
+    const PlaneAxes axes = plane_axes(*plane_);
+    bool in_plane = !b.motion.centers.empty() || b.motion.kind == MotionKind::reference_point;
+    for (const auto& w : b.motion.coords) in_plane = in_plane || w.axis == axes.u || w.axis == axes.v;
+    if (!in_plane) return;
+    radius_.reset();
+    angle_.reset();
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    for (const auto& w : b.motion.coords) {
+      if (!at_) return;
+      double* slot = w.axis == axes.u ? &at_->u : w.axis == axes.v ? &at_->v : nullptr;
+      if (slot == nullptr) continue;
+      const bool steps =
+          w.mode == WordMode::incremental || (w.mode == WordMode::modal && distance == Distance::incremental);
+      const auto f = to_radius(w.axis, w.scale, steps ? Distance::incremental : Distance::absolute, b, facts,
+                               context_.source_machine);
+      const bool known = w.value.literal() && f && (w.mode != WordMode::modal || distance) &&
+                         (w.mode == WordMode::modal || w.mode == WordMode::absolute || w.mode == WordMode::incremental);
+      if (!known) return at_.reset();
+      *slot = (steps ? *slot : 0) + w.value.number * *f;
+    }
+  }
+
   /// After a plane function: the pole of the source, said again. False: not known.
   bool plane_code(std::vector<Action>& actions) {
     const bool at_zero = pole_ && pole_->u == 0 && pole_->v == 0;
-    if (source_resets_) pole_ = Point2{};
+    if (source_resets_) pole_ = Pole{};
     if (!context_.target.polar) return true;
     if (source_resets_ == target_resets_ || at_zero) return true;
     if (!pole_) return false;
@@ -180,11 +226,12 @@ class PolePass {
     return change;
   }
 
-  /// Follows the pole; a relative one becomes absolute. False: not known.
+  /// False: not known.
   bool pole_set(const PoleSet& p, Action& a, const Block& b, const Facts& facts) {
     const bool relative = p.at && (p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose);
     const bool from_last = relative && p.at->combine == FrameCombine::add;
-    pole_ = place_of(p, b, facts, from_last ? pole_ : here(facts));
+    const auto at = place_of(p, b, facts, from_last ? std::optional<Point2>(pole_) : here(facts));
+    pole_ = at ? State(Pole{*at, true}) : std::nullopt;
     if (!relative) return true;
     bool zero = true;
     for (const auto& w : p.at->words) zero = zero && w.value.is(0);
@@ -223,7 +270,8 @@ class PolePass {
     if (!plane_) return std::nullopt;
     if (!p.at) return base;
     const bool relative = p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose;
-    if (!relative) base = p.at->words.empty() ? Point2{} : pole_;
+    if (!relative && p.at->words.empty()) base = Point2{};
+    if (!relative && !p.at->words.empty()) base = pole_;
     const PlaneAxes axes = plane_axes(*plane_);
     std::optional<double> u, v;
     if (base) u = base->u, v = base->v;
@@ -242,13 +290,6 @@ class PolePass {
     return Point2{*u, *v};
   }
 
-  static bool is_polar_arc(const Block& b, const Facts& facts) {
-    if (!b.has_motion || !b.motion.extra) return false;
-    const auto kind = motion_in(b, facts);
-    if (kind != MotionKind::arc_cw && kind != MotionKind::arc_ccw) return false;
-    return b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius;
-  }
-
   /// An arc whose end is an angle about its centre: with its radius about the pole every target has it (the writer
   /// leaves out a word that the target does not take), the other forms become axis words. False: not known.
   bool polar_arc(Block& b, const Facts& facts) {
@@ -256,14 +297,57 @@ class PolePass {
       forget_point();
       return true;
     }
-    return to_cartesian(b, facts, *b.motion.extra);
+    return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra);
   }
 
-  static bool is_polar_line(const Block& b, const Facts& facts) {
-    if (!b.has_motion || !b.motion.extra) return false;
-    const auto kind = motion_in(b, facts);
-    return (kind == MotionKind::linear || kind == MotionKind::rapid) &&
-           (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
+  /// An arc about the pole to an absolute angle: its radius is the distance of the point before, which may be a
+  /// variable's. False: not of that form, or not known.
+  bool about_pole(Block& b, const Facts& facts) {
+    Motion& m = b.motion;
+    MotionExtra x = *m.extra;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    const bool absolute =
+        x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
+    if (!m.centers.empty() || x.has_polar_radius || !absolute || distance != Distance::absolute || !plane_)
+      return false;
+    std::optional<Value> r = radius_;
+    const auto start = here(facts);
+    if (!r && pole_ && start) r = Value{clean(std::hypot(start->u - pole_->u, start->v - pole_->v))};
+    const auto f = factors(b, facts, Distance::absolute);
+    if (!r || !pole_ || !f) return false;
+    if (r->literal() && x.polar_angle.literal() && !context_.target.polar) return false;  // numbers: by to_cartesian
+    r->text = {};
+    const Value q = x.polar_angle;
+    forget_point();
+    if (r->literal() && q.literal()) at_ = around(*pole_, r->number, q.number);
+    radius_ = r;
+    angle_ = q;
+    angle_->text = {};
+    if (context_.target.polar) {
+      x.has_polar_radius = true;
+      x.polar_radius = *r;
+      m.extra = std::make_shared<const MotionExtra>(std::move(x));
+      return true;
+    }
+    const PlaneAxes axes = plane_axes(*plane_);
+    const auto word = [&](AxisId axis, Function wave, double from, double factor) {
+      CoordWord w;
+      w.axis = axis;
+      w.value = around(*r, *angle_, wave, from, factor);
+      m.coords.push_back(w);
+      CenterWord c;
+      c.axis = axis;
+      c.mode = CenterMode::absolute;
+      c.scale = WordScale::radius;
+      c.value = Value{from};
+      m.centers.push_back(c);
+    };
+    word(axes.u, Function::cos, pole_->u, f->u);
+    word(axes.v, Function::sin, pole_->v, f->v);
+    x.has_polar_angle = false;
+    x.polar_angle = Value{};
+    m.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    return true;
   }
 
   /// Radius and angle about the pole as coordinates; a word that is left out keeps what the point before has of it.
@@ -294,18 +378,12 @@ class PolePass {
     angle_ = q;
     Value u, v;
     if (r.literal() && q.literal()) {
-      const double angle = q.number * std::numbers::pi / 180;
-      at_ = Point2{clean(pole_->u + r.number * std::cos(angle)), clean(pole_->v + r.number * std::sin(angle))};
+      at_ = around(*pole_, r.number, q.number);
       u = Value{at_->u / f->u};
       v = Value{at_->v / f->v};
     } else {
-      const auto along = [&](Function wave, double from, double factor) {
-        const ExprPtr turn = q.literal() ? as_expr(q) : q.expr;
-        const Value leg{binary(BinaryOp::multiply, as_expr(r), call(wave, std::vector<ExprPtr>{turn}))};
-        return add(scale(leg, 1 / factor), Value{from / factor});
-      };
-      u = along(Function::cos, pole_->u, f->u);
-      v = along(Function::sin, pole_->v, f->v);
+      u = around(r, q, Function::cos, pole_->u, f->u);
+      v = around(r, q, Function::sin, pole_->v, f->v);
     }
     if (context_.target.polar) return true;  // only followed
     const auto inc = factors(b, facts, Distance::incremental);
@@ -324,8 +402,8 @@ class PolePass {
     }
     x.has_polar_radius = x.has_polar_angle = false;
     x.polar_radius = x.polar_angle = Value{};
-    const bool more = x.has_turns || x.has_pitch || x.has_line_angle;
-    b.motion.extra = more ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    b.motion.extra =
+        x.has_turns || x.has_pitch || x.has_line_angle ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
     return true;
   }
 
@@ -366,8 +444,7 @@ class PolePass {
     }
     x.has_polar_radius = x.has_polar_angle = false;
     x.polar_radius = x.polar_angle = Value{};
-    const bool more = x.has_turns || x.has_pitch;
-    m.extra = more ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    m.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
     return true;
   }
 
@@ -392,32 +469,16 @@ class PolePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   LabelUses uses_;
-  std::optional<Point2> pole_;
+  State pole_;
   std::optional<Point2> at_;             ///< where polar words have led, when the dataflow does not know it
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   bool polar_arc_done_ = false;
   bool quiet_ = false;  ///< only following
   std::optional<Plane> plane_;
-  bool source_resets_ = false, target_resets_ = false, follows_arc_ = false;
+  bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false;
+  bool target_stays_ = false;
 };
-
-bool uses_polar(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      const MotionExtra* x = b->has_motion ? b->motion.extra.get() : nullptr;
-      found = found || (x != nullptr && (x->has_polar_angle || x->has_polar_radius));
-      for (const auto& a : b->actions) {
-        const auto* p = std::get_if<PoleSet>(&a.data);
-        found = found || (p != nullptr && p->at && !p->at->words.empty());
-      }
-    });
-  }
-  return found;
-}
 
 }  // namespace
 

@@ -48,6 +48,8 @@ class ToolChanges {
       if (auto* t = std::get_if<ToolSelect>(&a.data)) {
         changed = changed || t->changes != at_once_;
         select(std::move(a), has<ToolChange>(b), out);
+      } else if (std::holds_alternative<ToolChange>(a.data) && came_with_t_ && !has<ToolSelect>(b)) {
+        done_already(s, a);
       } else if (std::holds_alternative<ToolChange>(a.data) && at_once_) {
         change(s, a, out);
       } else {
@@ -63,6 +65,7 @@ class ToolChanges {
     auto& t = std::get<ToolSelect>(a.data);
     const bool did = t.changes;
     selected_ = true;
+    came_with_t_ = did && changes_on_select(context_.source_machine);
     if (did == at_once_) {
       out.push_back(std::move(a));
       return;
@@ -95,9 +98,17 @@ class ToolChanges {
     }
   }
 
+  /// M6 behind a T that changed the tool at once: nothing is left to do.
+  void done_already(const Statement& s, const Action& a) {
+    context_.diagnostics.note("TRN-141", word_span(s.line.span, a.pos),
+                              "the tool is changed at T on the source's machine; the tool change after it does nothing "
+                              "there and is left out");
+  }
+
   const LegaliseContext& context_;
   bool at_once_;
   bool selected_ = false;
+  bool came_with_t_ = false;
   std::optional<Action> pending_;
 };
 
@@ -250,7 +261,10 @@ void add_gear(Program& program, const LegaliseContext& context) {
 }  // namespace
 
 void convert_tools(Program& program, const LegaliseContext& context) {
+  const bool as_written = program.dialect == context.target.dialect &&
+                          changes_on_select(context.source_machine) == changes_on_select(context.target_machine);
   for (auto& r : program.routines) {
+    if (as_written) break;
     ToolChanges changes(context);
     for_each_statement(r.body, [&changes](Statement& s) {
       if (std::holds_alternative<Block>(s.node)) changes.block(s);

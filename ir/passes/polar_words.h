@@ -1,0 +1,32 @@
+// Polar words as coordinates: parts of the pass of the poles.
+#pragma once
+
+#include "ir/passes/words.h"
+#include "ir/program.h"
+
+namespace cnctrans::ir::passes {
+
+/// A point of the plane in mm, radius: abscissa u, ordinate v.
+struct Point2 {
+  double u = 0, v = 0;
+  bool operator==(const Point2&) const = default;
+};
+
+/// `x` without the last bits of sines and cosines.
+double clean(double x);
+
+/// The point at radius `r` (mm) and angle `q` (degrees) about `pole`.
+Point2 around(Point2 pole, double r, double q);
+
+/// One coordinate of it as an expression of words: wave(q) * r + from, divided by `factor` (mm of one unit of the
+/// word).
+Value around(const Value& r, const Value& q, Function wave, double from, double factor);
+
+/// An arc, or a line, whose end stands in polar words.
+bool is_polar_arc(const Block& b, const Facts& facts);
+bool is_polar_line(const Block& b, const Facts& facts);
+
+/// The program has polar words or sets a pole.
+bool uses_polar(const Program& program);
+
+}  // namespace cnctrans::ir::passes
