@@ -120,7 +120,9 @@ bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const 
   }
   if (std::holds_alternative<SpindleRun>(a.data)) return target_.gear_needed;
   if (const auto* t = std::get_if<ToolSelect>(&a.data)) return at_once_ && !t->changes && !has<ToolChange>(block);
-  if (std::holds_alternative<ToolChange>(a.data)) return at_once_ && !has<ToolSelect>(block);
+  if (std::holds_alternative<ToolChange>(a.data)) {
+    return (at_once_ || passes::changes_on_select(source_)) && !has<ToolSelect>(block);
+  }
   return false;
 }
 
