@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/lower_cycles.h"
@@ -11,12 +13,29 @@
 
 namespace cnctrans::ir::passes {
 
+/// Routines that are called while a cycle is active whose points lie in them: a copy for each cycle.
+struct CycleCallees {
+  struct Copy {
+    std::size_t original = 0;
+    CyclePtr source, native;
+    bool on_target = false, single = false;  ///< before the call
+    Routine routine;
+    bool finished = false;
+    std::optional<double> height_after;
+    bool on_target_after = false, ended_after = false;
+  };
+  std::vector<std::unique_ptr<Copy>> copies;
+  int made = 0;
+};
+
 class CyclePass {
  public:
-  CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
+  CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts,
+            CycleCallees& callees)
       : program_(program),
         context_(context),
         facts_(facts),
+        callees_(callees),
         editor_(program, routine, context),
         uses_(label_uses(program, routine)),
         turning_(program, routine, context),
@@ -107,10 +126,12 @@ class CyclePass {
       return;
     bool branch = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
                   std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node);
+    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && callee_of(*call)) branch = false;
     for (const auto& l : labels_on(s.line)) branch = branch || uses_.is_target(l);
     active_->single = active_->single || branch;
   }
   void lower(Statement&& s, Body& out) {
+    check_words(s);
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
       if (m->off && active_) return cancel_statement(std::move(s), out);
       if (m->off && !by_call_ && !context_.target.modal_call && facts_.before(s).modal_call == 0) {
@@ -131,6 +152,10 @@ class CyclePass {
       if (!m->off && m->cycle) return modal_call(std::move(s), out);
     }
     if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
+    if (auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_ && call_with_cycle(*call, s.line)) {
+      out.push_back(std::move(s));
+      return;
+    }
     if (active_ && !active_->native &&
         (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
       context_.diagnostics.error(
@@ -359,6 +384,13 @@ class CyclePass {
   /// A block while a cycle is active.
   void point(Statement&& s, Body&& pieces, Body& out);
 
+  /// The routine that a plain call runs; nullopt: another call, or it is not in the program.
+  [[nodiscard]] std::optional<std::size_t> callee_of(const CallRoutine& call) const;
+  /// The points lie in the called routine, and the target's cycle needs to be defined or written out there: the call
+  /// goes to a copy of it for this cycle. False: the call stays as it is.
+  bool call_with_cycle(CallRoutine& call, const LineInfo& where);
+  void check_words(const Statement& s);
+
   /// A point on a target that defines the cycle in the block of its first point.
   void native_point(Statement&& s, Body&& pieces, Body& out);
 
@@ -375,6 +407,7 @@ class CyclePass {
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  CycleCallees& callees_;
   Editor editor_;
   LabelUses uses_;
   TurnCycles turning_;
@@ -382,10 +415,14 @@ class CyclePass {
   ToolHeight height_;
   SpindleSense sense_;
   bool by_call_ = false;
+  bool surely_active_ = false;  ///< a copy for one cycle that does not touch it
   bool written_out_ = false;
   std::optional<Active> active_;
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
   std::optional<Active> ran_;  ///< what the block at hand runs by its definition
 };
+
+/// Puts the copies into the program.
+void add_callees(Program& program, CycleCallees& callees);
 
 }  // namespace cnctrans::ir::passes

@@ -23,7 +23,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   // A modal cycle of the target is in force on the same ways as the source's; one that each point gets is not.
   const bool follows =
       active_->native && (by_call_ || (active_->on_target && !active_->single && !active_->maybe_on_target));
-  if (hole_here && !follows && !facts.cycle_active_known) {
+  if (hole_here && !follows && !facts.cycle_active_known && !surely_active_) {
     refuse(s, program_, context_, "TRN-331",
            "whether a cycle is active here depends on the path that leads here, and the target needs to know it",
            "cancel the cycle on every path, or define it on every path");
@@ -420,11 +420,13 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
     return;
   const FactsOf facts(program, context);
   std::set<std::uint32_t> profiles;
+  CycleCallees callees;
   for (auto& r : program.routines) {
-    CyclePass pass(program, r, context, facts);
+    CyclePass pass(program, r, context, facts, callees);
     pass.run();
     profiles.insert(pass.profiles().begin(), pass.profiles().end());
   }
+  add_callees(program, callees);
   retire_profiles(program, profiles, facts);
 }
 
