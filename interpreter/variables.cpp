@@ -240,6 +240,7 @@ std::vector<std::pair<std::string, std::string>> Variables::report() const {
     }
   }
   for (const auto& v : globals_) {
+    if (v.name.find(' ') != std::string::npos) continue;  // a reader's own: no program can name it
     report_named(v, [&](std::string name, std::string value) { out.emplace_back(std::move(name), std::move(value)); });
   }
   for (const auto& [key, value] : left_locals_) out.emplace_back(at_depth(key.second, key.first), value);

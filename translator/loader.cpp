@@ -25,6 +25,8 @@ struct LatheEvidence {
   bool y_word = false;
   bool cutting_speed = false;
   bool diameters = false;
+  bool lathe_code = false;
+  const std::vector<int>& lathe_codes;
 
   void word(std::string_view name, std::string_view rest) {
     const std::string upper = to_upper_ascii(name);
@@ -36,6 +38,7 @@ struct LatheEvidence {
     int code = -1;
     std::from_chars(rest.data(), rest.data() + rest.size(), code);
     if (code == 96) cutting_speed = true;
+    lathe_code = lathe_code || std::find(lathe_codes.begin(), lathe_codes.end(), code) != lathe_codes.end();
     if (code == 151 || code == 152) diameters = true;
   }
 };
@@ -53,10 +56,13 @@ bool stem_names(std::string_view stem, const ir::RoutineName& name, std::string_
 
 }  // namespace
 
-bool looks_like_lathe(std::string_view text, char comment_open, char comment_close) {
-  LatheEvidence evidence;
+bool looks_like_lathe(std::string_view text, char comment_open, char comment_close,
+                      const std::vector<int>& lathe_codes) {
+  LatheEvidence evidence{.lathe_codes = lathe_codes};
   std::size_t i = 0;
-  while (i < text.size() && !evidence.y_word) {
+  constexpr std::size_t head =
+      65536;  // a Y word ends the search; a lathe's own function behind it stands near the start
+  while (i < text.size() && !evidence.lathe_code && (!evidence.y_word || (!lathe_codes.empty() && i < head))) {
     const char c = text[i];
     if (c == comment_open) {
       const std::size_t close =
@@ -74,7 +80,7 @@ bool looks_like_lathe(std::string_view text, char comment_open, char comment_clo
       ++i;
     }
   }
-  return !evidence.y_word && (evidence.cutting_speed || evidence.diameters);
+  return evidence.lathe_code || (!evidence.y_word && (evidence.cutting_speed || evidence.diameters));
 }
 
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
@@ -86,7 +92,7 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
     if (listed(dialect.lathe_extensions, extension)) {
       lathe = true;
     } else if (!listed(dialect.mill_extensions, extension)) {
-      lathe = looks_like_lathe(source->text(), dialect.comment_open, dialect.comment_close);
+      lathe = looks_like_lathe(source->text(), dialect.comment_open, dialect.comment_close, dialect.lathe_codes);
     }
   }
   return machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);

@@ -4,6 +4,7 @@
 #include "backends/linuxcnc/backend.h"
 #include "backends/num/backend.h"
 #include "backends/sinumerik/backend.h"
+#include "dialects/num/gcodes.h"
 #include "frontends/fagor/frontend.h"
 #include "frontends/num/frontend.h"
 #include "frontends/sinumerik/frontend.h"
@@ -21,6 +22,7 @@ const std::vector<Dialect>& dialects() {
        "",
        ';',
        0,
+       {},
        frontends::fagor::make_frontend(),
        backends::fagor::make_backend()},
       {"num",
@@ -32,6 +34,7 @@ const std::vector<Dialect>& dialects() {
        "",
        '(',
        ')',
+       dialects::num::lathe_codes(),
        frontends::num::make_frontend(),
        backends::num::make_backend()},
       {"sinumerik",
@@ -43,6 +46,7 @@ const std::vector<Dialect>& dialects() {
        "L",
        ';',
        0,
+       {},
        frontends::sinumerik::make_frontend(),
        backends::sinumerik::make_backend()},
       {"linuxcnc",
@@ -54,6 +58,7 @@ const std::vector<Dialect>& dialects() {
        "",
        ';',
        0,
+       {},
        nullptr,
        backends::linuxcnc::make_backend()},
   };

@@ -22,6 +22,7 @@ struct Dialect {
   std::string_view numbered_stem;                  ///< what stands before the number in the file name of a subprogram
   char comment_open = ';';                         ///< marks of comments, for a look at a text before it is read
   char comment_close = 0;                          ///< 0: to the end of the line
+  std::vector<int> lathe_codes;                    ///< G functions of lathes only
   std::shared_ptr<const frontends::Frontend> frontend;
   std::shared_ptr<const backends::Backend> backend;
 };

@@ -41,9 +41,9 @@ class NumStream final : public PlainStreamWriter {
 class NumBackend final : public Backend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return "num"; }
-  [[nodiscard]] const ir::Capabilities& capabilities() const override { return num::capabilities(false, true); }
+  [[nodiscard]] const ir::Capabilities& capabilities() const override { return num::capabilities(false, true, true); }
   [[nodiscard]] const ir::Capabilities& capabilities_for(const machine::Profile& target) const override {
-    return num::capabilities(target.kind == machine::Kind::lathe, later_family(target));
+    return num::capabilities(target.kind == machine::Kind::lathe, later_family(target), structured(target));
   }
   std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                 Diagnostics& diagnostics) const override {

@@ -64,10 +64,12 @@ std::vector<ir::VariablePool> pools(bool later) {
   return list;
 }
 
-ir::Capabilities make_capabilities(bool lathe, bool later) {
+ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   ir::Capabilities c;
   c.dialect = "num";
-  // Structured words are not in the course book: loops and branches are written with G79.
+  // Reference 13.9: the structured words came with the 10xx; an earlier control has G79 only.
+  c.structured_if = c.while_loop = c.until_loop = c.for_loop = c.for_step = c.loop_exit = structured;
+  c.skip_on_structures = false;
   c.repeat_range = true;
   c.repeat_max = facts::call_repeat_max;
   c.conditions = ir::ConditionForm::single_relation;
@@ -180,10 +182,17 @@ const ExpressionStyle& expression_style() {
   return s;
 }
 
-const ir::Capabilities& capabilities(bool lathe, bool later) {
-  static const std::array<ir::Capabilities, 4> all{make_capabilities(false, false), make_capabilities(false, true),
-                                                   make_capabilities(true, false), make_capabilities(true, true)};
-  return all[(lathe ? 2U : 0U) + (later ? 1U : 0U)];
+const ir::Capabilities& capabilities(bool lathe, bool later, bool structured) {
+  static const std::array<ir::Capabilities, 6> all{
+      make_capabilities(false, false, false), make_capabilities(false, true, false),
+      make_capabilities(false, true, true),   make_capabilities(true, false, false),
+      make_capabilities(true, true, false),   make_capabilities(true, true, true)};
+  return all[(lathe ? 3U : 0U) + (later ? 1U : 0U) + (later && structured ? 1U : 0U)];
+}
+
+bool structured(const machine::Profile& profile) {
+  return later_family(profile) &&
+         profile.option(facts::option::structured, facts::option_default(facts::option::structured)) == "yes";
 }
 
 bool centre_from_start(const machine::Profile& profile) {

@@ -11,8 +11,9 @@ namespace cnctrans::backends::num {
 
 const Style& style();
 const ExpressionStyle& expression_style();
-/// `later`: of the families 10xx and flx.
-const ir::Capabilities& capabilities(bool lathe, bool later);
+/// `later`: of the families 10xx and flx; `structured`: which write IF, WHILE, REPEAT, FOR.
+const ir::Capabilities& capabilities(bool lathe, bool later, bool structured);
+bool structured(const machine::Profile& profile);
 
 /// Centre words are absolute in G90 (the course's rule); `incremental` by profile option.
 bool centre_from_start(const machine::Profile& profile);

@@ -455,10 +455,22 @@ bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
                                       Row{"stock.blank", "stock_x", "I"},
                                       Row{"stock.blank", "stock_z", "K"},
                                       Row{"stock.blank", "step", "P"},
-                                      Row{"stock.blank", "axial_step", "R"}};
-  const bool stock = c.name == "stock.blank";
-  if (!stock && c.name != "thread.chased") return false;
-  std::string text = a.text.empty() ? (stock ? "G64" : "G33") : std::string(a.text);
+                                      Row{"stock.blank", "axial_step", "R"},
+                                      Row{"stock.groove", "first_label", "N"},
+                                      Row{"stock.groove", "last_label", "N"},
+                                      Row{"stock.groove", "entry_angle", "EA"},
+                                      Row{"stock.groove", "step", "P"},
+                                      Row{"stock.groove", "axial_step", "R"},
+                                      Row{"stock.groove", "limit_x", "X"},
+                                      Row{"stock.groove", "limit_z", "Z"},
+                                      Row{"stock.groove", "stock_x", "I"},
+                                      Row{"stock.groove", "stock_z", "K"}};
+  const std::string_view code = c.name == "stock.blank"     ? "G64"
+                                : c.name == "stock.groove"  ? "G65"
+                                : c.name == "thread.chased" ? "G33"
+                                                            : "";
+  if (code.empty()) return false;
+  std::string text(a.text.empty() ? code : a.text);
   const bool back = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "reversed"; });
   std::vector<std::pair<std::string, ir::Value>> words = c.words;
   if (back && words.size() > 1) std::swap(words[0].second, words[1].second);

@@ -134,7 +134,31 @@ bool is_latch(const ir::Assign::Item& item) {
 
 }  // namespace
 
+namespace {
+
+/// "[PUSH 2 L5]": what a PUSH of the reader put aside.
+bool put_aside(const ir::VarRef& v) {
+  return v.name.rfind("[PUSH ", 0) == 0;
+}
+
+/// The words of a PUSH or PULL; empty: the assignment is none.
+std::string stack_words(const ir::Assign& a) {
+  if (a.items.empty() || a.items.front().to_system) return {};
+  const auto* from = std::get_if<ir::VarRef>(&a.items.front().value->node);
+  const auto* to = std::get_if<ir::VarRef>(&a.items.back().value->node);
+  if (from == nullptr || to == nullptr) return {};
+  const bool push = put_aside(a.items.front().target);
+  if (!push && !put_aside(*from)) return {};
+  const auto number = [](const ir::VarRef& v) { return shortest(ir::constant_value(v.index).value_or(0)); };
+  return (push ? "PUSH L" + number(*from) + " - L" + number(*to)
+               : "PULL L" + number(a.items.front().target) + " - L" + number(a.items.back().target));
+}
+
+}  // namespace
+
 void Writer::assign(const ir::Assign& a) {
+  if (const std::string words = same_dialect() ? stack_words(a) : std::string{}; !words.empty())
+    return add(words, Rank::head, a.items.front().pos);
   // One piece: the order of the assignments is their meaning.
   std::string text;
   for (const auto& item : a.items) {
@@ -187,7 +211,7 @@ void Writer::declare(const ir::Declare& d) {
 std::string Writer::condition(const ir::ExprPtr& e) {
   const auto* b = std::get_if<ir::Binary>(&e->node);
   if (b == nullptr || !ir::is_comparison(b->op)) {
-    refuse(no_statement, e->pos, "a condition of G79 is one comparison of a variable with a number or variable");
+    refuse(no_statement, e->pos, "a condition is a comparison of a variable with a number or variable");
     return {};
   }
   return expression_text(e, e->pos);
@@ -256,14 +280,27 @@ void Writer::end_program(const ir::End& e) {
 }
 
 bool Writer::structured_allowed() {
-  if (same_dialect() && later_family(profile())) return true;
+  if (later_family(profile())) return true;
   refuse(no_statement, {}, "structured statements are not written here");
   return false;
 }
 
+/// Relations joined by AND and OR from left to right.
+std::string Writer::structured_condition(const ir::ExprPtr& e) {
+  const auto* b = std::get_if<ir::Binary>(&e->node);
+  const bool joined = b != nullptr && (b->op == ir::BinaryOp::logical_and || b->op == ir::BinaryOp::logical_or);
+  if (!joined) return condition(e);
+  const auto* right = std::get_if<ir::Binary>(&b->right->node);
+  if (right == nullptr || !ir::is_comparison(right->op)) {
+    refuse(no_statement, e->pos, "conditions count from left to right here: this one needs parentheses");
+    return {};
+  }
+  return structured_condition(b->left) + (b->op == ir::BinaryOp::logical_and ? " AND " : " OR ") + condition(b->right);
+}
+
 void Writer::if_else(const ir::If& i) {
   if (!structured_allowed()) return;
-  add("IF " + expression_text(i.condition) + " THEN", Rank::head);
+  add("IF " + structured_condition(i.condition) + " THEN", Rank::head);
   finish_line();
   nested_body(i.then_body);
   if (i.has_else) {
@@ -275,7 +312,7 @@ void Writer::if_else(const ir::If& i) {
 
 void Writer::while_loop(const ir::While& w) {
   if (!structured_allowed()) return;
-  add("WHILE " + expression_text(w.condition) + " DO", Rank::head);
+  add("WHILE " + structured_condition(w.condition) + " DO", Rank::head);
   finish_line();
   nested_body(w.body);
   keyword_line(w.end_line, "ENDW");
@@ -286,7 +323,7 @@ void Writer::until_loop(const ir::Until& u) {
   add("REPEAT", Rank::head);
   finish_line();
   nested_body(u.body);
-  keyword_line(u.end_line, "UNTIL " + expression_text(u.condition));
+  keyword_line(u.end_line, "UNTIL " + structured_condition(u.condition));
 }
 
 void Writer::for_loop(const ir::For& f) {

@@ -57,6 +57,7 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] std::int64_t main_number() const;
   [[nodiscard]] std::string condition(const ir::ExprPtr& e);
   [[nodiscard]] bool structured_allowed();
+  std::string structured_condition(const ir::ExprPtr& e);
   [[nodiscard]] bool behind_words(WordPos pos) const;
   [[nodiscard]] bool machine_frame_in_incremental(const ir::Motion& m);
   std::string decimals(const ir::Value& value);

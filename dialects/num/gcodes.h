@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "ir/modal.h"
 
@@ -192,10 +193,19 @@ inline constexpr const GCode* g_code(double number) {
   return &g_codes[static_cast<std::size_t>(detail::g_index[n])];
 }
 
+/// The functions that only lathes have.
+inline std::vector<int> lathe_codes() {
+  std::vector<int> codes;
+  for (const auto& row : g_codes) {
+    if (row.machine == GMachine::lathe) codes.push_back(row.code);
+  }
+  return codes;
+}
+
 /// What is missing for this function: a key of the registry of missing features; empty: it is carried.
 constexpr std::string_view missing_feature(const GCode& row) {
   switch (row.kind) {
-    case GKind::turning_cycle: return row.code == 33 || row.code == 64 ? "" : "cycle.turning";
+    case GKind::turning_cycle: return row.code == 63 || row.code == 66 ? "cycle.turning" : "";
     case GKind::milling_cycle: return "cycle.milling";
     case GKind::spline: return "motion.spline";
     case GKind::spatial_comp:

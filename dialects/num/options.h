@@ -17,7 +17,8 @@ struct OptionRow {
 namespace option {
 inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
                                   letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
-                                  missing_end = "num.missing_range_end", peck_law = "num.peck_law";
+                                  missing_end = "num.missing_range_end", peck_law = "num.peck_law",
+                                  structured = "num.structured";
 }  // namespace option
 
 inline constexpr std::array options{
@@ -30,6 +31,7 @@ inline constexpr std::array options{
     OptionRow{"num.linear_unit_um", "*", "1", "micrometres in one unit of a linear E parameter"},
     OptionRow{"num.rotary_unit", "*", "0.0001", "degrees in one unit of a rotary E parameter"},
     OptionRow{option::m30, "none end", "none", "whether M30 ends the program"},
+    OptionRow{option::structured, "yes no", "no", "IF, WHILE, REPEAT, FOR are written (10xx and later)"},
     OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
 };
 

@@ -7,11 +7,11 @@
 namespace cnctrans::dialects::num {
 
 /// The lexer in grammars/num knows the same words.
-inline constexpr std::array<std::string_view, 19> statement_words{
-    "IF",     "THEN", "ELSE",   "ENDI",  "WHILE", "DO",  "ENDW", "FOR", "TO", "BY",
-    "DOWNTO", "ENDF", "REPEAT", "UNTIL", "EXIT",  "VAR", "ENDV", "AND", "OR"};
+inline constexpr std::array<std::string_view, 21> statement_words{
+    "IF",   "THEN",   "ELSE",  "ENDI", "WHILE", "DO",   "ENDW", "FOR", "TO",   "BY",  "DOWNTO",
+    "ENDF", "REPEAT", "UNTIL", "EXIT", "VAR",   "ENDV", "AND",  "OR",  "PUSH", "PULL"};
 /// Table and stack functions: read, carried as text, not executed.
-inline constexpr std::array<std::string_view, 12> carried_words{"PUSH", "PULL", "BUILD", "SEARCH", "CUT",  "R.OFF",
-                                                                "BSET", "BCLR", "MOVE",  "SORT",   "SAVE", "DELETE"};
+inline constexpr std::array<std::string_view, 10> carried_words{"BUILD", "SEARCH", "CUT",  "R.OFF", "BSET",
+                                                                "BCLR",  "MOVE",   "SORT", "SAVE",  "DELETE"};
 
 }  // namespace cnctrans::dialects::num

@@ -308,8 +308,11 @@ bool FileReader::structured(const syntax::Statement& s) {
                  "language.statement");
     return true;
   }
+  if (s.keyword == "CARRIED" &&
+      (iequals_ascii(s.text.substr(0, 4), "PUSH") || iequals_ascii(s.text.substr(0, 4), "PULL")))
+    return stack(s);
   if (s.keyword == "CARRIED") {
-    report.refuse("NUM-023", s.pos, "`" + s.text + "`: the stack and the functions on tables are not carried", {},
+    report.refuse("NUM-023", s.pos, "`" + s.text + "`: the functions on tables are not carried", {},
                   "language.statement");
     return true;
   }

@@ -173,6 +173,7 @@ void FileReader::end_routine() {
         "NUM-025", use.span,
         "`" + use.name + "` is not declared in this program (VAR ... ENDV); it must come from the caller");
   }
+  check_stack();
   if (settings_.mends_ranges) mend_range_ends(routine_, diagnostics_);
   if (routine_.kind == ir::RoutineKind::main && !ended_ && !only_comments_ && !source_->lines().empty()) {
     Span end{file_, source_->lines().back().number, 1, source_->lines().back().number, 1};

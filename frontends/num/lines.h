@@ -40,6 +40,8 @@ class FileReader {
   void block(const Span& span, std::string_view text);
   bool structured(const syntax::Statement& s);
   bool assignments();
+  bool stack(const syntax::Statement& s);
+  void check_stack();
   void declare(const syntax::Statement& s);
   void put_shift(std::vector<ir::FrameWord> words);
   void message(const syntax::Statement& s);
@@ -73,7 +75,15 @@ class FileReader {
   bool open_ = false;          ///< a routine is being read
   bool only_comments_ = true;  ///< and holds nothing but blank lines and comments so far
   bool in_var_ = false;
-  bool latches_ = false;     ///< the program reads positions that an interruptible block latched
+  bool latches_ = false;  ///< the program reads positions that an interruptible block latched
+  /// A PUSH that waits for its PULL.
+  struct Pushed {
+    std::int64_t first = 0, last = 0;  ///< the variables
+    std::uint32_t line = 0, number = 0;
+  };
+  std::vector<Pushed> pushed_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> stacked_;  ///< lines of PUSH and PULL of this program
+  std::uint32_t push_count_ = 0;
   std::uint16_t blank_ = 0;  ///< blank lines since the last statement
   bool ended_ = false;       ///< the routine has an M02
 

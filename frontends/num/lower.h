@@ -157,7 +157,7 @@ class Lowering {
   // turning.cpp
   void turning_cycle(const Word& g);
   void chased_thread(const Word& g);
-  void stock_removal(const Word& g);
+  void stock_removal(const Word& g, bool groove);
   std::optional<ir::Value> take_absolute(ir::AxisId axis);
   void put_machining(const Word& g, std::shared_ptr<ir::Cycle> cycle);
 
@@ -190,7 +190,7 @@ class Lowering {
     const Word* retract = nullptr;        ///< G75
     const Word* interruptible = nullptr;  ///< G10
     const Word* thread = nullptr;         ///< G38
-    const Word* turning = nullptr;        ///< G33, G64
+    const Word* turning = nullptr;        ///< G33, G64, G65
     const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above
     bool motion = false;                  ///< a motion code stands in the block

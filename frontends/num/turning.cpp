@@ -1,4 +1,4 @@
-// Turning cycles: G33 and G64 (reference 12.1, 12.3).
+// Turning cycles: G33, G64 and G65 (reference 12.1, 12.3, 12.4).
 #include <cmath>
 #include <utility>
 
@@ -48,7 +48,7 @@ void Lowering::turning_cycle(const Word& g) {
   if (g.number == 33)
     chased_thread(g);
   else
-    stock_removal(g);
+    stock_removal(g, g.number == 65);
 }
 
 /// Non-modal: from the place of the tool to the root of the thread at its end.
@@ -78,34 +78,52 @@ void Lowering::chased_thread(const Word& g) {
   put_machining(g, std::move(cycle));
 }
 
-/// Until G80 the blocks are points of the blank.
-void Lowering::stock_removal(const Word& g) {
+/// G64: until G80 the blocks are points of the blank. G65: one groove, down from the place of the tool.
+void Lowering::stock_removal(const Word& g, bool groove) {
+  const std::string code = groove ? "G65" : "G64";
   const auto refuse = [&](std::string_view why) {
-    report_.refuse("NUM-004", g.pos, std::string(why), {}, "cycle.turning");
+    report_.refuse("NUM-004", g.pos, code + std::string(why), {}, "cycle.turning");
   };
-  if (flow_->label_count != 2) return refuse("G64 needs the two block numbers of the finished profile");
+  if (flow_->label_count != 2) return refuse(" needs the two block numbers of the finished profile");
   const Word *first = flow_->labels[0], *last = flow_->labels[1];
   flow_->label_count = 0;
-  if (first->is_expression || last->is_expression) return refuse("the block numbers of G64 are fixed numbers");
-  if (!out_->motion.coords.empty()) return refuse("the blank of G64 stands in the blocks behind it");
+  if (first->is_expression || last->is_expression) return refuse(": the block numbers are fixed numbers");
   auto cycle = std::make_shared<ir::Cycle>();
-  cycle->node = ir::NamedCycle{"stock.blank", {}};
+  cycle->node = ir::NamedCycle{groove ? "stock.groove" : "stock.blank", {}};
   auto& words = named(*cycle).words;
   const bool back = first->number > last->number;
   if (back) std::swap(first, last);
   words.emplace_back("first_label", ir::Value(first->number));
   words.emplace_back("last_label", ir::Value(last->number));
   if (back) words.emplace_back("reversed", ir::Value(1));
-  if (const Word* i = use(letter('I'))) words.emplace_back("stock_x", value(*i));
-  if (const Word* k = use(letter('K'))) words.emplace_back("stock_z", value(*k));
   const Word *p = use(letter('P')), *r = use(letter('R'));
-  if ((p != nullptr) == (r != nullptr)) return refuse("G64 needs one depth of cut: P or R");
+  if ((p != nullptr) == (r != nullptr)) return refuse(" needs one depth of cut: P or R");
+  const auto stock = [&] {
+    if (const Word* i = use(letter('I'))) words.emplace_back("stock_x", value(*i));
+    if (const Word* k = use(letter('K'))) words.emplace_back("stock_z", value(*k));
+  };
+  if (!groove) stock();
+  if (groove) {
+    const Word* angle = use(e('A'));
+    if (angle == nullptr) return refuse(" needs EA, the angle of the line along which the tool enters");
+    words.emplace_back("entry_angle", value(*angle));
+    auto limit = take_absolute(p != nullptr ? ir::axis::z : ir::axis::x);
+    if (report_.refused()) return;
+    if (!limit) return refuse(" needs the end of the groove: Z with P, X with R");
+    words.emplace_back(p != nullptr ? "limit_z" : "limit_x", *std::move(limit));
+  }
   words.emplace_back(p != nullptr ? "step" : "axial_step", value(p != nullptr ? *p : *r));
-  state_.turning_profile = true;
-  state_.stock = cycle;
-  state_.blank_points = 0;
-  state_.blank_x.reset();
-  state_.blank_z.reset();
+  if (groove) stock();
+  if (!out_->motion.coords.empty()) {
+    return refuse(groove ? " has one limit: Z with P, X with R" : ": the blank stands in the blocks behind it");
+  }
+  if (!groove) {
+    state_.turning_profile = true;
+    state_.stock = cycle;
+    state_.blank_points = 0;
+    state_.blank_x.reset();
+    state_.blank_z.reset();
+  }
   put_machining(g, std::move(cycle));
 }
 

@@ -286,7 +286,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       return;
     case GKind::thread_segment: return mark(marks_.thread);
     case GKind::turning_cycle:
-      if (row.code == 33 || row.code == 64) return mark(marks_.turning);
+      if (facts::missing_feature(row).empty()) return mark(marks_.turning);
       return missing(facts::missing_feature(row));
     case GKind::milling_cycle:
     case GKind::spline:

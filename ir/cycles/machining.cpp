@@ -73,6 +73,9 @@ constexpr std::array parameters = {
     Parameter{"cone", Quantity::plain},
     Parameter{"axial_step", Quantity::length},
     Parameter{"reversed", Quantity::plain},
+    Parameter{"entry_angle", Quantity::plain},
+    Parameter{"limit_x", Quantity::cross},
+    Parameter{"limit_z", Quantity::along},
 };
 
 using Kind = MachiningKind;
@@ -96,6 +99,7 @@ constexpr std::array cycles = {
     MachiningCycle{"thread.chased", Kind::thread, false, false, false},
     MachiningCycle{"stock.contour", Kind::profile, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.blank", Kind::profile, false, false, false},
+    MachiningCycle{"stock.groove", Kind::profile, false, false, false},
     MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
 
@@ -165,7 +169,7 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
   if (cycle.name == "stock.contour") {
     const auto it = numbers.find("variant");
     face = it != numbers.end() && std::fmod(std::abs(it->second), 2) == 0;
-  } else if (cycle.name == "stock.blank") {
+  } else if (cycle.name == "stock.blank" || cycle.name == "stock.groove") {
     face = numbers.contains("axial_step");
   }
   const MachiningCycle turned{cycle.name, cycle.kind, face, cycle.ends_comp, cycle.ends_modes};
@@ -182,9 +186,10 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
       break;
     case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;
     case Kind::profile:
-      done = cycle.name == "stock.contour" ? detail::contour_stock(roles, context, face, error)
-             : cycle.name == "stock.blank" ? detail::blank_stock(roles, context, face, error)
-                                           : detail::stock_removal(roles, context, face, false, error);
+      done = cycle.name == "stock.contour"  ? detail::contour_stock(roles, context, face, error)
+             : cycle.name == "stock.blank"  ? detail::blank_stock(roles, context, face, error)
+             : cycle.name == "stock.groove" ? detail::groove_stock(roles, context, face, error)
+                                            : detail::stock_removal(roles, context, face, false, error);
       break;
     case Kind::copy: done = detail::stock_removal(roles, context, face, cycle.kind == Kind::copy, error); break;
     case Kind::live_drill:

@@ -110,6 +110,8 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
 /// By the contour alone, and by the contour within a blank.
 bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
 bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
+/// One groove of the profile, down to the limit on the other axis.
+bool groove_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
 bool counted_thread(Roles& r, std::string* error);
 bool chased_thread(Roles& r, std::string* error);
 bool live_tool(Roles& r, bool key, std::string* error);

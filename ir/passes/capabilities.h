@@ -19,7 +19,8 @@ enum class ExpressionForm : std::uint8_t {
 };
 enum class ConditionForm : std::uint8_t {
   expression,      ///< any boolean expression
-  single_relation  ///< operand relation expression, one relation, no AND/OR
+  single_relation  ///< operand relation expression, one relation, no AND/OR; structured statements take several of
+                   ///< variables and numbers, joined by AND and OR from left to right
 };
 enum class ArgumentForm : std::uint8_t {
   none,       ///< no arguments: variables are shared
@@ -49,6 +50,7 @@ struct Capabilities {
   bool one_line_if_action = false;  ///< IF c assignment [ELSE assignment]
   bool while_loop = false, until_loop = false, for_loop = false, endless_loop = false;
   bool for_step = false;       ///< a FOR with a step other than 1
+  bool loop_exit = false;      ///< Exit
   bool switch_jump = false;    ///< Switch node
   bool computed_jump = false;  ///< label number from an expression
   bool repeat_range = false;   ///< Repeat in place

@@ -21,6 +21,7 @@ class DistancePass {
   void block(Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     if (!context_.target.distance_inside_block) keep_last(b);
+    if (!context_.target.distance_per_word) polar_words(b, facts_.before(s));
     const bool settled = watch_frames(s, b);
     if (settled && !context_.target.distance_per_word &&
         setting_in<Distance>(b, facts_.before(s), Setting::distance) == Distance::incremental)
@@ -40,11 +41,12 @@ class DistancePass {
       else
         ++own;
     }
-    if (foreign == 0 || to_block_mode(b, mode, facts)) {
+    const bool switches = own == 0 && mode && uniform(b);
+    if (foreign == 0 || to_block_mode(b, mode, facts, !switches)) {
       out.push_back(std::move(s));
       return;
     }
-    if (own == 0 && mode && uniform(b)) return switch_for_block(editor, std::move(s), *mode, out);
+    if (switches) return switch_for_block(editor, std::move(s), *mode, out);
     if (mode == Distance::incremental && all_absolute(b, facts))
       return switch_for_block(editor, std::move(s), *mode, out);
     refuse(s, editor.program, context_, "TRN-181",
@@ -77,6 +79,15 @@ class DistancePass {
   }
 
  private:
+  /// Polar words of a mode of their own that is in force anyway.
+  static void polar_words(Block& b, const Facts& facts) {
+    if (!b.has_motion || !b.motion.extra || b.motion.extra->polar_mode == WordMode::modal) return;
+    const auto mode = setting_in<Distance>(b, facts, Setting::distance);
+    if (!mode || (*mode == Distance::absolute) != (b.motion.extra->polar_mode == WordMode::absolute)) return;
+    MotionExtra extra = *b.motion.extra;
+    extra.polar_mode = WordMode::modal;
+    b.motion.extra = std::make_shared<const MotionExtra>(std::move(extra));
+  }
   /// Of several changes in one block (each counts for the words behind it) the last one stays in force.
   static void keep_last(Block& b) {
     const auto sets = [](const Action& a) {
@@ -128,8 +139,9 @@ class DistancePass {
                        [&](const CoordWord& c) { return explicit_mode(c) == first; });
   }
 
-  /// All words in the block's mode, from the known position. False: nothing is changed.
-  bool to_block_mode(Block& b, std::optional<Distance> mode, const Facts& facts) const {
+  /// All words in the block's mode, from the known position. False: nothing is changed. `asks`: where it is not known
+  /// the target's own knowledge of it may stand in the text.
+  bool to_block_mode(Block& b, std::optional<Distance> mode, const Facts& facts, bool asks = true) const {
     if (!mode) return false;
     std::vector<CoordWord> coords = b.motion.coords;
     for (auto& c : coords) {
@@ -146,7 +158,7 @@ class DistancePass {
         continue;
       }
       if (!at) {
-        if (!from_machine(c, *mode, *from / *to)) return false;
+        if (!asks || !from_machine(c, *mode, *from / *to)) return false;
         continue;
       }
       const Value here{*at};

@@ -49,9 +49,13 @@ class FramePass {
         if (b == nullptr || found) return;
         FrameState state = states_.before(s);
         for (const auto& a : b->actions) {
+          const FrameState before = state;
+          if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
+            state.select(*w, context_.source_machine);
+            found = found || !(before.slot(FrameSlot::preset) == state.slot(FrameSlot::preset));
+          }
           const auto* f = std::get_if<FrameOp>(&a.data);
           if (f == nullptr || !f->change) continue;
-          const FrameState before = state;
           state.apply(*f->change, facts_.before(s), *b, context_.source_machine);
           found = found || (f->change->slot == FrameSlot::preset && f->change->combine == FrameCombine::clear &&
                             !before.slot(FrameSlot::preset).neutral());
@@ -78,8 +82,21 @@ class FramePass {
     std::vector<Action> actions;
     for (auto& a : b.actions) {
       if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
+        const FrameState before = state;
+        state.select(*w, context_.source_machine);
         work_offset(s, a, *w);
-        actions.push_back(std::move(a));
+        actions.push_back(a);
+        if (program_.dialect == context_.target.dialect ||
+            before.slot(FrameSlot::preset) == state.slot(FrameSlot::preset))
+          continue;
+        FrameChange gone;  // what the preset holds goes, or comes back
+        gone.slot = FrameSlot::preset;
+        gone.kind = FrameKind::translate;
+        gone.combine = FrameCombine::clear;
+        if (!rebuild(s, a, gone, before, state, actions)) {
+          out.push_back(std::move(s));
+          return;
+        }
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
         const FrameState before = state;
         state.apply(*f->change, facts_.before(s), b, context_.source_machine);

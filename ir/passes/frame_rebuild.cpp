@@ -76,6 +76,26 @@ bool FrameTarget::same_order(const FrameState& before, const FrameState& after, 
   return used(context_.source_machine.frame_order) == used(context_.target_machine.frame_order);
 }
 
+/// A mirror image that ends on some axes: those that stay mirrored are named.
+void FrameTarget::name_all_mirrored(FrameChange& change, const std::optional<std::uint32_t>& mirrored) const {
+  const bool ends = std::any_of(change.words.begin(), change.words.end(),
+                                [](const FrameWord& w) { return w.value.literal() && w.value.is(0); });
+  if (change.combine != FrameCombine::replace_named || !ends || !mirrored) return;
+  const FrameCombine combine = *mirrored == 0 ? FrameCombine::clear : FrameCombine::replace;
+  if (!can(change.slot, combine)) return;
+  const WordPos pos = change.words.front().pos;
+  change.combine = combine;
+  change.words.clear();
+  for (AxisId axis = 0; axis < PlanarFrame::axes; ++axis) {
+    if ((*mirrored >> axis & 1U) == 0) continue;
+    FrameWord w;
+    w.axis = axis;
+    w.value = Value(1);
+    w.pos = pos;
+    change.words.push_back(std::move(w));
+  }
+}
+
 std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const FrameState& before,
                                                  const FrameState& after, std::optional<Distance> distance) const {
   FrameChange change = c;
@@ -89,6 +109,7 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
   if (same_dialect) return change;
   if (c.combine != FrameCombine::preset && !same_order(before, after, c.slot)) return std::nullopt;
   if (c.kind == FrameKind::rotate && (!c.words.empty() || after.slot(c.slot).has_shift())) return std::nullopt;
+  if (c.kind == FrameKind::mirror) name_all_mirrored(change, after.slot(c.slot).mirror);
   return change;
 }
 

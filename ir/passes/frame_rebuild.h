@@ -45,6 +45,7 @@ class FrameTarget {
   }
 
  private:
+  void name_all_mirrored(FrameChange& change, const std::optional<std::uint32_t>& mirrored) const;
   bool to_chain(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift, std::optional<Plane> plane,
                 std::vector<Action>& out) const;
   bool to_slots(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift, std::optional<Plane> plane,

@@ -22,6 +22,15 @@ Value plain(Value v) {
 
 }  // namespace
 
+const PlanarFrame& FrameState::slot(FrameSlot s) const {
+  static const PlanarFrame nothing;
+  return s == FrameSlot::preset && preset_off_ ? nothing : slots_[static_cast<std::size_t>(s)];
+}
+
+void FrameState::select(const WorkOffset& w, const machine::Profile& machine) {
+  if (machine.option("frame.preset") == "with_work_offset") preset_off_ = w.off || w.index.is(0);
+}
+
 PlanarFrame FrameState::whole(const machine::Profile& machine, bool preset) const {
   PlanarFrame f;
   for (const auto s : machine.frame_order) {
@@ -74,6 +83,9 @@ void FrameState::forget(const VarRef& var) {
 
 void FrameState::join(const FrameState& other) {
   for (std::size_t i = 0; i < frame_slots; ++i) slots_[i].join(other.slots_[i]);
+  auto& preset = at(FrameSlot::preset);
+  if (preset_off_ != other.preset_off_ && !preset.neutral()) preset.foreign = true;
+  preset_off_ = preset_off_ && other.preset_off_;
 }
 
 void FrameState::follow_units(const Block& b, const Facts& facts, const machine::Profile& machine) {

@@ -22,11 +22,13 @@ using SlotUses = std::array<SlotUse, frame_slots>;
 
 class FrameState {
  public:
-  [[nodiscard]] const PlanarFrame& slot(FrameSlot s) const { return slots_[static_cast<std::size_t>(s)]; }
+  [[nodiscard]] const PlanarFrame& slot(FrameSlot s) const;
   /// All slots as the machine applies them, outermost first; `preset`: with the slot of the preset.
   [[nodiscard]] PlanarFrame whole(const machine::Profile& machine, bool preset = true) const;
   [[nodiscard]] bool neutral() const;
   void apply(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
+  /// A settable offset is selected or off: on some machines the preset goes with it.
+  void select(const WorkOffset& w, const machine::Profile& machine);
   /// The words of the shifts are in another unit, or their X words count otherwise, after this block.
   void follow_units(const Block& b, const Facts& facts, const machine::Profile& machine);
   /// Nothing is known any more of what the program ever changes.
@@ -36,7 +38,7 @@ class FrameState {
   void forget_expressions();
   void limit(const SlotUses& uses) { uses_ = uses; }
   void join(const FrameState& other);
-  bool operator==(const FrameState& other) const { return slots_ == other.slots_; }
+  bool operator==(const FrameState& other) const { return slots_ == other.slots_ && preset_off_ == other.preset_off_; }
 
  private:
   PlanarFrame& at(FrameSlot s) { return slots_[static_cast<std::size_t>(s)]; }
@@ -46,7 +48,8 @@ class FrameState {
   void preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
   [[nodiscard]] PlanarFrame inner_of(FrameSlot slot, const machine::Profile& machine) const;
   std::array<PlanarFrame, frame_slots> slots_;
-  SlotUses uses_;  ///< no part of the state's value
+  bool preset_off_ = false;  ///< kept, and out of force
+  SlotUses uses_;            ///< no part of the state's value
 };
 
 /// States before each statement of a program. Calls are followed: a subprogram starts with what all its callers agree

@@ -235,6 +235,7 @@ std::optional<FrameState> FrameStates::after(std::size_t routine, const Statemen
     for (const auto& a : b->actions) {
       if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
         state.apply(*f->change, facts_.before(s), *b, machine_);
+      if (const auto* w = std::get_if<WorkOffset>(&a.data)) state.select(*w, machine_);
     }
     if (b->has_motion && modal_calls_change_) state.forget();
     return state;

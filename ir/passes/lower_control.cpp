@@ -5,6 +5,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/structures.h"
 #include "ir/value_set.h"
 
 namespace cnctrans::ir::passes {
@@ -13,7 +14,8 @@ namespace {
 
 class ControlPass {
  public:
-  ControlPass(Editor& editor) : editor_(editor), target_(editor.target()) {}
+  ControlPass(Editor& editor)
+      : editor_(editor), target_(editor.target()), structures_(editor.program, editor.routine) {}
 
   void body(Body& b) {
     Body out;
@@ -45,6 +47,20 @@ class ControlPass {
   bool plain_condition(const ExprPtr& e) const {
     return target_.conditions == ConditionForm::expression && expression_fits(e, target_);
   }
+  /// The structure stays; its condition is then in the target's form.
+  bool stays(ExprPtr& condition, std::initializer_list<const Body*> bodies) const {
+    if (target_.conditions == ConditionForm::expression) return expression_fits(condition, target_);
+    if (own()) return true;
+    if (!structures_.condition_fits(condition, target_) || !all_closed(bodies)) return false;
+    condition = variables_first(condition);
+    return true;
+  }
+  bool all_closed(std::initializer_list<const Body*> bodies) const {
+    return target_.conditions == ConditionForm::expression || own() ||
+           std::all_of(bodies.begin(), bodies.end(), [this](const Body* b) { return structures_.closed(*b); });
+  }
+  /// The source speaks the target's language.
+  bool own() const { return !editor_.program.dialect.empty() && editor_.program.dialect == target_.dialect; }
   bool may_keep(const LineInfo& line) const { return line.skip_mask == 0 || target_.skip_on_structures; }
 
   void label(Body& out, const LabelRef& l, const LineInfo& like) {
@@ -101,8 +117,7 @@ class ControlPass {
 
   void if_else(Statement&& s, Body& out) {
     const If& source = std::get<If>(s.node);
-    const bool own = !editor_.program.dialect.empty() && editor_.program.dialect == target_.dialect;
-    if (own && source.one_line && !(single_jump(source.then_body) && source.else_body.empty())) {
+    if (own() && source.one_line && !(single_jump(source.then_body) && source.else_body.empty())) {
       out.push_back(std::move(s));
       return;
     }
@@ -117,8 +132,7 @@ class ControlPass {
       closing(out, node.end_line, std::nullopt);
       return;
     }
-    const bool fits = plain_condition(node.condition) && may_keep(s.line);
-    if (target_.structured_if && fits) {
+    if (target_.structured_if && may_keep(s.line) && stays(node.condition, {&node.then_body, &node.else_body})) {
       node.one_line = false;
       body(node.then_body);
       body(node.else_body);
@@ -179,6 +193,10 @@ class ControlPass {
       out.push_back(std::move(s));
       return;
     }
+    if (loops_.back().kept && target_.loop_exit) {
+      out.push_back(std::move(s));
+      return;
+    }
     out.push_back(in_place(s, to(loop_end())));
   }
 
@@ -206,7 +224,7 @@ class ControlPass {
 
   void while_loop(Statement&& s, Body& out) {
     While node = std::move(std::get<While>(s.node));
-    if (target_.while_loop && plain_condition(node.condition) && may_keep(s.line))
+    if (target_.while_loop && may_keep(s.line) && stays(node.condition, {&node.body}))
       return keep_loop(std::move(s), std::move(node), out);
     loops_.emplace_back();
     const LineInfo like = s.line;
@@ -220,7 +238,7 @@ class ControlPass {
 
   void until_loop(Statement&& s, Body& out) {
     Until node = std::move(std::get<Until>(s.node));
-    if (target_.until_loop && plain_condition(node.condition) && may_keep(s.line))
+    if (target_.until_loop && may_keep(s.line) && stays(node.condition, {&node.body}))
       return keep_loop(std::move(s), std::move(node), out);
     loops_.emplace_back();
     const LineInfo like = s.line;
@@ -261,12 +279,21 @@ class ControlPass {
                   binary(BinaryOp::logical_and, down, below));
   }
 
+  bool for_fits(const For& f) const {
+    if (target_.conditions == ConditionForm::expression) {
+      return expression_fits(f.from, target_) && expression_fits(f.to, target_) &&
+             (!f.step || expression_fits(f.step, target_));
+    }
+    if (own()) return true;
+    const bool step = !f.step || (constant_value(f.step).value_or(0) != 0 && structures_.operand_fits(f.step, target_));
+    return step && structures_.operand_fits(f.from, target_) && structures_.operand_fits(f.to, target_) &&
+           all_closed({&f.body});
+  }
+
   void for_loop(Statement&& s, Body& out) {
     For node = std::move(std::get<For>(s.node));
     const bool unit_step = !node.step || constant_value(node.step) == 1.0;
-    const bool fits = expression_fits(node.from, target_) && expression_fits(node.to, target_) &&
-                      (!node.step || expression_fits(node.step, target_));
-    if (target_.for_loop && (unit_step || target_.for_step) && fits && may_keep(s.line)) {
+    if (target_.for_loop && (unit_step || target_.for_step) && for_fits(node) && may_keep(s.line)) {
       return keep_loop(std::move(s), std::move(node), out);
     }
     loops_.emplace_back();
@@ -319,6 +346,7 @@ class ControlPass {
 
   Editor& editor_;
   const Capabilities& target_;
+  Structures structures_;
   std::vector<LoopEnd> loops_;
 };
 

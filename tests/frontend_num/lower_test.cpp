@@ -337,7 +337,7 @@ TEST(NumLower, WhatIsNotCarriedIsRefusedAndKept) {
                                                                                    {"G21", "NUM-002"},
                                                                                    {"G1 X5 R-", "NUM-005 NUM-028"},
                                                                                    {"@X=U", "NUM-023"},
-                                                                                   {"PUSH L1 - L5", "NUM-023"},
+                                                                                   {"PULL L1 - L5", "NUM-023"},
                                                                                    {"L1=$0 N", "NUM-023"},
                                                                                    {"G76+ H1", "NUM-004"},
                                                                                    {"G10 G0 X5 N10", "NUM-045"},

@@ -1,0 +1,102 @@
+#include "ir/passes/structures.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+bool joins(const Binary& b) {
+  return b.op == BinaryOp::logical_and || b.op == BinaryOp::logical_or;
+}
+
+bool plain_variable(const ExprPtr& e) {
+  const auto* v = as_variable(e);
+  return v != nullptr && v->indices.empty() && (!v->index || constant_value(v->index));
+}
+
+bool operand(const ExprPtr& e) {
+  return e && (plain_variable(e) || as_number(e) != nullptr);
+}
+
+/// All relations of a chain; false: it is none.
+template <class F>
+bool each_relation(const ExprPtr& e, const F& visit) {
+  const auto* b = e ? std::get_if<Binary>(&e->node) : nullptr;
+  if (b == nullptr) return false;
+  if (joins(*b)) {
+    const auto* right = std::get_if<Binary>(&b->right->node);
+    return right != nullptr && is_comparison(right->op) && each_relation(b->left, visit) &&
+           each_relation(b->right, visit);
+  }
+  return is_comparison(b->op) && visit(*b);
+}
+
+}  // namespace
+
+bool is_relation_chain(const ExprPtr& e) {
+  return each_relation(e, [](const Binary& b) {
+    return operand(b.left) && operand(b.right) && (plain_variable(b.left) || plain_variable(b.right));
+  });
+}
+
+ExprPtr variables_first(const ExprPtr& e) {
+  const auto* b = std::get_if<Binary>(&e->node);
+  if (b == nullptr || !joins(*b)) return variable_first(e);
+  return binary(b->op, variables_first(b->left), variables_first(b->right));
+}
+
+Structures::Structures(const Program& program, const Routine& routine) : whole_(program, 1), parts_(program, 1024) {
+  const auto target = [this](const LabelRef& l) {
+    computed_ = computed_ || l.computed;
+    targets_.insert(l.text);
+  };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* c = std::get_if<CallRoutine>(&s.node)) {
+        if (!c->has_range || (!c->computed && program.find(c->routine) != &routine)) return;
+        target(c->first);
+        target(c->last);
+      } else if (const auto* p = std::get_if<Repeat>(&s.node)) {
+        if (p->has_program ? program.find(p->program) != &routine : &r != &routine) return;
+        target(p->first);
+        target(p->last);
+      } else if (&r == &routine) {
+        if (const auto* j = std::get_if<Jump>(&s.node)) target(j->target);
+        if (const auto* w = std::get_if<Switch>(&s.node)) {
+          for (const auto& [value, j] : w->cases) target(j.target);
+          for (const auto& j : w->fallback) target(j.target);
+        }
+      }
+    });
+  }
+}
+
+bool Structures::operand_fits(const ExprPtr& e, const Capabilities& target) const {
+  return operand(e) && (as_number(e) == nullptr ||
+                        (std::fabs(as_number(e)->value) <= target.constant_max &&
+                         parse_decimal(rounded(as_number(e)->value, target.constant_decimals)) == as_number(e)->value));
+}
+
+bool Structures::condition_fits(const ExprPtr& e, const Capabilities& target) const {
+  return is_relation_chain(e) && each_relation(e, [&](const Binary& b) {
+           const auto exact = [this](const ExprPtr& x) { return whole_.exact(x) || parts_.exact(x); };
+           const bool same = b.compare == target.compare || (exact(b.left) && exact(b.right));
+           return same && operand_fits(b.left, target) && operand_fits(b.right, target);
+         });
+}
+
+bool Structures::closed(const Body& body) const {
+  bool good = true;
+  for_each_statement(body, [&](const Statement& s) {
+    const bool leaves = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
+                        std::holds_alternative<Return>(s.node) || std::holds_alternative<Opaque>(s.node);
+    good = good && !leaves;
+    for (const auto& l : labels_on(s.line)) good = good && !computed_ && targets_.count(l.text) == 0;
+  });
+  return good;
+}
+
+}  // namespace cnctrans::ir::passes

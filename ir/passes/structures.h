@@ -1,0 +1,32 @@
+// Which structured statements stay on a target whose conditions are relations joined from left to right.
+#pragma once
+
+#include <set>
+
+#include "ir/passes/expression_lowering.h"
+
+namespace cnctrans::ir::passes {
+
+/// Relations of a variable with a number or variable, joined by AND and OR from left to right.
+bool is_relation_chain(const ExprPtr& e);
+/// The same with the variable of each relation on its left.
+ExprPtr variables_first(const ExprPtr& e);
+
+/// Looked up before the routine is rewritten: its labels and who goes to them.
+class Structures {
+ public:
+  Structures(const Program& program, const Routine& routine);
+  /// The condition needs nothing before it and compares without a tolerance, or exactly as the target does.
+  [[nodiscard]] bool condition_fits(const ExprPtr& e, const Capabilities& target) const;
+  /// A number or variable that the target can name.
+  [[nodiscard]] bool operand_fits(const ExprPtr& e, const Capabilities& target) const;
+  /// Nothing leaves the body but its exits, and nothing jumps or reaches into it.
+  [[nodiscard]] bool closed(const Body& body) const;
+
+ private:
+  std::set<std::string> targets_;
+  bool computed_ = false;  ///< any number may be a target
+  IntegerVariables whole_, parts_;
+};
+
+}  // namespace cnctrans::ir::passes
