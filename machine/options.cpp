@@ -68,7 +68,7 @@ constexpr std::array specs{
     OptionSpec{"num.m30", "none|end", "none", "M30 ends the program"},
     OptionSpec{"num.peck_law", "degressive|constant", "degressive", "pecks of a deep hole with first and last size"},
     OptionSpec{"num.range_order", "number|position", "number", "how the two ends of a block range are put in order"},
-    OptionSpec{"num.structured", "no|yes", "no", "structured statements are written for the 10xx and later"},
+    OptionSpec{"num.structured", "no|yes", "yes", "structured statements are written for the 10xx and later"},
     OptionSpec{"num.default_gear", "text", "M41", "gear word written when the source has none"},
     OptionSpec{"sinumerik.tool_change", "immediate|m6", "m6", "T changes at once, or selects for M6 (MD22550)"},
     OptionSpec{"sinumerik.default_edge", "number", "0",

@@ -30,6 +30,7 @@ void Writer::block(const ir::Block& b) {
   cycle_here_ = cancelled_ = false;
   for (const auto& a : b.actions) cancelled_ = cancelled_ || std::holds_alternative<ir::CycleCancel>(a.data);
   for (const auto& a : b.actions) cycle_here_ = cycle_here_ || std::holds_alternative<ir::CycleDefine>(a.data);
+  if (same_dialect() && to_plane(b)) return;
   ProgramWriter::block(b);
   const ir::LineInfo& info = current().line;
   const bool blank = info.span.known() && (same_dialect() || trim(source_line(info.span)).empty());
@@ -37,10 +38,27 @@ void Writer::block(const ir::Block& b) {
   // A cycle that runs once: here every cycle is modal and must be ended.
   for (const auto& a : b.actions) {
     const auto* d = std::get_if<ir::CycleDefine>(&a.data);
-    if (d == nullptr || d->modal || refused()) continue;
+    if (d == nullptr || d->modal || refused() || same_dialect()) continue;
     next_line();
     add("G80", Rank::setting);
   }
+}
+
+/// A block that goes to another retract plane and drills nothing: ER alone. True: it is written.
+bool Writer::to_plane(const ir::Block& b) {
+  const auto& coords = b.motion.coords;
+  if (!b.has_motion || coords.size() != 1 || b.actions.size() != 1) return false;
+  const auto* d = std::get_if<ir::CycleDefine>(&b.actions[0].data);
+  if (d == nullptr || d->here || coords[0].pos.column == 0 || coords[0].pos.column != b.actions[0].pos.column)
+    return false;
+  const std::string text = to_upper_ascii(source_line(current().line.span));
+  const std::size_t at = coords[0].pos.column - 1;
+  if (at > text.size() || text.compare(at, 2, "ER") != 0) return false;
+  for (const std::string_view other : {"EH", "EF", "EP", "ES", "P", "Q"}) {
+    if (text.find(other) != std::string::npos) return false;
+  }
+  add(word("ER", coords[0].value, coords[0].pos), Rank::motion_extra, coords[0].pos);
+  return true;
 }
 
 /// The source writes this word behind an axis word of its block.
@@ -55,7 +73,10 @@ bool Writer::behind_words(WordPos pos) const {
 // ------------------------------------------------------------------------------------
 
 void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
-  if (same_dialect() && !a.text.empty()) return add(std::string(a.text), Rank::setting, a.pos);
+  if (same_dialect() && !a.text.empty()) {
+    const bool contact = m.setting == ir::Setting::feed_point;  // its word is R
+    return add((contact ? "G92 " : "") + std::string(a.text), Rank::setting, a.pos);
+  }
   switch (m.setting) {
     case ir::Setting::path_mode:
       if (m.value == code_value(ir::PathMode::continuous)) return;  // what the control does without being told
@@ -116,92 +137,13 @@ void Writer::dwell(const ir::Action& a, const ir::Dwell& d) {
   add(word("F", seconds, a.pos), Rank::feed);
 }
 
-// ---- frames
-// --------------------------------------------------------------------------------------------------------------
-
-void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
-  if (w.off) return add("G53", Rank::setting, a.pos);
-  if (!w.index.is(1))
-    return refuse(no_word, a.pos, "this control has one settable offset (G54): another row has no counterpart");
-  add("G54", Rank::setting, a.pos);
-}
-
-void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
-  const auto mode = setting(ir::Setting::distance);
-  const bool add_up = c.combine == ir::FrameCombine::add;
-  std::string text = "G59";
-  if (same_dialect() && !c.words.empty() && c.words.front().pos.column != 0) {
-    // Each word at its place: a G90 or G91 among them stands at its own.
-    if (!a.text.empty()) add(std::string(a.text), Rank::setting, a.pos);
-    for (const auto& w : c.words) add(word(axis_name(w.axis), w.value, w.pos), Rank::coordinate, w.pos);
-    return;
-  }
-  if (c.combine == ir::FrameCombine::clear || c.combine == ir::FrameCombine::replace) {
-    // G59 keeps the axes it does not name: all of them are named.
-    if (mode != code_value(ir::Distance::absolute))
-      return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
-    for (const auto& axis : profile().axes) {
-      if (axis.rotary) continue;
-      ir::Value v(0);
-      for (const auto& w : c.words) {
-        if (w.axis == axis.id) v = w.value;
-      }
-      text += ' ' + word(axis_name(axis.id), v, a.pos);
-    }
-    return add(text, Rank::setting, a.pos);
-  }
-  const auto wanted = add_up ? ir::Distance::incremental : ir::Distance::absolute;
-  const bool as_is = c.by_distance_mode || mode == code_value(wanted);
-  if (!as_is && !mode) return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
-  for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
-  if (!as_is) text = (add_up ? "G91 " : "G90 ") + text + (add_up ? " G90" : " G91");
-  add(text, Rank::setting, a.pos);
-}
-
-void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
-  const ir::FrameChange& c = *f.change;
-  const bool clear = c.combine == ir::FrameCombine::clear;
-  if (c.slot == ir::FrameSlot::shift && c.kind == ir::FrameKind::translate) return shift(a, c);
-  if (c.slot == ir::FrameSlot::rotation && (clear || c.combine == ir::FrameCombine::replace)) {
-    if (!c.words.empty() && !same_dialect())
-      return refuse(no_word, a.pos, "a rotation about a centre has no counterpart here");
-    std::string text = word("ED", clear ? ir::Value(0) : c.angle, a.pos);
-    for (const auto& w : c.words) text += ' ' + word(std::string(1, "IJK"[w.axis % 3]), w.value, w.pos);
-    return add(text, Rank::setting, a.pos);
-  }
-  if (c.slot == ir::FrameSlot::mirror && (clear || c.combine == ir::FrameCombine::replace_named)) {
-    std::string text = "G51";
-    if (clear) text += profile().kind == machine::Kind::lathe ? " X+ Z+" : " X+ Y+ Z+";
-    for (const auto& w : c.words) {
-      if (!w.value.literal()) return refuse(no_word, a.pos, "a computed mirror has no counterpart here");
-      text += ' ' + std::string(axis_name(w.axis)) + (zero(w.value) ? '+' : '-');
-    }
-    return add(text, Rank::setting, a.pos);
-  }
-  if (c.slot == ir::FrameSlot::scale && clear) return add("G73", Rank::setting, a.pos);
-  if (c.slot == ir::FrameSlot::scale && same_dialect()) return add("G74", Rank::setting, a.pos);
-  if (c.slot == ir::FrameSlot::scale && c.uniform_scale && c.words.size() == 1) {  // thousandths in E69000
-    const ir::Value& factor = c.words[0].value;
-    const double thousandths = std::round(factor.number * 1000);
-    if (!factor.literal() || std::fabs(thousandths - factor.number * 1000) > 1e-6 || thousandths < 1 ||
-        thousandths > 9999)
-      return refuse(no_word, a.pos, "a scale factor that is not a fixed number of thousandths (0.001 to 9.999)");
-    add("E69000=" + std::to_string(static_cast<int>(thousandths)), Rank::head, a.pos);
-    return add("G74", Rank::setting, a.pos);
-  }
-  if (c.slot == ir::FrameSlot::preset && clear && same_dialect()) return;  // taken over by PREF
-  if (c.slot == ir::FrameSlot::preset && c.combine == ir::FrameCombine::preset) {
-    std::string text = "G92";
-    for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
-    return add(text, Rank::setting, a.pos);
-  }
-  ProgramWriter::frame_op(a, f);
-}
-
 // ---- motion
 // --------------------------------------------------------------------------------------------------------------
 
 void Writer::motion(const ir::Motion& m) {
+  const bool bare = m.coords.empty() && m.centers.empty() && !m.extra && !m.explicit_code;
+  if (same_dialect() && m.kind == ir::MotionKind::linear && bare)  // what G23 leaves in force
+    return motion_tracker().wrote(m.kind, true);
   if (m.kind == ir::MotionKind::probe_toward && same_dialect()) {
     ir::Motion line = m;
     line.explicit_code = !m.code_text.empty();
@@ -210,6 +152,8 @@ void Writer::motion(const ir::Motion& m) {
     ProgramWriter::motion(line);
     return add("G10", Rank::tail);
   }
+  if (m.kind == ir::MotionKind::thread && profile().kind != machine::Kind::lathe)
+    return refuse(no_word, m.code_pos, "a thread cut in one move exists on lathes only (G38)");
   // Positions of a cycle are reached in rapid without a code; one beside the cycle is an error of the control.
   bool in_cycle = cycle_here_;
   if (!in_cycle && !same_dialect()) {
@@ -322,6 +266,11 @@ void Writer::straight_extra(const ir::Motion& m, const ir::MotionExtra& e) {
 }
 
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
+  if (same_dialect() && m.kind == ir::MotionKind::arc_through_point) {  // G23
+    for (const auto& w : e.through)
+      add(word(std::string(1, "IJK"[w.axis % 3]), w.value, w.pos), Rank::motion_extra, w.pos);
+    return;
+  }
   const bool through = !e.through.empty() || e.has_turns || e.has_angle;
   const bool alone = !through && !e.has_pitch && !e.has_polar_angle && !e.has_polar_radius && !e.has_lead;
   if (alone) {  // a line by its angle, or an element whose end follows from the next one
@@ -408,6 +357,11 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
     const auto plane = setting(ir::Setting::plane);
     return plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::z;
   }();
+  const auto plane = setting(ir::Setting::plane);
+  if (c.axis != ir::axis::none && profile().kind != machine::Kind::lathe && !same_dialect() &&
+      (!plane || ir::plane_axes(static_cast<ir::Plane>(*plane)).w != c.axis))
+    return refuse(no_cycle, a.pos, "a cycle along another axis than the normal of the plane has no counterpart here",
+                  "choose the plane that the axis stands on");
   // Depth and planes are absolute; the positions stand before them and keep the mode in force.
   const auto mode = setting(ir::Setting::distance);
   if (!mode && !same_dialect()) return refuse(no_cycle, a.pos, "a cycle stands where G90 or G91 is not known");

@@ -176,7 +176,13 @@ void Writer::assign(const ir::Assign& a) {
       target = target_variable(item.target);
     }
     if (!text.empty()) text += ' ';
-    text += target + '=' + expression_text(item.to_system ? in_machine_units(item.value) : item.value, item.pos);
+    ir::ExprPtr value = item.to_system ? in_machine_units(item.value) : item.value;
+    const auto* whole = std::get_if<ir::Call>(&value->node);
+    // E takes whole numbers by itself.
+    if (same_dialect() && !item.to_system && target.front() == 'E' && whole != nullptr &&
+        whole->function == ir::Function::trunc && whole->args.size() == 1)
+      value = whole->args[0];
+    text += target + '=' + expression_text(value, item.pos);
   }
   if (!text.empty()) add(text, Rank::head, a.items.front().pos);
 }

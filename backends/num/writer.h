@@ -18,6 +18,7 @@ class Writer final : public ProgramWriter {
   std::string word(std::string_view address, const ir::Value& value, WordPos pos) override;
 
   void block(const ir::Block& b) override;
+  bool to_plane(const ir::Block& b);
   void assign(const ir::Assign& a) override;
   void if_else(const ir::If& i) override;
   void while_loop(const ir::While& w) override;

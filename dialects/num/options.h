@@ -31,7 +31,7 @@ inline constexpr std::array options{
     OptionRow{"num.linear_unit_um", "*", "1", "micrometres in one unit of a linear E parameter"},
     OptionRow{"num.rotary_unit", "*", "0.0001", "degrees in one unit of a rotary E parameter"},
     OptionRow{option::m30, "none end", "none", "whether M30 ends the program"},
-    OptionRow{option::structured, "yes no", "no", "IF, WHILE, REPEAT, FOR are written (10xx and later)"},
+    OptionRow{option::structured, "yes no", "yes", "IF, WHILE, REPEAT, FOR are written (10xx and later)"},
     OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
 };
 

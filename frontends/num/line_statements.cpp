@@ -86,6 +86,8 @@ void FileReader::put_shift(std::vector<ir::FrameWord> words) {
   ir::Block block;
   ir::Action& a = block.actions.emplace_back();
   a.pos = words.front().pos;
+  const bool alone = syntax_.words.empty() && syntax_.comments.empty() && first_;
+  if (alone) a.text = trim(text_.substr(a.pos.column - 1));  // the assignments as they stand
   ir::FrameChange change;
   change.slot = ir::FrameSlot::shift;
   change.kind = ir::FrameKind::translate;

@@ -55,7 +55,10 @@ class Groove {
   void rapid(RolePoint n) { r_.rapid(o_.role(n)); }
   void feed(RolePoint n) { r_.feed(o_.role(n)); }
 
-  [[nodiscard]] double on_line(double p) const { return start_.q + (p - start_.p) * slope_.q / slope_.p; }
+  [[nodiscard]] double on_line(double p) const {
+    const double q = start_.q + (p - start_.p) * slope_.q / slope_.p;
+    return std::round(q * 1e9) / 1e9 + 0.0;  // without the last bits of sine and cosine
+  }
   /// The deepest place between the tool and the limit.
   [[nodiscard]] double floor() const {
     double lowest = start_.p;
