@@ -101,6 +101,9 @@ void Writer::frame_use(const ir::Motion& m) {
 }
 
 void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
+  if (m.kind == ir::MotionKind::reference_point && !same_dialect()) {  // names of axes only (4.2)
+    return add(std::string(axis_name(w.axis)), Rank::coordinate, w.pos);
+  }
   const bool machine = m.frame != ir::FrameUse::normal;
   if (machine && w.mode == ir::WordMode::incremental)
     return refuse(no_word, w.pos, "an incremental move in machine coordinates has no counterpart here");

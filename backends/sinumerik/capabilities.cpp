@@ -75,10 +75,11 @@ void expressions(ir::Capabilities& c) {  // reference-language 4
 }
 
 void words(ir::Capabilities& c) {  // reference-language 14
-  c.motions = {ir::MotionKind::modal,       ir::MotionKind::rapid,         ir::MotionKind::linear,
-               ir::MotionKind::arc_cw,      ir::MotionKind::arc_ccw,       ir::MotionKind::arc_through_point,
-               ir::MotionKind::arc_tangent, ir::MotionKind::thread,        ir::MotionKind::thread_variable,
-               ir::MotionKind::tap_rigid,   ir::MotionKind::tap_rigid_out, ir::MotionKind::tap_floating};
+  c.motions = {ir::MotionKind::modal,           ir::MotionKind::rapid,         ir::MotionKind::linear,
+               ir::MotionKind::arc_cw,          ir::MotionKind::arc_ccw,       ir::MotionKind::arc_through_point,
+               ir::MotionKind::arc_tangent,     ir::MotionKind::thread,        ir::MotionKind::thread_variable,
+               ir::MotionKind::tap_rigid,       ir::MotionKind::tap_rigid_out, ir::MotionKind::tap_floating,
+               ir::MotionKind::reference_point, ir::MotionKind::probe_toward};
   c.frame_uses = {ir::FrameUse::normal, ir::FrameUse::machine, ir::FrameUse::machine_with_length};
   c.own_block = [](const ir::Action& a) {
     return std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||

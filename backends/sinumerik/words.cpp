@@ -284,6 +284,12 @@ void Writer::corner(const ir::Action& a, const ir::Corner& c) {
 // ---- motion --------------------------------------------------------------------------------------------------------
 
 void Writer::frame_use(const ir::Motion& m) {
+  if (m.kind == ir::MotionKind::probe_toward && !same_dialect()) {
+    diagnostics().warning("TRN-329", word_span(current().line.span, m.code_pos),
+                          "a probing move: the target goes on without an alarm when the probe does not touch, and the "
+                          "position of the contact is not the programmed one",
+                          "check $AC_MEA[1] behind the move, and read the contact from $AA_MW[]");
+  }
   if (m.frame == ir::FrameUse::normal) return;
   const std::string own = source_word(m.frame_pos);
   if (m.frame == ir::FrameUse::no_programmable) {
@@ -316,8 +322,10 @@ std::string Writer::rotary_attribute(const ir::CoordWord& w) {
   return std::signbit(w.value.number) ? "ACN" : "ACP";
 }
 
-void Writer::coordinate(const ir::Motion& /*m*/, const ir::CoordWord& w) {
+void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   std::string name(axis_name(w.axis));
+  if (m.kind == ir::MotionKind::reference_point)
+    return add(name + "1=0", Rank::coordinate, w.pos);  // the machine's axis
   if (w.positioning == ir::Positioning::alone) name = "POS[" + name + ']';
   if (w.positioning == ir::Positioning::alone_not_awaited) name = "POSA[" + name + ']';
   std::string attribute = rotary_attribute(w);

@@ -16,6 +16,10 @@ void select_written_offsets(Program& program, const LegaliseContext& context);
 void solve_contours(Program& program, const LegaliseContext& context);
 /// Computed rotary positions whose sign is a direction become a branch where the target writes the direction itself.
 void choose_directions(Program& program, const LegaliseContext& context);
+/// The search of a reference point as a move to its place, for a target without such a function.
+void convert_reference_moves(Program& program, const LegaliseContext& context);
+/// Increments right behind a preset of the zero point become absolute where the controls count them differently.
+void settle_preset_steps(Program& program, const LegaliseContext& context);
 /// Lengths of machine data in the unit of the target.
 void convert_machine_data(Program& program, const LegaliseContext& context);
 

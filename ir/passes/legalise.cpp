@@ -30,6 +30,8 @@ constexpr std::array pipeline{
     Pass{"control", passes::lower_control, false},
     Pass{"written_offsets", passes::select_written_offsets, false},
     Pass{"cycles", passes::lower_cycles, false},
+    Pass{"reference_moves", passes::convert_reference_moves, true},
+    Pass{"preset_steps", passes::settle_preset_steps, false},
     Pass{"frames", passes::convert_frames, false},
     Pass{"poles", passes::convert_poles, false},
     Pass{"tangents", passes::write_out_tangents, false},
