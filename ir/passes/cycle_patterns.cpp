@@ -88,7 +88,7 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
   const auto at = place(b, facts);
   const auto numbers = numbers_of(pattern);
   if (row == nullptr || !at || !numbers) {
-    *error = !at ? "the plane is not known here" : "its words are computed when the program runs";
+    *error = at ? "" : "the plane is not known here";
     return std::nullopt;
   }
   const bool known = at->at_u && at->at_v;

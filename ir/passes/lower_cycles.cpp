@@ -136,6 +136,19 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   return was_native;
 }
 
+namespace {
+
+/// No level of the cycle is counted from where the tool stands.
+bool stands_by_itself(const HoleCycle& c) {
+  const auto fixed = [](const Level& l) {
+    return l.given && (l.base == LevelBase::absolute || l.base == LevelBase::from_surface);
+  };
+  const bool surface = !c.surface.given || c.surface.base == LevelBase::absolute;
+  return surface && fixed(c.reference) && fixed(c.bottom) && c.retract.given && c.retract.base == LevelBase::absolute;
+}
+
+}  // namespace
+
 void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
@@ -147,8 +160,9 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   if (w && !height) height = height_mm(b, facts, *w);
   if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
-  else if (height)
-    moves = explode(*hole, s.line, b, facts, *height, active_->defined_at.value_or(*height), sense_.now(), &error);
+  else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
+    moves = explode(*hole, s.line, b, facts, height.value_or(1e6), active_->defined_at.value_or(height.value_or(1e6)),
+                    sense_.now(), &error);
   if (!moves && error.empty()) {
     const auto initial = active_->defined_at ? active_->defined_at : height;
     bool downward = false;
@@ -228,6 +242,10 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
   }
   std::string error;
   auto points = pattern_blocks(named, s.line, b, facts, &error);
+  if (!points && error.empty()) {
+    if (auto loop = pattern_loop(named, s.line, b, facts, editor_, &error))
+      return pattern_as_loop(std::move(s), std::move(*loop), std::move(pieces), out);
+  }
   if (!points) {
     refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
            "give the pattern's words and the place before it as numbers");
@@ -250,6 +268,37 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
     else
       put(out, std::move(before), std::move(p));
   }
+}
+
+void CyclePass::pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out) {
+  const auto id = s.id;
+  const LineInfo like = s.line;
+  auto& b = std::get<Block>(s.node);
+  if (b.empty()) {
+    loop.setup.front().line = like;
+    put(out, std::move(pieces), std::move(loop.setup.front()));
+    loop.setup.erase(loop.setup.begin());
+  } else {
+    put(out, std::move(pieces), std::move(s));
+  }
+  for (auto& piece : loop.setup) out.push_back(std::move(piece));
+  const auto run = [&](Block block, Body& to) {
+    Statement p = made(like, std::move(block));
+    p.id = id;
+    if (active_) return point(std::move(p), {}, to);
+    to.push_back(std::move(p));
+  };
+  if (loop.first) run(std::move(*loop.first), out);
+  While node;
+  node.condition = loop.again;
+  run(std::move(loop.next), node.body);
+  const ExprPtr counter = variable(loop.counter);
+  node.body.push_back(make_assign(like, loop.counter, binary(BinaryOp::add, counter, number(1))));
+  Body written;
+  written.push_back(made(like, std::move(node)));
+  lower_structures(editor_, written);
+  for (auto& piece : written) out.push_back(std::move(piece));
+  for (const auto& v : loop.taken) editor_.release(v);
 }
 
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {

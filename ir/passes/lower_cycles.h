@@ -50,6 +50,19 @@ const NamedCycle* pattern_in(const Block& b);
 /// The points of a pattern as blocks with a move each; empty and a text in `error`: it can't be said.
 std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
                                    std::string* error);
+/// A pattern whose words only the run knows, as a loop: `setup`, then `first` when there is one, then `next` with
+/// `counter` counted up behind it while `again` holds.
+struct PatternLoop {
+  std::vector<VarRef> taken;
+  Body setup;
+  std::optional<Block> first;
+  Block next;
+  VarRef counter;
+  ExprPtr again;
+};
+/// nullopt and a text in `error`: it can't be said. The variables in `taken` are the caller's to release.
+std::optional<PatternLoop> pattern_loop(const NamedCycle& pattern, const LineInfo& like, const Block& b,
+                                        const Facts& facts, Editor& editor, std::string* error);
 /// A pattern in the words of the target, from the point where the tool stands; nullopt: none.
 std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b, const Facts& facts,
                                        const LegaliseContext& context);

@@ -122,6 +122,7 @@ class ModalCalls {
     std::string error;
     auto blocks = pattern_blocks(pattern, like, std::get<Block>(s.node), facts_.before(s), &error);
     if (!blocks) {
+      if (error.empty()) error = "its words are computed when the program runs";
       refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
              "give the pattern's words and the place before it as numbers");
       out.push_back(std::move(s));
