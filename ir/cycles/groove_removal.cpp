@@ -88,16 +88,17 @@ class Groove {
   }
   /// Down to the entry, along the line or straight where the profile bounds it.
   bool enter(RolePoint before, RolePoint entry) {
+    if (here().q < on_line(here().p) - tiny) feed(before);  // the profile bounded the level before
+    const RolePoint from = here();
     for (const auto& x : target_) {
       constexpr int parts = 16;
       for (int k = 0; k <= parts; ++k) {
         const double q = x.a.q + (x.b.q - x.a.q) * k / parts;
-        if (q > before.q - tiny || q < entry.q + tiny || before.q - entry.q < tiny) continue;
-        const double way = entry.p + (before.p - entry.p) * (q - entry.q) / (before.q - entry.q);
+        if (q > from.q - tiny || q < entry.q + tiny || from.q - entry.q < tiny) continue;
+        const double way = entry.p + (from.p - entry.p) * (q - entry.q) / (from.q - entry.q);
         if (height(x, q) > way + 1e-6) return false;
       }
     }
-    if (here().q < on_line(here().p) - tiny) feed(before);  // the profile bounded the level before
     feed(entry);
     return true;
   }

@@ -52,7 +52,28 @@ class ControlPass {
     if (target_.conditions == ConditionForm::expression) return expression_fits(condition, target_);
     if (own()) return true;
     if (!structures_.condition_fits(condition, target_) || !all_closed(bodies)) return false;
-    condition = variables_first(condition);
+    condition = in_target_form(condition, target_.compare);
+    return true;
+  }
+  /// An IF of one relation: its sides are put into variables before it.
+  bool lifted(ExprPtr& condition, std::initializer_list<const Body*> bodies, const LineInfo& like, Body& pre) {
+    if (target_.conditions == ConditionForm::expression || !structures_.relation_fits(condition, target_) ||
+        !all_closed(bodies))
+      return false;
+    const Binary relation = std::get<Binary>(condition->node);
+    std::vector<VarRef> taken;
+    const auto side = [&](const ExprPtr& e) -> ExprPtr {
+      if (structures_.operand_fits(e, target_)) return e;
+      const auto v = editor_.take(like);
+      if (!v) return nullptr;
+      taken.push_back(*v);
+      pre.push_back(make_assign(like, *v, e));
+      return variable(*v, e->type);
+    };
+    const ExprPtr left = side(relation.left), right = side(relation.right);
+    for (const auto& v : taken) editor_.release(v);
+    if (!left || !right) return false;
+    condition = in_target_form(binary(relation.op, left, right), target_.compare);
     return true;
   }
   bool all_closed(std::initializer_list<const Body*> bodies) const {
@@ -132,13 +153,16 @@ class ControlPass {
       closing(out, node.end_line, std::nullopt);
       return;
     }
-    if (target_.structured_if && may_keep(s.line) && stays(node.condition, {&node.then_body, &node.else_body})) {
+    Body pre;
+    if (target_.structured_if && may_keep(s.line) &&
+        (stays(node.condition, {&node.then_body, &node.else_body}) ||
+         lifted(node.condition, {&node.then_body, &node.else_body}, s.line, pre))) {
       node.one_line = false;
       body(node.then_body);
       body(node.else_body);
       node.has_else = node.has_else || !node.else_body.empty();
       s.node = std::move(node);
-      out.push_back(std::move(s));
+      editor_.put(out, std::move(pre), std::move(s));
       return;
     }
     const bool one_action = single_assign(node.then_body) &&
@@ -293,6 +317,9 @@ class ControlPass {
   void for_loop(Statement&& s, Body& out) {
     For node = std::move(std::get<For>(s.node));
     const bool unit_step = !node.step || constant_value(node.step) == 1.0;
+    if (target_.conditions != ConditionForm::expression) {
+      for (ExprPtr* e : {&node.from, &node.to, &node.step}) *e = structures_.unrounded(*e);
+    }
     if (target_.for_loop && (unit_step || target_.for_step) && for_fits(node) && may_keep(s.line)) {
       return keep_loop(std::move(s), std::move(node), out);
     }

@@ -42,10 +42,10 @@ bool is_relation_chain(const ExprPtr& e) {
   });
 }
 
-ExprPtr variables_first(const ExprPtr& e) {
-  const auto* b = std::get_if<Binary>(&e->node);
-  if (b == nullptr || !joins(*b)) return variable_first(e);
-  return binary(b->op, variables_first(b->left), variables_first(b->right));
+ExprPtr in_target_form(const ExprPtr& e, Compare compare) {
+  const auto& b = std::get<Binary>(e->node);
+  if (!joins(b)) return variable_first(binary(b.op, b.left, b.right, compare));
+  return binary(b.op, in_target_form(b.left, compare), in_target_form(b.right, compare));
 }
 
 Structures::Structures(const Program& program, const Routine& routine) : whole_(program, 1), parts_(program, 1024) {
@@ -86,6 +86,22 @@ bool Structures::condition_fits(const ExprPtr& e, const Capabilities& target) co
            const bool same = b.compare == target.compare || (exact(b.left) && exact(b.right));
            return same && operand_fits(b.left, target) && operand_fits(b.right, target);
          });
+}
+
+bool Structures::relation_fits(const ExprPtr& e, const Capabilities& target) const {
+  const auto* b = e ? std::get_if<Binary>(&e->node) : nullptr;
+  if (b == nullptr || !is_comparison(b->op) || b->left->type == Type::string) return false;
+  const auto exact = [this](const ExprPtr& x) { return whole_.exact(x) || parts_.exact(x); };
+  const bool numbers = constant_value(b->left) && constant_value(b->right);
+  return !numbers && (b->compare == target.compare || (exact(b->left) && exact(b->right)));
+}
+
+ExprPtr Structures::unrounded(const ExprPtr& e) const {
+  const auto* c = e ? std::get_if<Call>(&e->node) : nullptr;
+  const bool rounds =
+      c != nullptr && c->args.size() == 1 &&
+      (c->function == Function::to_integer || c->function == Function::round || c->function == Function::trunc);
+  return rounds && whole_.exact(c->args[0]) ? c->args[0] : e;
 }
 
 bool Structures::closed(const Body& body) const {
