@@ -108,7 +108,8 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
   if (!can(c.slot, change.combine) || (c.slot == FrameSlot::preset && preset_as_shift_)) return std::nullopt;
   if (same_dialect) return change;
   if (c.combine != FrameCombine::preset && !same_order(before, after, c.slot)) return std::nullopt;
-  if (c.kind == FrameKind::rotate && (!c.words.empty() || after.slot(c.slot).has_shift())) return std::nullopt;
+  const bool about_point = before.slot(c.slot).has_shift() || after.slot(c.slot).has_shift();  // held by other slots
+  if (c.kind == FrameKind::rotate && (!c.words.empty() || about_point)) return std::nullopt;
   if (c.kind == FrameKind::mirror) name_all_mirrored(change, after.slot(c.slot).mirror);
   return change;
 }
