@@ -4,6 +4,7 @@
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
+#include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
 
@@ -11,11 +12,46 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates.
+struct UnmovedAxes {
+  using State = std::uint32_t;
+  [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return 0; }
+  static void transfer(const Statement& s, State& state) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) state = ~0U;
+    }
+    if (!b->has_motion) return;
+    for (const auto& c : b->motion.coords) state &= ~(1U << c.axis);
+  }
+  [[nodiscard]] static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      State none = 0, all = ~0U;
+      transfer(s, none);
+      transfer(s, all);
+      found = found || none != 0 || all != ~0U;
+    });
+    return found;
+  }
+  static void unknown(State& /*state*/) {}
+  static bool join(State& a, State b) {
+    const State before = a;
+    a |= b;
+    return a != before;
+  }
+};
+
 class DistancePass {
  public:
-  DistancePass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {
+  DistancePass(const Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context), facts_(facts) {
     keeps_differ_ =
         context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
+    if (keeps_differ_) unmoved_.emplace(program, UnmovedAxes{});
   }
 
   void block(Editor& editor, Statement&& s, Body& out) {
@@ -286,6 +322,7 @@ class DistancePass {
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
     leave_straight(s);
+    if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) dirty_ = *waiting;
     const Facts& facts = facts_.before(s);
     for (const auto& a : b.actions) {
       const auto* f = std::get_if<FrameOp>(&a.data);
@@ -327,6 +364,7 @@ class DistancePass {
 
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  std::optional<FlowStates<UnmovedAxes>> unmoved_;
   bool keeps_differ_ = false;
   std::uint32_t dirty_ = 0;  ///< bit n: axis n has not moved since the frame changed
   Shifted shifted_;
@@ -338,7 +376,7 @@ class DistancePass {
 
 void convert_distance(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
-  DistancePass pass(context, facts);
+  DistancePass pass(program, context, facts);
   for (auto& routine : program.routines) {
     Editor editor(program, routine, context);
     pass.new_routine(editor);
