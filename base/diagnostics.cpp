@@ -25,6 +25,10 @@ void MoreDiagnostics::add_lines(const Lines& range) {
 void Diagnostics::add(Diagnostic d) {
   errors_ += d.severity == Severity::error ? 1 : 0;
   warnings_ += d.severity == Severity::warning ? 1 : 0;
+  // The pieces of one block often say the same of it one behind the other: once is enough to read.
+  constexpr std::ptrdiff_t looked_back = 16;
+  const auto first = list_.end() - std::min(looked_back, std::ssize(list_));
+  if (d.span.known() && std::find(first, list_.end(), d) != list_.end()) return;
   auto& kept = kept_[d.code];
   const bool same_line = d.span.known() && d.span.file == kept.line.file && d.span.line == kept.line.line;
   kept.on_line = same_line ? kept.on_line + 1 : 1;

@@ -24,6 +24,7 @@ struct Arguments {
   std::int32_t number_step = 10;
   std::string encoding, eol;
   std::string cycles = "native";
+  std::string structure = "keep";
   std::string report;
   std::string diagnostics = "text";
   bool verify = false;

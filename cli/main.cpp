@@ -40,6 +40,8 @@ void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--number-step", a.number_step, "step of renumbered blocks")->check(CLI::Range(1, 1000));
   app.add_option("--cycles", a.cycles, "native canned cycles where exact, or explode all")
       ->check(CLI::IsMember({"native", "explode"}));
+  app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
+      ->check(CLI::IsMember({"keep", "raise"}));
   app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");
   app.add_option("--encoding", a.encoding, "of the output; else as the input")
       ->check(CLI::IsMember({"utf-8", "windows-1252"}));

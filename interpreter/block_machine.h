@@ -14,16 +14,18 @@
 #include "interpreter/expressions.h"
 #include "interpreter/failure.h"
 #include "interpreter/frame.h"
-#include "interpreter/geometry.h"
 #include "ir/block.h"
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
 #include "ir/cycles/pattern.h"
+#include "ir/geometry.h"
 #include "ir/program.h"
 #include "machine/profile.h"
 
 namespace cnctrans::interpreter {
+
+using namespace ir::geometry;
 
 /// One motion, resolved in the work frame.
 struct Move {

@@ -7,31 +7,15 @@
 
 namespace cnctrans::ir::contour {
 
+using geometry::cross;
+using geometry::dot;
+using geometry::left_of;
+using geometry::length;
+
 namespace {
 
 constexpr double same = 1e-9;  ///< mm
 
-Point operator+(Point a, Point b) {
-  return {a.u + b.u, a.v + b.v};
-}
-Point operator-(Point a, Point b) {
-  return {a.u - b.u, a.v - b.v};
-}
-Point operator*(double k, Point a) {
-  return {k * a.u, k * a.v};
-}
-double dot(Point a, Point b) {
-  return a.u * b.u + a.v * b.v;
-}
-double cross(Point a, Point b) {
-  return a.u * b.v - a.v * b.u;
-}
-double length(Point a) {
-  return std::hypot(a.u, a.v);
-}
-Point left(Point a) {
-  return {-a.v, a.u};
-}
 Point unit(Point a) {
   const double l = length(a);
   return l < same ? Point{} : (1 / l) * a;
@@ -77,7 +61,7 @@ std::vector<Point> cut(const Locus& a, const Locus& b, double tolerance) {
   if (d < same || d > a.radius + b.radius + tolerance || d < std::fabs(a.radius - b.radius) - tolerance) return {};
   const double x = (a.radius * a.radius - b.radius * b.radius + d * d) / (2 * d);
   const Point e = unit(b.at - a.at);
-  return cut_line_circle({false, a.at + x * e, left(e), 0}, a, tolerance);
+  return cut_line_circle({false, a.at + x * e, left_of(e), 0}, a, tolerance);
 }
 
 struct State {
@@ -168,7 +152,7 @@ class Search {
     const auto c = carrier(s[j], j);
     if (!c) return std::nullopt;
     const double r = *s[i].radius;
-    if (!c->circle) return Locus{false, c->at + (e_[i].ccw ? r : -r) * left(c->along), c->along, 0};
+    if (!c->circle) return Locus{false, c->at + (e_[i].ccw ? r : -r) * left_of(c->along), c->along, 0};
     const bool alike = e_[i].ccw == e_[j].ccw;
     return Locus{true, c->at, {}, alike ? std::fabs(c->radius - r) : c->radius + r};
   }
@@ -253,7 +237,7 @@ class Search {
       const Point c = *s[arc].centre;
       const double r = *s[arc].radius, sense = e_[arc].ccw ? 1 : -1;
       if (s[line].along) {  // the direction gives the point
-        fork(s, i, {c - (sense * r) * left(*s[line].along)});
+        fork(s, i, {c - (sense * r) * left_of(*s[line].along)});
         return true;
       }
       const auto& far = line == i ? s[line].from : s[line].to;
@@ -285,7 +269,7 @@ class Search {
   /// Direction of travel at the start or end of an element.
   [[nodiscard]] Point heading(const State& x, std::size_t i, Point at) const {
     if (!e_[i].arc) return unit(*x.to - *x.from);
-    const Point n = left(unit(at - *x.centre));
+    const Point n = left_of(unit(at - *x.centre));
     return e_[i].ccw ? n : -1.0 * n;
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ir/block.h"
+#include "ir/geometry.h"
 
 namespace cnctrans::ir::contour {
 
@@ -40,9 +41,7 @@ inline Marks marks_of(const Block& b) {
 }
 
 /// A point of the plane, mm (a diameter axis as radius).
-struct Point {
-  double u = 0, v = 0;
-};
+using Point = geometry::Vec;
 
 /// What is written of one element. Of a line: its direction; of an arc: sense, centre, radius.
 struct Element {

@@ -62,11 +62,11 @@ std::vector<std::string> programs_below(const fs::path& folder, const fs::path& 
 /// What a result depends on besides the files: another job does not take it over.
 std::string job_sum(const BatchOptions& o) {
   const TranslateOptions& t = o.translate;
-  std::string text = fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", version, t.from, t.to, t.machine,
+  std::string text = fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", version, t.from, t.to, t.machine,
                                  t.target_machine, static_cast<int>(t.reader), static_cast<int>(t.unsupported),
                                  static_cast<int>(t.numbering), t.number_step, t.annotate, static_cast<int>(t.cycles),
-                                 t.encoding ? static_cast<int>(*t.encoding) : -1, t.eol ? static_cast<int>(*t.eol) : -1,
-                                 t.run.max_events);
+                                 t.raise_structure, t.encoding ? static_cast<int>(*t.encoding) : -1,
+                                 t.eol ? static_cast<int>(*t.eol) : -1, t.run.max_events);
   for (const auto& l : t.libraries) text += "|" + l;
   for (const auto& [name, value] : t.run.set) text += "|" + name + "=" + value;
   return sum_of(text + "|" + std::to_string(t.run.skip_mask) + "|" + std::to_string(t.run.max_steps));

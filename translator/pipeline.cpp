@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "ir/text.h"
 #include "translator/contours.h"
+#include "translator/coverage.h"
 #include "translator/encode.h"
 #include "translator/readable.h"
 #include "translator/stream.h"
@@ -126,9 +127,22 @@ std::string shared_name(const ir::Program& program) {
   return {};
 }
 
+/// What --set gives to the source's variables, under the names that they have in the translation.
+std::vector<std::pair<std::string, std::string>> renamed_settings(
+    const std::vector<std::pair<std::string, std::string>>& set, const ir::LegaliseReport& report) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const auto& [name, value] : set) {
+    for (const auto& r : report.renamed) {
+      if (r.kind == ir::Renamed::Kind::variable && r.routine.empty() && to_upper_ascii(r.from) == to_upper_ascii(name))
+        out.emplace_back(r.to, value);
+    }
+  }
+  return out;
+}
+
 void verify_outputs(TranslateResult& result, const ir::Program& source, const machine::Profile& source_profile,
                     Loader& loader, const Dialect& to, const machine::Profile& target_profile,
-                    const TranslateOptions& options) {
+                    const TranslateOptions& options, const ir::LegaliseReport& names) {
   result.verified = true;
   if (!readable(to)) {
     result.verdict.status = verifier::Status::not_replayable;
@@ -157,11 +171,12 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
   }
   ir::number_statements(target);
   interpreter::Options target_run = options.run;
-  target_run.set.clear();  // the source's names mean nothing there
+  if (source.dialect != to.name) target_run.set = renamed_settings(options.run.set, names);
   b.result = replay(target, target_profile, target_run, target_loader, target_diagnostics, b.events);
   a.start = verifier::start_of(source_profile);
   b.start = verifier::start_of(target_profile);
   result.verdict = judge(a, b);
+  result.verdict.coverage = coverage_of(source, a.result.covered);
   if (const auto twice = shared_name(target); !twice.empty()) {
     result.verdict.status = verifier::Status::not_replayable;
     result.verdict.reason = "two programs of the translation have the same name: " + twice;
@@ -261,14 +276,18 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   ir::Program work = source_program;
   // In its own language for its own machine a program is legal as it stands.
   const std::string& source_name = options.machine.empty() ? source_profile->name : options.machine;
-  const bool as_it_stands = from == to && source_name == target_name && options.cycles == ir::CycleWriting::native;
+  const bool as_it_stands = from == to && source_name == target_name && options.cycles == ir::CycleWriting::native &&
+                            !options.raise_structure;
   if (!as_it_stands) end_main(work, result.diagnostics);
   if (from != to) read_contours(work, *source_profile);
-  const ir::LegaliseContext context{to->backend->capabilities_for(*target_profile),
-                                    *source_profile,
-                                    *target_profile,
-                                    {options.cycles, options.unsupported != backends::Unsupported::error},
-                                    result.diagnostics};
+  ir::LegaliseReport names;
+  const ir::LegaliseContext context{
+      to->backend->capabilities_for(*target_profile),
+      *source_profile,
+      *target_profile,
+      {options.cycles, options.raise_structure, options.unsupported != backends::Unsupported::error},
+      result.diagnostics,
+      &names};
   if (!as_it_stands) ir::legalise(work, context);
   if (refused(result.diagnostics, options)) {  // the writer would only say the same again
     result.files = loader.files();
@@ -303,7 +322,8 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
     return result;
   }
   std::stable_partition(result.outputs.begin(), result.outputs.end(), [](const OutputText& o) { return o.main; });
-  if (options.verify) verify_outputs(result, source_program, *source_profile, loader, *to, *target_profile, options);
+  if (options.verify)
+    verify_outputs(result, source_program, *source_profile, loader, *to, *target_profile, options, names);
   return result;
 }
 
@@ -326,6 +346,7 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
     if (!with_set) run.set.clear();
     replayed.result = replay(*program, *profile, run, loader, running, replayed.events);
     replayed.start = verifier::start_of(*profile);
+    if (with_set) result.verdict.coverage = coverage_of(*program, replayed.result.covered);
     diagnostics.append(loader.library_diagnostics());
     if (replayed.result.reason != interpreter::EndReason::error) diagnostics = as_warnings(diagnostics);
     diagnostics.append(running);
@@ -336,7 +357,9 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
   if (!side(*from, options.machine, source, result.source_diagnostics, result.source_files, a, true)) return result;
   if (!side(*to, options.target_machine, targets.front(), result.target_diagnostics, result.target_files, b, false))
     return result;
+  verifier::Coverage coverage = std::move(result.verdict.coverage);
   result.verdict = judge(a, b);
+  result.verdict.coverage = std::move(coverage);
   return result;
 }
 

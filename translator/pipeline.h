@@ -35,6 +35,7 @@ struct TranslateOptions {
   bool single_output = false;   ///< everything in one file (standard output): as an archive where the target has one
   std::set<std::string> taken;  ///< names that other translations of the job have: see backends::WriteOptions
   ir::CycleWriting cycles = ir::CycleWriting::native;
+  bool raise_structure = false;      ///< jumps become structures where the target has them and it is provably the same
   std::optional<Encoding> encoding;  ///< of the output; else as the input
   std::optional<Eol> eol;
   interpreter::Options run;  ///< limits, --set, --skip for the verification

@@ -454,13 +454,33 @@ std::string_view name(Status s) {
   return status_names[static_cast<std::size_t>(s)];
 }
 
+namespace {
+
+/// The part of the source that the proof does not speak of; empty: none.
+std::string not_replayed(const Coverage& c, const FileTable& files) {
+  if (c.missed.empty()) return {};
+  constexpr std::size_t named = 8;
+  std::string lines;
+  for (std::size_t i = 0; i < std::min(named, c.missed.size()); ++i) {
+    const auto& m = c.missed[i];
+    const bool other = m.file != (i == 0 ? c.main : c.missed[i - 1].file);
+    lines += fmt::format("{}{}{}", i == 0 ? "" : ", ", other ? files.name(m.file) + ":" : "", m.first);
+    if (m.last != m.first) lines += fmt::format("-{}", m.last);
+  }
+  if (c.missed.size() > named) lines += ", ...";
+  return fmt::format("; {} of {} lines were not reached ({})", c.blocks - c.replayed, c.blocks, lines);
+}
+
+}  // namespace
+
 std::string describe(const Verdict& v, const FileTable& source_files, const FileTable& target_files) {
   switch (v.status) {
     case Status::verified:
-      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + without_feed(v);
+      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + without_feed(v) +
+             not_replayed(v.coverage, source_files);
     case Status::within_tolerance:
       return fmt::format("verified: {} events, {} moves, within {} mm", v.events, v.moves, rounded(v.max_length, 6)) +
-             without_feed(v);
+             without_feed(v) + not_replayed(v.coverage, source_files);
     case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
     case Status::not_replayable: return "not verified: " + v.reason;
     case Status::differs: break;

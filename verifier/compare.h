@@ -48,6 +48,17 @@ struct Difference {
   std::size_t source_event = 0, target_event = 0;
 };
 
+/// What of the source the replay has come to.
+struct Coverage {
+  struct Lines {
+    FileId file = 0;
+    std::uint32_t first = 0, last = 0;  ///< no line between them was replayed
+  };
+  std::size_t blocks = 0, replayed = 0;  ///< lines that do something
+  std::vector<Lines> missed;
+  FileId main = 0;  ///< the file whose lines are named without it
+};
+
 struct Verdict {
   Status status = Status::nothing_to_compare;
   std::uint64_t events = 0;  ///< compared after normalisation
@@ -56,6 +67,7 @@ struct Verdict {
   std::uint64_t unfed_moves = 0;  ///< at a feed that the source never gives, where the translation has one
   Difference difference;
   std::string reason;  ///< with not_replayable
+  Coverage coverage;
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }
 };
 

@@ -121,7 +121,7 @@ void words(ir::Capabilities& c, bool lathe) {  // ch. 3..8, 10, 11
   c.center_scales = {{ir::CenterMode::from_start, ir::WordScale::radius},
                      {ir::CenterMode::absolute, ir::WordScale::modal}};
   c.radius_minor = c.radius_major = true;
-  c.arc_through_point = c.arc_tangent = true;
+  c.arc_through_point = c.arc_tangent = c.tangential_ends = true;
   c.arc_angle = false;
   c.helix_turns = false;
   c.helix_pitch = true;

@@ -3,11 +3,13 @@
 
 namespace cnctrans::ir::passes {
 
+using namespace geometry;
+
 void ArcPass::tiny(Arc& arc) {
   const auto units = setting_in<Units>(arc.b, arc.facts, Setting::units);
   const int places = units == Units::inch ? context_.target.word_decimals_inch : context_.target.word_decimals;
   if (!known(arc.start) || !known(arc.end) || arc.b.motion.extra) return;
-  const Point a = point(arc.start), b = point(arc.end);
+  const Vec a = point(arc.start), b = point(arc.end);
   const double chord = std::hypot(b.u - a.u, b.v - a.v), place = std::pow(10, -places);
   if (a.u == b.u && a.v == b.v) return;
   const auto angle = partial_angle(arc);
@@ -24,7 +26,7 @@ void ArcPass::tiny(Arc& arc) {
     constexpr double centre_tolerance = 0.002;
     const auto fits = [place](double v) { return std::fabs(v / place - std::round(v / place)) < 1e-6; };
     if (fits(a.u) && fits(a.v) && fits(b.u) && fits(b.v)) return;
-    const auto c = center_by_radius(a, b, m.radius.number, *arc.ccw);
+    const auto c = centre_by_radius(a, b, m.radius.number, *arc.ccw, long_chord);
     if (c && std::fabs(m.radius.number) * place > centre_tolerance * chord) {
       set_center(arc, *c);
       centers(arc);
@@ -65,7 +67,7 @@ bool ArcPass::radius(Arc& arc) {
          "program the arc by its centre");
     return false;
   }
-  const auto c = center_by_radius(point(arc.start), point(arc.end), r.number, *arc.ccw);
+  const auto c = centre_by_radius(point(arc.start), point(arc.end), r.number, *arc.ccw, long_chord);
   if (!c) {
     fail(arc, "TRN-304", "no arc of radius " + shortest(std::fabs(r.number)) + " joins these points",
          "check the radius");
@@ -95,20 +97,21 @@ bool ArcPass::through_point(Arc& arc) {
          "program the arc by its centre");
     return false;
   }
-  const auto c = circumcentre(point(arc.start), point(mid), point(arc.end));
-  if (!c) {
+  Vec c;
+  bool ccw = false;
+  if (!centre_by_three_points(point(arc.start), point(mid), point(arc.end), c, ccw)) {
     fail(arc, "TRN-306", "the three points of the arc are in line", "check the point on the arc");
     return false;
   }
-  arc.ccw = turns_left(point(arc.start), point(mid), point(arc.end));
-  m.kind = *arc.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
+  arc.ccw = ccw;
+  m.kind = ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
   m.explicit_code = true;
   m.code_text = {};
   auto extra = std::make_shared<MotionExtra>(*m.extra);
   extra->through.clear();
   m.extra = std::move(extra);
   drop_empty_extra(m);
-  set_center(arc, *c);
+  set_center(arc, c);
   return true;
 }
 
@@ -127,16 +130,16 @@ bool ArcPass::opening_angle(Arc& arc) {
   drop_empty_extra(m);
   const double sweep = std::fabs(angle.number);
   if (center) {
-    const Point end = rotated(point(arc.start), *center, *arc.ccw ? sweep : -sweep);
+    const Vec end = turned(point(arc.start), *center, *arc.ccw ? sweep : -sweep);
     arc.end[0] = end.u;
     arc.end[1] = end.v;
     set_end(arc);
     set_center(arc, *center);
     return true;
   }
-  const Point a = point(arc.start), b = point(arc.end);
+  const Vec a = point(arc.start), b = point(arc.end);
   const double r = std::hypot(b.u - a.u, b.v - a.v) / (2 * std::sin(sweep * 0.00872664625997164788));
-  const auto c = center_by_radius(a, b, sweep > 180 ? -std::fabs(r) : std::fabs(r), *arc.ccw);
+  const auto c = centre_by_radius(a, b, sweep > 180 ? -std::fabs(r) : std::fabs(r), *arc.ccw, long_chord);
   if (c) set_center(arc, *c);
   return c.has_value();
 }
@@ -155,7 +158,7 @@ void ArcPass::set_end(Arc& arc) {
   }
 }
 
-std::optional<Point> ArcPass::center_point(const Arc& arc) const {
+std::optional<Vec> ArcPass::center_point(const Arc& arc) const {
   if (arc.b.motion.centers.empty() || !known(arc.start)) return std::nullopt;
   std::array<double, 2> c{*arc.start[0], *arc.start[1]};
   for (const auto& w : arc.b.motion.centers) {
@@ -168,17 +171,17 @@ std::optional<Point> ArcPass::center_point(const Arc& arc) const {
       c[i] = w.value.number * *f + (relative ? *arc.start[i] : 0);
     }
   }
-  return Point{c[0], c[1]};
+  return Vec{c[0], c[1]};
 }
 
 std::optional<double> ArcPass::partial_angle(const Arc& arc) const {
   if (!known(arc.start) || !known(arc.end) || !arc.ccw) return std::nullopt;
   auto c = center_point(arc);
   if (arc.b.motion.radius_given && arc.b.motion.radius.literal()) {
-    c = center_by_radius(point(arc.start), point(arc.end), arc.b.motion.radius.number, *arc.ccw);
+    c = centre_by_radius(point(arc.start), point(arc.end), arc.b.motion.radius.number, *arc.ccw, long_chord);
   }
   if (!c) return std::nullopt;
-  return swept(point(arc.start), point(arc.end), *c, *arc.ccw);
+  return swept_angle(point(arc.start), point(arc.end), *c, *arc.ccw);
 }
 
 bool ArcPass::pitch_to_turns(Arc& arc) {

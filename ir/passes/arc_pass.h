@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "ir/passes/arc_geometry.h"
+#include "ir/geometry.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/words.h"
 
@@ -20,12 +20,16 @@ class ArcPass {
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
     symbolic_.clear();
-    walk(r.body);
+    Editor editor(program_, r, context_);
+    walk(r.body, editor);
   }
 
  private:
-  void walk(Body& body) {
+  void walk(Body& body, Editor& editor) {
+    Body out;
+    out.reserve(body.size());
     for (auto& s : body) {
+      back_to_absolute_ = false;
       for (const auto& l : labels_on(s.line)) {
         if (uses_.is_target(l)) symbolic_.clear();
       }
@@ -40,11 +44,17 @@ class ArcPass {
       each_body(s, [&](Body& inner) {
         nested = true;
         symbolic_.clear();
-        walk(inner);
+        walk(inner, editor);
       });
       if (nested) symbolic_.clear();
+      Body pieces{std::move(s)};
+      if (!nested && back_to_absolute_)
+        pieces.push_back(make_block(pieces.front().line, action(ModalSet{Setting::distance, absolute_, true, {}})));
+      editor.put_group(out, std::move(pieces), 0);
     }
+    body = std::move(out);
   }
+  static constexpr auto absolute_ = static_cast<std::uint8_t>(Distance::absolute);
 
   bool is_arc_block(const Statement& s) const {
     const auto& b = std::get<Block>(s.node);
@@ -140,12 +150,12 @@ class ArcPass {
 
   // --- forms ----------------------------------------------------------------------------------------------------
 
-  void set_center(Arc& arc, Point c) {
+  void set_center(Arc& arc, geometry::Vec c) {
     Motion& m = arc.b.motion;
     m.radius_given = false;
     m.radius = Value{};
     m.centers.clear();
-    const Point at{c.u - *arc.start[0], c.v - *arc.start[1]};
+    const geometry::Vec at{c.u - *arc.start[0], c.v - *arc.start[1]};
     for (std::size_t i = 0; i < 2; ++i) {
       CenterWord w;
       w.axis = arc.axis[i];
@@ -156,7 +166,7 @@ class ArcPass {
     }
   }
   static bool known(const std::array<std::optional<double>, 3>& p) { return p[0] && p[1]; }
-  static Point point(const std::array<std::optional<double>, 3>& p) { return {*p[0], *p[1]}; }
+  static geometry::Vec point(const std::array<std::optional<double>, 3>& p) { return {*p[0], *p[1]}; }
 
   /// Radius: kept when the target has the form for it. False: refused.
   bool radius(Arc& arc);
@@ -190,7 +200,7 @@ class ArcPass {
   /// Both end words of the plane, absolute or incremental as the block is.
   void set_end(Arc& arc);
 
-  std::optional<Point> center_point(const Arc& arc) const;
+  std::optional<geometry::Vec> center_point(const Arc& arc) const;
   static bool is_relative(CenterMode mode, std::optional<Distance> distance) {
     return mode == CenterMode::from_start ||
            (mode == CenterMode::follows_distance && distance == Distance::incremental);
@@ -227,12 +237,43 @@ class ArcPass {
     if (!whole) {
       const auto to = wanted_mode(arc, from);
       if (!to || !convert_centers(arc, from, *to)) {
+        if (by_increments(arc)) return;
         return fail(arc, "TRN-313",
                     "the centre of this arc is given in a form that the target lacks, and its start is not known here",
                     "give the point before the arc as numbers on every path");
       }
     }
     full_circle(arc);
+  }
+
+  /// The block under increments of its own: neither its start nor its end need be known then. False: an absolute word.
+  bool by_increments(Arc& arc) {
+    Motion& m = arc.b.motion;
+    const auto& modes = context_.target.centers;
+    const auto to = modes.count(CenterMode::from_start) != 0 ? CenterMode::from_start : CenterMode::follows_distance;
+    const bool relative = std::all_of(m.centers.begin(), m.centers.end(),
+                                      [&arc](const CenterWord& w) { return is_relative(w.mode, arc.distance); });
+    const bool steps = std::all_of(m.coords.begin(), m.coords.end(),
+                                   [](const CoordWord& c) { return c.mode == WordMode::incremental; });
+    if (!plane_known_ || arc.distance != Distance::absolute || !relative || !steps || modes.count(to) == 0 ||
+        arc.b.repeat_given != 0)
+      return false;
+    complete(arc, m.centers, to, true);
+    for (auto& w : m.centers) w.mode = to;
+    for (auto& c : m.coords) c.mode = WordMode::modal;
+    for (const AxisId axis : {arc.axis[0], arc.axis[1]}) {
+      if (std::any_of(m.coords.begin(), m.coords.end(), [axis](const CoordWord& c) { return c.axis == axis; }))
+        continue;
+      CoordWord w;
+      w.axis = axis;
+      w.scale = radius_scale(axis);
+      w.value = Value{0.0};
+      m.coords.push_back(w);
+    }
+    const auto incremental = static_cast<std::uint8_t>(Distance::incremental);
+    arc.b.actions.insert(arc.b.actions.begin(), action(ModalSet{Setting::distance, incremental, true, {}}));
+    back_to_absolute_ = true;
+    return true;
   }
 
   /// Absolute centres must name both coordinates: a missing word would be 0, not the start.
@@ -293,6 +334,12 @@ class ArcPass {
   /// Both end words where the target wants them.
   void full_circle(Arc& arc) {
     if (!context_.target.full_circle_needs_end) return;
+    const auto unknown = [&](AxisId axis) {
+      const auto& c = arc.b.motion.coords;
+      return std::none_of(c.begin(), c.end(), [axis](const CoordWord& w) { return w.axis == axis; }) &&
+             !start_of(arc, axis);
+    };
+    if ((unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
     auto& coords = arc.b.motion.coords;
     for (std::size_t i = 0; i < 2; ++i) {
       if (std::any_of(coords.begin(), coords.end(), [&](const CoordWord& c) { return c.axis == arc.axis[i]; }))
@@ -321,6 +368,7 @@ class ArcPass {
   SymbolicPosition symbolic_;
   LabelUses uses_;
   bool plane_known_ = true;
+  bool back_to_absolute_ = false;  ///< the block at hand counts in increments, the ones behind it don't
 };
 
 }  // namespace cnctrans::ir::passes

@@ -124,6 +124,7 @@ struct Capabilities {
   std::set<CenterMode> centers;        ///< arc centre forms
   bool radius_minor = true, radius_major = true;
   bool arc_through_point = false, arc_tangent = false;
+  bool tangential_ends = false;  ///< arcs into and out of a contour that a word beside a straight move adds
   bool arc_angle = false;
   bool helix_turns = false, helix_pitch = false;
   bool full_circle_needs_end = false;  ///< both end coordinates must be written

@@ -23,4 +23,7 @@ void settle_preset_steps(Program& program, const LegaliseContext& context);
 /// Lengths of machine data in the unit of the target.
 void convert_machine_data(Program& program, const LegaliseContext& context);
 
+/// IF, WHILE, REPEAT and LOOP in the place of jumps, where the options ask for it.
+void raise_structure(Program& program, const LegaliseContext& context);
+
 }  // namespace cnctrans::ir::passes

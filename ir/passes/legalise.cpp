@@ -27,6 +27,7 @@ constexpr std::array pipeline{
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},
     Pass{"repeats", passes::lower_repeats, false},
+    Pass{"structure", passes::raise_structure, false},
     Pass{"control", passes::lower_control, false},
     Pass{"written_offsets", passes::select_written_offsets, false},
     Pass{"cycles", passes::lower_cycles, false},

@@ -18,7 +18,8 @@ namespace cnctrans::ir {
 enum class CycleWriting : std::uint8_t { native, explode };
 struct LegaliseOptions {
   CycleWriting cycles = CycleWriting::native;
-  bool goes_on = false;  ///< the translation is written although blocks are refused: they are left out
+  bool raise_structure = false;  ///< jumps become structures where that is provably the same
+  bool goes_on = false;          ///< the translation is written although blocks are refused: they are left out
 };
 
 /// What became of a name of the source, for the head comment and the report.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ir/passes/arc_geometry.h"
+#include "ir/geometry.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
@@ -11,58 +11,17 @@
 
 namespace cnctrans::ir::passes {
 
+using namespace geometry;
+
 namespace {
 
 constexpr double tiny = 1e-9;
 
-Point minus(Point a, Point b) {
-  return {a.u - b.u, a.v - b.v};
-}
-Point plus(Point a, Point b, double factor) {
-  return {a.u + factor * b.u, a.v + factor * b.v};
-}
-double dot(Point a, Point b) {
-  return a.u * b.u + a.v * b.v;
-}
-double length(Point a) {
-  return std::hypot(a.u, a.v);
-}
-Point left_of(Point a) {
-  return {-a.v, a.u};
-}
-
+/// An element of the path and the plane it lies in.
 struct Path {
   Plane plane = Plane::xy;
-  Point from, to;
-  bool arc = false;
-  Point centre;
-  bool ccw = false;
-
-  [[nodiscard]] Point direction(bool at_end) const {
-    const Point d = arc ? left_of(minus(at_end ? to : from, centre)) : minus(to, from);
-    const double l = length(d) * (arc && !ccw ? -1 : 1);
-    return {d.u / l, d.v / l};
-  }
+  Element e;
 };
-
-/// The arc that leads from a line out of `s` into the path at `p` in the direction `t`.
-struct Lead {
-  Point touch, centre;
-  bool ccw = false;
-};
-std::optional<Lead> lead_in(Point s, Point p, Point t, double radius) {
-  const Point n = left_of(t);
-  const double side = dot(minus(s, p), n) >= 0 ? 1 : -1;
-  Lead lead;
-  lead.centre = plus(p, n, side * radius);
-  const Point to_centre = minus(lead.centre, s);
-  const double d = length(to_centre);
-  if (radius <= 0 || d <= radius + 1e-6) return std::nullopt;
-  const double angle = std::atan2(to_centre.v, to_centre.u) - side * std::asin(radius / d);
-  lead.touch = plus(s, {std::cos(angle), std::sin(angle)}, std::sqrt(d * d - radius * radius));
-  lead.ccw = side > 0;
-  return lead;
-}
 
 class TangentPass {
  public:
@@ -98,7 +57,7 @@ class TangentPass {
       if (b != nullptr && moves_frames(*b)) before.reset();
       if (b != nullptr && b->has_motion && b->motion.moves() && !arc) {
         const auto path = path_of(s);
-        if (!path || length(minus(path->to, path->from)) > tiny || path->arc) before = path;
+        if (!path || length(path->e.b - path->e.a) > tiny || path->e.arc) before = path;
       }
       if (arc) before = last_;
       out.push_back(std::move(s));
@@ -137,28 +96,28 @@ class TangentPass {
     const auto axes = plane_axes(*plane);
     const auto u = facts.position[axes.u], v = facts.position[axes.v];
     if (!u || !v) return std::nullopt;
-    Path path{*plane, {*u, *v}, {*u, *v}, false, {}, false};
+    Path path{*plane, {false, {*u, *v}, {*u, *v}, {}, false}};
     for (const auto& c : b->motion.coords) {
       if (c.axis != axes.u && c.axis != axes.v) continue;
       const auto d = distance_of(c, *b, facts);
       const auto f = to_radius(c.axis, c.scale, d, *b, facts, context_.source_machine);
       if (!d || !f || !c.value.literal()) return std::nullopt;
-      double& to = c.axis == axes.u ? path.to.u : path.to.v;
+      double& to = c.axis == axes.u ? path.e.b.u : path.e.b.v;
       to = c.value.number * *f + (*d == Distance::incremental ? to : 0);
     }
     if (*kind == MotionKind::linear || *kind == MotionKind::rapid) return path;
     if (*kind != MotionKind::arc_cw && *kind != MotionKind::arc_ccw) return std::nullopt;
-    path.arc = true;
-    path.ccw = *kind == MotionKind::arc_ccw;
+    path.e.arc = true;
+    path.e.ccw = *kind == MotionKind::arc_ccw;
     if (b->motion.radius_given) {
       if (!b->motion.radius.literal()) return std::nullopt;
-      const auto c = center_by_radius(path.from, path.to, b->motion.radius.number, path.ccw);
+      const auto c = centre_by_radius(path.e.a, path.e.b, b->motion.radius.number, path.e.ccw, long_chord);
       if (!c) return std::nullopt;
-      path.centre = *c;
+      path.e.c = *c;
       return path;
     }
     if (b->motion.centers.empty()) return std::nullopt;
-    path.centre = path.from;
+    path.e.c = path.e.a;
     const auto distance = setting_in<Distance>(*b, facts, Setting::distance);
     for (const auto& w : b->motion.centers) {
       const bool relative = w.mode == CenterMode::from_start ||
@@ -166,14 +125,14 @@ class TangentPass {
       const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, *b, facts,
                                context_.source_machine);
       if (!f || !w.value.literal() || (w.mode == CenterMode::follows_distance && !distance)) return std::nullopt;
-      double& c = w.axis == axes.u ? path.centre.u : path.centre.v;
+      double& c = w.axis == axes.u ? path.e.c.u : path.e.c.v;
       c = w.value.number * *f + (relative ? c : 0);
     }
     return path;
   }
 
   /// Both words of the plane, absolute and as radius; the other words stay.
-  void set_end(Motion& m, Plane plane, Point to) const {
+  void set_end(Motion& m, Plane plane, Vec to) const {
     const auto axes = plane_axes(plane);
     for (const auto& [axis, value] : {std::pair{axes.u, to.u}, std::pair{axes.v, to.v}}) {
       auto it =
@@ -186,7 +145,7 @@ class TangentPass {
       it->pos = {};
     }
   }
-  static void set_centre(Motion& m, Plane plane, Point from, Point centre) {
+  static void set_centre(Motion& m, Plane plane, Vec from, Vec centre) {
     const auto axes = plane_axes(plane);
     m.radius_given = false;
     m.radius = Value{};
@@ -217,22 +176,21 @@ class TangentPass {
                     "a tangent arc, which the target lacks; the element before it is not known here as numbers",
                     "program the arc by its centre or radius", m.code_pos);
     }
-    const Point w = minus(points->to, points->from), n = left_of(before->direction(true));
-    const double across = dot(w, n);
-    if (std::fabs(across) < 1e-6 * length(w) || length(w) < tiny) {
+    Vec centre;
+    bool ccw = false;
+    if (!centre_by_tangent(points->e.a, before->e.end_direction(), points->e.b, centre, ccw)) {
       return refuse(s, program_, context_, "TRN-301", "the end of the tangent arc lies straight ahead",
                     "program a straight line", m.code_pos);
     }
-    const double radius = dot(w, w) / (2 * across);
-    m.kind = radius > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw;
+    m.kind = ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
     m.explicit_code = true;
     m.code_text = {};
-    set_centre(m, points->plane, points->from, plus(points->from, n, radius));
+    set_centre(m, points->plane, points->e.a, centre);
   }
 
   /// Takes the entry or exit out of the block; false: it has none, or the target writes it itself.
   bool take_tangential(Block& b) {
-    if (context_.target.dialect == program_.dialect) return false;
+    if (context_.target.tangential_ends) return false;
     for (std::size_t i = 0; i < b.actions.size(); ++i) {
       const auto* t = std::get_if<TangentialEnd>(&b.actions[i].data);
       if (t == nullptr) continue;
@@ -263,29 +221,24 @@ class TangentPass {
           "a tangential entry or exit, which the target lacks; the points around it are not known here as numbers",
           "program the arc itself");
     const bool entry = tangential_.end == TangentEnd::entry;
-    if ((entry ? here : after)->arc)
-      return fail("a tangential entry or exit needs a straight move", "program the arc itself");
-    if (length(minus(here->to, here->from)) < tiny || length(minus(after->to, after->from)) < tiny)
+    if (length(here->e.b - here->e.a) < tiny || length(after->e.b - after->e.a) < tiny)
       return fail("a tangential entry or exit beside a move that goes nowhere", {});
-    const double radius = tangential_.radius.number;
-    const Point t = entry ? after->direction(false) : here->direction(true);
-    const auto lead =
-        entry ? lead_in(here->from, here->to, t, radius) : lead_in(after->to, here->to, {-t.u, -t.v}, radius);
-    if (!lead)
-      return fail("the straight move lies inside the circle of the tangential entry or exit", "check the radius");
-    Path arc{here->plane, lead->touch, here->to, true, lead->centre, lead->ccw};
-    if (!entry) arc = Path{here->plane, here->to, lead->touch, true, lead->centre, !lead->ccw};
+    Fillet lead;
+    std::string why;
+    if (!(entry ? tangential_entry : tangential_exit)(here->e, after->e, tangential_.radius.number, lead, why))
+      return fail(std::move(why), "check the radius, or program the arc itself");
+    const Path arc{here->plane, {true, lead.from, lead.to, lead.centre, lead.ccw}};
     Block block;
     block.has_motion = true;
-    block.motion.kind = arc.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
+    block.motion.kind = lead.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
     block.motion.explicit_code = true;
     block.motion.keeps_modal = false;
-    set_end(block.motion, arc.plane, arc.to);
-    set_centre(block.motion, arc.plane, arc.from, arc.centre);
+    set_end(block.motion, arc.plane, lead.to);
+    set_centre(block.motion, arc.plane, lead.from, lead.centre);
     if (entry)
-      set_end(std::get<Block>(s.node).motion, arc.plane, arc.from);
+      set_end(std::get<Block>(s.node).motion, arc.plane, lead.from);
     else
-      set_end(std::get<Block>(next->node).motion, arc.plane, after->to);
+      set_end(std::get<Block>(next->node).motion, arc.plane, after->e.b);
     context_.diagnostics.note("TRN-336", word_span(s.line.span, tangential_pos_),
                               "the tangential entry or exit is written as an arc of its own");
     last_ = arc;

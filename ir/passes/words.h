@@ -27,6 +27,9 @@ std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Dist
 /// own code again.
 bool table_row(const FrameChange& c);
 
+/// mm that the ends of an arc by its radius may lie too far apart for it: such an arc is the half circle.
+inline constexpr double long_chord = 0.02;
+
 /// Two centre words name the plane.
 std::optional<Plane> plane_of_words(const Motion& m);
 

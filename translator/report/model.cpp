@@ -190,6 +190,8 @@ Report make_report(const std::string& path, const TranslateOptions& options, con
     r.events = v.events;
     r.moves = v.moves;
     r.max_length = v.max_length;
+    r.blocks = v.coverage.blocks;
+    r.replayed = v.coverage.replayed;
     // The files of the verification are the outputs, in order.
     std::vector<std::size_t> target_index(result.target_files.size(), 0);
     for (std::size_t id = 1; id < target_index.size(); ++id) target_index[id] = id - 1;

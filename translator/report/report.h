@@ -55,7 +55,8 @@ struct Report {
   std::string verdict;       ///< a name of verifier::Status, or "refused"
   std::string verdict_text;  ///< for people
   std::uint64_t events = 0, moves = 0;
-  double max_length = 0;  ///< mm
+  double max_length = 0;                 ///< mm
+  std::size_t blocks = 0, replayed = 0;  ///< lines of the source that do something, and those that the replay came to
   std::optional<ReportPlace> differs_source, differs_target;
   std::vector<ReportFile> sources, targets;
   std::vector<ReportMove> source_path, target_path;

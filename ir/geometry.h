@@ -1,9 +1,11 @@
-// Plane geometry of arcs and corners. Coordinates (u, v) of the plane in mm; angles turn from u toward v.
+// Plane geometry of arcs and corners, for the interpreter and the passes. Coordinates (u, v) of the plane in mm; angles
+// turn from u toward v.
 #pragma once
 
+#include <optional>
 #include <string>
 
-namespace cnctrans::interpreter {
+namespace cnctrans::ir::geometry {
 
 struct Vec {
   double u = 0, v = 0;
@@ -14,8 +16,9 @@ struct Vec {
 double dot(Vec a, Vec b);
 double cross(Vec a, Vec b);
 double length(Vec a);
-Vec left_of(Vec a);  ///< turned by +90 degrees
-Vec normalised(Vec a);
+Vec left_of(Vec a);     ///< turned by +90 degrees
+Vec normalised(Vec a);  ///< zero stays zero
+Vec turned(Vec a, Vec about, double degrees);
 
 /// Points closer than this are one point.
 inline constexpr double same_point = 1e-6;
@@ -23,6 +26,8 @@ inline constexpr double same_point = 1e-6;
 /// Centre of the arc through two points with `radius` (negative: the arc over 180 degrees). A chord that is longer than
 /// the diameter by at most `tolerance` gives the half circle. False and a text otherwise.
 bool centre_by_radius(Vec p0, Vec p1, double radius, bool ccw, double tolerance, Vec& centre, std::string& error);
+/// The same for callers that have a text of their own.
+std::optional<Vec> centre_by_radius(Vec p0, Vec p1, double radius, bool ccw, double tolerance);
 /// Through p0, `middle`, p1. False when they lie on a line.
 bool centre_by_three_points(Vec p0, Vec middle, Vec p1, Vec& centre, bool& ccw);
 /// Leaves p0 in direction `tangent` and ends in p1. False when that is a straight line.
@@ -61,4 +66,4 @@ bool tangential_entry(const Element& a, const Element& b, double radius, Fillet&
 /// The other way round in time: arc out.from (= a.b) -> out.to, line out.to -> b.b.
 bool tangential_exit(const Element& a, const Element& b, double radius, Fillet& out, std::string& error);
 
-}  // namespace cnctrans::interpreter
+}  // namespace cnctrans::ir::geometry

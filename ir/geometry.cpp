@@ -1,4 +1,4 @@
-#include "interpreter/geometry.h"
+#include "ir/geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 
-namespace cnctrans::interpreter {
+namespace cnctrans::ir::geometry {
 
 namespace {
 constexpr double degrees = 180 / std::numbers::pi;
@@ -32,6 +32,11 @@ Vec normalised(Vec a) {
   const double l = length(a);
   return l == 0 ? Vec{} : (1 / l) * a;
 }
+Vec turned(Vec a, Vec about, double angle) {
+  const double c = std::cos(angle / degrees), s = std::sin(angle / degrees);
+  const Vec d = a - about;
+  return about + Vec{c * d.u - s * d.v, s * d.u + c * d.v};
+}
 
 bool centre_by_radius(Vec p0, Vec p1, double radius, bool ccw, double tolerance, Vec& centre, std::string& error) {
   const Vec chord = p1 - p0;
@@ -53,6 +58,12 @@ bool centre_by_radius(Vec p0, Vec p1, double radius, bool ccw, double tolerance,
   const double side = (radius > 0) == ccw ? 1 : -1;
   centre = 0.5 * (p0 + p1) + (side * h / d) * left_of(chord);
   return true;
+}
+
+std::optional<Vec> centre_by_radius(Vec p0, Vec p1, double radius, bool ccw, double tolerance) {
+  Vec centre;
+  std::string error;
+  return centre_by_radius(p0, p1, radius, ccw, tolerance, centre, error) ? std::optional(centre) : std::nullopt;
 }
 
 bool centre_by_three_points(Vec p0, Vec middle, Vec p1, Vec& centre, bool& ccw) {
@@ -270,4 +281,4 @@ bool tangential_exit(const Element& a, const Element& b, double radius, Fillet& 
   return true;
 }
 
-}  // namespace cnctrans::interpreter
+}  // namespace cnctrans::ir::geometry

@@ -1,0 +1,15 @@
+// Which lines of a program a run has carried out: a verification proves those and no others.
+#pragma once
+
+#include <vector>
+
+#include "ir/program.h"
+#include "verifier/compare.h"
+
+namespace cnctrans::translator {
+
+/// Lines that hold a block, an assignment, a jump, a call or a message, and how many of them `covered` (by
+/// Statement::id, from interpreter::Result) knows. Marks, declarations and program ends do not count.
+verifier::Coverage coverage_of(const ir::Program& program, const std::vector<bool>& covered);
+
+}  // namespace cnctrans::translator
