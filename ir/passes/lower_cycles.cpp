@@ -367,6 +367,12 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     }
     std::optional<Value> leave;
     if (!d.modal) leave = leave_by_own_move(native.cycle, a);
+    if (leave && !w) {
+      refuse(s, program_, context_, "TRN-330", "a cycle in a plane that is not known here",
+             "write the plane before it on every path");
+      out.push_back(std::move(s));
+      return;
+    }
     feed_for_tap(b, a);
     b.actions.push_back(action(native));
     if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) late_.push_back(*feed);

@@ -66,6 +66,7 @@ void SymbolicPosition::follow_block(const Block& b, const Facts& facts) {
   const Motion& m = b.motion;
   if (m.frame != FrameUse::normal || m.extra) return clear();
   for (const auto& c : m.coords) {
+    if (c.axis >= at_.size()) return clear();
     const auto distance = distance_of(c, b, facts);
     const auto factor = to_radius(c.axis, c.scale, distance, b, facts, machine_);
     auto& p = at_[c.axis];
