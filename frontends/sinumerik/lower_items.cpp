@@ -315,15 +315,7 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     case Procedure::master_spindle: return master_spindle(args, pos, parts);
     case Procedure::axis_setting: return axis_setting(name, args, pos, parts);
     case Procedure::screen:
-    case Procedure::timing: {
-      ir::Opaque o;
-      o.text = c_.slice(pos);
-      o.feature = "language.statement";
-      o.harmless = true;
-      c_.note("SIN-009", pos, name + " is kept as text: it does not change the programmed path");
-      parts.calls.emplace_back(std::move(o));
-      return true;
-    }
+    case Procedure::timing: return without_effect(name, pos, parts);
     case Procedure::none:
     case Procedure::unsupported: break;
   }
@@ -362,8 +354,21 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
   return true;
 }
 
+bool StatementLowering::without_effect(const std::string& name, WordPos pos, Parts& parts) {
+  ir::Opaque o;
+  o.text = c_.slice(pos);
+  o.feature = "language.statement";
+  o.harmless = true;
+  c_.note("SIN-009", pos, name + " is kept as text: it does not change the programmed path");
+  parts.calls.emplace_back(std::move(o));
+  return true;
+}
+
 bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   if (const Procedure use = procedure(name); use != Procedure::none) return predefined(use, name, args, pos, parts);
+  // Without arguments it ends the swivelled plane; one that begins it is refused, so there is none (18.5).
+  const bool bare = std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.kind == ExprKind::missing; });
+  if (name == "CYCLE800" && bare) return without_effect(name, pos, parts);
   if (sinumerik::cycle(name) != nullptr) {
     ir::CyclePtr made = cycle(name, args, pos);
     if (!made) return false;

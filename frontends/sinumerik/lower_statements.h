@@ -67,6 +67,8 @@ class StatementLowering {
   bool put_axis_words(Parts& parts, ir::Block& words);
   bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
+  /// A call that changes nothing of the path: kept as text with a note.
+  bool without_effect(const std::string& name, WordPos pos, Parts& parts);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos,
                   Parts& parts);
