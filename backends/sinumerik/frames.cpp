@@ -62,7 +62,9 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
       return refuse("TRN-202", w.pos, "a shift of X that is not in the diameter mode in force has no counterpart here");
     }
     if (c.kind == ir::FrameKind::scale && c.uniform_scale) {
-      for (const std::string_view axis : {"X", "Y", "Z"}) one(axis, w.value, w.pos);
+      for (const ir::AxisId axis : {ir::axis::x, ir::axis::y, ir::axis::z}) {
+        if (profile().axis(axis) != nullptr) one(axis_name(axis), w.value, w.pos);
+      }
       break;
     }
     if (c.kind == ir::FrameKind::mirror) {
