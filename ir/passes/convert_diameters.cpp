@@ -13,11 +13,20 @@ namespace {
 
 class DiameterPass {
  public:
-  DiameterPass(const LegaliseContext& context, const FactsOf& facts, bool same_language)
-      : context_(context), facts_(facts), same_language_(same_language) {}
+  DiameterPass(const LegaliseContext& context, const FactsOf& facts, bool same_language, bool one_mode)
+      : context_(context), facts_(facts), same_language_(same_language), one_mode_(one_mode) {}
 
-  void block(Statement& s, Block& b) {
-    const Facts& facts = facts_.before(s);
+  void block(Statement& s, Block& b, bool in_main) {
+    Facts assumed;
+    const Facts& known = facts_.before(s);
+    const bool idle =
+        one_mode_ && !in_main && !setting<DiameterMode>(known, Setting::diameter);  // nothing calls it here
+    if (idle) {
+      assumed = known;
+      assumed.settings[static_cast<std::size_t>(Setting::diameter)] =
+          static_cast<std::uint8_t>(context_.source_machine.power_on.diameter);
+    }
+    const Facts& facts = idle ? assumed : known;
     if (b.has_motion) {
       for (auto& c : b.motion.coords) coordinate(s, c, b, facts);
       for (auto& c : b.motion.centers) center(s, c, b, facts);
@@ -115,7 +124,25 @@ class DiameterPass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   bool same_language_;
+  bool one_mode_;  ///< the program leaves the mode of power-on as it is
 };
+
+/// Every diameter or radius code of the program says the mode of power-on.
+bool keeps_mode(const Program& program, const LegaliseContext& context) {
+  bool keeps = true;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        keeps = keeps && (m == nullptr || m->setting != Setting::diameter ||
+                          m->value == static_cast<std::uint8_t>(context.source_machine.power_on.diameter));
+      }
+    });
+  }
+  return keeps;
+}
 
 }  // namespace
 
@@ -125,10 +152,11 @@ void convert_diameters(Program& program, const LegaliseContext& context) {
   const auto& to = context.target_machine.axes;
   if (std::none_of(from.begin(), from.end(), diameter) && std::none_of(to.begin(), to.end(), diameter)) return;
   const FactsOf facts(program, context);
-  DiameterPass pass(context, facts, program.dialect == context.target.dialect);
+  DiameterPass pass(context, facts, program.dialect == context.target.dialect, keeps_mode(program, context));
   for (auto& r : program.routines) {
-    for_each_statement(r.body, [&pass](Statement& s) {
-      if (auto* b = std::get_if<Block>(&s.node)) pass.block(s, *b);
+    const bool in_main = r.kind == RoutineKind::main;
+    for_each_statement(r.body, [&pass, in_main](Statement& s) {
+      if (auto* b = std::get_if<Block>(&s.node)) pass.block(s, *b, in_main);
     });
   }
 }
