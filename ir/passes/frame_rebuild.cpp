@@ -111,7 +111,10 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
   const bool about_point = before.slot(c.slot).has_shift() || after.slot(c.slot).has_shift();  // held by other slots
   if (c.kind == FrameKind::rotate && (!c.words.empty() || about_point)) return std::nullopt;
   const bool turned_about = before.slot(FrameSlot::rotation).has_shift() || after.slot(FrameSlot::rotation).has_shift();
-  if (c.kind == FrameKind::translate && c.combine != FrameCombine::preset && turned_about) return std::nullopt;
+  const bool holds_preset =
+      preset_as_shift_ && !(before.slot(FrameSlot::preset).neutral() && after.slot(FrameSlot::preset).neutral());
+  const bool shared = turned_about || holds_preset;  // the target's shift is not this one alone
+  if (c.kind == FrameKind::translate && c.combine != FrameCombine::preset && shared) return std::nullopt;
   if (c.kind == FrameKind::mirror) name_all_mirrored(change, after.slot(c.slot).mirror);
   return change;
 }
