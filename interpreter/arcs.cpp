@@ -152,7 +152,13 @@ bool BlockMachine::tangent_arc(Move& move) {
   const Vec direction = last_direction(plane);
   if (length(direction) == 0)
     return failure_.fail(code::arc_undefined, "there is no path element before the tangent arc");
-  if (centre_by_tangent(at(move.from, plane), direction, at(move.to, plane), move.centre, move.ccw)) return true;
+  const Vec start = at(move.from, plane), end = at(move.to, plane);
+  if (centre_by_tangent(start, direction, end, move.centre, move.ccw)) return true;
+  const Vec way = end - start;
+  if (policy_.straight_tangents && way.u * direction.u + way.v * direction.v > 0) {
+    move.kind = Move::Kind::linear;
+    return true;
+  }
   return failure_.fail(code::arc_undefined, "the end of the tangent arc lies straight ahead");
 }
 

@@ -30,6 +30,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.pole_stays = is("polar.pole_stays", "yes");
   policy_.plane_resets_pole = is("polar.plane_resets_pole", "yes");
   policy_.start_angle_stays = is("thread.start_angle", "modal");
+  policy_.straight_tangents = is("arc.tangent_straight", "line");
   policy_.machine_absolute = is("machine_move.words", "absolute");
   policy_.position_as_words = is("machine_position.scale", "words");
   policy_.offsets_at_once = is("work_offset.write", "at_once");

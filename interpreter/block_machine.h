@@ -118,7 +118,7 @@ class BlockMachine final : public SystemData {
          centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
          pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
-         offsets_at_once = false, preset_is_offset = false;
+         offsets_at_once = false, preset_is_offset = false, straight_tangents = false;
     bool data_modal = false;  ///< machine data in the units of the program
   };
   struct Pending {

@@ -46,7 +46,8 @@ void Runner::repeat(const ir::Repeat& r) {
     failure_.fail(code::repeat_depth, "repeated parts are nested without end");
     return;
   }
-  repeats_.push_back({begin, end, at_ + 1, count, false});
+  repeats_.push_back(
+      {begin, end, at_ + 1, count, false, r.search == ir::Search::whole_first ? std::string{} : last, end});
   repeat_end_ = end;
   at_ = begin;
 }

@@ -248,11 +248,26 @@ void Runner::go_to(std::uint32_t next) {
   if (next == repeat_end_ || next == stop_) arrived();
 }
 
+/// A jump has left a repeated part past its end: the next label of that name ends the pass.
+void Runner::left_behind() {
+  if (repeats_.size() <= calls_.back().repeats) return;
+  auto& r = repeats_.back();
+  if (r.last.empty() || at_ < r.end) return;
+  const auto it = flow_->labels.find(r.last);
+  if (it == flow_->labels.end()) return;
+  for (const auto& place : it->second) {
+    if (place.begin < at_) continue;
+    repeat_end_ = r.end = place.end;
+    return;
+  }
+}
+
 void Runner::arrived() {
   while (at_ == repeat_end_) {
     auto& r = repeats_.back();
     if (--r.left > 0) {
       at_ = r.begin;
+      if (!r.last.empty()) repeat_end_ = r.end = r.first_end;
       return;
     }
     at_ = r.return_to;

@@ -44,7 +44,9 @@ class Runner {
   struct RepeatFrame {
     std::uint32_t begin = 0, end = 0, return_to = 0;
     std::int64_t left = 1;
-    bool block = false;  ///< a block that repeats itself
+    bool block = false;           ///< a block that repeats itself
+    std::string last{};           ///< label of its end where a later one counts as well; empty: only the one found
+    std::uint32_t first_end = 0;  ///< with `last`: the end of a pass that is not left
   };
   struct PendingCall {
     bool active = false;
@@ -64,6 +66,7 @@ class Runner {
   void step(Instruction& in);
   void go_to(std::uint32_t next);
   void arrived();
+  void left_behind();
   void enter_top();
   void fail_state() { state_ = State::failed; }
   Result finish(EndReason reason, const Span& where);

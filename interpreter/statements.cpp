@@ -25,7 +25,7 @@ void Runner::block(Instruction& in) {
       }
       cycle = n > 0;
       if (n > 1) {
-        repeats_.push_back({at_, at_ + 1, at_ + 1, static_cast<std::int64_t>(n), true});
+        repeats_.push_back({at_, at_ + 1, at_ + 1, static_cast<std::int64_t>(n), true, {}, 0});
         repeat_end_ = at_ + 1;
       }
     }
@@ -153,7 +153,7 @@ void Runner::jump(Instruction& in) {
   }
   if (in.target != nowhere) {
     at_ = in.target;
-    return;
+    return left_behind();
   }
   take(j, j.target.computed ? nullptr : &in.target);
 }
@@ -170,6 +170,7 @@ void Runner::take(const ir::Jump& j, std::uint32_t* known) {
   if (p != nullptr) {
     at_ = p->begin;
     if (known != nullptr) *known = p->begin;
+    left_behind();
   } else if (j.quiet) {
     go_to(at_ + 1);
   } else {

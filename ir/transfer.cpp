@@ -5,6 +5,7 @@
 #include "ir/cycles/machining.h"
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
+#include "ir/opaque_words.h"
 
 namespace cnctrans::ir {
 namespace {
@@ -25,7 +26,7 @@ class Transfer {
 
   void block(const Block& b) {
     for (const auto& a : b.actions) {
-      if (a.order != Order::after) std::visit(*this, a.data);
+      if (a.order != Order::after && !leaves_path_alone(a)) std::visit(*this, a.data);
     }
     if (b.has_motion) motion(b);
     if (runs_here_ || (b.has_motion && b.motion.moves())) cycle_moves();

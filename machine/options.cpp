@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::array specs{
     // Read by the interpreter, whatever the control.
+    OptionSpec{"arc.tangent_straight", "error|line", "error",
+               "a tangent arc whose end lies straight ahead: refused, or the straight line there"},
     OptionSpec{"calls.local_levels", "number", "0",
                "levels of own local parameters that may be open at once; 0: no limit"},
     OptionSpec{"call.modal_words", "no|yes", "no",

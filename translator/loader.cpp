@@ -26,10 +26,12 @@ struct LatheEvidence {
   bool cutting_speed = false;
   bool diameters = false;
   bool lathe_code = false;
+  bool diameter_axis = false;  ///< X is switched to diameters: no mill has that
   const std::vector<int>& lathe_codes;
 
   void word(std::string_view name, std::string_view rest) {
     const std::string upper = to_upper_ascii(name);
+    if (upper == "DIAMON" || upper == "DIAM") diameter_axis = true;
     if (upper == "DIAMON" || upper == "DIAM" || upper == "LIMS") diameters = true;
     const bool value = !rest.empty() && (rest[0] == '-' || rest[0] == '+' || rest[0] == '.' || rest[0] == '=' ||
                                          (rest[0] >= '0' && rest[0] <= '9'));
@@ -54,15 +56,12 @@ bool stem_names(std::string_view stem, const ir::RoutineName& name, std::string_
   return !stem.empty() && (digit == std::string_view::npos ? "0" : stem.substr(digit)) == number;
 }
 
-}  // namespace
-
-bool looks_like_lathe(std::string_view text, char comment_open, char comment_close,
-                      const std::vector<int>& lathe_codes) {
+LatheEvidence lathe_evidence(std::string_view text, char comment_open, char comment_close,
+                             const std::vector<int>& lathe_codes) {
   LatheEvidence evidence{.lathe_codes = lathe_codes};
   std::size_t i = 0;
-  constexpr std::size_t head =
-      65536;  // a Y word ends the search; a lathe's own function behind it stands near the start
-  while (i < text.size() && !evidence.lathe_code && (!evidence.y_word || (!lathe_codes.empty() && i < head))) {
+  constexpr std::size_t head = 65536;  // behind a Y word: what tells a lathe stands near the start
+  while (i < text.size() && !evidence.lathe_code && (!evidence.y_word || (!evidence.diameter_axis && i < head))) {
     const char c = text[i];
     if (c == comment_open) {
       const std::size_t close =
@@ -80,22 +79,43 @@ bool looks_like_lathe(std::string_view text, char comment_open, char comment_clo
       ++i;
     }
   }
-  return evidence.lathe_code || (!evidence.y_word && (evidence.cutting_speed || evidence.diameters));
+  return evidence;
+}
+
+bool means_lathe(const LatheEvidence& e) {
+  return e.lathe_code || e.diameter_axis || (!e.y_word && (e.cutting_speed || e.diameters));
+}
+
+}  // namespace
+
+bool looks_like_lathe(std::string_view text, char comment_open, char comment_close,
+                      const std::vector<int>& lathe_codes) {
+  return means_lathe(lathe_evidence(text, comment_open, comment_close, lathe_codes));
 }
 
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
                                                const SourceText* source, std::string* error) {
   if (!machine.empty()) return machine::load(machine, error);
-  bool lathe = false;
+  bool lathe = false, y_axis = false;
   if (source != nullptr) {
     const std::string extension = source->extension();
     if (listed(dialect.lathe_extensions, extension)) {
       lathe = true;
     } else if (!listed(dialect.mill_extensions, extension)) {
-      lathe = looks_like_lathe(source->text(), dialect.comment_open, dialect.comment_close, dialect.lathe_codes);
+      const LatheEvidence e =
+          lathe_evidence(source->text(), dialect.comment_open, dialect.comment_close, dialect.lathe_codes);
+      lathe = means_lathe(e);
+      y_axis = lathe && e.diameter_axis && e.y_word;
     }
   }
-  return machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
+  auto profile = machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
+  if (profile && y_axis && profile->axis(ir::axis::y) == nullptr) {  // a lathe with driven tools
+    machine::AxisSpec y;
+    y.id = ir::axis::y;
+    y.name = "Y";
+    profile->axes.insert(profile->axes.begin() + 1, y);
+  }
+  return profile;
 }
 
 bool can_reopen(const std::string& path) {

@@ -219,6 +219,7 @@ class ProgramWriter {
   std::array<std::optional<std::uint8_t>, ir::setting_count> settings_{};
   std::optional<ir::FactTable> facts_;
   std::set<std::int32_t> noted_functions_;
+  std::set<std::string> left_out_;  ///< words without effect on the path that were reported
 };
 
 }  // namespace cnctrans::backends

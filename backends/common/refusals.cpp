@@ -97,6 +97,7 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
     add(std::string(trim(o.text)), Rank::head);
     return;
   }
+  if (o.harmless && o.feature.empty()) return;  // says nothing to another control
   if (o.harmless) {
     diagnostics_.note("TRN-205", current_->line.span,
                       "'" + o.text + "' has no counterpart and no effect on the part; it is kept as a remark");

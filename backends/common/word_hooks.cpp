@@ -1,5 +1,7 @@
 // Default words of actions and motions: what ISO-like languages have in common; the rest is refused.
 #include "backends/common/program_writer.h"
+#include "base/text.h"
+#include "ir/opaque_words.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -86,6 +88,14 @@ void ProgramWriter::tangential_end(const ir::Action& a, const ir::TangentialEnd&
 }
 void ProgramWriter::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {
   if (same_dialect_) return add(std::string(w.word), Rank::motion_extra, a.pos);
+  if (ir::leaves_path_alone(a)) {
+    if (!left_out_.insert(to_upper_ascii(w.word)).second) return;
+    return diagnostics_.warning(
+        "TRN-205", span_of(a.pos),
+        "'" + std::string(w.word) +
+            "' is left out: the programmed path is the same without it; accuracy, timing or the "
+            "corners of a compensated path may differ (said once for each such word)");
+  }
   refuse("TRN-205", a.pos, "the word '" + std::string(w.word) + "' is not translated");
 }
 

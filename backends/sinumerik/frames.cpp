@@ -20,8 +20,8 @@ bool Writer::stands_already(WordPos pos) {
 void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   // $P_PFRAME=CTRANS(X,5):CROT(Z,30), ROTS X10 Y20: several changes, or angles that were computed, in the words of the
   // source
-  const bool whole = a.text.find('=') != std::string_view::npos || a.text.find("ROTS ") != std::string_view::npos ||
-                     a.text.find("rots ") != std::string_view::npos;
+  const bool whole = a.text.find_first_of("=(") != std::string_view::npos ||
+                     a.text.find("ROTS ") != std::string_view::npos || a.text.find("rots ") != std::string_view::npos;
   if (same_dialect() && whole) {
     if (!stands_already(a.pos)) add(std::string(a.text), Rank::head, a.pos);
     return;

@@ -135,6 +135,12 @@ bool Writer::offset_in_force() {
 }
 
 bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
+  if (same_dialect() && a.pos.column != 0) {  // one word of the source that does several things is written once
+    for (const ir::Action& before : b.actions) {
+      if (&before == &a) break;
+      if (before.pos.column == a.pos.column) return false;
+    }
+  }
   const bool alone = std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||
                      std::holds_alternative<ir::CycleDefine>(a.data) || std::holds_alternative<ir::CycleCancel>(a.data);
   if (alone) return true;
@@ -444,7 +450,8 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   extra(letters.substr(lead, 1), e.lead);
   if (!e.lead_change.is(0))
     extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);
-  if (e.has_start_angle) extra("SF", e.start_angle);
+  const bool in_force = same_dialect() && e.start_angle.literal() && e.start_angle.text.empty();  // not written there
+  if (e.has_start_angle && !in_force) extra("SF", e.start_angle);
 }
 
 }  // namespace cnctrans::backends::sinumerik

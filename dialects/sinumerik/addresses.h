@@ -20,6 +20,7 @@ enum class NamedWord : std::uint8_t {
   chamfer_leg,
   chamfer_chord,
   corner_feed,
+  corner_feed_modal,
   thread_start,
   spindle_limit,
   spindle_position,
@@ -28,6 +29,7 @@ enum class NamedWord : std::uint8_t {
   fixed_point,
   probe,
   probe_to_end,
+  orientation,   ///< of the tool under a transformation: kept
   timing,        ///< tolerances, overrides, accelerations: the nominal path is the same
   compensation,  ///< acts only on the compensated path
   unsupported
@@ -57,10 +59,13 @@ enum class Procedure : std::uint8_t {
   repeat_return,
   program_start,
   master_spindle,
-  axis_setting,  ///< DIAMONA[X], SCC[X]: a setting of one axis
-  screen,        ///< operator screens, blanks, groups: no effect on machining
-  timing,        ///< dynamics, feed groups, single-block and display switches
-  unsupported    ///< acts on the machine and is not carried
+  axis_setting,    ///< DIAMONA[X], SCC[X]: a setting of one axis
+  screen,          ///< operator screens, blanks, groups: no effect on machining
+  timing,          ///< dynamics, feed groups, single-block and display switches
+  transformation,  ///< the programmed positions stay those of the tool; the frames in force are deselected (motion 9.1)
+  coordination,    ///< other channels, interrupts, exchange of axes: no move of its own
+  preset,          ///< PRESETON: the present machine position gets another value
+  unsupported      ///< acts on the machine and is not carried
 };
 struct ProcedureRow {
   std::string_view name;

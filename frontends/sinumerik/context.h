@@ -57,6 +57,10 @@ struct FileContext {
   std::uint8_t master_spindle = 1;  ///< SETMS, in the order of the text
   bool offset_chosen = true;        ///< a D was written since the last T, in the order of the text
 
+  std::optional<ir::Value> thread_start{};  ///< SF= in force, in the order of the text
+  bool thread_start_unsure = false;         ///< a label, a jump or a structure stands between
+  std::optional<ir::Value> corner_feed{};   ///< FRCM=
+
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
 
   /// All that is the matter with the line is that something is not carried: it is read and kept as text.

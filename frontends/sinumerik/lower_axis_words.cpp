@@ -68,6 +68,65 @@ bool StatementLowering::indirect_g(const syntax::Statement& s, Parts& parts) {
   return true;
 }
 
+/// TRANSMIT, TRACYL(40), TRAORI, TRAFOOF: the programmed positions stay those of the tool in the coordinates of the
+/// transformation, and every frame in force is deselected (motion reference 9.1). No other control gets it.
+bool StatementLowering::transformation(const std::string& name, WordPos pos, Parts& parts) {
+  const auto add = [&](ir::ActionData data) {
+    ir::Action a;
+    a.data = std::move(data);
+    a.pos = pos;
+    a.text = c_.slice(pos);
+    parts.actions.push_back(std::move(a));
+  };
+  auto clear = std::make_shared<ir::FrameChange>();
+  clear->slot = ir::FrameSlot::chain;
+  clear->combine = ir::FrameCombine::clear;
+  add(ir::OpaqueWord{c_.slice(pos)});
+  add(ir::FrameOp{std::move(clear)});
+  add(ir::WorkOffset{ir::Value(0), true});
+  c_.warning("SIN-041", pos,
+             name +
+                 " switches a transformation: positions are those of the tool in its coordinates, and the frames in "
+                 "force, settable and programmable, are deselected",
+             "select the work offset and the frame again behind it");
+  return true;
+}
+
+/// PRESETON(X,100,Z,0): the machine position of the standing axis gets this value. Moves keep their machine positions
+/// in the trace; what is programmed counts from the new value.
+bool StatementLowering::preset(const std::string& name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  if (args.empty() || args.size() % 2 != 0) {
+    c_.error("SIN-012", pos, name + "() takes pairs of an axis and a value");
+    return false;
+  }
+  auto change = std::make_shared<ir::FrameChange>();
+  change->slot = ir::FrameSlot::preset;
+  change->combine = ir::FrameCombine::replace_named;
+  for (std::size_t i = 0; i < args.size(); i += 2) {
+    Expr machine_axis = args[i];  // A1: the machine axis of X
+    const auto axis = exprs_.is_undefined(machine_axis) ? nullptr : exprs_.axis_operand(machine_axis);
+    const auto* literal = axis ? std::get_if<ir::AxisName>(&axis->node) : nullptr;
+    if (literal == nullptr)
+      return refuse("language.statement", args[i].pos,
+                    name + "() of an axis that the machine " + c_.machine.profile->name + " does not have");
+    auto value = exprs_.lower_as(args[i + 1], ir::Type::real);
+    if (!value) return false;
+    ir::SystemRef here;
+    here.datum = ir::Datum::machine_position;
+    here.axis = literal->axis;
+    here.text = "$AA_IM";
+    auto shift = ir::binary(ir::BinaryOp::subtract, make_expr(std::move(here), ir::Type::real, pos), std::move(value));
+    change->words.push_back(
+        ir::FrameWord{literal->axis, ir::Value(std::move(shift)), ir::WordScale::radius, args[i].pos});
+  }
+  ir::Action a;
+  a.data = ir::FrameOp{std::move(change)};
+  a.pos = pos;
+  a.text = c_.slice(pos);
+  parts.actions.push_back(std::move(a));
+  return true;
+}
+
 /// SETMS(n), SETMS: the spindle that S, M3 and their like mean from here on.
 bool StatementLowering::master_spindle(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   const bool plain = args.empty() || (args.size() == 1 && args[0].kind == ExprKind::number && args[0].number >= 1 &&
@@ -100,6 +159,7 @@ bool StatementLowering::axis_setting(const std::string& name, const std::vector<
     if (!transverse)
       return refuse("language.statement", pos, "constant cutting speed about another axis than X is not carried yet");
     a.data = ir::OpaqueWord{a.text};
+    a.order = ir::Order::with;
     c_.note("SIN-009", pos, "SCC is kept as text: X is the axis of the cutting speed already");
   } else if (spec->diameter) {
     const auto mode = name == "DIAMONA"   ? ir::DiameterMode::diameter

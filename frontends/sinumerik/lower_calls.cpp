@@ -214,8 +214,10 @@ bool StatementLowering::extern_declaration(const Statement& s, const Block& bloc
   std::vector<bool> by_reference;
   for (const Statement& p : s.children) by_reference.push_back(p.args[1].kind != ExprKind::missing);
   externs_[routine_name(s.text).text] = std::move(by_reference);
-  c_.note("SIN-009", s.pos, "EXTERN is kept as text: it only announces " + s.text);
-  add_opaque(block, info, "language.statement", true);
+  ir::Opaque o;
+  o.text = code_text(c_.text, block);
+  o.harmless = true;
+  emit(info, std::move(o));
   return true;
 }
 

@@ -88,7 +88,14 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       has_corner_feed_ = true;
       corner_feed_ = std::move(value);
       return;
+    case NamedWord::corner_feed_modal:  // 0: the feed of the block again
+      c_.corner_feed.reset();
+      if (!value.is(0)) c_.corner_feed = std::move(value);
+      return push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
+    case NamedWord::orientation: return orientation(w);
     case NamedWord::thread_start:
+      c_.thread_start = value;
+      c_.thread_start_unsure = false;
       extra().has_start_angle = true;
       extra_.start_angle = std::move(value);
       return;
@@ -113,7 +120,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       return;
     case NamedWord::timing:
     case NamedWord::compensation:
-      push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::before, w.pos);
+      push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
       c_.note("SIN-009", w.pos, name + " is kept as text: it does not change the programmed path");
       return;
     case NamedWord::unsupported: refuse("block.word", w.pos, name + "= is not carried yet"); return;
@@ -123,6 +130,10 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
 // --- what closes a block ----------------------------------------------------------------------------------------
 
 bool WordLowering::finish() {
+  if (corner_ >= 0 && !has_corner_feed_ && c_.corner_feed) {
+    auto& c = std::get<ir::Corner>(out_->actions[static_cast<std::size_t>(corner_)].data);
+    c.feed = std::make_shared<const ir::Value>(*c_.corner_feed);
+  }
   if (corner_ >= 0 && has_corner_feed_) {
     auto& c = std::get<ir::Corner>(out_->actions[static_cast<std::size_t>(corner_)].data);
     c.feed = std::make_shared<const ir::Value>(std::move(corner_feed_));
@@ -135,7 +146,7 @@ bool WordLowering::finish() {
     case Special::limit:
       if (out_->motion.coords.empty()) break;
       c_.note("SIN-009", special_pos_, "limits of the working area are kept as text: the programmed path is the same");
-      push(ir::OpaqueWord{c_.slice(statement_pos())}, Rank::setting, ir::Order::before, statement_pos());
+      push(ir::OpaqueWord{c_.slice(statement_pos())}, Rank::setting, ir::Order::with, statement_pos());
       out_->motion.coords.clear();
       break;
     case Special::approach:
@@ -339,7 +350,7 @@ void WordLowering::finish_frame() {
   coords.clear();
   if (empty && additive) {
     c_.note("SIN-009", special_pos_, std::string(special_g_->name) + " without axes changes nothing");
-    return push(ir::OpaqueWord{c_.slice(special_pos_)}, Rank::setting, ir::Order::before, special_pos_);
+    return push(ir::OpaqueWord{c_.slice(special_pos_)}, Rank::setting, ir::Order::with, special_pos_);
   }
   push(ir::FrameOp{std::move(change)}, Rank::setting, ir::Order::before, solid ? whole : special_pos_);
 }
@@ -388,9 +399,34 @@ ir::Plane WordLowering::plane_of_centres() const {
   return x ? ir::Plane::zx : ir::Plane::yz;
 }
 
+/// A3=, B3=, LEAD= and their like: the orientation of the tool, kept; the position of its tip is in the other words.
+void WordLowering::orientation(const Word& w) {
+  push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::before, w.pos);
+  if (c_.first_time("A3=")) {
+    c_.note(
+        "SIN-009", w.pos,
+        std::string(c_.slice(w.pos)) + ": the orientation of the tool is kept as text; positions are those of its tip");
+  }
+}
+
+/// SF= stays in force (14.3): the threads that follow in the text get it. Where the program may come from elsewhere
+/// that can't be told.
+void WordLowering::start_angle() {
+  if (!c_.thread_start || (has_extra_ && extra_.has_start_angle)) return;
+  if (c_.thread_start_unsure) {
+    return c_.warning("SIN-043", out_->motion.code_pos,
+                      "an SF= of another thread may hold here; another control starts this thread at 0 degrees",
+                      "write SF= in this block");
+  }
+  if (!c_.thread_start->literal()) return;
+  extra().has_start_angle = true;
+  extra_.start_angle = ir::Value(c_.thread_start->number);
+}
+
 void WordLowering::finish_motion() {
   ir::Motion& m = out_->motion;
   const ir::MotionKind kind = motion_kind();
+  if ((kind == ir::MotionKind::thread || kind == ir::MotionKind::thread_variable) && !m.coords.empty()) start_angle();
   const bool arc = kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw;
   if (!m.centers.empty() && !arc) {
     failed_ = true;

@@ -22,6 +22,9 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.symbols.clear();
   c_.macros.clear();
   c_.master_spindle = 1;
+  c_.thread_start.reset();
+  c_.corner_feed.reset();
+  c_.thread_start_unsure = false;
   c_.offset_chosen = routine.kind != ir::RoutineKind::main;
   c_.motion = c_.machine.profile->power_on.motion;
 }
@@ -48,10 +51,8 @@ void StatementLowering::add(ir::Statement statement) {
   structure_->add(std::move(statement));
 }
 
-namespace {
-
 /// The code of a block: without skip mark, number, labels and comment.
-std::string_view code_text(std::string_view line, const Block& block) {
+std::string_view StatementLowering::code_text(std::string_view line, const Block& block) {
   std::size_t from = 0;
   const auto past = [&from](WordPos p) {
     if (p.column != 0) from = std::max<std::size_t>(from, p.column - 1 + p.length);
@@ -66,8 +67,6 @@ std::string_view code_text(std::string_view line, const Block& block) {
   const std::size_t to = block.comments.empty() ? line.size() : block.comments.back().pos.column - 1;
   return from < to ? trim(line.substr(from, to - from)) : std::string_view{};
 }
-
-}  // namespace
 
 void StatementLowering::add_opaque(const Block& block, ir::LineInfo info, std::string_view feature, bool harmless) {
   ir::Opaque o;
@@ -116,6 +115,7 @@ bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
 }
 
 bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
+  c_.thread_start_unsure = c_.thread_start.has_value();
   bool ok = true;
   for (const Statement& s : block.statements) {
     const std::uint32_t before = c_.errors;

@@ -77,6 +77,7 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
     a.pos = pos;
     a.text = c_.slice(pos);
     a.data = ir::OpaqueWord{a.text};
+    a.order = ir::Order::with;
     parts.actions.push_back(std::move(a));
     return true;
   }
@@ -176,6 +177,7 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
     a.pos = s.pos;
     a.text = c_.slice(s.pos);
     a.data = ir::OpaqueWord{a.text};
+    a.order = ir::Order::with;
     parts.actions.push_back(std::move(a));
     c_.note("SIN-009", s.pos, target.text + "[] is kept as text: it does not change the programmed path");
     return true;
@@ -316,6 +318,19 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     case Procedure::axis_setting: return axis_setting(name, args, pos, parts);
     case Procedure::screen:
     case Procedure::timing: return without_effect(name, pos, parts);
+    case Procedure::transformation: return transformation(name, pos, parts);
+    case Procedure::coordination: {
+      ir::Action a;
+      a.data = ir::OpaqueWord{c_.slice(pos)};
+      a.pos = pos;
+      a.text = c_.slice(pos);
+      parts.actions.push_back(std::move(a));
+      c_.warning(
+          "SIN-042", pos,
+          name + " acts on other channels, interrupts or axes: a run passes over it, and no other control gets it");
+      return true;
+    }
+    case Procedure::preset: return preset(name, args, pos, parts);
     case Procedure::none:
     case Procedure::unsupported: break;
   }
@@ -384,6 +399,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   }
   ir::CallRoutine call;
   call.routine = routine_name(name);
+  c_.thread_start_unsure = c_.thread_start.has_value();
   if (!call_arguments(name, args, call)) return false;
   parts.calls.emplace_back(std::move(call));
   return true;

@@ -58,6 +58,8 @@ class StatementLowering {
   bool frame_statements(const ir::ExprPtr& value, WordPos pos, std::vector<ir::Action>& out);
   bool offset_row(const ir::Expr& target, const ir::ExprPtr& value, WordPos pos, ir::Assign& out);
   // words of one axis (lower_axis_words.cpp)
+  bool transformation(const std::string& name, WordPos pos, Parts& parts);
+  bool preset(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool master_spindle(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool axis_setting(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   static bool reads_like_axis(std::string_view name);
@@ -104,6 +106,7 @@ class StatementLowering {
   bool text_call(const syntax::Statement& s, ir::LineInfo& info);
   bool path_call(const syntax::Statement& s, ir::LineInfo& info);
   bool modal_call(const syntax::Statement& s, ir::LineInfo& info);
+  static std::string_view code_text(std::string_view line, const syntax::Block& block);
   bool program_name(const syntax::Expr& e, ir::CallRoutine& call);
   std::optional<ir::Type> type_of(const syntax::Expr& type);
 

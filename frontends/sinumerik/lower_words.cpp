@@ -174,7 +174,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
     case GUse::approach: special(Special::approach); break;
     case GUse::timing:
     case GUse::compensation:
-      push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::before, pos);
+      push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
       c_.note("SIN-009", pos, std::string(g.name) + " is kept as text: it does not change the programmed path");
       break;
     case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
@@ -228,6 +228,8 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   const ir::AxisId axis =
       centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
   if (centre_letter) return center(axis, w, std::move(value), attribute);
+  const bool vector = w.extension >= 2 && w.extension <= 8 && address >= 'A' && address <= 'C';
+  if (vector && w.equals) return orientation(w);
   const bool machine_axis = special_ == Special::approach && w.extension == 1;  // G74 X1=0: the machine's own name
   if (axis != ir::axis::none && (w.extension < 0 || machine_axis))
     return coordinate(axis, w, std::move(value), attribute);

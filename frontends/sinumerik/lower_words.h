@@ -80,6 +80,8 @@ class WordLowering {
   void finish_pole();
   void finish_dwell();
   void finish_motion();
+  void start_angle();
+  void orientation(const syntax::Word& w);
   void check_words(bool arc);
   [[nodiscard]] ir::Plane plane_of_centres() const;
   void reject_axis_words(std::string_view why);

@@ -53,6 +53,7 @@ std::string word_table() {
     using enum facts::NamedWord;
     s += "| " + std::string(w.name) + "= | " +
          (w.use == unsupported    ? reason("block.word")
+          : w.use == orientation  ? "kept as text, a run passes over it; no other control gets it"
           : w.use == timing       ? "kept as text: the programmed path is the same"
           : w.use == compensation ? "kept as text: acts on the compensated path or the tool length only"
                                   : "carried") +
@@ -69,7 +70,9 @@ std::string procedure_table() {
     s += "| " + std::string(p.name) + " | " +
          (p.use == unsupported                 ? reason(facts::procedure_missing_feature(p.name))
           : p.use == timing || p.use == screen ? "kept as text: the programmed path is the same"
-                                               : "carried") +
+          : p.use == transformation ? "a run goes on with the programmed positions; no other control gets it (SIN-041)"
+          : p.use == coordination   ? "kept as text, a run passes over it; no other control gets it (SIN-042)"
+                                    : "carried") +
          " |\n";
   }
   std::string rest;
