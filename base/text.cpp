@@ -133,8 +133,40 @@ bool AtomicFile::fail(std::string* error, const char* what) {
   return false;
 }
 
+namespace {
+
+/// The number in a name of an open file: 1 in /dev/stdout and /dev/fd/1; -1: the path is none.
+int descriptor_in(std::string_view path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    int n = -1;
+    if (path.starts_with(folder)) std::from_chars(path.data() + folder.size(), path.data() + path.size(), n);
+    if (n >= 0) return n;
+  }
+  return -1;
+}
+
+/// A file without a name in this folder: nothing of it is left when the process is killed. -1: not to be had here.
+int open_unnamed(const std::string& folder) {
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;  // it gets its name from there
+  return ::open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+}
+
+/// Gives an unnamed file its name.
+bool give_name(int fd, const std::string& name) {
+  const std::string own = fmt::format("/proc/self/fd/{}", fd);
+  return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+}  // namespace
+
 bool AtomicFile::open(std::string* error) {
   target_ = path_;
+  if (const int number = descriptor_in(path_); number >= 0) {
+    fd_ = ::fcntl(number, F_DUPFD_CLOEXEC, 0);
+    return fd_ >= 0 || fail(error, "can't be written");
+  }
   struct stat st {};
   const bool exists = ::stat(path_.c_str(), &st) == 0;
   if (exists && S_ISDIR(st.st_mode)) {
@@ -156,6 +188,8 @@ bool AtomicFile::open(std::string* error) {
   const std::string folder = slash == std::string::npos ? "" : target_.substr(0, slash + 1);
   for (int n = 0; n < 1000 && fd_ < 0; ++n) {
     temporary_ = fmt::format("{}.cnctrans-{}-{}.tmp", folder, ::getpid(), n);
+    if (n == 0) fd_ = open_unnamed(folder);
+    if (fd_ >= 0) break;
     fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno != EEXIST) break;
   }
@@ -197,6 +231,9 @@ bool AtomicFile::commit(std::string* error) {
     return fail(error, "is not open");
   }
   if (!flush(error)) return false;
+  struct stat st {};
+  const bool unnamed = !temporary_.empty() && ::fstat(fd_, &st) == 0 && st.st_nlink == 0;
+  if (unnamed && !give_name(fd_, temporary_)) return fail(error, "can't be written");
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) return fail(error, "can't be written");
   if (temporary_.empty()) return true;

@@ -41,7 +41,8 @@ int batch(const Arguments& a) {
   if (!translate_options(a, options.translate)) return usage;
   if (!a.max_events) options.translate.run.max_events = events_each;
   options.translate.run.max_steps = std::min(a.max_steps, steps_each);
-  if (a.inputs.size() != 2) return usage_error("batch takes the folder of the programs and a folder for the results");
+  if (a.inputs.size() != 2)
+    return usage_error(a, "batch takes the folder of the programs and a folder for the results");
   options.in = a.inputs[0];
   options.out = a.inputs[1];
   options.jobs = a.jobs;
@@ -49,7 +50,7 @@ int batch(const Arguments& a) {
   options.again = a.again;
   options.collect_only = a.collect;
   if (!a.shard.empty() && !read_shard(a.shard, options))
-    return usage_error("--shard wants K/N with K from 1 to N, not '" + a.shard + "'");
+    return usage_error(a, "--shard wants K/N with K from 1 to N, not '" + a.shard + "'");
 
   bool shown = false;
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -64,7 +65,7 @@ int batch(const Arguments& a) {
   const auto result =
       translator::batch(options, terminal ? std::function<void(const translator::BatchProgress&)>(progress) : nullptr);
   if (shown) write_all(stderr, "\r\x1b[K");
-  if (!result.error.empty()) return usage_error(result.error);
+  if (!result.error.empty()) return usage_error(a, result.error);
 
   int status = ok;
   std::string counts;

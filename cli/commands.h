@@ -8,6 +8,8 @@
 
 namespace cnctrans::cli {
 
+class Messages;
+
 /// Exit statuses of the contract (docs/trace.md).
 enum Exit : int { ok = 0, refused = 1, usage = 2, limit_or_difference = 3 };
 
@@ -41,6 +43,7 @@ struct Arguments {
   unsigned jobs = 1, timeout = 300;  ///< batch: processes side by side; seconds for a program
   std::string shard;                 ///< batch: "K/N"
   bool again = false, collect = false;
+  Messages* messages = nullptr;  ///< stderr of the call; set by main()
 };
 
 int convert(const Arguments& a);

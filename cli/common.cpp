@@ -6,13 +6,35 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 namespace cnctrans::cli {
+
+namespace fs = std::filesystem;
 
 namespace {
 
 /// A verification keeps both traces in memory: about 0.5 kB an event.
 constexpr std::uint64_t kept_events = 2'000'000;
+
+/// What is taken as given but is most often a slip.
+void say_doubts(const Arguments& a) {
+  std::error_code ignored;
+  for (const auto& folder : a.libraries) {
+    if (!fs::is_directory(folder, ignored))
+      a.messages->say(Severity::warning, "CNC-LIB", "cnctrans: warning: --lib " + folder + ": there is no such folder");
+  }
+  const auto foreign = [&a](const char* option, const std::string& machine, const std::string& dialect) {
+    for (const auto& d : translator::dialects()) {
+      if (d.name == dialect || !machine.starts_with(std::string(d.name) + "-")) continue;
+      a.messages->say(
+          Severity::warning, "CNC-MACHINE",
+          std::string("cnctrans: warning: ") + option + " " + machine + " is a machine of " + std::string(d.title));
+    }
+  };
+  foreign("--machine", a.machine, a.dialect.empty() ? a.from : a.dialect);
+  foreign("--target-machine", a.target_machine, a.to);
+}
 
 bool run_limits(const Arguments& a, interpreter::Options& run) {
   const auto* dialect = translator::find_dialect(a.dialect.empty() ? a.from : a.dialect);
@@ -21,17 +43,18 @@ bool run_limits(const Arguments& a, interpreter::Options& run) {
   for (const auto& item : a.set) {
     const auto equals = item.find('=');
     if (equals == std::string::npos || equals == 0) {
-      usage_error("--set wants NAME=VALUE, not '" + item + "'");
+      usage_error(a, "--set wants NAME=VALUE, not '" + item + "'");
       return false;
     }
     run.set.emplace_back(item.substr(0, equals), item.substr(equals + 1));
   }
+  say_doubts(a);
   std::string_view levels = a.skip;
   while (!levels.empty()) {
     unsigned level = 0;
     const auto [end, error] = std::from_chars(levels.data(), levels.data() + levels.size(), level);
     if (error != std::errc{} || level > 15) {
-      usage_error("--skip wants levels such as 0,3 and not '" + a.skip + "'");
+      usage_error(a, "--skip wants levels such as 0,3 and not '" + a.skip + "'");
       return false;
     }
     // A mark without a number is that of the first switch, whatever its number: 0 always means it.
@@ -83,17 +106,56 @@ bool run_options(const Arguments& a, translator::RunOptions& out) {
   return run_limits(a, out.run);
 }
 
-void print_diagnostics(const Arguments& a, const Diagnostics& diagnostics, const FileTable& files) {
-  if (diagnostics.empty() && a.diagnostics != "json") return;
-  const std::string text = a.diagnostics == "json" ? render_json(diagnostics, files) + "\n"
-                                                   : render_text(diagnostics, files, isatty(STDERR_FILENO) != 0);
-  write_all(stderr, text);
+int usage_error(const Arguments& a, std::string_view message) {
+  a.messages->say(Severity::error, "CNC-USAGE", "cnctrans: " + std::string(message));
+  if (a.diagnostics != "json") write_all(stderr, "Try 'cnctrans --help'.\n");
+  return usage;
 }
 
-int usage_error(std::string_view message) {
-  const std::string text = "cnctrans: " + std::string(message) + "\nTry 'cnctrans --help'.\n";
-  write_all(stderr, text);
-  return usage;
+namespace {
+
+/// Files of one name, or one file by several. Pipes and devices can be named as often as one likes.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored)) return false;
+  return fs::equivalent(a, b, ignored) ||
+         fs::weakly_canonical(fs::absolute(a), ignored) == fs::weakly_canonical(fs::absolute(b), ignored);
+}
+
+}  // namespace
+
+int exit_of(const verifier::Verdict& verdict) {
+  if (verdict.good()) return ok;
+  return verdict.status == verifier::Status::differs || verdict.target_stopped ? limit_or_difference : refused;
+}
+
+std::vector<std::string> machine_files(const Arguments& a) {
+  std::vector<std::string> list;
+  for (const auto& machine : {a.machine, a.target_machine}) {
+    if (!machine.empty()) list.push_back(machine);
+  }
+  return list;
+}
+
+std::string output_conflict(const std::vector<OutputOption>& outputs, const std::vector<std::string>& read) {
+  for (auto it = outputs.begin(); it != outputs.end(); ++it) {
+    if (it->path.empty() || it->path == "-") continue;
+    for (const auto& input : read) {
+      if (same_file(it->path, input)) return it->option + " " + it->path + " would write over a file that is read";
+    }
+    for (auto other = outputs.begin(); other != it; ++other) {
+      if (!other->path.empty() && other->path != "-" && same_file(it->path, other->path))
+        return other->option + " and " + it->option + " name the same file: " + it->path;
+    }
+  }
+  return {};
+}
+
+bool was_read(const std::string& path, const FileTable& files) {
+  for (FileId i = 1; i < files.size(); ++i) {
+    if (same_file(path, files.name(i))) return true;
+  }
+  return false;
 }
 
 bool stdout_arrived(std::string* why) {

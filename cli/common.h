@@ -7,16 +7,28 @@
 #include <string_view>
 
 #include "cli/commands.h"
+#include "cli/messages.h"
 #include "translator/pipeline.h"
 
 namespace cnctrans::cli {
 
+/// What the outcome of a verification is to the caller: 1 when it could not be made, 3 when it found a difference.
+int exit_of(const verifier::Verdict& verdict);
 /// False and a message on stderr when an argument is not usable.
 bool translate_options(const Arguments& a, translator::TranslateOptions& out);
 bool run_options(const Arguments& a, translator::RunOptions& out);
-/// Prints to stderr, as text (coloured on a terminal) or JSON.
-void print_diagnostics(const Arguments& a, const Diagnostics& diagnostics, const FileTable& files);
-int usage_error(std::string_view message);
+/// Says on stderr why the call can't be done; the exit status for it.
+int usage_error(const Arguments& a, std::string_view message);
+/// A file that an option names for writing.
+struct OutputOption {
+  std::string option, path;
+};
+/// Why these files can't be written: one of them is among `read`, or two are the same. Empty: they can.
+std::string output_conflict(const std::vector<OutputOption>& outputs, const std::vector<std::string>& read);
+/// What --machine and --target-machine name.
+std::vector<std::string> machine_files(const Arguments& a);
+/// The path names a file that `files` were read from.
+bool was_read(const std::string& path, const FileTable& files);
 bool write_all(std::FILE* file, std::string_view bytes);
 /// What was printed on standard output has arrived. False when it has not (a full disk): main() says so at the end.
 bool stdout_arrived(std::string* why = nullptr);

@@ -29,6 +29,16 @@ bool write_file(const fs::path& path, std::string_view bytes, std::string* error
   return file.open(error) && file.write(bytes, error) && file.commit(error);
 }
 
+void refuse(const Arguments& a, const std::string& input) {
+  a.messages->say(Severity::error, "CNC-REFUSED", "cnctrans: " + input + ": refused, nothing is written");
+}
+void not_written(const Arguments& a, const std::string& why) {
+  a.messages->say(Severity::error, "CNC-OUTPUT", "cnctrans: " + why);
+}
+void wrote(const Arguments& a, const std::string& path) {
+  if (!a.quiet) a.messages->say(Severity::note, "CNC-WRITTEN", "wrote " + path);
+}
+
 /// Where one output goes.
 fs::path target_path(const Arguments& a, const translator::OutputText& out) {
   if (is_folder(a.output)) return fs::path(a.output) / out.name;
@@ -85,16 +95,17 @@ bool may_write(const Arguments& a, const translator::TranslateResult& result, co
     if (!why.empty()) diagnostics.error("TRN-093", {}, why);
   }
   if (!diagnostics.has_errors()) return true;
-  print_diagnostics(a, diagnostics, result.files);
-  write_all(stderr, "cnctrans: " + input + ": refused, nothing is written\n");
+  a.messages->add(diagnostics, result.files);
+  refuse(a, input);
   return false;
 }
 
 int write_outputs(const Arguments& a, const translator::TranslateResult& result, bool unverified) {
   if (a.output.empty() || a.output == "-") {
     if (unverified) {
-      write_all(stderr, "cnctrans: the translation is not printed; use -o to keep it as FILE.unverified\n");
-      return limit_or_difference;
+      a.messages->say(Severity::note, "CNC-WRITTEN",
+                      "cnctrans: the translation is not printed; use -o to keep it as FILE.unverified");
+      return ok;
     }
     for (const auto& out : result.outputs) write_all(stdout, out.bytes);
     return stdout_arrived() ? ok : refused;
@@ -104,27 +115,41 @@ int write_outputs(const Arguments& a, const translator::TranslateResult& result,
     if (unverified) path += ".unverified";
     std::string error;
     if (!write_file(path, out.bytes, &error)) {
-      write_all(stderr, "cnctrans: " + error + "\n");
+      not_written(a, error);
       return refused;
     }
-    if (!a.quiet) write_all(stderr, "wrote " + path.string() + "\n");
+    wrote(a, path.string());
   }
-  return unverified ? limit_or_difference : ok;
+  return ok;
 }
 
 bool write_report(const Arguments& a, const translator::TranslateOptions& options, const std::string& input,
                   const translator::TranslateResult& result) {
   std::string error;
   std::vector<std::string> written;
+  if (was_read(a.report, result.files)) {
+    not_written(a, a.report + " is read by this job and is not written over; choose another place with --report");
+    return false;
+  }
   for (const auto& out : result.outputs)
     written.push_back(a.output.empty() || a.output == "-" ? out.name : target_path(a, out).string());
   const auto text = (*translator::report_writer(a.report))(translator::make_report(input, options, result, written));
   if (!write_file(a.report, text, &error)) {
-    write_all(stderr, "cnctrans: " + error + "\n");
+    not_written(a, error);
     return false;
   }
-  if (!a.quiet) write_all(stderr, "wrote " + a.report + "\n");
+  wrote(a, a.report);
   return true;
+}
+
+/// The files of the verification under the names they were written to.
+FileTable targets_as_written(const Arguments& a, const translator::TranslateResult& result) {
+  if (a.output.empty() || a.output == "-") return result.target_files;
+  const bool bad = !result.verdict.good();
+  FileTable files;
+  for (const auto& out : result.outputs)
+    files.add(SourceText::from_string(target_path(a, out).string() + (bad ? ".unverified" : ""), out.bytes));
+  return files;
 }
 
 /// The whole-program path: in memory, with calls, verified on request.
@@ -132,21 +157,24 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   translator::TranslateOptions with = options;
   with.taken = job.names();
   with.single_output = a.output.empty() || a.output == "-";
+  with.files_apart = is_folder(a.output);
   const auto result = translator::translate(input, with);
-  if (!result.error.empty()) return usage_error(result.error);
-  print_diagnostics(a, result.diagnostics, result.files);
+  if (!result.error.empty()) return usage_error(a, result.error);
+  a.messages->add(result.diagnostics, result.files);
   if (!a.report.empty() && !write_report(a, options, input, result)) return refused;
   if (result.refused) {
-    write_all(stderr, "cnctrans: " + input + ": refused, nothing is written\n");
+    refuse(a, input);
     return refused;
   }
   if (!with.single_output && !may_write(a, result, input, job)) return refused;
   job.take_names(result);
   const bool bad = result.verified && !result.verdict.good();
   const int status = write_outputs(a, result, bad);
-  if (result.verified)
-    write_all(stderr, input + ": " + verifier::describe(result.verdict, result.files, result.target_files) + "\n");
-  return status;
+  if (!result.verified) return status;
+  const int found = exit_of(result.verdict);
+  a.messages->say(found == ok ? Severity::note : Severity::error, "CNC-VERDICT",
+                  input + ": " + verifier::describe(result.verdict, result.files, targets_as_written(a, result)));
+  return std::max(status, found);
 }
 
 /// Tries the stream; nullopt: the whole-program path must do it.
@@ -167,7 +195,7 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
         input, options, [&sink](std::string_view t) { return sink.write(t); }, tell);
     const bool kept = result.outcome == translator::StreamOutcome::done;
     if (!(kept ? sink.commit() : sink.discard())) {
-      write_all(stderr, "cnctrans: the standard output could not be written\n");
+      not_written(a, "the standard output could not be written");
       return refused;
     }
   } else {
@@ -176,25 +204,29 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
     result = translator::translate_stream(
         input, options, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
     if (result.outcome == translator::StreamOutcome::done && !file.commit(&error)) {
-      write_all(stderr, "cnctrans: " + error + "\n");
+      not_written(a, error);
       return refused;
     }
   }
   if (result.outcome != translator::StreamOutcome::done) return std::nullopt;
-  print_diagnostics(a, result.diagnostics, result.files);
-  if (!to_stdout && !a.quiet) write_all(stderr, "wrote " + a.output + "\n");
+  a.messages->add(result.diagnostics, result.files);
+  if (!to_stdout) wrote(a, a.output);
   return ok;
 }
 
 }  // namespace
 
 int convert(const Arguments& a) {
-  if (a.from.empty() || a.to.empty()) return usage_error("--from and --to are needed");
-  if (a.inputs.empty()) return usage_error("no input file");
-  if (a.inputs.size() > 1 && !is_folder(a.output)) return usage_error("several input files need -o FOLDER/");
-  if (!a.report.empty() && a.inputs.size() > 1) return usage_error("--report takes one input file");
+  if (a.from.empty() || a.to.empty()) return usage_error(a, "--from and --to are needed");
+  if (a.inputs.empty()) return usage_error(a, "no input file");
+  if (a.inputs.size() > 1 && !is_folder(a.output)) return usage_error(a, "several input files need -o FOLDER/");
+  if (!a.report.empty() && a.inputs.size() > 1) return usage_error(a, "--report takes one input file");
   if (!a.report.empty() && !translator::report_writer(a.report))
-    return usage_error("--report FILE must end in .html, .json, .md or .sarif");
+    return usage_error(a, "--report FILE must end in .html, .json, .md or .sarif");
+  const std::string folder = is_folder(a.output) ? std::string() : a.output;
+  std::string why = output_conflict({{"--report", a.report}}, a.inputs);
+  if (why.empty()) why = output_conflict({{"-o", folder}, {"--report", a.report}}, machine_files(a));
+  if (!why.empty()) return usage_error(a, why);
   translator::TranslateOptions options;
   if (!translate_options(a, options)) return usage;
   if (!a.report.empty())

@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <new>
+#include <string_view>
+#include <vector>
 
 #include "cli/common.h"
 #include "cli/completion.h"
@@ -24,8 +26,12 @@ void add_reading(CLI::App& app, Arguments& a) {
 void add_running(CLI::App& app, Arguments& a) {
   app.add_option("--set", a.set, "NAME=VALUE: initial value of a variable (repeatable)")->allow_extra_args(false);
   app.add_option("--skip", a.skip, "block-skip switches that are on, such as 0,3");
-  app.add_option("--max-events", a.max_events, "stop the run after so many events");
-  app.add_option("--max-steps", a.max_steps, "stop the run after so many statements");
+  const auto count = [](const std::string& text) {
+    const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+    return digits ? std::string() : "a count such as 1000 is wanted, not " + text;
+  };
+  app.add_option("--max-events", a.max_events, "stop the run after so many events")->check(count);
+  app.add_option("--max-steps", a.max_steps, "stop the run after so many statements")->check(count);
 }
 
 /// What convert and batch have in common.
@@ -74,13 +80,24 @@ CLI::App* add_batch(CLI::App& app, Arguments& a) {
   return sub;
 }
 
-CLI::App* add_dialect_command(CLI::App& app, Arguments& a, const char* name, const char* what, const char* footer) {
+CLI::App* add_dialect_command(CLI::App& app, Arguments& a, const char* name, const char* what, const char* footer,
+                              int programs = 1) {
   CLI::App* sub = app.add_subcommand(name, what);
   sub->add_option("--dialect", a.dialect, "language of the program: see 'cnctrans dialects'")->required();
-  sub->add_option("program", a.inputs, "part program")->required()->type_name("FILE");
+  sub->add_option("program", a.inputs, "part program")->required()->type_name("FILE")->expected(1, programs);
   add_reading(*sub, a);
   sub->footer(footer);
   return sub;
+}
+
+/// Asked of the words as they stand: the command line could not be taken.
+bool wants_json(int argc, char** argv) {
+  const std::vector<std::string_view> words(argv, argv + argc);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--diagnostics=json") return true;
+    if (words[i] == "--diagnostics" && i + 1 < words.size() && words[i + 1] == "json") return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -97,7 +114,8 @@ int main(int argc, char** argv) {
       "Examples:\n  cnctrans --from fagor --to sinumerik part.pim -o PART.MPF --verify\n"
       "  cnctrans --from num --to fagor *.xpi -o out/ --lib subs\n  cnctrans run --dialect fagor part.pim --trace - | "
       "head\n"
-      "Exit status: 0 written, 1 refused, 2 wrong usage, 3 the verification found a difference.");
+      "Exit status: 0 written, 1 refused or not verifiable, 2 wrong usage, 3 the verification found a difference.\n"
+      "Each command has options of its own: cnctrans run --help.");
   add_converting(app, a);
 
   CLI::App* convert = app.add_subcommand("convert", "translate (the default command)");
@@ -119,11 +137,18 @@ int main(int argc, char** argv) {
   verify->add_option("--target-machine", a.target_machine, "machine profile of the target");
   add_reading(*verify, a);
   add_running(*verify, a);
-  verify->footer("Example:\n  cnctrans verify --from fagor --to sinumerik part.pim PART.MPF");
+  verify->footer(
+      "Example:\n  cnctrans verify --from fagor --to sinumerik part.pim PART.MPF\n"
+      "Exit status: 0 both move alike, 1 one of them can't be read or run to its end, or nothing moves, 2 wrong "
+      "usage,\n"
+      "3 they differ.");
   CLI::App* check = add_dialect_command(app, a, "check", "read programs and report",
-                                        "Example:\n  cnctrans check --dialect sinumerik subs/*.SPF");
+                                        "Example:\n  cnctrans check --dialect sinumerik subs/*.SPF\n"
+                                        "Exit status: 0 no errors, 1 errors, 2 wrong usage.",
+                                        1 << 20);
   CLI::App* ir = add_dialect_command(app, a, "ir", "print the intermediate representation",
-                                     "Example:\n  cnctrans ir --dialect num part.xpi");
+                                     "Example:\n  cnctrans ir --dialect num part.xpi\n"
+                                     "Exit status: 0 no errors, 1 errors (it is printed all the same), 2 wrong usage.");
   ir->add_flag("--json", a.json, "as JSON");
   ir->add_flag("--places", a.places, "with source places");
   CLI::App* list = app.add_subcommand("dialects", "list the dialects and built-in machines");
@@ -137,9 +162,15 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() != 0 && wants_json(argc, argv)) {
+      cnctrans::cli::Messages(true).say(cnctrans::Severity::error, "CNC-USAGE", e.what());
+      return cnctrans::cli::usage;
+    }
     const int status = app.exit(e);
     return status == 0 ? 0 : cnctrans::cli::usage;
   }
+  cnctrans::cli::Messages messages(a.diagnostics == "json");
+  a.messages = &messages;
   const auto command = [&] {
     if (run->parsed()) return cnctrans::cli::run(a);
     if (batch->parsed()) return cnctrans::cli::batch(a);
@@ -155,10 +186,10 @@ int main(int argc, char** argv) {
     const int status = command();
     std::string why;
     if (cnctrans::cli::stdout_arrived(&why)) return status;
-    cnctrans::cli::write_all(stderr, "cnctrans: the standard output can't be written" + why + "\n");
+    messages.say(cnctrans::Severity::error, "CNC-OUTPUT", "cnctrans: the standard output can't be written" + why);
     return status != cnctrans::cli::ok ? status : cnctrans::cli::usage;  // a result that did not arrive is no success
   } catch (const std::bad_alloc&) {
-    std::fputs("cnctrans: not enough memory for this input\n", stderr);
+    messages.say(cnctrans::Severity::error, "CNC-MEMORY", "cnctrans: not enough memory for this input");
     return cnctrans::cli::refused;
   }
 }

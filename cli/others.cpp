@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "base/text.h"
@@ -10,26 +11,29 @@ namespace cnctrans::cli {
 int verify(const Arguments& a) {
   translator::TranslateOptions options;
   if (!translate_options(a, options)) return usage;
-  if (a.inputs.size() < 2) return usage_error("verify takes the source program and its translation");
+  if (a.inputs.size() < 2) return usage_error(a, "verify takes the source program and its translation");
   const std::vector<std::string> targets(a.inputs.begin() + 1, a.inputs.end());
   const auto result = translator::verify(a.inputs.front(), targets, options);
-  if (!result.error.empty()) return usage_error(result.error);
-  print_diagnostics(a, result.source_diagnostics, result.source_files);
-  print_diagnostics(a, result.target_diagnostics, result.target_files);
+  if (!result.error.empty()) return usage_error(a, result.error);
+  a.messages->add(result.source_diagnostics, result.source_files);
+  a.messages->add(result.target_diagnostics, result.target_files);
   const std::string text = verifier::describe(result.verdict, result.source_files, result.target_files) + "\n";
   write_all(stdout, text);
-  return result.verdict.good() ? ok : limit_or_difference;
+  return exit_of(result.verdict);
 }
 
 int check(const Arguments& a) {
   translator::RunOptions options;
   if (!run_options(a, options)) return usage;
-  if (a.inputs.empty()) return usage_error("check takes at least one file");
+  if (a.inputs.empty()) return usage_error(a, "check takes at least one file");
   int status = ok;
   for (const auto& input : a.inputs) {
     const auto result = translator::check(input, options);
-    if (!result.error.empty()) return usage_error(result.error);
-    print_diagnostics(a, result.diagnostics, result.files);
+    if (!result.error.empty()) {
+      status = usage_error(a, result.error);
+      continue;
+    }
+    a.messages->add(result.diagnostics, result.files);
     if (!a.quiet) {
       const auto& s = result.stats;
       std::printf("%s: %llu lines, %llu blocks, %llu read, %zu errors, %zu warnings\n", input.c_str(),
@@ -37,7 +41,7 @@ int check(const Arguments& a) {
                   static_cast<unsigned long long>(s.blocks_read), result.diagnostics.error_count(),
                   result.diagnostics.warning_count());
     }
-    if (result.diagnostics.has_errors()) status = refused;
+    if (result.diagnostics.has_errors()) status = std::max<int>(status, refused);
   }
   return status;
 }
@@ -45,18 +49,18 @@ int check(const Arguments& a) {
 int print_ir(const Arguments& a) {
   translator::RunOptions options;
   if (!run_options(a, options)) return usage;
-  if (a.inputs.size() != 1) return usage_error("ir takes one program");
+  if (a.inputs.size() != 1) return usage_error(a, "ir takes one program");
   std::string error;
   const auto* dialect = translator::find_readable(a.dialect, &error);
-  if (dialect == nullptr) return usage_error(error);
+  if (dialect == nullptr) return usage_error(a, error);
   const auto source = SourceText::open(a.inputs.front(), &error);
-  if (!source) return usage_error(error);
+  if (!source) return usage_error(a, error);
   const auto profile = translator::choose_profile(*dialect, a.machine, source.get(), &error);
-  if (!profile) return usage_error(error);
+  if (!profile) return usage_error(a, error);
   translator::Loader loader(*dialect, *profile, options.reader, options.libraries);
   Diagnostics diagnostics;
   const ir::Program* program = loader.read_main(source, diagnostics);
-  print_diagnostics(a, diagnostics, loader.files());
+  a.messages->add(diagnostics, loader.files());
   write_all(stdout, a.json ? ir::to_json(*program) + "\n" : ir::to_text(*program, {a.places}));
   return diagnostics.has_errors() ? refused : ok;
 }

@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "interpreter/run_codes.h"
 #include "interpreter/trace.h"
 
 namespace cnctrans::cli {
@@ -12,7 +13,9 @@ namespace {
 /// Where `--trace` and `--vars` write: a file (through a temporary) or standard output. The first fault is kept.
 class Target {
  public:
+  explicit Target(const Arguments& a) : a_(a) {}
   bool open(const std::string& where) {
+    path_ = where;
     if (where == "-") return true;
     file_ = std::make_unique<AtomicFile>(where);
     good_ = file_->open(&error_);
@@ -22,16 +25,22 @@ class Target {
     if (good_) good_ = file_ ? file_->write(text, &error_) : write_all(stdout, text);
   }
   [[nodiscard]] bool failed() const { return !good_; }
-  /// Everything written has arrived.
-  bool close() {
+  /// Everything written has arrived. No file that the run has read is written over.
+  bool close(const FileTable& read) {
     if (!file_) return stdout_arrived();
+    if (good_ && was_read(path_, read)) {
+      good_ = false;
+      error_ = path_ + ": the run has read this file; it is not written over";
+    }
     good_ = good_ && file_->commit(&error_);
-    if (!good_) write_all(stderr, "cnctrans: " + error_ + "\n");
+    if (!good_) a_.messages->say(Severity::error, "CNC-OUTPUT", "cnctrans: " + error_);
     return good_;
   }
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
+  const Arguments& a_;
+  std::string path_;
   std::unique_ptr<AtomicFile> file_;
   std::string error_;
   bool good_ = true;
@@ -89,10 +98,14 @@ int exit_of(interpreter::EndReason reason) {
 int run(const Arguments& a) {
   translator::RunOptions options;
   if (!run_options(a, options)) return usage;
-  if (a.inputs.size() != 1) return usage_error("run takes one program");
-  Target trace, vars;
-  if (!a.trace.empty() && !trace.open(a.trace)) return usage_error(trace.error());
-  if (!a.vars.empty() && !vars.open(a.vars)) return usage_error(vars.error());
+  if (a.inputs.size() != 1) return usage_error(a, "run takes one program");
+  std::vector<std::string> read = machine_files(a);
+  read.push_back(a.inputs.front());
+  if (const auto why = output_conflict({{"--trace", a.trace}, {"--vars", a.vars}}, read); !why.empty())
+    return usage_error(a, why);
+  Target trace(a), vars(a);
+  if (!a.trace.empty() && !trace.open(a.trace)) return usage_error(a, trace.error());
+  if (!a.vars.empty() && !vars.open(a.vars)) return usage_error(a, vars.error());
   const auto make_sink = [&](const FileTable& files,
                              const std::vector<std::string>& axes) -> std::unique_ptr<interpreter::TraceSink> {
     if (a.trace.empty()) return std::make_unique<interpreter::TraceCounter>();
@@ -100,13 +113,13 @@ int run(const Arguments& a) {
   };
   options.may_stream = a.trace.empty();
   const auto result = translator::run(a.inputs.front(), options, make_sink);
-  if (!result.error.empty()) return usage_error(result.error);
-  if (!a.trace.empty() && !trace.close()) return usage;
+  if (!result.error.empty()) return usage_error(a, result.error);
+  if (!a.trace.empty() && !trace.close(result.files)) return usage;
   if (!a.vars.empty()) {
     vars.write(vars_json(result.result));
-    if (!vars.close()) return usage;
+    if (!vars.close(result.files)) return usage;
   }
-  print_diagnostics(a, result.diagnostics, result.files);
+  a.messages->add(result.diagnostics, result.files);
   const auto& r = result.result;
   if (!a.quiet && a.trace.empty() && a.vars.empty()) {
     std::printf("%s: %llu blocks, %llu events, ended by %s\n", a.inputs.front().c_str(),
@@ -114,10 +127,11 @@ int run(const Arguments& a) {
                 std::string(interpreter::name(r.reason)).c_str());
   }
   if (r.reason == interpreter::EndReason::error && !result.diagnostics.has_errors()) {
-    write_all(stderr, "cnctrans: " + r.error_code + ": " + r.error_text + "\n");
+    a.messages->say(Severity::error, r.error_code, "cnctrans: " + r.error_code + ": " + r.error_text);
   }
   if (exit_of(r.reason) == limit_or_difference)
-    write_all(stderr, "cnctrans: stopped by the limit (--max-events, --max-steps)\n");
+    a.messages->say(Severity::note, "CNC-LIMIT", "cnctrans: stopped by the limit (--max-events, --max-steps)");
+  if (r.error_code == interpreter::code::bad_set) return usage;
   return result.diagnostics.has_errors() ? refused : exit_of(r.reason);
 }
 

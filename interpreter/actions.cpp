@@ -108,7 +108,9 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::Dwell& a) const {
-    const double amount = m.value(a.value) * a.scale;
+    // By the parts of a second where they are whole: 150.5 hundredths are 1.505 s.
+    const double parts = a.scale < 1 ? std::round(1 / a.scale) : 0;
+    const double amount = parts > 1 && parts * a.scale == 1 ? m.value(a.value) / parts : m.value(a.value) * a.scale;
     if (m.failure_.set) return false;
     m.emit_dwell(amount, a.revolutions);
     return true;
@@ -218,6 +220,7 @@ void BlockMachine::set_comp(ir::CompSide side) {
 void BlockMachine::set_feed(const ir::SetFeed& f) {
   const auto mode = static_cast<std::size_t>(modal_.feed_mode);
   feed_degrees_[mode] = value(f.value);
+  if (feed_degrees_[mode] < 0) failure_.fail(code::number_range, "a feed is not negative");
   feed_[mode] = feed_degrees_[mode] * feed_unit();
 }
 
@@ -233,7 +236,9 @@ void BlockMachine::set_spindle_value(const ir::SetSpindle& set) {
   auto* s = spindle(set.number);
   if (s == nullptr) return;
   const bool feet = s->mode == ir::SpindleMode::css && modal_.units == ir::Units::inch && modal_.units_feed_too;
-  s->value[static_cast<std::size_t>(s->mode)] = value(set.value) * (feet ? 0.3048 : 1);
+  const double speed = value(set.value);
+  if (speed < 0) failure_.fail(code::number_range, "a spindle speed is not negative");
+  s->value[static_cast<std::size_t>(s->mode)] = speed * (feet ? 0.3048 : 1);
 }
 
 void BlockMachine::set_spindle_limit(const ir::SpindleLimit& l) {

@@ -54,6 +54,11 @@ Result Runner::run() {
   for (const auto& shape : main->locals) a.locals.push_back({shape, false, {}});
   enter_top();
   if (!apply_settings()) return refuse();
+  for (const auto& p : main->routine->parameters) {
+    for (auto& v : a.locals) {
+      if (v.own.name == p.variable.name) variables_.apply_presets(v.own);
+    }
+  }
   loop();
   for (const Span& s : machine_.chosen_contours()) {
     diagnostics_.warning(code::contour_chosen, s,
@@ -130,10 +135,21 @@ void Runner::report_settings() {
   }
 }
 
+namespace {
+
+/// The number of R2 and of R[2], from its first digit on.
+std::string_view inside_brackets(std::string_view name, std::size_t digit) {
+  const bool closed = digit > 0 && name[digit - 1] == '[' && name.ends_with(']');
+  return name.substr(digit, closed ? name.size() - digit - 1 : std::string_view::npos);
+}
+
+}  // namespace
+
 bool Runner::apply_setting(const std::string& name, const std::string& value) {
   const auto digit = name.find_first_of("0123456789");
-  auto* space = digit == std::string::npos ? nullptr : variables_.numbered(to_upper_ascii(name.substr(0, digit)));
-  const auto index = space == nullptr ? std::nullopt : parse_decimal(std::string_view(name).substr(digit));
+  const auto letters = digit == std::string::npos || digit == 0 || name[digit - 1] != '[' ? digit : digit - 1;
+  auto* space = digit == std::string::npos ? nullptr : variables_.numbered(to_upper_ascii(name.substr(0, letters)));
+  const auto index = space == nullptr ? std::nullopt : parse_decimal(inside_brackets(name, digit));
   const auto x = preset_number(value);
   if (!index) {
     variables_.preset(name, value);

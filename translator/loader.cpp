@@ -143,7 +143,7 @@ Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontend
 const ir::Program* Loader::read_main(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
   const std::string& path = source->name();
   const fs::path parent = can_reopen(path) ? fs::path(path).parent_path() : fs::path();
-  folders_.insert(folders_.begin(), parent.empty() ? std::string(".") : parent.string());
+  folders_.insert(folders_.begin(), parent.string());  // empty: the current one
   main_path_ = path;
   return read_source(source, diagnostics, stats);
 }
@@ -169,7 +169,7 @@ void Loader::list_candidates() {
   if (!main_path_.empty()) seen.insert(fs::weakly_canonical(main_path_, ignored).string());
   for (const auto& folder : folders_) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
       if (!entry.is_regular_file(ignored)) continue;
       std::string extension = entry.path().extension().string();
       if (!extension.empty()) extension.erase(0, 1);
@@ -177,7 +177,7 @@ void Loader::list_candidates() {
                      [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
       if (listed(dialect_.mill_extensions, extension) || listed(dialect_.lathe_extensions, extension) ||
           listed(dialect_.other_extensions, extension)) {
-        names.push_back(entry.path().string());
+        names.push_back((folder.empty() ? entry.path().filename() : entry.path()).string());
       }
     }
     std::sort(names.begin(), names.end());

@@ -97,6 +97,7 @@ verifier::Verdict judge(const Replayed& source, const Replayed& target) {
   if (verdict.good() && (!source_ended || !target_ended)) {
     verdict.status = verifier::Status::not_replayable;
     const auto& bad = source_ended ? target.result : source.result;
+    verdict.target_stopped = source_ended && target.events.size() > 1;
     verdict.reason = std::string(source_ended ? "the translation" : "the source") + " stopped before its end (" +
                      std::string(interpreter::name(bad.reason)) +
                      (bad.error_text.empty() ? "" : ": " + bad.error_text) + ")";
@@ -187,7 +188,10 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
     result.target_trace = std::move(b.events);
   }
   if (!result.verdict.good()) {
-    result.diagnostics.append(source_diagnostics);
+    for (const auto& d : source_diagnostics.all()) {
+      const auto& said = result.diagnostics.all();
+      if (std::find(said.begin(), said.end(), d) == said.end()) result.diagnostics.add(d);
+    }
     if (target_diagnostics.has_errors()) {
       result.verdict.reason += "\n" + render_text(target_diagnostics, result.target_files);
     }
@@ -301,6 +305,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   write.number_step = options.number_step;
   write.annotate = options.annotate;
   write.single_output = options.single_output;
+  write.files_apart = options.files_apart;
   write.main_stem = source->stem();
   write.taken = options.taken;
   auto files = to->backend->write(work, write, result.diagnostics);
@@ -322,6 +327,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
     return result;
   }
   std::stable_partition(result.outputs.begin(), result.outputs.end(), [](const OutputText& o) { return o.main; });
+  if (!result.refused) result.diagnostics = as_warnings(result.diagnostics);  // written all the same, as asked
   if (options.verify)
     verify_outputs(result, source_program, *source_profile, loader, *to, *target_profile, options, names);
   return result;
@@ -363,6 +369,22 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
   return result;
 }
 
+namespace {
+
+/// Names of the extra axes: those of the program, else those of the machine.
+std::vector<std::string> names_of_axes(const ir::Program& program, const machine::Profile& profile) {
+  std::vector<std::string> names = program.axis_names;
+  for (const auto& a : profile.axes) {
+    if (a.id < ir::axis::first_extra) continue;
+    const auto at = static_cast<std::size_t>(a.id - ir::axis::first_extra);
+    if (names.size() <= at) names.resize(at + 1);
+    if (names[at].empty()) names[at] = a.name;
+  }
+  return names;
+}
+
+}  // namespace
+
 RunResult run(
     const std::string& path, const RunOptions& options,
     const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&, const std::vector<std::string>&)>&
@@ -381,15 +403,15 @@ RunResult run(
     if (streamed.outcome == StreamOutcome::done) {
       result.result = std::move(streamed.result);
       result.diagnostics = std::move(streamed.diagnostics);
-      result.files = std::move(files);
+      result.files.add(source);  // the stream kept the name only: the diagnostics show their lines
       return result;
     }
   }
   Loader loader(*dialect, *profile, options.reader, options.libraries);
   Diagnostics running;
   const ir::Program* program = loader.read_main(source, result.diagnostics);
-  result.axis_names = program->axis_names;
-  const auto sink = make_sink(loader.files(), program->axis_names);
+  result.axis_names = names_of_axes(*program, *profile);
+  const auto sink = make_sink(loader.files(), result.axis_names);
   interpreter::Options run_options = options.run;
   run_options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
   run_options.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };

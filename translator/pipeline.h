@@ -33,6 +33,7 @@ struct TranslateOptions {
   bool verify = false;
   bool keep_traces = false;     ///< with `verify`: both traces stay in the result, for a report
   bool single_output = false;   ///< everything in one file (standard output): as an archive where the target has one
+  bool files_apart = false;     ///< called programs of other files go to files of their own, in every language
   std::set<std::string> taken;  ///< names that other translations of the job have: see backends::WriteOptions
   ir::CycleWriting cycles = ir::CycleWriting::native;
   bool raise_structure = false;      ///< jumps become structures where the target has them and it is provably the same

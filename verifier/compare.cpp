@@ -414,8 +414,9 @@ std::string source_line_text(const FileTable& files, FileId file, std::uint32_t 
 /// Said with a good verdict too: feeds that could not be compared.
 std::string without_feed(const Verdict& v) {
   if (v.unfed_moves == 0) return {};
-  return fmt::format("; {} without a feed in the source (its control stops with an alarm there), feeds not compared",
-                     v.unfed_moves == 1 ? "1 move" : fmt::format("{} moves", v.unfed_moves));
+  return fmt::format(
+      "; {} without a feed in the source (controls move at their highest feed then, or stop), feeds not compared",
+      v.unfed_moves == 1 ? "1 move" : fmt::format("{} moves", v.unfed_moves));
 }
 
 constexpr std::array<std::string_view, 5> status_names{"verified", "verified within tolerance", "differs",

@@ -68,6 +68,8 @@ struct Verdict {
   Difference difference;
   std::string reason;  ///< with not_replayable
   Coverage coverage;
+  /// With not_replayable: the source ran to its end, the translation moved and did not.
+  bool target_stopped = false;
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }
 };
 

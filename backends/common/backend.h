@@ -28,6 +28,7 @@ struct WriteOptions {
   std::int32_t number_step = 10;
   bool annotate = false;       ///< the source line as a comment beside its translation
   bool single_output = false;  ///< one file for everything: subprograms in the same file, or an archive
+  bool files_apart = false;    ///< programs of other source files (a library) go to files of their own
   std::string main_stem;       ///< file stem wanted for the main program (where legal)
   /// Capitals: names of files and programs that other translations of the same job have already. The main program gets
   /// another one, with a note.

@@ -41,7 +41,8 @@ class FagorBackend : public Backend {
     const bool foreign = program.dialect != dialect_name;
     const Style style = make_style(is_lathe(*options.profile), uses_inches(program), foreign);
     std::optional<ir::Program> relabelled;
-    if (foreign) relabelled = with_file_labels(program, file_order(program, false), diagnostics);
+    if (foreign)
+      relabelled = with_file_labels(program, file_groups(program, file_order(program, false), options), diagnostics);
     return Writer(relabelled ? *relabelled : program, options, style, diagnostics).write();
   }
   std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override { return make_stream(options); }

@@ -53,8 +53,10 @@ Targets targets_of(ir::Routine& routine) {
 
 class FileLabels {
  public:
-  FileLabels(ir::Program& program, Diagnostics& diagnostics) : program_(program), diagnostics_(diagnostics) {
-    for (ir::Routine& r : program.routines) {
+  FileLabels(ir::Program& program, const FileGroup& file, Diagnostics& diagnostics)
+      : program_(program), diagnostics_(diagnostics) {
+    for (const std::size_t i : file.routines) {
+      ir::Routine& r = program.routines[i];
       each_number(r.body, [this](const ir::LineInfo& l) { last_ = std::max(last_, value_of(l.number)); });
       for (const std::string& n : targets_of(r).numbers) last_ = std::max(last_, value_of(n));
     }
@@ -145,12 +147,15 @@ std::vector<std::size_t> file_order(const ir::Program& program, bool same_langua
   return order;
 }
 
-std::optional<ir::Program> with_file_labels(const ir::Program& program, const std::vector<std::size_t>& order,
+std::optional<ir::Program> with_file_labels(const ir::Program& program, const std::vector<FileGroup>& files,
                                             Diagnostics& diagnostics) {
-  if (program.routines.size() < 2 || !has_conflict(program, order)) return std::nullopt;
-  std::optional<ir::Program> copy = program;
-  FileLabels labels(*copy, diagnostics);
-  for (const std::size_t i : order) labels.routine(copy->routines[i]);
+  std::optional<ir::Program> copy;
+  for (const FileGroup& file : files) {
+    if (file.routines.size() < 2 || !has_conflict(program, file.routines)) continue;
+    if (!copy) copy = program;
+    FileLabels labels(*copy, file, diagnostics);
+    for (const std::size_t i : file.routines) labels.routine(copy->routines[i]);
+  }
   return copy;
 }
 

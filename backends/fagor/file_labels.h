@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "backends/common/file_groups.h"
 #include "base/diagnostics.h"
 #include "ir/program.h"
 
@@ -13,9 +14,10 @@ namespace cnctrans::backends::fagor {
 /// Indices of routines, as they follow each other in the file.
 std::vector<std::size_t> file_order(const ir::Program& program, bool same_language);
 
-/// A copy in which no jump can find a block of an earlier routine that has the same number; nullopt: `program` is so.
+/// A copy in which no jump can find a block of an earlier routine of its file (`files`: the routines of each file, as
+/// they follow each other) that has the same number; nullopt: `program` is so.
 /// A number that can't be changed because jumps of its routine are computed is an error TRN-240.
-std::optional<ir::Program> with_file_labels(const ir::Program& program, const std::vector<std::size_t>& order,
+std::optional<ir::Program> with_file_labels(const ir::Program& program, const std::vector<FileGroup>& files,
                                             Diagnostics& diagnostics);
 
 }  // namespace cnctrans::backends::fagor

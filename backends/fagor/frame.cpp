@@ -32,11 +32,8 @@ const ir::Routine* first_routine(const ir::Program& program) {
   return program.routines.empty() ? nullptr : &program.routines.front();
 }
 
-std::string title_of(const ir::Program& program, const WriteOptions& options) {
-  const ir::Routine* r = first_routine(program);
-  std::string title = r != nullptr ? r->title : std::string{};
-  if (title.empty() && r != nullptr) title = r->name.text;
-  if (title.empty() && !is_program_number(options.main_stem)) title = to_upper_ascii(options.main_stem);
+/// A title as the header takes it.
+std::string fit_title(std::string title) {
   title = to_ascii(title, nullptr);
   for (char& c : title) {
     if (c == ',' || c == '_' || c == '\t') c = ' ';
@@ -45,7 +42,31 @@ std::string title_of(const ir::Program& program, const WriteOptions& options) {
   return std::string(trim(cut.substr(0, static_cast<std::size_t>(dialects::fagor::max_header_comment))));
 }
 
+std::string title_of(const ir::Program& program, const WriteOptions& options) {
+  const ir::Routine* r = first_routine(program);
+  std::string title = r != nullptr ? r->title : std::string{};
+  if (title.empty() && r != nullptr) title = r->name.text;
+  if (title.empty() && !is_program_number(options.main_stem)) title = to_upper_ascii(options.main_stem);
+  return fit_title(std::move(title));
+}
+
+std::string header_of(const std::string& title) {
+  const bool full = title.size() >= static_cast<std::size_t>(dialects::fagor::max_header_comment);
+  return '%' + title + (full ? ",MX," : " ,MX,");
+}
+
 }  // namespace
+
+std::string called_file_name(const ir::Routine& first, const std::string& stem, bool lathe) {
+  const char* const extension = lathe ? ".PIT" : ".PIM";
+  return (is_program_number(stem) ? stem : number_name(std::to_string(std::max<std::int64_t>(first.name.number, 0)))) +
+         extension;
+}
+
+std::string called_header_line(const ir::Routine& first) {
+  const std::string name = first.title.empty() ? first.name.text : first.title;
+  return header_of(fit_title(name.empty() ? "SUB " + std::to_string(first.name.number) : name));
+}
 
 std::string file_name(const ir::Program& program, const WriteOptions& options, bool lathe) {
   const char* const extension = lathe ? ".PIT" : ".PIM";
@@ -75,9 +96,7 @@ std::string header_line(const ir::Program& program, const WriteOptions& options)
     if (r == nullptr || (!r->header.span.known() && r->title.empty() && r->attributes.empty())) return {};
     return '%' + r->title + " ," + (r->attributes.empty() ? "MX" : r->attributes) + ',';
   }
-  const std::string title = title_of(program, options);
-  const bool full = title.size() >= static_cast<std::size_t>(dialects::fagor::max_header_comment);
-  return '%' + title + (full ? ",MX," : " ,MX,");
+  return header_of(title_of(program, options));
 }
 
 }  // namespace cnctrans::backends::fagor

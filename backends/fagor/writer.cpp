@@ -50,7 +50,8 @@ void Writer::write_program() {
   if (program().routines.empty()) return;
   const ir::Routine& first = program().routines[0];
   const bool has_main = first.kind == ir::RoutineKind::main;
-  const std::vector<std::size_t> order = file_order(program(), same_dialect());
+  const std::vector<FileGroup> groups = file_groups(program(), file_order(program(), same_dialect()), options());
+  const std::vector<std::size_t>& order = groups.front().routines;
   const auto local = [&](std::size_t i) {
     return same_dialect() && program().routines[i].locality == ir::Locality::file_local;
   };
@@ -72,6 +73,24 @@ void Writer::write_program() {
   finish_line();
   const auto& files = program().files;
   if (same_dialect() && !files.empty() && files[0].trailer == "%") raw_line("%");
+  for (std::size_t i = 1; i < groups.size(); ++i) write_called(groups[i], name);
+}
+
+/// A file of subroutines: its own name and header on the same control, else those of its first subroutine.
+void Writer::write_called(const FileGroup& group, const std::string& main_file) {
+  const ir::Routine& first = program().routines[group.routines.front()];
+  const Span at = first.header.span.known() || first.body.empty() ? first.header.span : first.body.front().line.span;
+  std::string name = called_file_name(first, same_dialect() ? group.stem : std::string{}, lathe_);
+  if (name == main_file) name = called_file_name(first, "1" + name.substr(1, name.find('.') - 1), lathe_);
+  open_file(name, false);
+  const std::string raw(trim(source_line({at.file, 1, 1, 1, 1})));
+  if (!same_dialect()) {
+    raw_line(called_header_line(first), first.header.span);
+  } else if (raw.starts_with('%')) {
+    raw_line(raw);
+  }
+  for (const std::size_t i : group.routines) write_routine(i);
+  finish_line();
 }
 
 void Writer::write_main(std::size_t index) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backends/common/file_groups.h"
 #include "backends/common/program_writer.h"
 #include "backends/fagor/cycles.h"
 #include "backends/fagor/expressions.h"
@@ -20,6 +21,10 @@ std::string file_name(const ir::Program& program, const WriteOptions& options, b
 std::string free_file_name(const std::string& wanted, const WriteOptions& options);
 /// `%TITLE ,MX,`; empty when a program of this language has no header.
 std::string header_line(const ir::Program& program, const WriteOptions& options);
+/// Name of a file of subroutines: `stem` where it is a program number, else the number of its first subroutine.
+std::string called_file_name(const ir::Routine& first, const std::string& stem, bool lathe);
+/// Its header, for a source of another language.
+std::string called_header_line(const ir::Routine& first);
 
 /// An empty line of the source. The control takes no empty block: a remark without text stands for it.
 bool is_empty_line(const ir::Statement& s);
@@ -76,6 +81,7 @@ class Writer : public ProgramWriter {
  private:
   // file frame
   void write_routine(std::size_t index);
+  void write_called(const FileGroup& group, const std::string& main_file);
   void write_main(std::size_t index);
   // statements
   void statement_line(const std::string& text);  ///< `(text)`, alone in its block

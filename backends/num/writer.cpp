@@ -2,6 +2,7 @@
 #include "backends/num/writer.h"
 
 #include <charconv>
+#include <numeric>
 
 #include "backends/common/comments.h"
 #include "backends/num/style.h"
@@ -43,10 +44,23 @@ void Writer::write_program() {
   const std::string stem = options().main_stem.empty() ? std::to_string(main_number()) : options().main_stem;
   open_file(free_stem(stem, ".xpi") + ".xpi", true, '%' + std::to_string(main_number()));
   const ir::Routine* main = program().main();
-  for (std::size_t i = 0; i < program().routines.size(); ++i) {
-    const ir::Routine& r = program().routines[i];
-    write_routine(i, &r == main ? main_number() : r.name.number);
+  std::vector<std::size_t> order(program().routines.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const FileGroup& group : file_groups(program(), order, options())) {
+    if (!group.stem.empty()) open_called(group, stem);
+    for (const std::size_t i : group.routines) {
+      const ir::Routine& r = program().routines[i];
+      write_routine(i, &r == main ? main_number() : r.name.number);
+    }
   }
+}
+
+/// The file of called programs: its own name on the same control, else that of its first program.
+void Writer::open_called(const FileGroup& group, const std::string& main_stem) {
+  const std::string number = std::to_string(program().routines[group.routines.front()].name.number);
+  std::string stem = same_dialect() ? group.stem : number;
+  if (iequals_ascii(stem, main_stem)) stem = "SUB" + stem;
+  open_file(stem + ".xpi", false, '%' + number);
 }
 
 void Writer::write_routine(std::size_t index, std::int64_t number) {

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "backends/common/file_groups.h"
 #include "backends/common/program_writer.h"
 #include "backends/num/chain_printer.h"
 
@@ -55,6 +56,7 @@ class Writer final : public ProgramWriter {
 
  private:
   void write_routine(std::size_t index, std::int64_t number);
+  void open_called(const FileGroup& group, const std::string& main_stem);
   [[nodiscard]] std::int64_t main_number() const;
   [[nodiscard]] std::string condition(const ir::ExprPtr& e);
   [[nodiscard]] bool structured_allowed();

@@ -66,7 +66,11 @@ Node StatementLowerer::kept(const syntax::Statement& s, std::string_view feature
   if (harmless) {
     state_.note("FAG-023", s.pos, "the statement " + s.keyword + " has no effect on the path; it is kept as text");
   } else {
-    state_.warning("FAG-022", s.pos, "the statement " + s.keyword + " is kept as text",
+    // The name of an unknown statement is all the letters it begins with.
+    const auto end = s.text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz");
+    const std::string name =
+        s.keyword.empty() || end == 0 || !s.text.starts_with(s.keyword.front()) ? s.keyword : s.text.substr(0, end);
+    state_.warning("FAG-022", s.pos, "the statement " + (s.text.empty() ? s.keyword : name) + " is kept as text",
                    "a run stops here; only a program for this control can be written with it");
   }
   return ir::Opaque{std::string(text_), std::string(feature), harmless};
