@@ -94,7 +94,16 @@ verifier::Verdict judge(const Replayed& source, const Replayed& target) {
   verifier::Verdict verdict = verifier::compare(source.events, target.events, options);
   const bool source_ended = source.result.reason == EndReason::program_end;
   const bool target_ended = target.result.reason == EndReason::program_end;
-  if (verdict.good() && (!source_ended || !target_ended)) {
+  // Where a run stopped is no difference of the programs: there is nothing to compare with from there on.
+  const auto stops_at = [](const Replayed& run, FileId file, std::uint32_t line) {
+    if (run.events.size() < 2) return true;
+    return run.events.back().file == file && run.events.back().line == line;
+  };
+  const auto& d = verdict.difference;
+  const bool source_stopped = !source_ended && stops_at(source, d.source_file, d.source_line);
+  const bool target_refused = !target_ended && target.events.size() < 2;
+  const bool stopped = verdict.status == verifier::Status::differs && (source_stopped || target_refused);
+  if ((verdict.good() || stopped) && (!source_ended || !target_ended)) {
     verdict.status = verifier::Status::not_replayable;
     const auto& bad = source_ended ? target.result : source.result;
     verdict.target_stopped = source_ended && target.events.size() > 1;
