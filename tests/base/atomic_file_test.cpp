@@ -39,7 +39,8 @@ TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingElse) {
     AtomicFile file(path);
     ASSERT_TRUE(file.open(&error)) << error;
     ASSERT_TRUE(file.write(std::string(1U << 20U, 'x'), &error));
-    EXPECT_EQ(folder.names().size(), 2U);  // the temporary is beside it
+    EXPECT_LE(folder.names().size(), 2U);  // a temporary is beside it where a file can't be without name
+    EXPECT_EQ(folder.read("out.mpf"), "old");
   }
   EXPECT_EQ(folder.read("out.mpf"), "old");
   EXPECT_THAT(folder.names(), ElementsAre("out.mpf"));
