@@ -168,7 +168,8 @@ void add_callees(Program& program, CycleCallees& callees) {
     program.routines.push_back(std::move(c->routine));
   }
   // An original that nothing calls any more leaves its name to the first copy.
-  for (const auto& [copy, original] : originals) {
+  for (const auto& entry : originals) {
+    const auto &copy = entry.first, &original = entry.second;
     bool called = false;
     each_call(program, [&](const CallRoutine& c) { called = called || c.computed || c.routine == original; });
     const auto at = std::find_if(program.routines.begin(), program.routines.end(),

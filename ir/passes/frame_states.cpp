@@ -28,6 +28,21 @@ bool runs_part(const Statement& s) {
   return c != nullptr && c->has_range;
 }
 
+/// Leaves the frame alone, asks nothing of it, and goes on with the statement behind it.
+bool indifferent(const Statement* s) {
+  if (s == nullptr) return true;
+  if (std::holds_alternative<Assign>(s->node) || std::holds_alternative<Message>(s->node) ||
+      std::holds_alternative<Label>(s->node))
+    return true;
+  const auto* b = std::get_if<Block>(&s->node);
+  return b != nullptr && (!b->has_motion || b->motion.frame == FrameUse::normal) &&
+         std::none_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+           const auto* m = std::get_if<ModalSet>(&a.data);
+           return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+                  (m != nullptr && m->setting == Setting::plane);
+         });
+}
+
 /// A repeated range that leaves the frame alone is passed by: what holds before its Repeat holds behind it, whoever
 /// else runs the range.
 void pass_by_repeats(ControlFlow& flow) {
@@ -40,6 +55,10 @@ void pass_by_repeats(ControlFlow& flow) {
       }
     }
     return std::uint32_t{0};
+  };
+  const auto leads_to = [&flow](std::uint32_t from, std::uint32_t to) {
+    const auto& next = flow.successors[from];
+    return std::find(next.begin(), next.end(), to) != next.end();
   };
   const auto changes = [](const Statement* s) {
     if (s == nullptr) return false;
@@ -57,16 +76,19 @@ void pass_by_repeats(ControlFlow& flow) {
     const std::uint32_t a = labelled(r->first), b = labelled(r->last);
     const std::uint32_t first = std::min(a, b), last = std::max(a, b), next = id + 1;
     if (first == 0 || (id >= first && id <= last) || flow.statements[next] == nullptr) continue;
-    const auto& from_last = flow.successors[last];
-    if (std::find(from_last.begin(), from_last.end(), next) == from_last.end()) continue;
+    if (!leads_to(last, next)) continue;
     bool clean = true;
     for (std::uint32_t i = first; i <= last; ++i) clean = clean && !changes(flow.statements[i]);
     if (!clean) continue;
+    const auto begin = flow.statements.begin();
+    if (first > 1 && leads_to(first - 1, first) &&
+        std::all_of(begin + first, begin + last + 1, indifferent))  // then nobody there looks at what holds here
+      std::erase_if(flow.successors[id], [first, last](std::uint32_t n) { return n >= first && n <= last; });
     flow.successors[id].push_back(next);
     if (next != last + 1) behind[last].insert(next);
   }
-  for (const auto& [last, ids] : behind) {
-    std::erase_if(flow.successors[last], [&ids](std::uint32_t n) { return ids.count(n) != 0; });
+  for (const auto& entry : behind) {
+    std::erase_if(flow.successors[entry.first], [&ids = entry.second](std::uint32_t n) { return ids.count(n) != 0; });
   }
 }
 
