@@ -73,6 +73,17 @@ class FramePass {
            (b.has_motion && b.motion.frame != FrameUse::normal);
   }
 
+  static bool counts_from_machine(const FrameChange& change) {
+    bool found = false;
+    for (const auto& w : change.words) {
+      walk(w.value.expr, [&found](const ExprPtr& e) {
+        const auto* datum = std::get_if<SystemRef>(&e->node);
+        found = found || (datum != nullptr && datum->datum == Datum::machine_position);
+      });
+    }
+    return found;
+  }
+
   void block(Editor& editor, Statement&& s, FrameState state, Body& out) {
     auto& b = std::get<Block>(s.node);
     if (b.has_motion && b.motion.frame != FrameUse::normal && !machine_move(s, b)) {
@@ -98,6 +109,13 @@ class FramePass {
           return;
         }
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
+        if (program_.dialect != context_.target.dialect && counts_from_machine(*f->change)) {
+          refuse(s, program_, context_, "TRN-325",
+                 "frame: a shift or preset that counts from the machine position, which is not known here",
+                 "shift the zero point by a number", a.pos);
+          out.push_back(std::move(s));
+          return;
+        }
         const FrameState before = state;
         state.apply(*f->change, facts_.before(s), b, context_.source_machine);
         const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
