@@ -41,6 +41,41 @@ struct Symbol {
   std::array<std::uint32_t, 3> sizes{};  ///< of the dimensions; 0: not known
 };
 
+/// A word that stays in force for later blocks, followed in the order of the text. Behind a label, a jump, a structure
+/// or a call the text no longer tells what holds, nor does it tell the value of a computed word.
+class LastingWord {
+ public:
+  enum class State : std::uint8_t { none, known, unsure };
+
+  /// The program writes the word. True: a block before this one was taken to have none, and the program may come back
+  /// to it.
+  bool set(const ir::Value& value) {
+    value_ = value.literal() ? value.number : 0;
+    state_ = value.literal() ? State::known : State::unsure;
+    return missed_;
+  }
+  /// The word no longer holds.
+  void cancel() { state_ = State::none; }
+  /// The program may come from elsewhere.
+  void interrupt() {
+    interrupted_ = true;
+    if (state_ == State::known) state_ = State::unsure;
+  }
+  /// What holds in this block.
+  State ask() {
+    missed_ = missed_ || (state_ == State::none && interrupted_);
+    return state_;
+  }
+  /// The value; `State::known` only.
+  [[nodiscard]] double value() const { return value_; }
+
+ private:
+  double value_ = 0;
+  State state_ = State::none;
+  bool interrupted_ = false;
+  bool missed_ = false;
+};
+
 struct FileContext {
   const MachineFacts& machine;
   FileId file;
@@ -57,9 +92,13 @@ struct FileContext {
   std::uint8_t master_spindle = 1;  ///< SETMS, in the order of the text
   bool offset_chosen = true;        ///< a D was written since the last T, in the order of the text
 
-  std::optional<ir::Value> thread_start{};  ///< SF= in force, in the order of the text
-  bool thread_start_unsure = false;         ///< a label, a jump or a structure stands between
-  std::optional<ir::Value> corner_feed{};   ///< FRCM=
+  LastingWord thread_start{};  ///< SF= in force
+  LastingWord corner_feed{};   ///< FRCM= in force
+  /// A label, a jump, a structure or a call: what holds may come from elsewhere.
+  void interrupt_lasting() {
+    thread_start.interrupt();
+    corner_feed.interrupt();
+  }
 
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
 

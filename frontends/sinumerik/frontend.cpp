@@ -314,7 +314,7 @@ void FileReading::take(const SourceLine& source_line) {
     return statements_.add(std::move(comment));
   }
   fresh_ = false;
-  if (!block_.labels.empty()) context_.thread_start_unsure = context_.thread_start.has_value();
+  if (!block_.labels.empty()) context_.interrupt_lasting();
   ++stats_.blocks;
   if (result == LineReader::Result::unread) return unread(block_, info_);
   if (result == LineReader::Result::plain) return take_words(block_, info_);

@@ -89,13 +89,15 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       corner_feed_ = std::move(value);
       return;
     case NamedWord::corner_feed_modal:  // 0: the feed of the block again
-      c_.corner_feed.reset();
-      if (!value.is(0)) c_.corner_feed = std::move(value);
+      if (value.is(0)) {
+        c_.corner_feed.cancel();
+      } else if (c_.corner_feed.set(value)) {
+        lasting_missed(w.pos);
+      }
       return push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
     case NamedWord::orientation: return orientation(w);
     case NamedWord::thread_start:
-      c_.thread_start = value;
-      c_.thread_start_unsure = false;
+      if (c_.thread_start.set(value) && !value.is(0)) lasting_missed(w.pos);
       extra().has_start_angle = true;
       extra_.start_angle = std::move(value);
       return;
@@ -130,14 +132,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
 // --- what closes a block ----------------------------------------------------------------------------------------
 
 bool WordLowering::finish() {
-  if (corner_ >= 0 && !has_corner_feed_ && c_.corner_feed) {
-    auto& c = std::get<ir::Corner>(out_->actions[static_cast<std::size_t>(corner_)].data);
-    c.feed = std::make_shared<const ir::Value>(*c_.corner_feed);
-  }
-  if (corner_ >= 0 && has_corner_feed_) {
-    auto& c = std::get<ir::Corner>(out_->actions[static_cast<std::size_t>(corner_)].data);
-    c.feed = std::make_shared<const ir::Value>(std::move(corner_feed_));
-  }
+  if (corner_ >= 0) finish_corner();
   switch (special_) {
     case Special::none: break;
     case Special::dwell: finish_dwell(); break;
@@ -409,18 +404,49 @@ void WordLowering::orientation(const Word& w) {
   }
 }
 
-/// SF= stays in force (14.3): the threads that follow in the text get it. Where the program may come from elsewhere
-/// that can't be told.
-void WordLowering::start_angle() {
-  if (!c_.thread_start || (has_extra_ && extra_.has_start_angle)) return;
-  if (c_.thread_start_unsure) {
-    return c_.warning("SIN-043", out_->motion.code_pos,
-                      "an SF= of another thread may hold here; another control starts this thread at 0 degrees",
-                      "write SF= in this block");
+/// FRC= of the block, else FRCM=, which stays in force for the corners that follow in the text.
+void WordLowering::finish_corner() {
+  auto& c = std::get<ir::Corner>(out_->actions[static_cast<std::size_t>(corner_)].data);
+  if (has_corner_feed_) {
+    c.feed = std::make_shared<const ir::Value>(std::move(corner_feed_));
+    return;
   }
-  if (!c_.thread_start->literal()) return;
-  extra().has_start_angle = true;
-  extra_.start_angle = ir::Value(c_.thread_start->number);
+  switch (c_.corner_feed.ask()) {
+    case LastingWord::State::none: return;
+    case LastingWord::State::known:
+      c.feed = std::make_shared<const ir::Value>(ir::Value(c_.corner_feed.value()));
+      return;
+    case LastingWord::State::unsure:
+      return c_.warning("SIN-043", out_->actions[static_cast<std::size_t>(corner_)].pos,
+                        "an FRCM= may hold here whose value the text does not tell; the corner is taken with the feed "
+                        "of its block",
+                        "write FRC= in this block");
+  }
+}
+
+/// SF= stays in force (14.3): the threads that follow in the text get it.
+void WordLowering::start_angle() {
+  if (has_extra_ && extra_.has_start_angle) return;
+  switch (c_.thread_start.ask()) {
+    case LastingWord::State::none: return;
+    case LastingWord::State::known:
+      extra().has_start_angle = true;
+      extra_.start_angle = ir::Value(c_.thread_start.value());
+      return;
+    case LastingWord::State::unsure:
+      return c_.warning("SIN-043", out_->motion.code_pos,
+                        "an SF= may hold here whose value the text does not tell; the thread is started at 0 degrees",
+                        "write SF= in this block");
+  }
+}
+
+/// A word that lasts stands behind blocks that go without, to which the program may come back.
+void WordLowering::lasting_missed(WordPos pos) {
+  c_.warning("SIN-043", pos,
+             std::string(c_.slice(pos)) +
+                 " stays in force: a block above without it is taken as if it had none, also where the program comes "
+                 "back to it",
+             "write the word in every block that needs it");
 }
 
 void WordLowering::finish_motion() {

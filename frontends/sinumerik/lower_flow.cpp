@@ -22,9 +22,8 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.symbols.clear();
   c_.macros.clear();
   c_.master_spindle = 1;
-  c_.thread_start.reset();
-  c_.corner_feed.reset();
-  c_.thread_start_unsure = false;
+  c_.thread_start = {};
+  c_.corner_feed = {};
   c_.offset_chosen = routine.kind != ir::RoutineKind::main;
   c_.motion = c_.machine.profile->power_on.motion;
 }
@@ -115,7 +114,7 @@ bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
 }
 
 bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
-  c_.thread_start_unsure = c_.thread_start.has_value();
+  c_.interrupt_lasting();
   bool ok = true;
   for (const Statement& s : block.statements) {
     const std::uint32_t before = c_.errors;

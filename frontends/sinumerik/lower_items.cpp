@@ -399,7 +399,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   }
   ir::CallRoutine call;
   call.routine = routine_name(name);
-  c_.thread_start_unsure = c_.thread_start.has_value();
+  c_.interrupt_lasting();
   if (!call_arguments(name, args, call)) return false;
   parts.calls.emplace_back(std::move(call));
   return true;

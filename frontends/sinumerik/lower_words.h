@@ -81,6 +81,8 @@ class WordLowering {
   void finish_dwell();
   void finish_motion();
   void start_angle();
+  void finish_corner();
+  void lasting_missed(WordPos pos);
   void orientation(const syntax::Word& w);
   void check_words(bool arc);
   [[nodiscard]] ir::Plane plane_of_centres() const;
