@@ -296,25 +296,9 @@ class DistancePass {
 
   /// Increments right after a frame change become absolute where the place they start from is known.
   bool made_absolute(Block& b, const Facts& facts) const {
-    std::vector<CoordWord> coords = b.motion.coords;
-    if (b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0) return false;
-    for (const auto& c : b.motion.centers) {
-      if (c.mode == CenterMode::follows_distance) return false;
-    }
-    for (auto& c : coords) {
-      const auto d = distance_of(c, b, facts);
-      if (!d) return false;
-      c.mode = WordMode::absolute;
-      if (*d == Distance::absolute) continue;
-      const auto at = base(c.axis, b, facts);
-      const auto from = to_radius(c.axis, c.scale, d, b, facts, context_.source_machine);
-      const auto to = to_radius(c.axis, WordScale::modal, Distance::absolute, b, facts, context_.source_machine);
-      if (!at || !from || !to) return false;
-      c.value = scale(add(Value{*at}, scale(c.value, *from)), 1 / *to);
-      c.value.text = {};
-      c.scale = WordScale::modal;
-    }
-    b.motion.coords = std::move(coords);
+    auto coords = absolute_words(b, facts, context_.source_machine, [&](AxisId a) { return base(a, b, facts); });
+    if (!coords) return false;
+    b.motion.coords = std::move(*coords);
     return true;
   }
 

@@ -26,34 +26,15 @@ class PresetSteps {
     for (const auto& c : b.motion.coords) {
       relative = relative || ((waiting_ & bit(c.axis)) != 0 && distance_of(c, b, facts) == Distance::incremental);
     }
-    if (relative) absolute(b, facts);
+    if (relative) {
+      auto coords = absolute_words(b, facts, context_.source_machine, [&](AxisId a) { return facts.position[a]; });
+      if (coords) b.motion.coords = std::move(*coords);  // else nothing is changed
+    }
     for (const auto& c : b.motion.coords) waiting_ &= ~bit(c.axis);
   }
 
  private:
   static std::uint32_t bit(AxisId a) { return 1U << a; }
-
-  /// All words of the block from the known position; nothing is changed where one is not known.
-  void absolute(Block& b, const Facts& facts) const {
-    std::vector<CoordWord> coords = b.motion.coords;
-    if (b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0) return;
-    for (const auto& c : b.motion.centers) {
-      if (c.mode == CenterMode::follows_distance) return;
-    }
-    for (auto& c : coords) {
-      const auto d = distance_of(c, b, facts);
-      const auto from = to_radius(c.axis, c.scale, d, b, facts, context_.source_machine);
-      const auto to = to_radius(c.axis, WordScale::modal, Distance::absolute, b, facts, context_.source_machine);
-      const auto at = facts.position[c.axis];
-      if (!d || !from || !to || !at) return;
-      c.mode = WordMode::absolute;
-      if (*d == Distance::absolute) continue;
-      c.value = scale(add(Value{*at}, scale(c.value, *from)), 1 / *to);
-      c.value.text = {};
-      c.scale = WordScale::modal;
-    }
-    b.motion.coords = std::move(coords);
-  }
 
   const LegaliseContext& context_;
   const FactsOf& facts_;

@@ -19,6 +19,30 @@ std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Dist
   return *distance == Distance::absolute ? 0.5 : 1;
 }
 
+std::optional<std::vector<CoordWord>> absolute_words(const Block& b, const Facts& facts,
+                                                     const machine::Profile& machine,
+                                                     const std::function<std::optional<double>(AxisId)>& base) {
+  if (b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0) return std::nullopt;
+  for (const auto& c : b.motion.centers) {
+    if (c.mode == CenterMode::follows_distance) return std::nullopt;
+  }
+  std::vector<CoordWord> coords = b.motion.coords;
+  for (auto& c : coords) {
+    const auto d = distance_of(c, b, facts);
+    if (!d) return std::nullopt;
+    c.mode = WordMode::absolute;
+    if (*d == Distance::absolute) continue;
+    const auto at = base(c.axis);
+    const auto from = to_radius(c.axis, c.scale, d, b, facts, machine);
+    const auto to = to_radius(c.axis, WordScale::modal, Distance::absolute, b, facts, machine);
+    if (!at || !from || !to) return std::nullopt;
+    c.value = scale(add(Value{*at}, scale(c.value, *from)), 1 / *to);
+    c.value.text = {};
+    c.scale = WordScale::modal;
+  }
+  return coords;
+}
+
 bool table_row(const FrameChange& c) {
   return !c.words.empty() && std::all_of(c.words.begin(), c.words.end(), [](const FrameWord& w) {
     const auto* datum = w.value.expr ? std::get_if<SystemRef>(&w.value.expr->node) : nullptr;

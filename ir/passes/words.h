@@ -1,6 +1,8 @@
 // What a word of a block means under the modal state: absolute or incremental, radius or diameter.
 #pragma once
 
+#include <functional>
+
 #include "ir/passes/facts.h"
 #include "ir/passes/rewrite.h"
 
@@ -22,6 +24,13 @@ inline std::optional<Distance> distance_of(const CoordWord& c, const Block& b, c
 /// 0.5 for a diameter, 1 for a radius: the word's value times this is the radius. nullopt: not known here.
 std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
                                 const Facts& facts, const machine::Profile& machine);
+
+/// The end points of a plain move as absolute words: each increment added to the place `base(axis)` (radius) that it
+/// counts from. nullopt where a place, the distance mode or the diameter mode is not known, or where other words of the
+/// block depend on the distance mode.
+std::optional<std::vector<CoordWord>> absolute_words(const Block& b, const Facts& facts,
+                                                     const machine::Profile& machine,
+                                                     const std::function<std::optional<double>(AxisId)>& base);
 
 /// Words of a frame that the reader made from the code alone: the rows of a table, axis by axis. A language writes its
 /// own code again.
