@@ -10,7 +10,7 @@
 namespace cnctrans::ir::passes {
 
 bool LabelUses::is_target(const LabelRef& l) const {
-  return (computed && l.is_number) || targets.count({l.is_number, l.text}) != 0;
+  return (l.is_number ? computed : computed_name) || targets.count({l.is_number, l.text}) != 0;
 }
 
 void each_label_ref(Statement& s, const std::function<void(LabelRef&, bool)>& visit) {
@@ -32,6 +32,7 @@ void note_use(const Program& program, LabelUses& uses, const LabelRef& l, bool i
   if (l.computed) {
     const auto values = possible_values(program, l.computed);
     if (!values) uses.computed = true;
+    if (!values && l.computed->type == Type::string) uses.computed_name = true;
     for (const double v : values.value_or(std::vector<double>{}))
       (is_end ? uses.ends : uses.targets).insert({true, shortest(v)});
     return;
@@ -52,16 +53,18 @@ LabelUses label_uses(const Program& program, const Routine& routine) {
       const LabelRef* first = nullptr;
       const LabelRef* last = nullptr;
       const RoutineName* name = nullptr;
+      bool any = false;  // the routine is found at run time: it may be this one
       if (const auto* c = std::get_if<CallRoutine>(&s.node); c != nullptr && c->has_range) {
         first = &c->first;
         last = &c->last;
         name = &c->routine;
+        any = c->computed != nullptr;
       } else if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
         first = &r->first;
         last = &r->last;
         name = &r->program;
       }
-      if (name == nullptr || program.find(*name) != &routine) return;
+      if (name == nullptr || (!any && program.find(*name) != &routine)) return;
       note_use(program, uses, *first, false);
       note_use(program, uses, *last, true);
     });

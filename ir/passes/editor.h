@@ -17,6 +17,7 @@ struct LabelUses {
   std::set<std::pair<bool, std::string>> targets;  ///< jumps, starts of ranges
   std::set<std::pair<bool, std::string>> ends;     ///< ends of ranges
   bool computed = false;                           ///< some target is found at run time: any number may be one
+  bool computed_name = false;                      ///< found by a text: any name may be one as well
   [[nodiscard]] bool is_target(const LabelRef& l) const;
   [[nodiscard]] bool is_end(const LabelRef& l) const { return ends.count({l.is_number, l.text}) != 0; }
 };

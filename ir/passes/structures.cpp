@@ -48,31 +48,8 @@ ExprPtr in_target_form(const ExprPtr& e, Compare compare) {
   return binary(b.op, in_target_form(b.left, compare), in_target_form(b.right, compare));
 }
 
-Structures::Structures(const Program& program, const Routine& routine) : whole_(program, 1), parts_(program, 1024) {
-  const auto target = [this](const LabelRef& l) {
-    computed_ = computed_ || l.computed;
-    targets_.insert(l.text);
-  };
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      if (const auto* c = std::get_if<CallRoutine>(&s.node)) {
-        if (!c->has_range || (!c->computed && program.find(c->routine) != &routine)) return;
-        target(c->first);
-        target(c->last);
-      } else if (const auto* p = std::get_if<Repeat>(&s.node)) {
-        if (p->has_program ? program.find(p->program) != &routine : &r != &routine) return;
-        target(p->first);
-        target(p->last);
-      } else if (&r == &routine) {
-        if (const auto* j = std::get_if<Jump>(&s.node)) target(j->target);
-        if (const auto* w = std::get_if<Switch>(&s.node)) {
-          for (const auto& [value, j] : w->cases) target(j.target);
-          for (const auto& j : w->fallback) target(j.target);
-        }
-      }
-    });
-  }
-}
+Structures::Structures(const Program& program, const Routine& routine)
+    : uses_(label_uses(program, routine)), whole_(program, 1), parts_(program, 1024) {}
 
 bool Structures::operand_fits(const ExprPtr& e, const Capabilities& target) const {
   return operand(e) && (as_number(e) == nullptr ||
@@ -110,7 +87,7 @@ bool Structures::closed(const Body& body) const {
     const bool leaves = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
                         std::holds_alternative<Return>(s.node) || std::holds_alternative<Opaque>(s.node);
     good = good && !leaves;
-    for (const auto& l : labels_on(s.line)) good = good && !computed_ && targets_.count(l.text) == 0;
+    for (const auto& l : labels_on(s.line)) good = good && !uses_.is_target(l) && !uses_.is_end(l);
   });
   return good;
 }

@@ -1,8 +1,7 @@
 // Which structured statements stay on a target whose conditions are relations joined from left to right.
 #pragma once
 
-#include <set>
-
+#include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
 
 namespace cnctrans::ir::passes {
@@ -28,8 +27,7 @@ class Structures {
   [[nodiscard]] bool closed(const Body& body) const;
 
  private:
-  std::set<std::string> targets_;
-  bool computed_ = false;  ///< any number may be a target
+  LabelUses uses_;
   IntegerVariables whole_, parts_;
 };
 
