@@ -20,29 +20,33 @@ bool letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
 }
 
-/// What looks_like_lathe gathers from the words outside comments.
+template <class T>
+bool holds(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+/// What the words outside of comments say about the machine.
 struct LatheEvidence {
+  const LatheMarks& marks;
   bool y_word = false;
-  bool cutting_speed = false;
-  bool diameters = false;
+  bool without_y = false;
   bool lathe_code = false;
   bool diameter_axis = false;  ///< X is switched to diameters: no mill has that
-  const std::vector<int>& lathe_codes;
 
   void word(std::string_view name, std::string_view rest) {
     const std::string upper = to_upper_ascii(name);
-    if (upper == "DIAMON" || upper == "DIAM") diameter_axis = true;
-    if (upper == "DIAMON" || upper == "DIAM" || upper == "LIMS") diameters = true;
+    diameter_axis = diameter_axis || holds<std::string_view>(marks.diameter_words, upper);
+    without_y = without_y || holds<std::string_view>(marks.words_without_y, upper);
     const bool value = !rest.empty() && (rest[0] == '-' || rest[0] == '+' || rest[0] == '.' || rest[0] == '=' ||
                                          (rest[0] >= '0' && rest[0] <= '9'));
     if (upper == "Y" && value) y_word = true;
     if (upper != "G") return;
     int code = -1;
     std::from_chars(rest.data(), rest.data() + rest.size(), code);
-    if (code == 96) cutting_speed = true;
-    lathe_code = lathe_code || std::find(lathe_codes.begin(), lathe_codes.end(), code) != lathe_codes.end();
-    if (code == 151 || code == 152) diameters = true;
+    lathe_code = lathe_code || holds(marks.codes, code);
+    without_y = without_y || holds(marks.codes_without_y, code);
   }
+  [[nodiscard]] bool lathe() const { return lathe_code || diameter_axis || (!y_word && without_y); }
 };
 
 /// The file is called as the routine: by its name, or by its number with or without what the control puts before it.
@@ -56,9 +60,9 @@ bool stem_names(std::string_view stem, const ir::RoutineName& name, std::string_
   return !stem.empty() && (digit == std::string_view::npos ? "0" : stem.substr(digit)) == number;
 }
 
-LatheEvidence lathe_evidence(std::string_view text, char comment_open, char comment_close,
-                             const std::vector<int>& lathe_codes) {
-  LatheEvidence evidence{.lathe_codes = lathe_codes};
+LatheEvidence lathe_evidence(std::string_view text, const Dialect& dialect) {
+  const char comment_open = dialect.comment_open, comment_close = dialect.comment_close;
+  LatheEvidence evidence{dialect.lathe};
   std::size_t i = 0;
   constexpr std::size_t head = 65536;  // behind a Y word: what tells a lathe stands near the start
   while (i < text.size() && !evidence.lathe_code && (!evidence.y_word || (!evidence.diameter_axis && i < head))) {
@@ -82,16 +86,7 @@ LatheEvidence lathe_evidence(std::string_view text, char comment_open, char comm
   return evidence;
 }
 
-bool means_lathe(const LatheEvidence& e) {
-  return e.lathe_code || e.diameter_axis || (!e.y_word && (e.cutting_speed || e.diameters));
-}
-
 }  // namespace
-
-bool looks_like_lathe(std::string_view text, char comment_open, char comment_close,
-                      const std::vector<int>& lathe_codes) {
-  return means_lathe(lathe_evidence(text, comment_open, comment_close, lathe_codes));
-}
 
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
                                                const SourceText* source, std::string* error) {
@@ -102,9 +97,8 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
     if (listed(dialect.lathe_extensions, extension)) {
       lathe = true;
     } else if (!listed(dialect.mill_extensions, extension)) {
-      const LatheEvidence e =
-          lathe_evidence(source->text(), dialect.comment_open, dialect.comment_close, dialect.lathe_codes);
-      lathe = means_lathe(e);
+      const LatheEvidence e = lathe_evidence(source->text(), dialect);
+      lathe = e.lathe();
       y_axis = lathe && e.diameter_axis && e.y_word;
     }
   }

@@ -22,10 +22,6 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
                                                const SourceText* source, std::string* error);
 /// True for a regular file: it can be opened and read as often as one likes. What has been read from a pipe is gone.
 bool can_reopen(const std::string& path);
-/// True when the text can only be for a lathe. Comments are skipped by the dialect's marks.
-/// `lathe_codes`: G functions that only lathes have.
-bool looks_like_lathe(std::string_view text, char comment_open, char comment_close,
-                      const std::vector<int>& lathe_codes = {});
 
 /// A text that is no UTF-8 is taken for Windows-1252, with a note at its first such byte. `text` starts with line
 /// `first_line` of the file.

@@ -12,6 +12,14 @@
 
 namespace cnctrans::translator {
 
+/// What tells a program for a lathe before it is read. Words in capitals.
+struct LatheMarks {
+  std::vector<int> codes;                           ///< G functions of lathes only
+  std::vector<std::string_view> diameter_words;     ///< switch X to diameters: a lathe, also with Y words
+  std::vector<int> codes_without_y;                 ///< G functions that mean a lathe where no Y word stands
+  std::vector<std::string_view> words_without_y{};  ///< words of the same kind
+};
+
 struct Dialect {
   std::string_view name;                           ///< "fagor": what --from and --to take
   std::string_view title;                          ///< "Fagor 8055"
@@ -22,7 +30,7 @@ struct Dialect {
   std::string_view numbered_stem;                  ///< what stands before the number in the file name of a subprogram
   char comment_open = ';';                         ///< marks of comments, for a look at a text before it is read
   char comment_close = 0;                          ///< 0: to the end of the line
-  std::vector<int> lathe_codes;                    ///< G functions of lathes only
+  LatheMarks lathe;                                ///< for files whose extension does not tell
   std::shared_ptr<const frontends::Frontend> frontend;
   std::shared_ptr<const backends::Backend> backend;
 };
