@@ -30,6 +30,8 @@ struct Arguments {
   std::string report;
   std::string diagnostics = "text";
   bool verify = false;
+  bool explore = false;
+  int replays = 100;
   bool annotate = false;
   bool quiet = false;
   std::vector<std::string> set;

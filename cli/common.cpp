@@ -80,7 +80,8 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   out.target_machine = a.target_machine;
   out.libraries = a.libraries;
   out.reader = reader_of(a);
-  out.verify = a.verify;
+  out.verify = a.verify || a.explore;
+  if (a.explore) out.explore = static_cast<std::size_t>(a.replays);
   out.annotate = a.annotate;
   out.number_step = a.number_step;
   if (a.unsupported == "warn") out.unsupported = backends::Unsupported::warn;

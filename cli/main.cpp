@@ -57,11 +57,19 @@ void add_writing(CLI::App& app, Arguments& a) {
   add_running(app, a);
 }
 
+void add_exploring(CLI::App& app, Arguments& a) {
+  app.add_flag("--explore", a.explore,
+               "prove more than one way through the program: replay it with other initial values and skip levels");
+  app.add_option("--replays", a.replays, "with --explore: at most so many replays (100)")
+      ->check(CLI::Range(1, 1'000'000));
+}
+
 void add_converting(CLI::App& app, Arguments& a) {
   add_writing(app, a);
   app.add_option("input", a.inputs, "part programs")->type_name("FILE");
   app.add_option("-o,--output", a.output, "file, or folder ending in /; without it standard output");
   app.add_flag("--verify", a.verify, "replay source and translation and compare them");
+  add_exploring(app, a);
   app.add_option("--report", a.report, "write a report (.html .json .md .sarif); implies --verify");
 }
 
@@ -135,6 +143,7 @@ int main(int argc, char** argv) {
   verify->add_option("--to", a.to, "dialect of the translation")->required();
   verify->add_option("files", a.inputs, "source, translation, and its further files")->required()->type_name("FILE");
   verify->add_option("--target-machine", a.target_machine, "machine profile of the target");
+  add_exploring(*verify, a);
   add_reading(*verify, a);
   add_running(*verify, a);
   verify->footer(

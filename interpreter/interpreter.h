@@ -42,6 +42,9 @@ struct Result {
   std::vector<std::pair<std::string, std::string>> variables;
   /// Statements carried out at least once, by Statement::id (for coverage).
   std::vector<bool> covered;
+  /// What conditions came to, by Statement::id: `held`, `failed`, both, or 0 where none was asked.
+  std::vector<std::uint8_t> outcomes;
+  static constexpr std::uint8_t held = 1, failed = 2;
 };
 
 /// Runs the main routine of `program`. Statically wrong programs (unknown label, unknown subprogram) are refused before

@@ -106,6 +106,7 @@ Result Runner::finish(EndReason reason, const Span& where) {
   r.events = emitter_.count();
   r.variables = variables_.report();
   r.covered.assign(covered_.begin(), covered_.end());
+  r.outcomes = outcomes_;
   return r;
 }
 

@@ -78,6 +78,7 @@ class Runner {
   void block(Instruction& in);
   void assign(const ir::Statement& s);
   bool condition(Instruction& in);
+  bool note_outcome(const Instruction& in, bool holds);
   void for_begin(const ir::For& f);
   bool for_test(const ir::For& f);
   void for_step(const ir::For& f);
@@ -128,7 +129,7 @@ class Runner {
   std::int32_t in_modal_ = 0;
   State state_ = State::running;
   std::uint64_t steps_ = 0, blocks_ = 0, next_check_ = 0, silent_since_ = 0, seen_events_ = 0;
-  std::vector<std::uint8_t> covered_;
+  std::vector<std::uint8_t> covered_, outcomes_;
   std::size_t local_levels_ = 0;
   Span last_;
 };

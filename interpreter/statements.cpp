@@ -87,7 +87,16 @@ bool Runner::condition(Instruction& in) {
     if (const auto* u = std::get_if<ir::Until>(&in.statement->node)) e = &u->condition;
     in.expr = evaluator_.id_of(*e);
   }
-  return evaluator_.number(in.expr) != 0;
+  return note_outcome(in, evaluator_.number(in.expr) != 0);
+}
+
+/// For the coverage of branches.
+bool Runner::note_outcome(const Instruction& in, bool holds) {
+  const auto id = in.statement->id;
+  if (failure_.set || id == 0 || flow_->program != &program_) return holds;
+  if (id >= outcomes_.size()) outcomes_.resize(id + std::size_t{1} + outcomes_.size(), 0);
+  outcomes_[id] |= holds ? Result::held : Result::failed;
+  return holds;
 }
 
 void Runner::for_begin(const ir::For& f) {
@@ -144,7 +153,7 @@ void Runner::jump(Instruction& in) {
   const auto& j = *in.jump_node;
   if (j.condition) {
     if (in.expr == no_expr) in.expr = evaluator_.id_of(j.condition);
-    const bool taken = evaluator_.number(in.expr) != 0;
+    const bool taken = note_outcome(in, evaluator_.number(in.expr) != 0);
     if (failure_.set) return;
     if (!taken) {
       go_to(at_ + 1);

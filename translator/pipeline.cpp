@@ -6,8 +6,8 @@
 #include "base/text.h"
 #include "ir/text.h"
 #include "translator/contours.h"
-#include "translator/coverage.h"
 #include "translator/encode.h"
+#include "translator/proof.h"
 #include "translator/readable.h"
 #include "translator/stream.h"
 
@@ -68,52 +68,6 @@ void join_libraries(ir::Program& program, Loader& loader, Diagnostics& diagnosti
   ir::number_statements(program);
 }
 
-interpreter::Result replay(const ir::Program& program, const machine::Profile& profile, interpreter::Options options,
-                           Loader& loader, Diagnostics& diagnostics, std::vector<interpreter::Event>& events) {
-  options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
-  options.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };
-  interpreter::TraceRecorder recorder;
-  auto result = interpreter::run(program, profile, options, recorder, diagnostics);
-  events = std::move(recorder.events);
-  return result;
-}
-
-/// Source and target of a verification.
-struct Replayed {
-  std::vector<interpreter::Event> events;
-  interpreter::Result result;
-  interpreter::Position start;
-};
-
-verifier::Verdict judge(const Replayed& source, const Replayed& target) {
-  using interpreter::EndReason;
-  // Two runs that end in the same error at the same event are compared up to there; one alone is a difference.
-  verifier::Options options;
-  options.source_start = source.start;
-  options.target_start = target.start;
-  verifier::Verdict verdict = verifier::compare(source.events, target.events, options);
-  const bool source_ended = source.result.reason == EndReason::program_end;
-  const bool target_ended = target.result.reason == EndReason::program_end;
-  // Where a run stopped is no difference of the programs: there is nothing to compare with from there on.
-  const auto stops_at = [](const Replayed& run, FileId file, std::uint32_t line) {
-    if (run.events.size() < 2) return true;
-    return run.events.back().file == file && run.events.back().line == line;
-  };
-  const auto& d = verdict.difference;
-  const bool source_stopped = !source_ended && stops_at(source, d.source_file, d.source_line);
-  const bool target_refused = !target_ended && target.events.size() < 2;
-  const bool stopped = verdict.status == verifier::Status::differs && (source_stopped || target_refused);
-  if ((verdict.good() || stopped) && (!source_ended || !target_ended)) {
-    verdict.status = verifier::Status::not_replayable;
-    const auto& bad = source_ended ? target.result : source.result;
-    verdict.target_stopped = source_ended && target.events.size() > 1;
-    verdict.reason = std::string(source_ended ? "the translation" : "the source") + " stopped before its end (" +
-                     std::string(interpreter::name(bad.reason)) +
-                     (bad.error_text.empty() ? "" : ": " + bad.error_text) + ")";
-  }
-  return verdict;
-}
-
 /// Two outputs of one name would overwrite each other. Case does not count: neither on the controls nor on many disks.
 bool names_differ(const std::vector<OutputText>& outputs, Diagnostics& diagnostics) {
   std::set<std::string> seen;
@@ -137,31 +91,17 @@ std::string shared_name(const ir::Program& program) {
   return {};
 }
 
-/// What --set gives to the source's variables, under the names that they have in the translation.
-std::vector<std::pair<std::string, std::string>> renamed_settings(
-    const std::vector<std::pair<std::string, std::string>>& set, const ir::LegaliseReport& report) {
-  std::vector<std::pair<std::string, std::string>> out;
-  for (const auto& [name, value] : set) {
-    for (const auto& r : report.renamed) {
-      if (r.kind == ir::Renamed::Kind::variable && r.routine.empty() && to_upper_ascii(r.from) == to_upper_ascii(name))
-        out.emplace_back(r.to, value);
-    }
-  }
-  return out;
-}
-
-void verify_outputs(TranslateResult& result, const ir::Program& source, const machine::Profile& source_profile,
-                    Loader& loader, const Dialect& to, const machine::Profile& target_profile,
-                    const TranslateOptions& options, const ir::LegaliseReport& names) {
+void verify_outputs(TranslateResult& result, const Dialect& from, const ir::Program& source,
+                    const machine::Profile& source_profile, Loader& loader, const Dialect& to,
+                    const machine::Profile& target_profile, const TranslateOptions& options,
+                    const ir::LegaliseReport& names) {
   result.verified = true;
   if (!readable(to)) {
     result.verdict.status = verifier::Status::not_replayable;
     result.verdict.reason = std::string(to.title) + ": nothing here reads the translation back";
     return;
   }
-  Replayed a, b;
-  Diagnostics source_diagnostics, target_diagnostics;
-  a.result = replay(source, source_profile, options.run, loader, source_diagnostics, a.events);
+  Diagnostics target_diagnostics;
   Loader target_loader(to, target_profile, frontends::Reader::scanner, {});
   ir::Program target;
   bool first = true;
@@ -180,27 +120,26 @@ void verify_outputs(TranslateResult& result, const ir::Program& source, const ma
     target.texts->share(read->texts);
   }
   ir::number_statements(target);
-  interpreter::Options target_run = options.run;
-  if (source.dialect != to.name) target_run.set = renamed_settings(options.run.set, names);
-  b.result = replay(target, target_profile, target_run, target_loader, target_diagnostics, b.events);
-  a.start = verifier::start_of(source_profile);
-  b.start = verifier::start_of(target_profile);
-  result.verdict = judge(a, b);
-  result.verdict.coverage = coverage_of(source, a.result.covered);
+  const bool same_names = source.dialect == to.name;
+  const auto target_settings = [&](const Settings& set) { return same_names ? set : renamed_settings(set, names); };
+  Proof proof = prove({source, source_profile, loader}, {target, target_profile, target_loader},
+                      {options.run, target_settings, options.explore, from.first_skip_switch});
+  result.verdict = std::move(proof.verdict);
   if (const auto twice = shared_name(target); !twice.empty()) {
     result.verdict.status = verifier::Status::not_replayable;
     result.verdict.reason = "two programs of the translation have the same name: " + twice;
   }
   result.target_files = target_loader.files();
   if (options.keep_traces) {
-    result.source_trace = std::move(a.events);
-    result.target_trace = std::move(b.events);
+    result.source_trace = std::move(proof.source.events);
+    result.target_trace = std::move(proof.target.events);
   }
   if (!result.verdict.good()) {
-    for (const auto& d : source_diagnostics.all()) {
+    for (const auto& d : proof.source.diagnostics.all()) {
       const auto& said = result.diagnostics.all();
       if (std::find(said.begin(), said.end(), d) == said.end()) result.diagnostics.add(d);
     }
+    target_diagnostics.append(proof.target.diagnostics);
     if (target_diagnostics.has_errors()) {
       result.verdict.reason += "\n" + render_text(target_diagnostics, result.target_files);
     }
@@ -338,7 +277,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   std::stable_partition(result.outputs.begin(), result.outputs.end(), [](const OutputText& o) { return o.main; });
   if (!result.refused) result.diagnostics = as_warnings(result.diagnostics);  // written all the same, as asked
   if (options.verify)
-    verify_outputs(result, source_program, *source_profile, loader, *to, *target_profile, options, names);
+    verify_outputs(result, *from, source_program, *source_profile, loader, *to, *target_profile, options, names);
   return result;
 }
 
@@ -348,33 +287,39 @@ VerifyResult verify(const std::string& source, const std::vector<std::string>& t
   const Dialect* from = find_readable(options.from, &result.error);
   const Dialect* to = from == nullptr ? nullptr : find_readable(options.to, &result.error);
   if (to == nullptr) return result;
-  const auto side = [&options, &result](const Dialect& dialect, const std::string& machine, const std::string& path,
-                                        Diagnostics& diagnostics, FileTable& files, Replayed& replayed, bool with_set) {
+  /// A file that was read, for a replay.
+  struct Opened {
+    std::optional<machine::Profile> profile;
+    std::optional<Loader> loader;
+    const ir::Program* program = nullptr;
+    Diagnostics reading;
+  };
+  const auto open = [&options, &result](Opened& o, const Dialect& dialect, const std::string& machine,
+                                        const std::string& path) {
     const SourcePtr text = SourceText::open(path, &result.error);
     if (!text) return false;
-    const auto profile = choose_profile(dialect, machine, text.get(), &result.error);
-    if (!profile) return false;
-    Loader loader(dialect, *profile, options.reader, options.libraries);
-    Diagnostics running;
-    const ir::Program* program = loader.read_main(text, diagnostics);
-    interpreter::Options run = options.run;
-    if (!with_set) run.set.clear();
-    replayed.result = replay(*program, *profile, run, loader, running, replayed.events);
-    replayed.start = verifier::start_of(*profile);
-    if (with_set) result.verdict.coverage = coverage_of(*program, replayed.result.covered);
-    diagnostics.append(loader.library_diagnostics());
-    if (replayed.result.reason != interpreter::EndReason::error) diagnostics = as_warnings(diagnostics);
-    diagnostics.append(running);
-    files = loader.files();
+    o.profile = choose_profile(dialect, machine, text.get(), &result.error);
+    if (!o.profile) return false;
+    o.loader.emplace(dialect, *o.profile, options.reader, options.libraries);
+    o.program = o.loader->read_main(text, o.reading);
     return true;
   };
-  Replayed a, b;
-  if (!side(*from, options.machine, source, result.source_diagnostics, result.source_files, a, true)) return result;
-  if (!side(*to, options.target_machine, targets.front(), result.target_diagnostics, result.target_files, b, false))
-    return result;
-  verifier::Coverage coverage = std::move(result.verdict.coverage);
-  result.verdict = judge(a, b);
-  result.verdict.coverage = std::move(coverage);
+  const auto close = [](Opened& o, const Replayed& run, Diagnostics& diagnostics, FileTable& files) {
+    diagnostics = std::move(o.reading);
+    diagnostics.append(o.loader->library_diagnostics());
+    if (run.result.reason != interpreter::EndReason::error) diagnostics = as_warnings(diagnostics);
+    diagnostics.append(run.diagnostics);
+    files = o.loader->files();
+  };
+  Opened a, b;
+  if (!open(a, *from, options.machine, source) || !open(b, *to, options.target_machine, targets.front())) return result;
+  // The names that a translation by anyone gives to the variables are not known.
+  const auto target_settings = [&](const Settings& set) { return from == to ? set : Settings(); };
+  Proof proof = prove({*a.program, *a.profile, *a.loader}, {*b.program, *b.profile, *b.loader},
+                      {options.run, target_settings, options.explore, from->first_skip_switch});
+  result.verdict = std::move(proof.verdict);
+  close(a, proof.source, result.source_diagnostics, result.source_files);
+  close(b, proof.target, result.target_diagnostics, result.target_files);
   return result;
 }
 

@@ -31,6 +31,7 @@ struct TranslateOptions {
   std::int32_t number_step = 10;
   bool annotate = false;
   bool verify = false;
+  std::size_t explore = 0;      ///< with `verify`: most replays with other inputs
   bool keep_traces = false;     ///< with `verify`: both traces stay in the result, for a report
   bool single_output = false;   ///< everything in one file (standard output): as an archive where the target has one
   bool files_apart = false;     ///< called programs of other files go to files of their own, in every language

@@ -57,6 +57,16 @@ struct Coverage {
   std::size_t blocks = 0, replayed = 0;  ///< lines that do something
   std::vector<Lines> missed;
   FileId main = 0;  ///< the file whose lines are named without it
+  /// A condition that only ever came out one way.
+  struct Branch {
+    FileId file = 0;
+    std::uint32_t line = 0;
+    bool always = false;  ///< it always held; else never
+  };
+  bool explored = false;                 ///< more than one replay was looked for; then:
+  std::size_t replays = 1;               ///< that were compared
+  std::size_t ways = 0, ways_taken = 0;  ///< of conditions: each can hold or not
+  std::vector<Branch> open;              ///< of the conditions that were reached
 };
 
 struct Verdict {
@@ -67,6 +77,7 @@ struct Verdict {
   std::uint64_t unfed_moves = 0;  ///< at a feed that the source never gives, where the translation has one
   Difference difference;
   std::string reason;  ///< with not_replayable
+  std::string inputs;  ///< what the replay that failed was started with, as options of the command line; empty: nothing
   Coverage coverage;
   /// With not_replayable: the source ran to its end, the translation moved and did not.
   bool target_stopped = false;

@@ -56,6 +56,20 @@ std::optional<ir::Plane> plane_in(const ir::Statement& s) {
   return std::nullopt;
 }
 
+/// The facts of the program when every subroutine outside of it leaves the plane as it is.
+ir::FactTable facts_without_outside(const ir::Program& program, const LowerState& state) {
+  ir::Program inside = program;
+  for (auto& r : inside.routines) {
+    ir::for_each_statement(r.body, [&program](ir::Statement& s) {
+      const auto* c = std::get_if<ir::CallRoutine>(&s.node);
+      const auto* m = std::get_if<ir::ModalCall>(&s.node);
+      const ir::CallRoutine* call = c != nullptr ? c : m != nullptr && !m->off && !m->cycle ? &m->call : nullptr;
+      if (call != nullptr && !call->computed && program.find(call->routine) == nullptr) s.node = ir::Label{};
+    });
+  }
+  return ir::analyse(inside, state.profile().power_on);
+}
+
 /// Were the planes that lowering took from the text right? The flow of the program decides.
 void judge_planes(ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
@@ -67,6 +81,7 @@ void judge_planes(ir::Program& program, LowerState& state) {
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, state.profile().power_on);
   const auto lines = statements_by_line(program);
+  std::optional<ir::FactTable> inside;
   for (const auto& use : facts.plane_uses) {
     const auto at = lines.find(use.span.line);
     if (at == lines.end()) continue;
@@ -75,7 +90,14 @@ void judge_planes(ir::Program& program, LowerState& state) {
     const auto own = plane_in(*at->second);
     if ((own && *own == use.assumed) || (known && *known == static_cast<std::uint8_t>(use.assumed))) continue;
     state.set_line(use.span);
-    if (others || known) {
+    if (!inside) inside = facts_without_outside(program, state);
+    const auto kept = inside->before(at->second->id).settings[static_cast<std::size_t>(ir::Setting::plane)];
+    if (!known && kept && *kept == static_cast<std::uint8_t>(use.assumed)) {
+      state.warning("FAG-026", {},
+                    "this block depends on the plane; a subroutine of another file that is called before it is taken "
+                    "to leave the plane as it is",
+                    "write the plane function (G17, G18, G19) behind the call if it does not");
+    } else if (others || known) {
       state.error("FAG-026", {}, "this block depends on the plane, and the program reaches it with several planes",
                   "write the plane function (G17, G18, G19) before the block");
     } else {

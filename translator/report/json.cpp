@@ -70,6 +70,7 @@ std::string report_data(const Report& r, bool with_paths) {
   const auto n = r.counts();
   for (std::size_t i = 0; i < n.size(); ++i) counts[std::string(name(static_cast<LineStatus>(i)))] = n[i];
   Json verdict{{"status", r.verdict}, {"events", r.events}, {"moves", r.moves}, {"max_length", r.max_length}};
+  if (r.replays > 1) verdict.update({{"replays", r.replays}, {"ways", r.ways}, {"ways_taken", r.ways_taken}});
   if (r.blocks != 0) verdict.update({{"blocks", r.blocks}, {"replayed", r.replayed}});
   if (!r.verdict_text.empty()) verdict["text"] = to_utf8(r.verdict_text);
   if (r.differs_source) verdict["source_place"] = place_json(*r.differs_source);

@@ -192,6 +192,9 @@ Report make_report(const std::string& path, const TranslateOptions& options, con
     r.max_length = v.max_length;
     r.blocks = v.coverage.blocks;
     r.replayed = v.coverage.replayed;
+    r.replays = v.coverage.replays;
+    r.ways = v.coverage.ways;
+    r.ways_taken = v.coverage.ways_taken;
     // The files of the verification are the outputs, in order.
     std::vector<std::size_t> target_index(result.target_files.size(), 0);
     for (std::size_t id = 1; id < target_index.size(); ++id) target_index[id] = id - 1;

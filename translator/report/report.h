@@ -57,6 +57,7 @@ struct Report {
   std::uint64_t events = 0, moves = 0;
   double max_length = 0;                 ///< mm
   std::size_t blocks = 0, replayed = 0;  ///< lines of the source that do something, and those that the replay came to
+  std::size_t replays = 1, ways = 0, ways_taken = 0;  ///< of an explored program: a condition has two ways
   std::optional<ReportPlace> differs_source, differs_target;
   std::vector<ReportFile> sources, targets;
   std::vector<ReportMove> source_path, target_path;

@@ -1,0 +1,51 @@
+// Replays a program and its translation and compares the two: once, or with one set of inputs after the other.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interpreter/interpreter.h"
+#include "ir/passes/legalise.h"
+#include "translator/loader.h"
+#include "verifier/compare.h"
+
+namespace cnctrans::translator {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;  ///< NAME=VALUE, as of --set
+
+/// What --set gives to the source's variables, under the names that they have in the translation.
+Settings renamed_settings(const Settings& set, const ir::LegaliseReport& names);
+
+/// A program, its machine, and who finds what it calls.
+struct Side {
+  const ir::Program& program;
+  const machine::Profile& profile;
+  Loader& loader;
+};
+
+struct ProofOptions {
+  interpreter::Options run;  ///< of the first replay, with the names of the source
+  std::function<Settings(const Settings&)> target_settings;
+  std::size_t explore = 0;    ///< most replays with other inputs; 0: only the first replay
+  int first_skip_switch = 0;  ///< number of the first block-skip switch on the source's control
+};
+
+/// One run with its trace.
+struct Replayed {
+  std::vector<interpreter::Event> events;
+  interpreter::Result result;
+  Diagnostics diagnostics;
+};
+
+struct Proof {
+  verifier::Verdict verdict;  ///< of all replays together, or of the first that fails
+  Replayed source, target;    ///< the first replay, or the one that fails
+};
+
+/// Inputs that the source itself can't run with (error, limit) prove nothing and are passed over, but for those of the
+/// first replay.
+Proof prove(const Side& source, const Side& target, const ProofOptions& options);
+
+}  // namespace cnctrans::translator

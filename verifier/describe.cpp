@@ -1,0 +1,93 @@
+// The verdict in words.
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "verifier/compare.h"
+
+namespace cnctrans::verifier {
+
+namespace {
+
+std::string source_line_text(const FileTable& files, FileId file, std::uint32_t line) {
+  const SourceText* source = files.source(file);
+  if (source == nullptr || line == 0 || line > source->lines().size()) return {};
+  return std::string(source->lines()[line - 1].text);
+}
+
+/// Said with a good verdict too: feeds that could not be compared.
+std::string without_feed(const Verdict& v) {
+  if (v.unfed_moves == 0) return {};
+  return fmt::format(
+      "; {} without a feed in the source (controls move at their highest feed then, or stop), feeds not compared",
+      v.unfed_moves == 1 ? "1 move" : fmt::format("{} moves", v.unfed_moves));
+}
+
+constexpr std::array<std::string_view, 5> status_names{"verified", "verified within tolerance", "differs",
+                                                       "nothing to compare", "not replayable"};
+
+/// The part of the source that the proof does not speak of; empty: none.
+std::string not_replayed(const Coverage& c, const FileTable& files) {
+  if (c.missed.empty()) return {};
+  constexpr std::size_t named = 8;
+  std::string lines;
+  for (std::size_t i = 0; i < std::min(named, c.missed.size()); ++i) {
+    const auto& m = c.missed[i];
+    const bool other = m.file != (i == 0 ? c.main : c.missed[i - 1].file);
+    lines += fmt::format("{}{}{}", i == 0 ? "" : ", ", other ? files.name(m.file) + ":" : "", m.first);
+    if (m.last != m.first) lines += fmt::format("-{}", m.last);
+  }
+  if (c.missed.size() > named) lines += ", ...";
+  return fmt::format("; {} of {} lines were not reached ({})", c.blocks - c.replayed, c.blocks, lines);
+}
+
+std::string started_with(const Verdict& v) {
+  return v.inputs.empty() ? std::string() : " with " + v.inputs;
+}
+
+/// What exploring came to; empty: there was none.
+std::string explored(const Coverage& c, const FileTable& files) {
+  if (!c.explored) return {};
+  std::string text = fmt::format("; {} replays took {} of {} ways of the conditions", c.replays, c.ways_taken, c.ways);
+  constexpr std::size_t named = 8;
+  for (std::size_t i = 0; i < std::min(named, c.open.size()); ++i) {
+    const auto& b = c.open[i];
+    const bool other = b.file != (i == 0 ? c.main : c.open[i - 1].file);
+    text += fmt::format("{}{}{} {}", i == 0 ? " (" : ", ", other ? files.name(b.file) + ":" : "", b.line,
+                        b.always ? "always held" : "never held");
+  }
+  if (!c.open.empty()) text += c.open.size() > named ? ", ...)" : ")";
+  return text;
+}
+
+}  // namespace
+
+std::string_view name(Status s) {
+  return status_names[static_cast<std::size_t>(s)];
+}
+
+std::string describe(const Verdict& v, const FileTable& source_files, const FileTable& target_files) {
+  switch (v.status) {
+    case Status::verified:
+      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + without_feed(v) +
+             not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
+    case Status::within_tolerance:
+      return fmt::format("verified: {} events, {} moves, within {} mm", v.events, v.moves, rounded(v.max_length, 6)) +
+             without_feed(v) + not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
+    case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
+    case Status::not_replayable: return "not verified" + started_with(v) + ": " + v.reason;
+    case Status::differs: break;
+  }
+  const auto& d = v.difference;
+  std::string text = fmt::format("not verified{}: after {} equal events: {}", started_with(v), v.events, d.what);
+  text += fmt::format("\n  source      {}:{}: {}", source_files.name(d.source_file), d.source_line,
+                      source_line_text(source_files, d.source_file, d.source_line));
+  text += fmt::format("\n  translation {}:{}: {}", target_files.name(d.target_file), d.target_line,
+                      source_line_text(target_files, d.target_file, d.target_line));
+  if (!v.reason.empty()) text += "\n" + v.reason;
+  return text;
+}
+
+}  // namespace cnctrans::verifier
