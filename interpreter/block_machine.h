@@ -18,6 +18,7 @@
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
+#include "ir/cycles/milling.h"
 #include "ir/cycles/pattern.h"
 #include "ir/geometry.h"
 #include "ir/program.h"
@@ -252,6 +253,10 @@ class BlockMachine final : public SystemData {
 
   // cycles (cycles.cpp)
   bool run_cycle();
+  bool run_milling();
+  bool milling_move(const ir::cycles::MillMove& m, double speed);
+  /// Of the tool in use, mm; 0: not known.
+  [[nodiscard]] double tool_radius();
   bool resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cycles::HoleNumbers>& out, ir::AxisId& axis);
   bool cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, ir::SpindleState sense);
   bool cycle_path(const ir::cycles::CycleMove& m, const Axes& hole);
@@ -314,6 +319,7 @@ class BlockMachine final : public SystemData {
   double modal_corner_feed_ = 0;
 
   std::optional<ir::cycles::HoleNumbers> hole_;
+  ir::cycles::MillNumbers mill_;  ///< with a hole of kind `mill`
   ir::AxisId hole_axis_ = ir::axis::z;
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;

@@ -42,6 +42,16 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
   }
   std::string error;
   out = ir::cycles::resolve(*hole, context, evaluate, &error);
+  if (out && hole->kind == ir::HoleKind::mill) {
+    const auto plane = ir::plane_axes(modal_.plane);
+    if (axis != plane.w) return failure_.fail(code::bad_cycle, "a milling cycle works along the normal of the plane");
+    const ir::cycles::MillUnits units{axis_[plane.u].scale_absolute, axis_[plane.v].scale_absolute, unit(),
+                                      feed_unit()};
+    auto mill = ir::cycles::resolve(hole->mill, units, evaluate, &error);
+    if (!mill && !failure_.set) return failure_.fail(code::bad_cycle, error);
+    if (!mill) return false;
+    mill_ = std::move(*mill);
+  }
   if (out) return true;
   return failure_.fail(code::bad_cycle, error);
 }
@@ -113,6 +123,7 @@ bool BlockMachine::run_cycle() {
     release_pending();
     return failure_.fail(code::corner_alone, "a cycle follows a corner function");
   }
+  if (hole_->kind == ir::HoleKind::mill) return run_milling();
   std::string error;
   const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);
   if (!error.empty()) return failure_.fail(code::not_carried, error);

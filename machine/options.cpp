@@ -50,6 +50,9 @@ constexpr std::array specs{
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
+    OptionSpec{"tool.radius_data", "text", "",
+               "names of machine data with the radius of the tool in use, separated by |; #T and #D stand for the "
+               "numbers of the tool and of its offset or edge"},
     OptionSpec{"work_offset.write", "on_select|at_once", "on_select",
                "when a written row of the work offset table counts: when it is selected again, or at once"},
     // Read by the language readers and writers.

@@ -1,9 +1,11 @@
 #include "backends/fagor/cycles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "dialects/fagor/milling.h"
 #include "ir/cycles/hole.h"
 
 namespace cnctrans::backends::fagor {
@@ -42,10 +44,10 @@ std::optional<Value> coordinate(const HoleCycle& c, const Level& l) {
 
 bool plain_hole(const HoleCycle& c) {
   return !c.has_feed && !c.has_feed_out && !c.dwell_in_revolutions && zero(c.dwell_top) && c.axis == ir::axis::none &&
-         !c.approach_by_retract && !c.reference_may_be_below && !c.pecks.has_first_feed_factor &&
-         c.kind != ir::HoleKind::mill && !c.orient_first && !c.has_speed && !c.has_speed_out &&
-         c.spindle_before == ir::SpindleStep::usual && c.spindle_bottom == ir::SpindleStep::usual &&
-         c.spindle_after == ir::SpindleStep::usual && !c.spindle_after_retract;
+         !c.approach_by_retract && !c.reference_may_be_below && !c.pecks.has_first_feed_factor && !c.orient_first &&
+         !c.has_speed && !c.has_speed_out && c.spindle_before == ir::SpindleStep::usual &&
+         c.spindle_bottom == ir::SpindleStep::usual && c.spindle_after == ir::SpindleStep::usual &&
+         !c.spindle_after_retract;
 }
 
 /// Equal pecks, and the control's own 1 mm above the last bottom: G83.
@@ -122,6 +124,47 @@ std::string_view one_stroke(const HoleCycle& c) {
   }
 }
 
+/// Value of a word of a milling cycle; null: not there.
+const Value* mill_word(const HoleCycle& c, std::string_view name) {
+  for (const auto& [word, value] : c.mill.words) {
+    if (word == name) return &value;
+  }
+  return nullptr;
+}
+
+/// G87 and G88 (25.3): every word has a letter, and those without say what the control takes for granted.
+bool pocket(const HoleCycle& c, CycleWords& w) {
+  namespace facts = dialects::fagor;
+  const auto* step = mill_word(c, "step_factor");
+  const auto* plunge = mill_word(c, "plunge_factor");
+  if (step == nullptr || !step->is(facts::pocket_step) || plunge == nullptr || !plunge->is(facts::pocket_plunge))
+    return false;
+  for (const auto& row : facts::milling_cycles) {
+    if (row.shape != c.mill.shape) continue;
+    std::size_t found = 2;
+    for (const auto& l : row.letters) {
+      const auto* v = l.letter == 0 ? nullptr : mill_word(c, l.parameter);
+      if (v == nullptr) continue;
+      w.more.emplace_back(l.letter, *v);
+      ++found;
+    }
+    if (found != c.mill.words.size()) return false;
+    if (c.surface.given) {
+      const Value& v = c.surface.value;
+      const auto* minus = v.literal() ? nullptr : std::get_if<ir::Unary>(&v.expr->node);
+      if (c.surface.base != LevelBase::from_reference || (!v.literal() && minus == nullptr)) return false;
+      const auto place = std::find_if(w.more.begin(), w.more.end(), [](const auto& word) {
+        return std::string_view("HLV").find(word.first) != std::string_view::npos;
+      });
+      w.more.emplace(place, 'D', minus != nullptr ? Value(minus->operand) : Value(std::fabs(v.number)));
+    }
+    w.printed_order = true;
+    w.code = row.name;
+    return true;
+  }
+  return false;
+}
+
 bool reference_word(const HoleCycle& c, CycleWords& w) {
   const Level& r = c.reference;
   if (!r.given || (r.base == LevelBase::from_initial && zero(r.value))) return true;  // left out: the present height
@@ -151,6 +194,12 @@ std::optional<CycleWords> cycle_words(const ir::Cycle& cycle) {
   CycleWords w;
   if (!c->dwell_bottom.literal() && c->dwell_scale != 0.01) return std::nullopt;  // K is in hundredths
   if (!reference_word(*c, w) || !retract_words(*c, w)) return std::nullopt;
+  if (c->kind == ir::HoleKind::mill) {
+    const auto bottom = c->bottom.given ? coordinate(*c, c->bottom) : std::nullopt;
+    if (!bottom || !pocket(*c, w)) return std::nullopt;
+    w.depth = *bottom;
+    return w;
+  }
   if (c->kind == ir::HoleKind::drill) {
     if (c->pecks.law != ir::PeckLaw::none || !c->bottom.given) return std::nullopt;
     const auto bottom = coordinate(*c, c->bottom);

@@ -21,6 +21,7 @@ struct CycleWords {
   double dwell_scale = 1;                        ///< value times this is seconds
   std::optional<ir::Value> count;                ///< J
   std::vector<std::pair<char, ir::Value>> more;  ///< further letters, in the printed order
+  bool printed_order = false;                    ///< `more` stands as it is, else in the order of the alphabet
   bool retract_given = false;                    ///< the tool leaves to `retract`, else by the retract plane setting
   ir::Value retract;                             ///< absolute
   bool retract_is_reference = false;

@@ -382,7 +382,8 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   add(word("I", words->depth, a.pos), Rank::radius);
   const auto further = [&](bool before_dwell) {  // in the order of the alphabet, as the manual prints them
     for (const auto& [letter, v] : words->more) {
-      if ((letter < 'K') == before_dwell) add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
+      if ((letter < 'K' || words->printed_order) == before_dwell)
+        add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
     }
   };
   further(true);

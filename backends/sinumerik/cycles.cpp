@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/milling.h"
 #include "dialects/sinumerik/turning.h"
 #include "ir/cycles/hole.h"
 
@@ -231,6 +232,38 @@ std::string_view bore(const HoleCycle& c, Arguments& args) {
   }
 }
 
+/// A milling cycle with a parameter for every word; planes and depth are there already.
+std::string_view mill(const HoleCycle& c, Arguments& args) {
+  for (const auto& row : dialect::milling_cycles) {
+    if (row.shape != c.mill.shape) continue;
+    Arguments words = args;
+    std::size_t found = 0;
+    for (const auto& [own, word] : row.parameters) {
+      for (const auto& [name, value] : c.mill.words) {
+        if (own.empty() || name != word) continue;
+        words[std::string(own)] = value;
+        ++found;
+      }
+    }
+    const auto* call = dialect::cycle(row.name);
+    bool all = found == c.mill.words.size();
+    for (std::string_view rest = row.needs; !rest.empty();) {
+      const auto comma = std::min(rest.find(','), rest.size());
+      all = all && words.count(rest.substr(0, comma)) != 0;
+      rest.remove_prefix(std::min(comma + 1, rest.size()));
+    }
+    if (!all) continue;
+    if (words.count("DPR") != 0 && dialect::parameter_index(*call, "DPR") < 0) {  // DP as an increment
+      words["DP"] = words["DPR"];
+      words["AMODE"] = Value(1);
+      words.erase("DPR");
+    }
+    args = std::move(words);
+    return row.name;
+  }
+  return {};
+}
+
 /// Name of the standard cycle and its arguments; empty: it can't be said exactly.
 std::string_view arguments(const HoleCycle& c, Arguments& args) {
   const bool taps = c.kind == HoleKind::tap || c.kind == HoleKind::tap_floating;
@@ -244,6 +277,7 @@ std::string_view arguments(const HoleCycle& c, Arguments& args) {
   args["RTP"] = c.retract.value;
   if (!planes(c, args) || !bottom(c, args)) return {};
   if (taps) return tap(c, args);
+  if (c.kind == HoleKind::mill) return mill(c, args);
   if (c.has_speed || c.has_speed_out || c.orient_first) return {};
   switch (c.kind) {
     case HoleKind::drill:

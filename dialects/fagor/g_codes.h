@@ -101,8 +101,9 @@ struct HoleLetters {
   std::string_view kept;  ///< read, but without a sure meaning: a block with one of them is kept as text
 };
 inline constexpr HoleLetters hole_letters[] = {
-    {69, "B", "CDKLR", "HJ"}, {81, "", "K", ""}, {82, "K", "", ""},    {83, "J", "", ""},
-    {84, "", "KR", "J"},      {85, "", "K", ""}, {86, "", "K", "QDE"}, {89, "", "K", ""},
+    {69, "B", "CDKLR", "HJ"}, {81, "", "K", ""},       {82, "K", "", ""},    {83, "J", "", ""},
+    {84, "", "KR", "J"},      {85, "", "K", ""},       {86, "", "K", "QDE"}, {89, "", "K", ""},
+    {87, "JKB", "CDHLV", ""}, {88, "JB", "CDHLV", ""},
 };
 
 std::span<const GCode> g_codes();

@@ -77,6 +77,10 @@ class BlockLowerer {
   const Word* take_coordinate(ir::AxisId axis);
   const Word* take_cycle_word(char c, const Word& depth);
   bool equal_pecks(const GWord& g, const Word& count, ir::HoleCycle& c);
+  void surface_below(const GWord& g, const Word& d, ir::HoleCycle& c);
+  bool pocket_letter(const Word& w, char letter, bool zero_refused);
+  bool pocket_words(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c);
+  bool change_pocket(int code, ir::HoleCycle& c, bool& changed);
   bool variable_pecks(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c);
   [[nodiscard]] ir::Value one_millimetre() const;
   void home(const GWord& g);

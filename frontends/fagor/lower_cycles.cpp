@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dialects/fagor/limits.h"
+#include "dialects/fagor/milling.h"
 #include "frontends/fagor/lower_block.h"
 #include "frontends/fagor/lower_expr.h"
 #include "ir/cycles/machining.h"
@@ -113,7 +114,8 @@ void BlockLowerer::hole_cycle(const GWord& g) {
   c.bottom.value = value(*depth);
   c.bottom.base = ir::LevelBase::distance_mode;
   c.bottom.otherwise = ir::LevelBase::from_reference;
-  if (const Word* k = words[index('K')]) {
+  const bool pocket = facts::find_milling(code) != nullptr;
+  if (const Word* k = words[index('K')]; k && !pocket) {
     c.dwell_bottom = value(*k);
     c.dwell_scale = 0.01;
   }
@@ -143,6 +145,8 @@ bool BlockLowerer::cycle_parameters(const GWord& g, const std::array<const Word*
       break;
     case 85: c.kind = ir::HoleKind::ream; break;
     case 86: c.kind = ir::HoleKind::bore_stop; break;
+    case 87:
+    case 88: return pocket_words(g, words, c);
     case 89: c.kind = ir::HoleKind::bore; break;
     default: break;
   }
@@ -162,8 +166,9 @@ void BlockLowerer::change_cycle(const GWord& g) {
   const ir::AxisId axis = ir::plane_axes(state_.plane_by_text()).w;
   const Word* z = take_coordinate(axis);
   const Word* i = take('I');
+  const bool pocket = facts::find_milling(code) != nullptr;
   const Word* j = code == 83 ? take('J') : nullptr;
-  const Word* k = code == 83 ? nullptr : take('K');
+  const Word* k = code == 83 || pocket ? nullptr : take('K');
   if (k) {
     c.dwell_bottom = value(*k);
     c.dwell_scale = 0.01;
@@ -172,6 +177,7 @@ void BlockLowerer::change_cycle(const GWord& g) {
   }
   bool more = false;
   if (code == 69 && !change_pecks(c, more)) return;
+  if (pocket && !change_pocket(code, c, more)) return;
   if (coord_count_ != 0) {
     state_.error("FAG-014", g.word->pos, "G79 takes no point (error 163)");
     return;
@@ -307,18 +313,65 @@ bool BlockLowerer::variable_pecks(const GWord& g, const std::array<const Word*, 
   c.pecks.dwell = c.dwell_bottom;
   const Word* d = word('D');
   if (!d || (d->expr < 0 && d->number == 0)) return true;
-  // The surface lies D from the reference plane toward the bottom: downward, unless the words say otherwise.
+  surface_below(g, *d, c);
+  c.pecks.first_from_surface = true;
+  return true;
+}
+
+/// The surface lies D from the reference plane toward the bottom: downward, unless the words say otherwise.
+void BlockLowerer::surface_below(const GWord& g, const Word& d, ir::HoleCycle& c) {
   const bool known =
       c.bottom.value.literal() && c.reference.value.literal() && c.reference.base == ir::LevelBase::distance_mode;
   const bool upward = known && c.bottom.value.number >= c.reference.value.number;
   if (!known) {
-    state_.note("FAG-044", g.word->pos,
-                "the surface is taken to lie below the reference plane: the depth is known when the program runs");
+    state_.warning("FAG-044", g.word->pos,
+                   "the surface is taken to lie below the reference plane: the depth is known when the program runs");
   }
   c.surface.given = true;
   c.surface.base = ir::LevelBase::from_reference;
-  c.surface.value = upward ? value(*d) : ir::negate(value(*d));
-  c.pecks.first_from_surface = true;
+  c.surface.value = upward ? value(d) : ir::negate(value(d));
+}
+
+/// A letter of a pocket that may not be zero (error 1042).
+bool BlockLowerer::pocket_letter(const Word& w, char letter, bool zero_refused) {
+  if (!zero_refused || w.expr >= 0 || w.number != 0) return true;
+  state_.error("FAG-013", w.pos, std::string("the ") + letter + " of a pocket must not be zero (error 1042)");
+  return false;
+}
+
+/// G87 and G88: half sizes J K, axial pass B, step C, stock of the finishing pass L, feeds H and V.
+bool BlockLowerer::pocket_words(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c) {
+  const facts::MillingCycle& row = *facts::find_milling(g.row->value);
+  c.kind = ir::HoleKind::mill;
+  c.mill.shape = std::string(row.shape);
+  for (const auto& l : row.letters) {
+    const Word* w = l.letter == 0 ? nullptr : words[index(l.letter)];
+    if (!w) continue;
+    if (!pocket_letter(*w, l.letter, l.zero_refused)) return false;
+    c.mill.words.emplace_back(std::string(l.parameter), value(*w));
+  }
+  c.mill.words.emplace_back("step_factor", ir::Value(facts::pocket_step));
+  c.mill.words.emplace_back("plunge_factor", ir::Value(facts::pocket_plunge));
+  if (const Word* d = words[index('D')]; d && (d->expr >= 0 || d->number != 0)) surface_below(g, *d, c);
+  return true;
+}
+
+/// Letters of a pocket behind G79.
+bool BlockLowerer::change_pocket(int code, ir::HoleCycle& c, bool& changed) {
+  for (const auto& l : facts::find_milling(code)->letters) {
+    if (l.letter == 0) continue;
+    const Word* w = take(l.letter);
+    if (!w && ir::fixed_axis(l.letter) != ir::axis::none) w = take_coordinate(ir::fixed_axis(l.letter));
+    if (!w) continue;
+    if (!pocket_letter(*w, l.letter, l.zero_refused)) return false;
+    const auto it = std::find_if(c.mill.words.begin(), c.mill.words.end(),
+                                 [&l](const auto& word) { return word.first == l.parameter; });
+    if (it != c.mill.words.end())
+      it->second = value(*w);
+    else
+      c.mill.words.emplace_back(std::string(l.parameter), value(*w));
+    changed = true;
+  }
   return true;
 }
 

@@ -312,6 +312,10 @@ bool StatementLowering::modal_call(const Statement& s, ir::LineInfo& info) {
       c_.error("SIN-021", s.pos, s.text + " is no cycle that MCALL can run: it gives the positions for one");
       return false;
     }
+    if (sinumerik::cycle(s.text)->family == CycleFamily::milling) {
+      refuse("cycle.milling", s.pos, s.text + " as a modal call is not carried yet: it has a place of its own");
+      return false;
+    }
     out.cycle = cycle(s.text, s.args, s.pos);
     if (!out.cycle) return false;
   } else {

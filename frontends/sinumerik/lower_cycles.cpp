@@ -5,6 +5,7 @@
 
 #include "base/saturate.h"
 #include "dialects/sinumerik/cycles.h"
+#include "frontends/sinumerik/cycle_arguments.h"
 #include "frontends/sinumerik/lower_statements.h"
 
 namespace cnctrans::sinumerik {
@@ -13,41 +14,6 @@ using syntax::Expr;
 using syntax::ExprKind;
 
 namespace {
-
-/// The arguments of a call by name. An omitted one is 0.
-class Arguments {
- public:
-  Arguments(const CycleRow& row, std::vector<ir::Value> values, std::vector<bool> given)
-      : row_(row), values_(std::move(values)), given_(std::move(given)) {}
-
-  [[nodiscard]] bool given(std::string_view name) const {
-    const int i = parameter_index(row_, name);
-    return i >= 0 && static_cast<std::size_t>(i) < given_.size() && given_[static_cast<std::size_t>(i)];
-  }
-  [[nodiscard]] ir::Value get(std::string_view name) const {
-    return given(name) ? values_[static_cast<std::size_t>(parameter_index(row_, name))] : ir::Value(0);
-  }
-  /// Given, and not the literal 0 (which says the same as nothing).
-  [[nodiscard]] bool says(std::string_view name) const { return given(name) && !get(name).is(0); }
-
- private:
-  const CycleRow& row_;
-  std::vector<ir::Value> values_;
-  std::vector<bool> given_;
-};
-
-ir::Level level(ir::Value value, ir::LevelBase base) {
-  ir::Level l;
-  l.value = std::move(value);
-  l.base = base;
-  l.given = true;
-  return l;
-}
-
-ir::Value absolute_value(const ir::Value& v) {
-  if (!v.literal()) return v;
-  return v.number < 0 ? ir::negate(v) : v;
-}
 
 std::string_view feature_of(CycleFamily family) {
   switch (family) {
@@ -59,34 +25,6 @@ std::string_view feature_of(CycleFamily family) {
     case CycleFamily::measuring: break;
   }
   return "motion.probe";
-}
-
-/// Safety plane and depth. `down` is -1 when the retract plane lies above the reference plane, as it should.
-void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
-  const ir::Value rtp = a.get("RTP");
-  const ir::Value rfp = a.get("RFP");
-  double down = -1;
-  if (rtp.literal() && rfp.literal()) {
-    if (rtp.number < rfp.number) down = 1;
-    if (rtp.number == rfp.number)
-      c.warning("SIN-021", pos, "retract plane and reference plane are the same (alarm 61101 with a relative depth)");
-  } else {
-    c.note("SIN-021", pos, "the retract plane is taken to lie above the reference plane");
-  }
-  hole.retract = level(rtp, ir::LevelBase::absolute);
-  hole.surface = level(rfp, ir::LevelBase::absolute);
-  const ir::Value distance = absolute_value(a.get("SDIS"));
-  hole.reference = level(down < 0 ? distance : ir::negate(distance), ir::LevelBase::from_surface);
-  if (a.says("DPR")) {
-    if (a.says("DP"))
-      c.warning("SIN-021", pos,
-                "DP and DPR are both given: the depth is DPR below the reference plane, as on the control");
-    const ir::Value depth = absolute_value(a.get("DPR"));
-    hole.bottom = level(down < 0 ? ir::negate(depth) : depth, ir::LevelBase::from_surface);
-  } else {
-    hole.bottom = level(a.get("DP"), ir::LevelBase::absolute);
-  }
-  hole.approach_by_retract = false;
 }
 
 /// Seconds when positive, revolutions when negative.
@@ -385,6 +323,10 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   }
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);
+  if (row.family == CycleFamily::milling) {
+    if (!milling_words(*milling_cycle(name), a, hole, c_, pos)) return nullptr;
+    return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
+  }
   dwell(a.get("DTB"), hole, c_, pos);
   if (!kind_of(name, a, hole, c_, pos)) return nullptr;
   if (!modes(a, hole, c_, pos)) return nullptr;

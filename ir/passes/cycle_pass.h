@@ -10,6 +10,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/machining_moves.h"
+#include "ir/passes/milling_moves.h"
 
 namespace cnctrans::ir::passes {
 
@@ -39,6 +40,7 @@ class CyclePass {
         editor_(program, routine, context),
         uses_(label_uses(program, routine)),
         turning_(program, routine, context),
+        milling_(program, routine, context),
         height_(uses_),
         sense_(program) {
     if (routine.kind != RoutineKind::main) sense_.forget();
@@ -412,6 +414,7 @@ class CyclePass {
   Editor editor_;
   LabelUses uses_;
   TurnCycles turning_;
+  MillCycles milling_;
   std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
   ToolHeight height_;
   SpindleSense sense_;

@@ -158,7 +158,11 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   std::optional<double> height = active_->height;
   const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
   if (w && !height) height = height_mm(b, facts, *w);
-  if (hole == nullptr)
+  const bool milling = hole != nullptr && hole->kind == HoleKind::mill;
+  if (milling)
+    moves = milling_.write_out(*hole, s, b, facts, height, active_->defined_at ? active_->defined_at : height,
+                               sense_.now(), &error);
+  else if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
     moves = explode(*hole, s.line, b, facts, height.value_or(1e6), active_->defined_at.value_or(height.value_or(1e6)),
@@ -168,10 +172,14 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
     bool downward = false;
     moves = explode_computed(*hole, s.line, b, facts, initial, sense_.now(), editor_, &downward, &error);
     if (moves && downward)
-      context_.diagnostics.note("TRN-334", s.line.span,
-                                "the hole is taken to go downward: how deep it is only the run knows");
+      context_.diagnostics.warning("TRN-334", s.line.span,
+                                   "the hole is taken to go downward: how deep it is only the run knows");
   }
   if (!moves) return no_moves(std::move(s), error, out);
+  if (milling)
+    context_.diagnostics.note("TRN-333", s.line.span,
+                              "the cycle is written out as its " + std::to_string(moves->blocks.size()) +
+                                  " moves: the target has none that moves the same way");
   position_rapid(b, context_);
   active_->height = moves->end_height;
   const std::size_t main = pieces.size();

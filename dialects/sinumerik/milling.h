@@ -1,0 +1,83 @@
+// Milling cycles that the IR carries: their parameters and those of ir/cycles/milling (reference-language 18.3).
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace cnctrans::sinumerik {
+
+/// Trailing parameters of the newer signatures that are carried as 0 only.
+inline constexpr std::string_view unread_milling_modes = "UMODE,FS,ZFS,GMODE,DMODE";
+
+struct MillingCycle {
+  std::string_view name;                                                     ///< "POCKET3"
+  std::string_view shape;                                                    ///< row of ir/cycles/milling
+  std::array<std::pair<std::string_view, std::string_view>, 20> parameters;  ///< own name, name in the IR
+  std::string_view needs;      ///< own names that must be given, separated by one comma each
+  std::string_view variants;   ///< values of VARI that are carried; empty: it has none
+  std::string_view only_zero;  ///< own names that are carried as 0 only
+};
+
+// clang-format off
+inline constexpr std::array milling_cycles = {
+    MillingCycle{"POCKET3", "pocket.rect",
+                 {{{"LENG", "length"}, {"WID", "width"}, {"CRAD", "corner"}, {"PA", "u"}, {"PO", "v"}, {"STA", "angle"},
+                   {"MID", "infeed"}, {"FAL", "wall_stock"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
+                   {"FFD", "plunge_feed"}, {"CDIR", "sense"}, {"VARI", "variant"}, {"MIDA", "step"},
+                   {"AP1", "blank_length"}, {"AP2", "blank_width"}, {"AD", "blank_depth"}, {"RAD1", "plunge_radius"},
+                   {"DP1", "plunge_pitch"}}},
+                 "LENG,WID,PA,PO,MID,VARI", "1,2,11,12,21,22,31,32", ""},
+    MillingCycle{"POCKET4", "pocket.circle",
+                 {{{"PRAD", "radius"}, {"PA", "u"}, {"PO", "v"}, {"MID", "infeed"}, {"FAL", "wall_stock"},
+                   {"FALD", "floor_stock"}, {"FFP1", "mill_feed"}, {"FFD", "plunge_feed"}, {"CDIR", "sense"},
+                   {"VARI", "variant"}, {"MIDA", "step"}, {"AP1", "blank_length"}, {"AD", "blank_depth"},
+                   {"RAD1", "plunge_radius"}, {"DP1", "plunge_pitch"}}},
+                 "PRAD,PA,PO,MID,VARI", "1,2,11,12,21,22", ""},
+    MillingCycle{"SLOT1", "slot.radial",
+                 {{{"NUM", "count"}, {"LENG", "length"}, {"WID", "width"}, {"CPA", "u"}, {"CPO", "v"},
+                   {"RAD", "radius"}, {"STA1", "angle"}, {"INDA", "angle_step"}, {"FFD", "plunge_feed"},
+                   {"FFP1", "mill_feed"}, {"MID", "infeed"}, {"CDIR", "sense"}, {"FAL", "wall_stock"},
+                   {"VARI", "operation"}, {"MIDF", "finish_infeed"}, {"FFP2", "finish_feed"}, {"SSF", "finish_speed"},
+                   {"FALD", "floor_stock"}}},
+                 "NUM,LENG,WID,CPA,CPO,RAD,STA1", "0,1,2", "STA2"},
+    MillingCycle{"SLOT2", "slot.ring",
+                 {{{"NUM", "count"}, {"AFSL", "opening"}, {"WID", "width"}, {"CPA", "u"}, {"CPO", "v"},
+                   {"RAD", "radius"}, {"STA1", "angle"}, {"INDA", "angle_step"}, {"FFD", "plunge_feed"},
+                   {"FFP1", "mill_feed"}, {"MID", "infeed"}, {"CDIR", "sense"}, {"FAL", "wall_stock"},
+                   {"VARI", "operation"}, {"MIDF", "finish_infeed"}, {"FFP2", "finish_feed"},
+                   {"SSF", "finish_speed"}}},
+                 "NUM,AFSL,WID,CPA,CPO,RAD,STA1", "0,1,2", ""},
+    MillingCycle{"LONGHOLE", "slot.long",
+                 {{{"NUM", "count"}, {"LENG", "length"}, {"CPA", "u"}, {"CPO", "v"}, {"RAD", "radius"},
+                   {"STA1", "angle"}, {"INDA", "angle_step"}, {"FFD", "plunge_feed"}, {"FFP1", "mill_feed"},
+                   {"MID", "infeed"}}},
+                 "NUM,LENG,CPA,CPO,RAD,STA1", "", ""},
+    MillingCycle{"CYCLE71", "face",
+                 {{{"PA", "u"}, {"PO", "v"}, {"LENG", "length"}, {"WID", "width"}, {"STA", "angle"}, {"MID", "infeed"},
+                   {"MIDA", "step"}, {"FDP", "overrun"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
+                   {"VARI", "variant"}, {"FDP1", "overrun_across"}}},
+                 "PA,PO,LENG,WID,MID,VARI", "11,12,21,22,31,32,41,42", ""},
+    MillingCycle{"POCKET1", "pocket.rect",
+                 {{{"LENG", "length"}, {"WID", "width"}, {"CRAD", "corner"}, {"CPA", "u"}, {"CPO", "v"},
+                   {"STA1", "angle"}, {"FFD", "plunge_feed"}, {"FFP1", "mill_feed"}, {"MID", "infeed"},
+                   {"CDIR", "sense"}, {"FAL", "wall_stock"}, {"VARI", "operation"}, {"MIDF", "finish_infeed"},
+                   {"FFP2", "finish_feed"}, {"SSF", "finish_speed"}}},
+                 "LENG,WID,CPA,CPO", "0,1,2", ""},
+    MillingCycle{"POCKET2", "pocket.circle",
+                 {{{"PRAD", "radius"}, {"CPA", "u"}, {"CPO", "v"}, {"FFD", "plunge_feed"}, {"FFP1", "mill_feed"},
+                   {"MID", "infeed"}, {"CDIR", "sense"}, {"FAL", "wall_stock"}, {"VARI", "operation"},
+                   {"MIDF", "finish_infeed"}, {"FFP2", "finish_feed"}, {"SSF", "finish_speed"}}},
+                 "PRAD,CPA,CPO", "0,1,2", ""},
+};
+// clang-format on
+
+/// By its own name (capitals); null: none.
+inline constexpr const MillingCycle* milling_cycle(std::string_view name) {
+  for (const auto& c : milling_cycles) {
+    if (c.name == name) return &c;
+  }
+  return nullptr;
+}
+
+}  // namespace cnctrans::sinumerik

@@ -1,0 +1,44 @@
+// What drilling and milling cycles have in common: arguments by name, planes and depth (reference-language 18).
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/milling.h"
+#include "frontends/sinumerik/context.h"
+#include "ir/cycle.h"
+
+namespace cnctrans::sinumerik {
+
+/// The arguments of a call by name. An omitted one is 0.
+class Arguments {
+ public:
+  Arguments(const CycleRow& row, std::vector<ir::Value> values, std::vector<bool> given)
+      : row_(row), values_(std::move(values)), given_(std::move(given)) {}
+
+  [[nodiscard]] bool given(std::string_view name) const {
+    const int i = parameter_index(row_, name);
+    return i >= 0 && static_cast<std::size_t>(i) < given_.size() && given_[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] ir::Value get(std::string_view name) const {
+    return given(name) ? values_[static_cast<std::size_t>(parameter_index(row_, name))] : ir::Value(0);
+  }
+  /// Given, and not the literal 0 (which says the same as nothing).
+  [[nodiscard]] bool says(std::string_view name) const { return given(name) && !get(name).is(0); }
+
+ private:
+  const CycleRow& row_;
+  std::vector<ir::Value> values_;
+  std::vector<bool> given_;
+};
+
+ir::Level level(ir::Value value, ir::LevelBase base);
+ir::Value absolute_value(const ir::Value& v);
+/// Safety plane and depth. They lie below the retract plane, as they should, unless numbers say otherwise.
+void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
+/// Shape and words of a milling cycle (18.3); false: an error has been reported.
+bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
+
+}  // namespace cnctrans::sinumerik

@@ -1,0 +1,107 @@
+// Milling cycles: the radius of the tool, and the moves of the expansion, one event each.
+#include <algorithm>
+#include <string>
+
+#include "base/text.h"
+#include "interpreter/block_machine.h"
+#include "interpreter/run_codes.h"
+
+namespace cnctrans::interpreter {
+
+namespace {
+
+using ir::cycles::MillStep;
+
+/// The name of a datum with the numbers of the tool (#T) and of its offset or edge (#D).
+std::string with_numbers(std::string_view name, std::int32_t tool, std::int32_t offset) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool mark = name[i] == '#' && i + 1 < name.size();
+    if (mark)
+      out += std::to_string(name[++i] == 'T' ? tool : offset);
+    else
+      out += name[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+double BlockMachine::tool_radius() {
+  const std::int32_t number = tool_in_spindle_ != 0 ? tool_in_spindle_ : tool_;
+  std::string list = profile_.option("tool.radius_data");
+  list += list.empty() ? "TOOL_RADIUS" : "|TOOL_RADIUS";
+  for (std::string_view rest = list; !rest.empty();) {
+    const auto bar = std::min(rest.find('|'), rest.size());
+    const std::string name = with_numbers(rest.substr(0, bar), number, offset_);
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+    const double length = policy_.data_modal ? unit() : 1;
+    if (const auto it = written_.find(name); it != written_.end()) {
+      unread_.erase(name);
+      return it->second * length;
+    }
+    if (const auto it = profile_.data.find(name); it != profile_.data.end()) return it->second * length;
+  }
+  const auto tool = std::find_if(profile_.tools.begin(), profile_.tools.end(),
+                                 [number](const auto& t) { return t.number == number; });
+  return tool == profile_.tools.end() ? 0 : tool->radius;
+}
+
+bool BlockMachine::run_milling() {
+  const auto plane = ir::plane_axes(modal_.plane);
+  if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
+  ir::cycles::MillContext context;
+  context.u = p_[plane.u];
+  context.v = p_[plane.v];
+  context.w = p_[plane.w];
+  context.tool_radius = tool_radius();
+  context.spindle_ccw = spindles_[1].state == ir::SpindleState::ccw;
+  context.plane = modal_.retract_plane;
+  if (context.tool_radius <= 0) {
+    return failure_.fail(code::bad_cycle,
+                         "the passes of a milling cycle depend on the radius of the tool, which is not known: give it "
+                         "in the profile's \"tools\" or by --set TOOL_RADIUS=5");
+  }
+  std::string error;
+  const auto moves = ir::cycles::expand(mill_, *hole_, context, &error);
+  if (!moves) {
+    return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
+  }
+  const double speed = spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  for (const auto& m : *moves) {
+    if (!milling_move(m, speed)) return false;
+  }
+  return true;
+}
+
+bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
+  if (m.step == MillStep::speed || m.step == MillStep::restore_speed) {
+    auto& spindle = spindles_[1];
+    spindle.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.step == MillStep::speed ? m.amount : speed;
+    if (spindle.state != ir::SpindleState::off) emit_spindle(1);
+    return true;
+  }
+  const auto plane = ir::plane_axes(modal_.plane);
+  Move move = move_from_here();
+  move.to[plane.u] = m.u;
+  move.to[plane.v] = m.v;
+  move.to[plane.w] = m.w;
+  move.kind = m.step == MillStep::rapid ? Move::Kind::rapid
+              : m.step == MillStep::arc ? Move::Kind::arc
+                                        : Move::Kind::linear;
+  move.feed = (m.has_feed ? m.feed : feed_now()) * m.feed_factor;
+  move.feed_degrees.reset();
+  if (move.kind == Move::Kind::arc) {
+    move.plane = modal_.plane;
+    move.centre = {m.cu, m.cv};
+    move.ccw = m.ccw;
+  }
+  if (move.kind != Move::Kind::rapid && move.feed <= 0)
+    return failure_.fail(code::bad_cycle, "a milling cycle needs a feed: its own, or the one in force");
+  if (!emit_move(move, false)) return false;
+  p_ = move.to;
+  has_path_ = false;
+  return true;
+}
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,170 @@
+#include "ir/cycles/milling.h"
+
+#include <algorithm>
+#include <array>
+
+#include "ir/cycles/mill_moves.h"
+
+namespace cnctrans::ir::cycles {
+
+namespace {
+
+using enum MillQuantity;
+
+constexpr std::array parameters = {
+    MillParameter{"u", place_u, "place in the plane, first axis; left out: where the tool stands"},
+    MillParameter{"v", place_v, "place in the plane, second axis"},
+    MillParameter{"length", length, "size along the first axis, over all"},
+    MillParameter{"width", length, "size along the second axis, over all"},
+    MillParameter{"half_length", length, "half the size along the first axis; + is clockwise, - counter-clockwise"},
+    MillParameter{"half_width", length, "half the size along the second axis"},
+    MillParameter{"corner", length, "radius of the corners; 0: that of the tool"},
+    MillParameter{"radius", length, "of a circle; of the circle on which slots lie"},
+    MillParameter{"signed_radius", length, "of a circle; + is clockwise, - counter-clockwise"},
+    MillParameter{"angle", plain, "of the first axis of the shape to the plane's, degrees"},
+    MillParameter{"angle_step", plain, "from one slot to the next, degrees; 0: evenly round"},
+    MillParameter{"opening", plain, "angle that a slot on a circle spans between the middles of its ends, degrees"},
+    MillParameter{"count", plain, "number of slots"},
+    MillParameter{"infeed", length, "largest infeed; levels are equal; 0: in one"},
+    MillParameter{"signed_infeed", length,
+                  "+ equal infeeds not above it, - infeeds of its size and a smaller last one"},
+    MillParameter{"step", length, "largest step in the plane; 0: by step_factor"},
+    MillParameter{"step_factor", plain, "step in tool diameters where none is given"},
+    MillParameter{"wall_stock", length, "left at the wall by roughing"},
+    MillParameter{"floor_stock", length, "left at the floor by roughing"},
+    MillParameter{"wall_pass", length,
+                  "left by roughing at the wall and taken by a last pass on every level; unsigned"},
+    MillParameter{"mill_feed", feed, "in the plane; left out or 0: the feed in force"},
+    MillParameter{"plunge_feed", feed, "into the material; left out or 0: plunge_factor times the feed in force"},
+    MillParameter{"plunge_factor", plain, "see plunge_feed; 1 where left out"},
+    MillParameter{"finish_feed", feed, "of finishing; left out or 0: mill_feed"},
+    MillParameter{"finish_infeed", length, "of finishing the wall; 0: in one"},
+    MillParameter{"finish_speed", plain, "rev/min of finishing; left out or 0: as before"},
+    MillParameter{"sense", plain, "0 climb, 1 conventional milling, 2 clockwise, 3 counter-clockwise"},
+    MillParameter{"operation", plain, "0 roughing and finishing, 1 roughing, 2 finishing"},
+    MillParameter{"variant", plain, "units 1 roughing, 2 finishing; tens: the way in, or the way of the passes"},
+    MillParameter{"plunge_radius", length, "of the helix (way in 2); of a ramp (3) its angle is in degrees"},
+    MillParameter{"plunge_pitch", length, "of the helix"},
+    MillParameter{"blank_length", length, "of a blank that is there already"},
+    MillParameter{"blank_width", length, "of a blank that is there already"},
+    MillParameter{"blank_depth", length, "of a blank that is there already"},
+    MillParameter{"overrun", length, "of a face pass beyond the part, along the pass"},
+    MillParameter{"overrun_across", length, "of the last face pass beyond the part, across"},
+};
+
+constexpr std::array shapes = {
+    MillShape{"pocket.rect", MillKind::rectangle,
+              "u,v,length,width,half_length,half_width,corner,angle,infeed,signed_infeed,step,step_factor,wall_stock,"
+              "floor_stock,wall_pass,mill_feed,plunge_feed,plunge_factor,finish_feed,finish_infeed,finish_speed,sense,"
+              "operation,variant,plunge_radius,plunge_pitch,blank_length,blank_width,blank_depth",
+              "rectangular pocket"},
+    MillShape{"pocket.circle", MillKind::circle,
+              "u,v,radius,signed_radius,infeed,signed_infeed,step,step_factor,wall_stock,floor_stock,wall_pass,"
+              "mill_feed,plunge_feed,plunge_factor,finish_feed,finish_infeed,finish_speed,sense,operation,variant,"
+              "plunge_radius,plunge_pitch,blank_length,blank_depth",
+              "circular pocket"},
+    MillShape{"slot.radial", MillKind::slot,
+              "u,v,count,length,width,radius,angle,angle_step,infeed,step,step_factor,wall_stock,floor_stock,mill_feed,"
+              "plunge_feed,finish_feed,finish_infeed,finish_speed,sense,operation",
+              "slots that point to the middle of a circle"},
+    MillShape{"slot.long", MillKind::long_hole, "u,v,count,length,radius,angle,angle_step,infeed,mill_feed,plunge_feed",
+              "long holes of the tool's width that point to the middle of a circle"},
+    MillShape{"slot.ring", MillKind::ring_slot,
+              "u,v,count,opening,width,radius,angle,angle_step,infeed,step,step_factor,wall_stock,mill_feed,"
+              "plunge_feed,finish_feed,finish_infeed,finish_speed,sense,operation",
+              "slots along a circle"},
+    MillShape{"face", MillKind::face,
+              "u,v,length,width,angle,infeed,step,step_factor,floor_stock,mill_feed,overrun,overrun_across,variant",
+              "face of a rectangle"},
+};
+
+bool in_list(std::string_view rest, std::string_view name) {
+  while (!rest.empty()) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    if (rest.substr(0, comma) == name) return true;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return false;
+}
+double factor_of(MillQuantity q, const MillUnits& units) {
+  switch (q) {
+    case place_u: return units.u;
+    case place_v: return units.v;
+    case length: return units.length;
+    case feed: return units.feed;
+    case plain: break;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::span<const MillParameter> mill_parameters() {
+  return parameters;
+}
+const MillParameter* find_mill_parameter(std::string_view name) {
+  const auto it = std::find_if(parameters.begin(), parameters.end(), [name](const auto& p) { return p.name == name; });
+  return it == parameters.end() ? nullptr : &*it;
+}
+std::span<const MillShape> mill_shapes() {
+  return shapes;
+}
+const MillShape* find_mill_shape(std::string_view name) {
+  const auto it = std::find_if(shapes.begin(), shapes.end(), [name](const auto& s) { return s.name == name; });
+  return it == shapes.end() ? nullptr : &*it;
+}
+
+bool has_sense(const MillNumbers& mill) {
+  return mill.shape != nullptr && in_list(mill.shape->parameters, "sense");
+}
+
+std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& units, const Evaluate& evaluate,
+                                   std::string* error) {
+  error->clear();
+  MillNumbers out;
+  out.shape = find_mill_shape(words.shape);
+  if (out.shape == nullptr) {
+    *error = "there is no milling cycle of the shape " + words.shape;
+    return std::nullopt;
+  }
+  for (const auto& [word, v] : words.words) {
+    const auto* p = find_mill_parameter(word);
+    if (p == nullptr || !in_list(out.shape->parameters, word)) {
+      *error = "the milling cycle " + words.shape + " has no parameter " + word;
+      return std::nullopt;
+    }
+    const auto x = evaluate(v);
+    if (!x) return std::nullopt;
+    // A ramp's angle stands where a helix has its radius.
+    const bool angle = p->name == "plunge_radius" && detail::plunge_of(out) == detail::Plunge::ramp;
+    out.words[p->name] = *x * (angle ? 1 : factor_of(p->quantity, units));
+  }
+  return out;
+}
+
+std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleNumbers& levels,
+                                            const MillContext& context, std::string* error) {
+  error->clear();
+  if (context.tool_radius <= 0) {
+    *error = "a milling cycle needs the radius of the tool";
+    return std::nullopt;
+  }
+  detail::MillPath path(mill, levels, context);
+  bool done = false;
+  switch (mill.shape->kind) {
+    case MillKind::rectangle:
+    case MillKind::circle: done = detail::pocket(path, mill.shape->kind == MillKind::circle, error); break;
+    case MillKind::slot: done = detail::slots(path, error); break;
+    case MillKind::long_hole: done = detail::long_holes(path, error); break;
+    case MillKind::ring_slot: done = detail::ring_slots(path, error); break;
+    case MillKind::face: done = detail::face(path, error); break;
+  }
+  if (done && path.lost()) {
+    *error = "the place of the tool before it is not known here";
+    done = false;
+  }
+  if (!done) return std::nullopt;
+  return path.take();
+}
+
+}  // namespace cnctrans::ir::cycles

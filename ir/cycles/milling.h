@@ -1,0 +1,88 @@
+// Milling cycles (pockets, slots, faces, bosses): shapes and their parameters, and their expansion into elementary
+// moves. A milling cycle is a HoleCycle of kind `mill`: its levels are those of a hole, its words are `MillWords`.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/cycles/hole.h"
+
+namespace cnctrans::ir::cycles {
+
+/// What a parameter is counted in.
+enum class MillQuantity : std::uint8_t {
+  place_u,  ///< coordinate of the plane's first axis in the work frame
+  place_v,  ///< of its second axis
+  length,   ///< length in the unit in force
+  feed,     ///< as F words
+  plain     ///< degrees, counts, codes, factors, rev/min
+};
+struct MillParameter {
+  std::string_view name;
+  MillQuantity quantity;
+  std::string_view meaning;
+};
+std::span<const MillParameter> mill_parameters();
+/// nullptr: milling cycles have none of this name.
+const MillParameter* find_mill_parameter(std::string_view name);
+
+enum class MillKind : std::uint8_t { rectangle, circle, slot, long_hole, ring_slot, face };
+struct MillShape {
+  std::string_view name;  ///< `MillWords::shape`
+  MillKind kind;
+  std::string_view parameters;  ///< separated by one comma each
+  std::string_view title;       ///< for people
+};
+std::span<const MillShape> mill_shapes();
+/// nullptr: no such shape.
+const MillShape* find_mill_shape(std::string_view name);
+
+/// What one unit of a word is in mm (mm/min for feeds).
+struct MillUnits {
+  double u = 1, v = 1, length = 1, feed = 1;
+};
+/// Parameters in mm, degrees and mm/min by name; what the source left out is not there.
+struct MillNumbers {
+  const MillShape* shape = nullptr;
+  std::map<std::string_view, double> words;
+};
+/// nullopt with a sentence in `error`: no such shape or parameter; without one: `evaluate` gave up.
+std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& units, const Evaluate& evaluate,
+                                   std::string* error);
+
+/// Which way round the tool goes follows from `sense` (the shape has walls).
+bool has_sense(const MillNumbers& mill);
+
+enum class MillStep : std::uint8_t {
+  rapid,
+  feed,
+  arc,
+  speed,         ///< `amount` rev/min from here on
+  restore_speed  ///< the speed before the cycle
+};
+struct MillMove {
+  MillStep step = MillStep::rapid;
+  double u = 0, v = 0, w = 0;  ///< end point in the work frame, mm
+  double cu = 0, cv = 0;       ///< arc: centre in the plane; an arc that ends where it starts is a full circle
+  bool ccw = false;            ///< seen against the third axis of the plane
+  bool has_feed = false;       ///< `feed` replaces the feed in force
+  double feed = 0;
+  double feed_factor = 1;  ///< times the feed
+  double amount = 0;
+};
+struct MillContext {
+  double u = 0, v = 0, w = 0;  ///< of the tool when the cycle runs, mm in the work frame; NaN: not known
+  double tool_radius = 0;      ///< mm, greater than 0
+  bool spindle_ccw = false;    ///< climb milling goes the other way round
+  RetractPlane plane = RetractPlane::initial;
+};
+/// The moves of one machining; nullopt with a sentence in `error` when it makes no sense (tool too large, no size,
+/// nothing to take away) or is not carried. Moves to where the tool already stands are not listed.
+std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleNumbers& levels,
+                                            const MillContext& context, std::string* error);
+
+}  // namespace cnctrans::ir::cycles

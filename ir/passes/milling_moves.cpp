@@ -1,0 +1,339 @@
+#include "ir/passes/milling_moves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/text.h"
+#include "ir/passes/blocks.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+using cycles::MillMove;
+using cycles::MillStep;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<double> known(const Value& v) {
+  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
+}
+std::optional<std::int32_t> whole(const Value& v) {
+  const auto n = known(v);
+  return n ? std::optional(static_cast<std::int32_t>(std::lround(*n))) : std::nullopt;
+}
+
+bool has_milling(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || found) return;
+      for (const auto& a : b->actions) {
+        const auto* d = std::get_if<CycleDefine>(&a.data);
+        const auto* hole = d != nullptr && d->cycle ? std::get_if<HoleCycle>(&d->cycle->node) : nullptr;
+        found = found || (hole != nullptr && hole->kind == HoleKind::mill);
+      }
+    });
+  }
+  return found;
+}
+
+/// The block leaves tool and zero where they are, but for a milling cycle without a move of its own.
+bool stays(const Block& b) {
+  if (b.has_motion) return false;
+  return std::all_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    if (const auto* d = std::get_if<CycleDefine>(&a.data)) {
+      const auto* hole = d->cycle ? std::get_if<HoleCycle>(&d->cycle->node) : nullptr;
+      return hole != nullptr && hole->kind == HoleKind::mill;
+    }
+    return !std::holds_alternative<FrameOp>(a.data) && !std::holds_alternative<WorkOffset>(a.data) &&
+           !std::holds_alternative<ModalSet>(a.data);
+  });
+}
+
+std::string datum_name(const SystemRef& ref) {
+  std::string out = ref.text;
+  for (std::size_t i = 0; i < ref.args.size(); ++i) {
+    const auto n = constant_value(ref.args[i]);
+    out += (i == 0 ? "[" : ",") + (n ? shortest(*n) : std::string("*"));
+  }
+  return ref.args.empty() ? out : out + "]";
+}
+
+/// Where the tool stands behind the motion of the block, in program units; nullopt: not known.
+std::optional<double> place_after(const Block& b, const Facts& facts, AxisId axis) {
+  if (!b.has_motion) return facts.position[axis];
+  if (b.motion.extra || b.motion.frame != FrameUse::normal) return std::nullopt;
+  for (const auto& c : b.motion.coords) {
+    if (c.axis != axis) continue;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    const auto n = known(c.value);
+    const bool absolute = c.mode == WordMode::absolute || (c.mode == WordMode::modal && distance == Distance::absolute);
+    return absolute && c.scale == WordScale::modal ? n : std::nullopt;
+  }
+  return facts.position[axis];
+}
+
+/// Moves as blocks.
+class Writer {
+ public:
+  Writer(const LineInfo& like, PlaneAxes axes, double unit, std::optional<double> feed)
+      : axes_(axes), unit_(unit), feed_(feed) {
+    line_.span = like.span;
+    line_.skip_mask = like.skip_mask;
+  }
+  Body blocks;
+  double u = 0, v = 0, w = 0;
+  bool incremental = false;  ///< in the plane
+
+  bool add(const MillMove& m, std::optional<double> speed, std::string* error) {
+    if (m.step == MillStep::speed || m.step == MillStep::restore_speed) {
+      if (m.step == MillStep::restore_speed && !speed)
+        return *error = "the speed of the spindle before the cycle is not known here", false;
+      const double n = m.step == MillStep::speed ? m.amount : *speed;
+      blocks.push_back(make_block(line_, action(SetSpindle{1, Value{n}})));
+      return true;
+    }
+    Block b;
+    b.has_motion = true;
+    Motion& motion = b.motion;
+    motion.explicit_code = true;
+    motion.keeps_modal = false;
+    motion.kind = m.step == MillStep::rapid  ? MotionKind::rapid
+                  : m.step == MillStep::feed ? MotionKind::linear
+                  : m.ccw                    ? MotionKind::arc_ccw
+                                             : MotionKind::arc_cw;
+    if (m.step != MillStep::rapid && !feed(m, b, error)) return false;
+    const bool arc = m.step == MillStep::arc;
+    coordinate(motion, axes_.u, m.u, u, incremental, arc);
+    coordinate(motion, axes_.v, m.v, v, incremental, arc);
+    coordinate(motion, axes_.w, m.w, w, false, false);
+    if (arc) {
+      centre(motion, axes_.u, m.cu - u);
+      centre(motion, axes_.v, m.cv - v);
+    }
+    u = m.u;
+    v = m.v;
+    w = m.w;
+    blocks.push_back(made(line_, std::move(b)));
+    return true;
+  }
+  /// The feed in force goes on behind the cycle.
+  bool finish(std::string* error) {
+    if (!changed_) return true;
+    if (!feed_) return *error = "the feed after the cycle's own one is not known here", false;
+    blocks.push_back(make_block(line_, action(SetFeed{Value{*feed_}, false})));
+    return true;
+  }
+
+ private:
+  bool feed(const MillMove& m, Block& b, std::string* error) {
+    const bool own = m.has_feed || m.feed_factor != 1;
+    if (!own && !changed_) return true;
+    if (!m.has_feed && !feed_) return *error = "the feed in force is not known here", false;
+    const double f = tidy((m.has_feed ? m.feed / unit_ : *feed_) * m.feed_factor);
+    if (changed_ && last_feed_ == f) return true;
+    b.actions.push_back(action(SetFeed{Value{f}, false}));
+    changed_ = !feed_ || f != *feed_;
+    last_feed_ = f;
+    return true;
+  }
+  /// Without the dust of the last binary places.
+  static double tidy(double x) { return std::round(x * 1e9) / 1e9; }
+
+  void coordinate(Motion& m, AxisId axis, double to, double from, bool by, bool always) const {
+    if (!always && std::abs(to - from) < 1e-9) return;  // false: not known
+    CoordWord c;
+    c.axis = axis;
+    c.mode = by ? WordMode::incremental : WordMode::absolute;
+    c.value = Value{tidy((by ? to - from : to) / unit_)};
+    m.coords.push_back(c);
+  }
+  void centre(Motion& m, AxisId axis, double by) const {
+    CenterWord c;
+    c.axis = axis;
+    c.mode = CenterMode::from_start;
+    c.scale = WordScale::radius;
+    c.value = Value{tidy(by / unit_)};
+    m.centers.push_back(c);
+  }
+
+  LineInfo line_;
+  PlaneAxes axes_;
+  double unit_;
+  std::optional<double> feed_;
+  bool changed_ = false;
+  double last_feed_ = 0;
+};
+
+}  // namespace
+
+MillCycles::MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
+    : context_(context) {
+  if (!has_milling(program)) return;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [this](const Statement& s) {
+      const auto* assign = std::get_if<Assign>(&s.node);
+      if (assign == nullptr) return;
+      for (const auto& item : assign->items) {
+        if (!item.to_system) continue;
+        const auto value = constant_value(item.value);
+        const auto [it, fresh] = written_.emplace(datum_name(item.system), value);
+        if (!fresh && it->second != value) it->second.reset();
+      }
+    });
+  }
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [this](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      no_feed_ = no_feed_ && (b == nullptr || std::none_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+                                return std::holds_alternative<SetFeed>(a.data);
+                              }));
+    });
+  }
+  const LabelUses uses = label_uses(program, routine);
+  std::set<std::uint32_t> outside;  // of every structure
+  for (const auto& s : routine.body) outside.insert(s.id);
+  Site site;
+  if (routine.kind == RoutineKind::main) site.offset = 0;
+  const auto forget = [&site] {
+    site.tool.reset();
+    site.offset.reset();
+    ++site.after;
+  };
+  for_each_statement(routine.body, [&](const Statement& s) {
+    for (const auto& l : labels_on(s.line)) {
+      if (uses.is_target(l)) forget();
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) {
+      if (!ToolHeight::keeps(s) && !std::holds_alternative<Jump>(s.node)) forget();
+      return;
+    }
+    if (outside.count(s.id) == 0 || s.line.skip_mask != 0) ++site.after;
+    site.before = site.after;
+    if (!stays(*b) || outside.count(s.id) == 0 || s.line.skip_mask != 0) ++site.after;
+    for (const auto& a : b->actions) {
+      if (const auto* t = std::get_if<ToolSelect>(&a.data))
+        site.tool = t->name.empty() && s.line.skip_mask == 0 ? whole(t->number) : std::nullopt;
+      if (const auto* d = std::get_if<ToolOffset>(&a.data)) site.offset = whole(d->number);
+    }
+    sites_[s.id] = site;
+  });
+}
+
+std::optional<double> MillCycles::radius(const Site& site, double length_unit, std::string* error) const {
+  const auto& machine = context_.source_machine;
+  std::string list = machine.option("tool.radius_data");
+  list += list.empty() ? "TOOL_RADIUS" : "|TOOL_RADIUS";
+  for (std::string_view rest = list; !rest.empty();) {
+    const auto bar = std::min(rest.find('|'), rest.size());
+    std::string name(rest.substr(0, bar));
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+    const auto put = [&](std::string_view mark, std::optional<std::int32_t> number) {
+      const auto at = name.find(mark);
+      if (at != std::string::npos) name.replace(at, 2, number ? std::to_string(*number) : std::string("*"));
+    };
+    put("#T", site.tool);
+    put("#D", site.offset);
+    if (name.find('*') != std::string::npos) {
+      const auto stem = name.substr(0, name.find_first_of("[*"));
+      const auto like = [&stem](const auto& item) { return item.first.starts_with(stem); };
+      if (std::none_of(written_.begin(), written_.end(), like) &&
+          std::none_of(machine.data.begin(), machine.data.end(), like))
+        continue;
+      return *error = "which tool is in use is not known here", std::nullopt;
+    }
+    const double scale = machine.option("machine_data.units") == "modal" ? length_unit : 1;
+    if (const auto it = written_.find(name); it != written_.end()) {
+      if (!it->second) return *error = "the radius of the tool is computed when the program runs", std::nullopt;
+      return *it->second * scale;
+    }
+    if (const auto it = machine.data.find(name); it != machine.data.end()) return it->second * scale;
+  }
+  if (!machine.tools.empty()) {
+    if (!site.tool) return *error = "which tool is in use is not known here", std::nullopt;
+    const auto tool =
+        std::find_if(machine.tools.begin(), machine.tools.end(), [&](const auto& t) { return t.number == *site.tool; });
+    if (tool != machine.tools.end() && tool->radius > 0) return tool->radius;
+  }
+  return *error = "its passes depend on the radius of the tool, which the source's machine profile does not give",
+         std::nullopt;
+}
+
+std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Statement& s, const Block& b,
+                                               const Facts& facts, std::optional<double> height,
+                                               std::optional<double> defined_at, std::optional<SpindleState> sense,
+                                               std::string* error) const {
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+  const auto in_plane = setting_in<Plane>(b, facts, Setting::plane);
+  const auto diameter = setting_in<DiameterMode>(b, facts, Setting::diameter);
+  const auto axis_id = cycle_axis(c, b, facts);
+  const auto it = sites_.find(s.id);
+  if (!axis_id || !units || !distance || !in_plane || it == sites_.end() || *axis_id != plane_axes(*in_plane).w)
+    return *error = "plane, units or absolute and incremental are not known here", std::nullopt;
+  if (diameter != DiameterMode::radius && *in_plane != Plane::yz)
+    return *error = "its places would be diameters", std::nullopt;
+  const auto axes = plane_axes(*in_plane);
+  const double unit = *units == Units::inch ? 25.4 : 1;
+  cycles::HoleContext levels;
+  levels.length_unit = levels.level_unit = levels.feed_unit = unit;
+  levels.distance = *distance;
+  levels.height = defined_at.value_or(unknown);
+  const auto literal = [](const Value& v) { return known(v); };
+  const auto numbers = cycles::resolve(c, levels, literal, error);
+  const auto words = cycles::resolve(c.mill, {unit, unit, unit, unit}, literal, error);
+  if (!numbers || !words) {
+    if (error->empty()) *error = "its words are computed when the program runs";
+    return std::nullopt;
+  }
+  const auto plane = setting_in<RetractPlane>(b, facts, Setting::retract_plane);
+  const double leaves = cycles::retract_level(*numbers, plane.value_or(RetractPlane::initial));
+  const bool by_plane = !numbers->has_retract && !plane;
+  if (std::isnan(numbers->reference + numbers->surface + numbers->bottom + leaves) || by_plane)
+    return *error = "the height of the tool before it, or its retract plane, is not known here", std::nullopt;
+  cycles::MillContext context;
+  const auto r = radius(it->second, unit, error);
+  if (!r) return std::nullopt;
+  context.tool_radius = *r;
+  const bool own_place = words->words.contains("u") && words->words.contains("v");
+  auto u = place_after(b, facts, axes.u), v = place_after(b, facts, axes.v);
+  if (!b.has_motion && end_ && end_->after == it->second.before) {
+    u = end_->u / unit;
+    v = end_->v / unit;
+  }
+  end_.reset();
+  const bool incremental = !own_place && (!u || !v);
+  context.u = incremental ? 0 : u ? *u * unit : unknown;
+  context.v = incremental ? 0 : v ? *v * unit : unknown;
+  context.w = height.value_or(unknown);
+  context.plane = plane.value_or(RetractPlane::initial);
+  const double way = words->words.contains("sense") ? words->words.at("sense") : 0;
+  const bool by_spindle = !words->words.contains("half_length") && !words->words.contains("signed_radius") && way < 2;
+  if (by_spindle && cycles::has_sense(*words) && !sense)
+    return *error = "climb milling depends on the sense of the spindle, which is not known here", std::nullopt;
+  context.spindle_ccw = sense == SpindleState::ccw;
+  const auto moves = cycles::expand(*words, *numbers, context, error);
+  if (!moves) return std::nullopt;
+  std::optional<double> feed = facts.feed;
+  for (const auto& a : b.actions) {
+    if (const auto* f = std::get_if<SetFeed>(&a.data); f != nullptr && a.order != Order::after) feed = known(f->value);
+  }
+  Writer writer(s.line, axes, unit, feed);
+  writer.u = context.u;
+  writer.v = context.v;
+  writer.w = context.w;
+  writer.incremental = incremental;
+  for (const auto& m : *moves) {
+    if (!writer.add(m, facts.spindle, error)) return std::nullopt;
+  }
+  if (!no_feed_ && !writer.finish(error)) return std::nullopt;
+  if (!incremental) end_ = End{writer.u, writer.v, it->second.after};
+  return Explosion{std::move(writer.blocks), writer.w};
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,45 @@
+// Milling cycles written out move by move.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "ir/cycles/milling.h"
+#include "ir/passes/lower_cycles.h"
+
+namespace cnctrans::ir::passes {
+
+/// The milling cycles of a program: the tool in use at every block, and the radii that profile and program give.
+class MillCycles {
+ public:
+  MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context);
+
+  /// The moves of one machining as blocks, behind the motion of the block itself; nullopt with a sentence: they can't
+  /// be told here. `height`, `defined_at`: of the tool, mm.
+  [[nodiscard]] std::optional<Explosion> write_out(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                                   const Facts& facts, std::optional<double> height,
+                                                   std::optional<double> defined_at, std::optional<SpindleState> sense,
+                                                   std::string* error) const;
+
+ private:
+  struct Site {
+    std::optional<std::int32_t> tool, offset;
+    std::uint64_t before = 0, after = 0;  ///< statements so far that may move the tool or its zero
+  };
+  /// Where the last machining that was written out left the tool, mm.
+  struct End {
+    double u = 0, v = 0;
+    std::uint64_t after = 0;
+  };
+  [[nodiscard]] std::optional<double> radius(const Site& site, double length_unit, std::string* error) const;
+
+  const LegaliseContext& context_;
+  bool no_feed_ = true;  ///< the program has no F of its own
+  mutable std::optional<End> end_;
+  std::map<std::uint32_t, Site> sites_;                   ///< by id of the block
+  std::map<std::string, std::optional<double>> written_;  ///< data the program writes; nullopt: not one fixed number
+};
+
+}  // namespace cnctrans::ir::passes
