@@ -37,8 +37,10 @@ const std::string* text_of(const ir::ExprPtr& e) {
 
 }  // namespace
 
-Explorer::Explorer(const ir::Program& program, Inputs start) : start_(std::move(start)) {
+Explorer::Explorer(const ir::Program& program, Inputs start, std::function<bool(const std::string&)> settable)
+    : start_(std::move(start)), settable_(std::move(settable)) {
   for (const auto& routine : program.routines) {
+    for (const auto& p : routine.parameters) defined_.insert(name_of(program, p.variable));
     ir::for_each_statement(routine.body, [&](const ir::Statement& s) { collect(program, routine, s); });
   }
   spread_values(program);
@@ -135,6 +137,8 @@ void Explorer::collect(const ir::Program& program, const ir::Routine& routine, c
         if (const auto n = ir::constant_value(value)) add_number(v, *n, false);
       }
     }
+  } else if (const auto* d = std::get_if<ir::Declare>(&s.node)) {
+    for (const auto& item : d->items) defined_.insert(to_upper_ascii(item.name));
   } else if (const auto* r = std::get_if<ir::Repeat>(&s.node)) {
     if (r->count) branch(program, s, r->count, false);
   } else if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) {
@@ -201,7 +205,7 @@ std::vector<std::string> Explorer::relevant() const {
     const std::string name = std::move(waiting.front());
     waiting.pop_front();
     if (!seen.insert(name).second) continue;
-    list.push_back(name);
+    if (defined_.count(name) == 0 && settable_(name)) list.push_back(name);
     const auto it = known_.find(name);
     if (it != known_.end()) waiting.insert(waiting.end(), it->second.set_from.begin(), it->second.set_from.end());
   }

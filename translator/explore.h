@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,8 +27,9 @@ struct Inputs {
 /// through assignments and arguments.
 class Explorer {
  public:
-  /// `start`: what the user gave; it is only added to.
-  Explorer(const ir::Program& program, Inputs start);
+  /// `start`: what the user gave; it is only added to. `settable`: the variable has one meaning in the whole program,
+  /// here and in the translation.
+  Explorer(const ir::Program& program, Inputs start, std::function<bool(const std::string&)> settable);
   /// The next inputs to try, other than `start`; nullopt: nothing is left that could lead anywhere new.
   std::optional<Inputs> next();
   /// A replay with `inputs` has run and counts.
@@ -63,8 +65,10 @@ class Explorer {
   [[nodiscard]] std::vector<std::string> relevant() const;
 
   Inputs start_;
+  std::function<bool(const std::string&)> settable_;
   std::vector<Branch> branches_;
   std::map<std::string, Known> known_;
+  std::set<std::string> defined_;  ///< get their value from a definition or a call
   std::uint16_t skips_ = 0;
   std::vector<Inputs> kept_;  ///< those that led to something new
   std::set<std::pair<std::vector<std::pair<std::string, std::string>>, std::uint16_t>> tried_;

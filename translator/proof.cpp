@@ -64,7 +64,9 @@ class Prover {
       proof.verdict.coverage = coverage_of(source_.program, proof.source.result.covered);
       return proof;
     }
-    Explorer explorer(source_.program, {options_.run.set, options_.run.skip_mask});
+    Explorer explorer(source_.program, {options_.run.set, options_.run.skip_mask}, [this](const std::string& name) {
+      return !options_.target_settings({{name, "0"}}).empty();
+    });
     explorer.note({options_.run.set, options_.run.skip_mask}, proof.source.result);
     interpreter::Options run = options_.run;
     run.max_events = std::min(run.max_events, explored_events);

@@ -50,7 +50,9 @@ std::string started_with(const Verdict& v) {
 /// What exploring came to; empty: there was none.
 std::string explored(const Coverage& c, const FileTable& files) {
   if (!c.explored) return {};
-  std::string text = fmt::format("; {} replays took {} of {} ways of the conditions", c.replays, c.ways_taken, c.ways);
+  std::string text =
+      fmt::format("; {} took {} of {} ways of the conditions",
+                  c.replays == 1 ? "1 replay" : fmt::format("{} replays", c.replays), c.ways_taken, c.ways);
   constexpr std::size_t named = 8;
   for (std::size_t i = 0; i < std::min(named, c.open.size()); ++i) {
     const auto& b = c.open[i];
