@@ -78,6 +78,8 @@ constexpr std::array specs{
     OptionSpec{"sinumerik.tool_change", "immediate|m6", "m6", "T changes at once, or selects for M6 (MD22550)"},
     OptionSpec{"sinumerik.default_edge", "number", "0",
                "D that a tool change selects when none is written after its T (MD20270); 0: none"},
+    OptionSpec{"sinumerik.spigot_size", "radius|diameter", "radius",
+               "PRAD and AP1 of CYCLE77: radii, or diameters (a spigot that is taken for a diameter is cut smaller)"},
     OptionSpec{"sinumerik.undefined_names", "error|global", "error",
                "a name that nothing defines: refused, or a global user variable (GUD) that starts at 0"},
     OptionSpec{"sinumerik.r_count", "number", "100", "number of R parameters"},

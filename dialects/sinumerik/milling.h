@@ -10,13 +10,18 @@ namespace cnctrans::sinumerik {
 /// Trailing parameters of the newer signatures that are carried as 0 only.
 inline constexpr std::string_view unread_milling_modes = "UMODE,FS,ZFS,GMODE,DMODE";
 
+/// What the size of a round spigot and of its blank is: the tables differ.
+inline constexpr std::string_view spigot_option = "sinumerik.spigot_size";
+inline constexpr std::string_view spigot_radius = "radius", spigot_diameter = "diameter";
+
 struct MillingCycle {
   std::string_view name;                                                     ///< "POCKET3"
   std::string_view shape;                                                    ///< row of ir/cycles/milling
   std::array<std::pair<std::string_view, std::string_view>, 20> parameters;  ///< own name, name in the IR
-  std::string_view needs;      ///< own names that must be given, separated by one comma each
-  std::string_view variants;   ///< values of VARI that are carried; empty: it has none
-  std::string_view only_zero;  ///< own names that are carried as 0 only
+  std::string_view needs;        ///< own names that must be given, separated by one comma each
+  std::string_view variants;     ///< values of VARI that are carried; empty: it has none
+  std::string_view only_zero;    ///< own names that are carried as 0 only
+  std::string_view spigot = {};  ///< the value of `spigot_option` under which the row holds; empty: any
 };
 
 // clang-format off
@@ -69,13 +74,33 @@ inline constexpr std::array milling_cycles = {
                    {"MID", "infeed"}, {"CDIR", "sense"}, {"FAL", "wall_stock"}, {"VARI", "operation"},
                    {"MIDF", "finish_infeed"}, {"FFP2", "finish_feed"}, {"SSF", "finish_speed"}}},
                  "PRAD,CPA,CPO", "0,1,2", ""},
+    MillingCycle{"CYCLE76", "boss.rect",
+                 {{{"LENG", "length"}, {"WID", "width"}, {"CRAD", "corner"}, {"PA", "u"}, {"PO", "v"}, {"STA", "angle"},
+                   {"MID", "infeed"}, {"FAL", "wall_stock"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
+                   {"FFD", "plunge_feed"}, {"CDIR", "sense"}, {"VARI", "variant"}, {"AP1", "blank_length"},
+                   {"AP2", "blank_width"}}},
+                 "LENG,WID,PA,PO,VARI", "1,2", ""},
+    MillingCycle{"CYCLE77", "boss.circle",
+                 {{{"PRAD", "radius"}, {"PA", "u"}, {"PO", "v"}, {"MID", "infeed"}, {"FAL", "wall_stock"},
+                   {"FALD", "floor_stock"}, {"FFP1", "mill_feed"}, {"FFD", "plunge_feed"}, {"CDIR", "sense"},
+                   {"VARI", "variant"}, {"AP1", "blank_radius"}}},
+                 "PRAD,PA,PO,VARI", "1,2", "", spigot_radius},
+    MillingCycle{"CYCLE77", "boss.circle",
+                 {{{"PRAD", "diameter"}, {"PA", "u"}, {"PO", "v"}, {"MID", "infeed"}, {"FAL", "wall_stock"},
+                   {"FALD", "floor_stock"}, {"FFP1", "mill_feed"}, {"FFD", "plunge_feed"}, {"CDIR", "sense"},
+                   {"VARI", "variant"}, {"AP1", "blank_diameter"}}},
+                 "PRAD,PA,PO,VARI", "1,2", "", spigot_diameter},
+    MillingCycle{"CYCLE90", "thread.mill",
+                 {{{"DIATH", "diameter"}, {"KDIAM", "core"}, {"PIT", "pitch"}, {"FFR", "mill_feed"}, {"CDIR", "sense"},
+                   {"TYPTH", "external"}, {"CPA", "u"}, {"CPO", "v"}}},
+                 "DIATH,KDIAM,PIT,CPA,CPO", "", ""},
 };
 // clang-format on
 
-/// By its own name (capitals); null: none.
-inline constexpr const MillingCycle* milling_cycle(std::string_view name) {
+/// By its own name (capitals); null: none. `spigot`: value of `spigot_option`.
+inline constexpr const MillingCycle* milling_cycle(std::string_view name, std::string_view spigot = spigot_radius) {
   for (const auto& c : milling_cycles) {
-    if (c.name == name) return &c;
+    if (c.name == name && (c.spigot.empty() || c.spigot == spigot)) return &c;
   }
   return nullptr;
 }

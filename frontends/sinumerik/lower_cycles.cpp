@@ -324,7 +324,8 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);
   if (row.family == CycleFamily::milling) {
-    if (!milling_words(*milling_cycle(name), a, hole, c_, pos)) return nullptr;
+    const auto spigot = c_.machine.profile->option(std::string(spigot_option), spigot_radius);
+    if (!milling_words(*milling_cycle(name, spigot), a, hole, c_, pos)) return nullptr;
     return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
   }
   dwell(a.get("DTB"), hole, c_, pos);

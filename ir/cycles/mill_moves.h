@@ -60,6 +60,9 @@ class MillPath {
   /// The same with infeed at the plunge feed.
   void plunge_to(double p, double q, double w);
   void plunge_circle(double cp, double cq, double w, bool ccw);
+  void mill_circle(double cp, double cq, double w, bool ccw);  ///< with infeed, at the feed of milling
+  /// The feed of milling is times `factor` from here on.
+  void scale_feed(double factor) { scale_ = factor; }
   /// Feed and speed of finishing from here on.
   void finishing(bool on);
 
@@ -75,6 +78,7 @@ class MillPath {
   std::vector<MillMove> moves_;
   double u_, v_, w_;
   double origin_u_ = 0, origin_v_ = 0, cos_ = 1, sin_ = 0;
+  double scale_ = 1;
   bool finishing_ = false, lost_ = false;
 };
 
@@ -87,5 +91,7 @@ bool slots(MillPath& path, std::string* error);
 bool long_holes(MillPath& path, std::string* error);
 bool ring_slots(MillPath& path, std::string* error);
 bool face(MillPath& path, std::string* error);
+bool boss(MillPath& path, bool circle, std::string* error);
+bool milled_thread(MillPath& path, std::string* error);
 
 }  // namespace cnctrans::ir::cycles::detail

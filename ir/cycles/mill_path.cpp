@@ -134,6 +134,8 @@ void MillPath::put(MillStep step, double u, double v, double w, bool into) {
       feed = milling;
       m.feed_factor = get("plunge_factor", 1);
     }
+    if (!into) feed *= scale_;
+    if (!into && feed == 0) m.feed_factor = scale_;
     m.has_feed = feed > 0;
     m.feed = feed;
   }
@@ -177,6 +179,14 @@ void MillPath::mill_arc(double p, double q, double cp, double cq, bool ccw) {
 void MillPath::plunge_circle(double cp, double cq, double w, bool ccw) {
   const auto [cu, cv] = to_plane(cp, cq);
   put(MillStep::arc, u_, v_, w, true);
+  moves_.back().cu = cu;
+  moves_.back().cv = cv;
+  moves_.back().ccw = ccw;
+}
+
+void MillPath::mill_circle(double cp, double cq, double w, bool ccw) {
+  const auto [cu, cv] = to_plane(cp, cq);
+  put(MillStep::arc, u_, v_, w, false);
   moves_.back().cu = cu;
   moves_.back().cv = cv;
   moves_.back().ccw = ccw;

@@ -48,6 +48,12 @@ constexpr std::array parameters = {
     MillParameter{"blank_length", length, "of a blank that is there already"},
     MillParameter{"blank_width", length, "of a blank that is there already"},
     MillParameter{"blank_depth", length, "of a blank that is there already"},
+    MillParameter{"blank_radius", length, "of a round blank"},
+    MillParameter{"blank_diameter", length, "of a round blank"},
+    MillParameter{"diameter", length, "of a circle; the larger one of a thread"},
+    MillParameter{"core", length, "the smaller diameter of a thread"},
+    MillParameter{"pitch", length, "of a thread"},
+    MillParameter{"external", plain, "1: the thread lies outside"},
     MillParameter{"overrun", length, "of a face pass beyond the part, along the pass"},
     MillParameter{"overrun_across", length, "of the last face pass beyond the part, across"},
 };
@@ -76,6 +82,16 @@ constexpr std::array shapes = {
     MillShape{"face", MillKind::face,
               "u,v,length,width,angle,infeed,step,step_factor,floor_stock,mill_feed,overrun,overrun_across,variant",
               "face of a rectangle"},
+    MillShape{"boss.rect", MillKind::boss,
+              "u,v,length,width,corner,angle,infeed,wall_stock,floor_stock,mill_feed,plunge_feed,sense,variant,"
+              "blank_length,blank_width",
+              "rectangular spigot"},
+    MillShape{"boss.circle", MillKind::round_boss,
+              "u,v,radius,diameter,infeed,wall_stock,floor_stock,mill_feed,plunge_feed,sense,variant,blank_radius,"
+              "blank_diameter",
+              "circular spigot"},
+    MillShape{"thread.mill", MillKind::thread, "u,v,diameter,core,pitch,mill_feed,sense,external",
+              "thread milled on a helix"},
 };
 
 bool in_list(std::string_view rest, std::string_view name) {
@@ -157,6 +173,9 @@ std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleN
     case MillKind::slot: done = detail::slots(path, error); break;
     case MillKind::long_hole: done = detail::long_holes(path, error); break;
     case MillKind::ring_slot: done = detail::ring_slots(path, error); break;
+    case MillKind::boss:
+    case MillKind::round_boss: done = detail::boss(path, mill.shape->kind == MillKind::round_boss, error); break;
+    case MillKind::thread: done = detail::milled_thread(path, error); break;
     case MillKind::face: done = detail::face(path, error); break;
   }
   if (done && path.lost()) {

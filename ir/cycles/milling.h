@@ -30,7 +30,7 @@ std::span<const MillParameter> mill_parameters();
 /// nullptr: milling cycles have none of this name.
 const MillParameter* find_mill_parameter(std::string_view name);
 
-enum class MillKind : std::uint8_t { rectangle, circle, slot, long_hole, ring_slot, face };
+enum class MillKind : std::uint8_t { rectangle, circle, slot, long_hole, ring_slot, face, boss, round_boss, thread };
 struct MillShape {
   std::string_view name;  ///< `MillWords::shape`
   MillKind kind;
