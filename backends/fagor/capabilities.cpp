@@ -176,7 +176,7 @@ const ir::Capabilities& capabilities(bool lathe) {
     frames(c, is_lathe);
     words(c, is_lathe);
     c.system_data = [is_lathe](const ir::SystemRef& s) { return !system_name(s, is_lathe).empty(); };
-    if (!is_lathe) c.native_cycle = native_cycle;
+    c.native_cycle = is_lathe ? native_machining : native_cycle;
     return c;
   };
   static const ir::Capabilities of_lathe = make(true);

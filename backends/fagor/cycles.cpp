@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dialects/fagor/cycles.h"
 #include "dialects/fagor/milling.h"
 #include "ir/cycles/hole.h"
 
@@ -231,6 +232,17 @@ std::optional<CycleWords> cycle_words(const ir::Cycle& cycle) {
   }
   if (!variable_pecks(*c, w)) return std::nullopt;
   return w;
+}
+
+bool native_machining(const ir::Cycle& cycle) {
+  const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);
+  const auto* row = named == nullptr ? nullptr : dialects::fagor::find_cycle(named->name);
+  if (row == nullptr) return false;
+  return std::all_of(named->words.begin(), named->words.end(), [row](const auto& w) {
+    return !w.first.ends_with("_label") && std::any_of(row->letters.begin(), row->letters.end(), [&w](const auto& l) {
+      return l.letter != 0 && l.parameter == w.first;
+    });
+  });
 }
 
 std::string_view level_problem(const HoleCycle& c, std::optional<ir::Distance> distance) {

@@ -36,6 +36,9 @@ inline bool native_cycle(const ir::Cycle& cycle) {
   return cycle_words(cycle).has_value();
 }
 
+/// A cycle of the lathe in letters of its own, without a profile.
+bool native_machining(const ir::Cycle& cycle);
+
 /// Why the levels of `cycle` can't be written under this mode; empty: they can.
 std::string_view level_problem(const ir::HoleCycle& cycle, std::optional<ir::Distance> distance);
 

@@ -123,7 +123,8 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   };
   c.native_cycle = [](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);
-    return hole != nullptr && native_hole(*hole);
+    const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);
+    return hole != nullptr ? native_hole(*hole) : named != nullptr && named->name == "thread.chased";
   };
   return c;
 }

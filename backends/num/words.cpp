@@ -39,6 +39,7 @@ void Writer::block(const ir::Block& b) {
   for (const auto& a : b.actions) {
     const auto* d = std::get_if<ir::CycleDefine>(&a.data);
     if (d == nullptr || d->modal || refused() || same_dialect()) continue;
+    if (d->cycle && std::holds_alternative<ir::NamedCycle>(d->cycle->node)) continue;  // G33 ends by itself
     next_line();
     add("G80", Rank::setting);
   }
@@ -384,7 +385,8 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const auto* hole = c.cycle ? std::get_if<ir::HoleCycle>(&c.cycle->node) : nullptr;
   const auto* named = c.cycle ? std::get_if<ir::NamedCycle>(&c.cycle->node) : nullptr;
-  if (named != nullptr && same_dialect() && turning_cycle(a, *named)) return;
+  const bool own = named != nullptr && (same_dialect() || named->name == "thread.chased");
+  if (own && turning_cycle(a, *named)) return;
   if (hole == nullptr) return ProgramWriter::cycle_define(a, c);
   hole_cycle(a, *hole);
 }

@@ -406,6 +406,7 @@ class CyclePass {
 
   void write_out(Statement&& s, Body&& pieces, Body& out);
   void write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out);
+  void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
   void no_moves(Statement&& s, const std::string& why, Body& out);
   Program& program_;
   const LegaliseContext& context_;

@@ -72,7 +72,7 @@ LabelUses label_uses(const Program& program, const Routine& routine) {
   return uses;
 }
 
-UsedVariables::UsedVariables(const Program& program) {
+void UsedVariables::add(const Program& program, const Routine& routine) {
   const auto note = [&](const VarRef& v) {
     if (!v.name.empty()) names_.insert(v.name);
     if (v.space >= program.spaces.size() || !v.index) return;
@@ -83,16 +83,14 @@ UsedVariables::UsedVariables(const Program& program) {
       if (const auto* v = as_variable(n)) note(*v);
     });
   };
-  for (const auto& routine : program.routines) {
-    for (const auto& p : routine.parameters) note(p.variable);
-    for_each_statement(routine.body, [&](const Statement& s) {
-      each_expression(s, note_expr);
-      each_target(s, note);
-      if (const auto* d = std::get_if<Declare>(&s.node)) {
-        for (const auto& i : d->items) names_.insert(i.name);
-      }
-    });
-  }
+  for (const auto& p : routine.parameters) note(p.variable);
+  for_each_statement(routine.body, [&](const Statement& s) {
+    each_expression(s, note_expr);
+    each_target(s, note);
+    if (const auto* d = std::get_if<Declare>(&s.node)) {
+      for (const auto& i : d->items) names_.insert(i.name);
+    }
+  });
 }
 
 bool UsedVariables::has(std::string_view prefix, std::int64_t n) const {
@@ -101,7 +99,7 @@ bool UsedVariables::has(std::string_view prefix, std::int64_t n) const {
 }
 
 Editor::Editor(Program& p, Routine& r, const LegaliseContext& c)
-    : program(p), routine(r), context(c), uses_(label_uses(p, r)) {
+    : program(p), routine(r), context(c), uses_(label_uses(p, r)), used_(p, r) {
   for_each_statement(routine.body, [this](const Statement& s) {
     for (const auto& l : labels_on(s.line)) {
       (l.is_number ? numbers_ : identifiers_).insert(l.text);
@@ -114,8 +112,11 @@ Editor::Editor(Program& p, Routine& r, const LegaliseContext& c)
 }
 
 UsedVariables& Editor::used() {
-  if (!used_) used_.emplace(program);
-  return *used_;
+  if (!used_whole_) {
+    for (const auto& r : program.routines) used_.add(program, r);
+  }
+  used_whole_ = true;
+  return used_;
 }
 
 LabelRef Editor::fresh_label() {

@@ -29,7 +29,8 @@ void each_label_ref(Statement& s, const std::function<void(LabelRef&, bool is_en
 /// Numbers of the target's variables that the program uses.
 class UsedVariables {
  public:
-  explicit UsedVariables(const Program& program);
+  UsedVariables(const Program& program, const Routine& routine) { add(program, routine); }
+  void add(const Program& program, const Routine& routine);
   [[nodiscard]] bool has(std::string_view prefix, std::int64_t n) const;
   [[nodiscard]] bool has_name(const std::string& name) const { return names_.count(name) != 0; }
   void add(const std::string& prefix, std::int64_t n) { numbers_[prefix].insert(n); }
@@ -66,7 +67,8 @@ class Editor {
   VarRef variable_number(const std::string& prefix, std::int64_t n);
   LabelUses uses_;
   UsedVariables& used();
-  std::optional<UsedVariables> used_;  ///< found when the first temporary is asked for
+  UsedVariables used_;       ///< of the routine, before a pass takes it apart
+  bool used_whole_ = false;  ///< of the other routines as well, from the first temporary on
   std::set<std::string> numbers_, identifiers_;
   std::int64_t next_number_ = 0;
   std::int64_t next_identifier_ = 0;

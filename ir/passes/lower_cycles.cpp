@@ -219,23 +219,6 @@ void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
   out.push_back(std::move(s));
 }
 
-/// A machining cycle of a lathe: its moves, with a note.
-void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out) {
-  auto& b = std::get<Block>(s.node);
-  std::string error;
-  auto moves = turning_.write_out(cycle, s, b, facts_.before(s), &error);
-  if (!moves) return no_moves(std::move(s), error, out);
-  context_.diagnostics.note("TRN-333", s.line.span,
-                            "the cycle is written out as its " + std::to_string(moves->size()) +
-                                " moves: the target has none that moves the same way");
-  const std::size_t main = pieces.size();
-  auto first = moves->begin();
-  if (b.empty() && first != moves->end()) s.node = std::move((first++)->node);
-  pieces.push_back(std::move(s));
-  for (; first != moves->end(); ++first) pieces.push_back(std::move(*first));
-  put_group(out, std::move(pieces), main);
-}
-
 void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const auto& named = std::get<NamedCycle>(d.cycle->node);

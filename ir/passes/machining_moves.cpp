@@ -233,6 +233,45 @@ std::optional<SpindleState> only_sense(const Program& program) {
   return cw ? SpindleState::cw : SpindleState::ccw;
 }
 
+/// No block of the program counts from where the tool stands.
+bool always_absolute(const Program& program, const ModalState& power_on) {
+  bool absolute = power_on.distance == Distance::absolute;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* set = std::get_if<ModalSet>(&a.data);
+        if (set != nullptr && set->setting == Setting::distance)
+          absolute = absolute && set->value == static_cast<std::uint8_t>(Distance::absolute);
+      }
+    });
+  }
+  return absolute;
+}
+
+/// The words of X and Z, as far as they say where the tool stands afterwards.
+void follow_place(const Block& b, bool absolute, TurnState& state) {
+  for (const auto& a : b.actions) {
+    const auto* set = std::get_if<ModalSet>(&a.data);
+    const bool other = set != nullptr && (set->setting == Setting::units || set->setting == Setting::diameter);
+    if (other || std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+        std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<ToolSelect>(a.data))
+      state.x.reset(), state.z.reset();
+  }
+  if (!b.has_motion) return;
+  const bool plain = b.motion.frame == FrameUse::normal && b.motion.extra == nullptr;
+  for (const auto& c : b.motion.coords) {
+    auto* place = c.axis == axis::x ? &state.x : c.axis == axis::z ? &state.z : nullptr;
+    if (place == nullptr) continue;
+    const bool said = c.mode == WordMode::absolute || (c.mode == WordMode::modal && absolute);
+    place->reset();
+    if (plain && said && c.scale == WordScale::modal) *place = c.value;
+    if (*place) (*place)->text = {};
+  }
+  if (!plain) state.x.reset(), state.z.reset();
+}
+
 void follow(const Block& b, TurnState& state) {
   for (const auto& a : b.actions) {
     if (const auto* run = std::get_if<SpindleRun>(&a.data); run != nullptr && run->number == 1)
@@ -322,23 +361,30 @@ TurnCycles::TurnCycles(const Program& program, const Routine& routine, const Leg
   const LabelUses uses = label_uses(program, routine);
   TurnState state;
   const auto sense = only_sense(program);
+  const bool absolute = always_absolute(program, context.source_machine.power_on);
   for_each_statement(routine.body, [&](const Statement& s) {
     for (const auto& l : labels_on(s.line)) {
       if (!uses.is_target(l)) continue;
       // It runs one way only: that it runs has been seen before, and the label is reached from there or later.
       if (!(sense && state.spindle == sense)) state.spindle.reset();
       state.tool.reset();
+      state.x.reset(), state.z.reset();
     }
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) {
+      for (auto* place : {&state.x, &state.z}) {
+        if (std::holds_alternative<Assign>(s.node) && *place && !(*place)->literal()) place->reset();
+      }
       if (!ToolHeight::keeps(s) && !std::holds_alternative<Jump>(s.node)) state = TurnState{};
       return;
     }
     follow(*b, state);
     const auto* named = machining_of(*b);
+    const TurnState before = state;
+    follow_place(*b, absolute, state);
     if (named == nullptr) return;
     Site& site = sites_[s.id];
-    site.state = state;
+    site.state = before;
     if (!cycles::has_profile(*named)) return;
     site.profile = cycles::contour_in(*named, &site.fault);
     if (!site.profile) return;
@@ -367,11 +413,11 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& named, const Stateme
   cycles::TurnContext context;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   context.start = {facts.position[axis::x].value_or(unknown) * unit, facts.position[axis::z].value_or(unknown) * unit};
+  context.nose_width = nose_width(site.state);
   const auto& tools = context_.source_machine.tools;
   const auto tool =
       std::find_if(tools.begin(), tools.end(), [&](const auto& t) { return t.number == site.state.tool; });
   if (tool != tools.end()) {
-    context.nose_width = tool->nose_width;
     if (tool->length != tool->length_x) context.longer_in_x = tool->length_x > tool->length;
   }
   if (cycles::has_profile(named)) {
@@ -392,6 +438,12 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& named, const Stateme
   }
   if (!writer.finish(cycle->ends_modes, error)) return std::nullopt;
   return std::move(writer.blocks);
+}
+
+double TurnCycles::nose_width(const TurnState& state) const {
+  const auto& tools = context_.source_machine.tools;
+  const auto tool = std::find_if(tools.begin(), tools.end(), [&](const auto& t) { return t.number == state.tool; });
+  return tool == tools.end() ? 0 : tool->nose_width;
 }
 
 }  // namespace cnctrans::ir::passes

@@ -8,6 +8,7 @@
 
 #include "ir/cycles/machining.h"
 #include "ir/passes/lower_cycles.h"
+#include "ir/passes/turning_forms.h"
 
 namespace cnctrans::ir::passes {
 
@@ -15,6 +16,7 @@ namespace cnctrans::ir::passes {
 struct TurnState {
   std::optional<SpindleState> spindle;
   std::optional<std::int32_t> tool;
+  std::optional<Value> x, z;  ///< the last absolute words of the two axes
 };
 
 /// Modes as far as they are known before a block and by its own words; nullopt: units, diameters, distance or feed mode
@@ -32,6 +34,12 @@ class TurnCycles {
   /// The moves as blocks; nullopt with a sentence: they can't be told here.
   [[nodiscard]] std::optional<Body> write_out(const NamedCycle& cycle, const Statement& s, const Block& b,
                                               const Facts& facts, std::string* error) const;
+  /// The same with words that only the run knows: expressions, and loops over the passes.
+  [[nodiscard]] std::optional<Body> write_out_computed(const NamedCycle& cycle, const Statement& s, const Block& b,
+                                                       const Facts& facts, Editor& editor, std::string* error) const;
+  /// A cycle of the target with the same moves: the comparison of both expansions, or a rule, says so.
+  [[nodiscard]] std::optional<TurnForm> native(const NamedCycle& cycle, const Statement& s, const Block& b,
+                                               const Facts& facts) const;
   /// Ids of the blocks that the profiles of written out cycles stand in.
   [[nodiscard]] const std::set<std::uint32_t>& profile_blocks() const { return profile_blocks_; }
 
@@ -41,6 +49,8 @@ class TurnCycles {
     std::optional<cycles::TurnProfile> profile;
     std::string fault;  ///< why there is no profile
   };
+  /// Width of the tool in mm; 0: not known.
+  [[nodiscard]] double nose_width(const TurnState& state) const;
   const LegaliseContext& context_;
   std::map<std::uint32_t, Site> sites_;  ///< by id
   std::set<std::uint32_t> profile_blocks_;

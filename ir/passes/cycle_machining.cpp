@@ -1,0 +1,71 @@
+// Machining cycles of a lathe in the cycle pass.
+#include <utility>
+
+#include "ir/passes/cycle_pass.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+Statement rapid_to(const LineInfo& like, const TurnStart& place) {
+  Block b;
+  b.has_motion = true;
+  b.motion.kind = MotionKind::rapid;
+  b.motion.explicit_code = true;
+  b.motion.keeps_modal = false;
+  for (const auto& [axis, v] : {std::pair(axis::x, place.x), std::pair(axis::z, place.z)}) {
+    CoordWord w;
+    w.axis = axis;
+    w.mode = WordMode::absolute;
+    w.value = v.value_or(Value{});
+    b.motion.coords.push_back(w);
+  }
+  return made(like, std::move(b));
+}
+
+}  // namespace
+
+/// A machining cycle of a lathe: the target's own with the same moves, else its moves, with a note.
+void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  if (setting<CompSide>(facts_.before(s), Setting::comp) == CompSide::off) {  // it is off already
+    std::erase_if(late_, [](const Action& a) {
+      const auto* set = std::get_if<ModalSet>(&a.data);
+      return set != nullptr && set->setting == Setting::comp && set->value == static_cast<std::uint8_t>(CompSide::off);
+    });
+  }
+  if (const auto form = turning_.native(cycle, s, b, facts_.before(s))) {
+    Body calls;
+    if (form->from.x) calls.push_back(rapid_to(s.line, form->from));
+    calls.push_back(single_run(s.line, std::make_shared<const Cycle>(Cycle{form->cycle})));
+    return put_moves(std::move(s), std::move(calls), std::move(pieces), out);
+  }
+  std::string error;
+  auto moves = turning_.write_out(cycle, s, b, facts_.before(s), &error);
+  const bool loops = !moves;
+  if (loops) {
+    std::string why;
+    moves = turning_.write_out_computed(cycle, s, b, facts_.before(s), editor_, &why);
+    if (!moves && error.starts_with("its words are computed")) error = why;
+  }
+  if (!moves) return no_moves(std::move(s), error, out);
+  context_.diagnostics.note("TRN-333", s.line.span,
+                            loops ? "the cycle is written out as a loop over its passes: the target has none that "
+                                    "moves the same way"
+                                  : "the cycle is written out as its " + std::to_string(moves->size()) +
+                                        " moves: the target has none that moves the same way");
+  put_moves(std::move(s), std::move(*moves), std::move(pieces), out);
+}
+
+/// What a cycle has become, in the place of its block.
+void CyclePass::put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  const std::size_t main = pieces.size();
+  auto first = moves.begin();
+  if (b.empty() && first != moves.end()) s.node = std::move((first++)->node);
+  pieces.push_back(std::move(s));
+  for (; first != moves.end(); ++first) pieces.push_back(std::move(*first));
+  put_group(out, std::move(pieces), main);
+}
+
+}  // namespace cnctrans::ir::passes
