@@ -15,7 +15,7 @@ constexpr std::array features{
                    "their passes depend on the version of the control; only the walls and the floor are known"},
     MissingFeature{"cycle.pattern", "free lists of hole positions", "lines, circles and grids are carried"},
     MissingFeature{"cycle.turning",
-                   "turning cycles whose moves are not described (undercuts, thread chains, contour grooves)",
+                   "turning cycles whose moves are not described (undercuts, grooves by two edges, contour grooves)",
                    "read and kept; their sequence is not in the references"},
     MissingFeature{"language.files", "file operations", "no output file model yet"},
     MissingFeature{"language.macro", "macros of the machine builder called by a code", "their text is on the machine"},

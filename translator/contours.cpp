@@ -6,6 +6,7 @@
 
 #include "interpreter/profile_contour.h"
 #include "ir/cycles/profile_blocks.h"
+#include "ir/passes/head_constants.h"
 #include "ir/passes/machining_moves.h"
 
 namespace cnctrans::translator {
@@ -19,21 +20,60 @@ const ir::NamedCycle* profiled(const ir::Action& a) {
   return named != nullptr && ir::cycles::has_profile(*named) ? named : nullptr;
 }
 
-void read_one(ir::NamedCycle& cycle, const ir::Program& program, const ir::Routine& routine, const ir::Block& b,
-              const ir::Facts& facts, const machine::Profile& machine) {
+using ir::passes::HeadConstants;
+
+/// The cycle and its blocks with numbers for what the head of the program sets.
+struct Folded {
+  ir::NamedCycle cycle;
+  std::vector<ir::Statement> blocks;
+  std::map<std::string, double> used;
+
+  Folded(const ir::NamedCycle& from, const HeadConstants& constants, const ir::Routine& routine,
+         const ir::Statement& at)
+      : cycle(from), constants_(constants), routine_(routine), at_(at) {
+    for (auto& [word, v] : cycle.words) v = constants.fold(v, routine, at, &used);
+  }
+  std::vector<const ir::Statement*> with(const std::vector<const ir::Statement*>& statements) {
+    for (const auto* s : statements) blocks.push_back(*s);
+    std::vector<const ir::Statement*> out;
+    for (auto& s : blocks) {
+      if (auto* b = std::get_if<ir::Block>(&s.node)) {
+        ir::passes::visit_values(*b, [this](ir::Value& v, const ir::passes::Place&) {
+          if (v.literal()) return false;
+          v = constants_.fold(v, routine_, at_, &used);
+          return true;
+        });
+      }
+      out.push_back(&s);
+    }
+    return out;
+  }
+
+ private:
+  const HeadConstants& constants_;
+  const ir::Routine& routine_;
+  const ir::Statement& at_;
+};
+
+void read_one(ir::NamedCycle& cycle, const ir::Program& program, const ir::Routine& routine, const ir::Statement& s,
+              const ir::Facts& facts, const machine::Profile& machine, const HeadConstants& constants) {
+  const auto& b = std::get<ir::Block>(s.node);
+  Folded folded(cycle, constants, routine, s);
   const auto modes = ir::passes::modes_at(b, facts, machine.power_on);
   ir::cycles::TurnNumbers numbers;
-  if (!modes || !ir::passes::machining_numbers(cycle, *modes, numbers))
+  if (!modes || !ir::passes::machining_numbers(folded.cycle, *modes, numbers))
     return ir::cycles::put_contour_fault(cycle, "its words or the modes in force are known only when the program runs");
   std::string error;
   const auto blocks = ir::cycles::profile_blocks(program, routine, cycle, &error);
   if (blocks.empty()) return ir::cycles::put_contour_fault(cycle, error);
   const auto start = ir::cycles::contour_start(numbers, *modes);
-  const auto contour = interpreter::contour_of(machine, start, blocks, nullptr, &error);
+  const auto contour = interpreter::contour_of(machine, start, folded.with(blocks), nullptr, &error);
   if (contour)
     ir::cycles::put_contour(cycle, *contour);
   else
     ir::cycles::put_contour_fault(cycle, error);
+  const std::string values = ir::passes::listed(folded.used);
+  if (!values.empty()) cycle.words.emplace_back("contour_values", ir::Value(ir::string_literal(values)));
 }
 
 }  // namespace
@@ -49,6 +89,7 @@ void read_contours(ir::Program& program, const machine::Profile& source_machine)
   }
   if (!any) return;
   ir::number_statements(program);
+  const HeadConstants constants(program);
   const auto table = ir::analyse(program, source_machine.power_on);
   for (auto& r : program.routines) {
     ir::for_each_statement(r.body, [&](ir::Statement& s) {
@@ -58,7 +99,7 @@ void read_contours(ir::Program& program, const machine::Profile& source_machine)
         const auto* named = profiled(a);
         if (named == nullptr) continue;
         ir::NamedCycle copy = *named;
-        read_one(copy, program, r, *b, table.before(s.id), source_machine);
+        read_one(copy, program, r, s, table.before(s.id), source_machine, constants);
         std::get<ir::CycleDefine>(a.data).cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(copy)});
       }
     });

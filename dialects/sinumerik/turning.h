@@ -13,7 +13,7 @@ inline constexpr std::string_view contour_parameter = "NPP";
 struct TurningCycle {
   std::string_view name;                                                     ///< "CYCLE97"
   std::string_view cycle;                                                    ///< name in the IR
-  std::array<std::pair<std::string_view, std::string_view>, 17> parameters;  ///< own name, name in the IR
+  std::array<std::pair<std::string_view, std::string_view>, 22> parameters;  ///< own name, name in the IR
   std::string_view needs;  ///< own names that must be given, separated by one comma each
 };
 
@@ -30,6 +30,13 @@ inline constexpr std::array turning_cycles = {
                    {"IANG", "infeed_angle"}, {"NSP", "start_angle"}, {"NRC", "passes"}, {"NID", "idle"},
                    {"VARI", "variant"}, {"NUMT", "starts"}, {"VRT", "withdrawal"}}},
                  "FPL,DM1,DM2,TDEP,VARI"},
+    TurningCycle{"CYCLE98", "thread.chain",
+                 {{{"PO1", "z"}, {"DM1", "x"}, {"PO2", "z_2"}, {"DM2", "x_2"}, {"PO3", "z_3"}, {"DM3", "x_3"},
+                   {"PO4", "z_end"}, {"DM4", "x_end"}, {"APP", "run_in"}, {"ROP", "run_out"}, {"TDEP", "depth"},
+                   {"FAL", "finish_stock"}, {"IANG", "infeed_angle"}, {"NSP", "start_angle"}, {"NRC", "passes"},
+                   {"NID", "idle"}, {"PP1", "pitch"}, {"PP2", "pitch_2"}, {"PP3", "pitch_3"}, {"VARI", "variant"},
+                   {"NUMT", "starts"}, {"VRT", "withdrawal"}}},
+                 "PO1,DM1,PO2,DM2,PO3,DM3,PO4,DM4,TDEP,PP1,PP2,PP3,VARI"},
 };
 // clang-format on
 

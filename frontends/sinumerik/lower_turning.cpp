@@ -1,4 +1,4 @@
-// Turning cycles: CYCLE95, CYCLE97 (reference-language 18.4).
+// Turning cycles: CYCLE95, CYCLE97, CYCLE98 (reference-language 18.4).
 #include <algorithm>
 #include <memory>
 #include <string>

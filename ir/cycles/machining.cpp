@@ -16,6 +16,12 @@ constexpr std::array parameters = {
     Parameter{"x_end", Quantity::cross},
     Parameter{"z", Quantity::along},
     Parameter{"z_end", Quantity::along},
+    Parameter{"x_2", Quantity::cross},
+    Parameter{"z_2", Quantity::along},
+    Parameter{"x_3", Quantity::cross},
+    Parameter{"z_3", Quantity::along},
+    Parameter{"pitch_2", Quantity::length},
+    Parameter{"pitch_3", Quantity::length},
     Parameter{"measured", Quantity::along},
     Parameter{"measured_x", Quantity::cross},
     Parameter{"centre_x", Quantity::length},
@@ -60,6 +66,7 @@ constexpr std::array parameters = {
     Parameter{"routine", Quantity::text},
     Parameter{"contour", Quantity::text},
     Parameter{"contour_fault", Quantity::text},
+    Parameter{"contour_values", Quantity::text},
     Parameter{"live_speed", Quantity::plain},
     Parameter{"size", Quantity::plain},
     Parameter{"run_in", Quantity::length},
@@ -96,6 +103,7 @@ constexpr std::array cycles = {
     MachiningCycle{"side.live_drill", Kind::live_drill, false, true, false, CycleEnd::approach},
     MachiningCycle{"side.live_key", Kind::live_key, false, true, false, CycleEnd::approach},
     MachiningCycle{"thread.counted", Kind::thread, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"thread.chain", Kind::thread, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"thread.chased", Kind::thread, false, false, false},
     MachiningCycle{"stock.contour", Kind::profile, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.blank", Kind::profile, false, false, false},
@@ -182,6 +190,7 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
     case Kind::thread:
       done = cycle.name == "thread.counted"  ? detail::counted_thread(roles, error)
              : cycle.name == "thread.chased" ? detail::chased_thread(roles, error)
+             : cycle.name == "thread.chain"  ? detail::chained_thread(roles, error)
                                              : detail::thread(roles, error);
       break;
     case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;

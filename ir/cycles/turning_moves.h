@@ -113,6 +113,7 @@ bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* e
 /// One groove of the profile, down to the limit on the other axis.
 bool groove_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
 bool counted_thread(Roles& r, std::string* error);
+bool chained_thread(Roles& r, std::string* error);
 bool chased_thread(Roles& r, std::string* error);
 bool live_tool(Roles& r, bool key, std::string* error);
 

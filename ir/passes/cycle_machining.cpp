@@ -7,6 +7,15 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// What the profile was read with.
+std::string contour_values(const NamedCycle& cycle) {
+  for (const auto& [word, v] : cycle.words) {
+    const auto* text = v.expr ? std::get_if<String>(&v.expr->node) : nullptr;
+    if (word == "contour_values" && text != nullptr) return text->text;
+  }
+  return {};
+}
+
 Statement rapid_to(const LineInfo& like, const TurnStart& place) {
   Block b;
   b.has_motion = true;
@@ -43,17 +52,34 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
   std::string error;
   auto moves = turning_.write_out(cycle, s, b, facts_.before(s), &error);
   const bool loops = !moves;
+  bool head = false;
+  std::string values = contour_values(cycle);
   if (loops) {
     std::string why;
     moves = turning_.write_out_computed(cycle, s, b, facts_.before(s), editor_, &why);
-    if (!moves && error.starts_with("its words are computed")) error = why;
+    if (!moves) {
+      std::string there, fault;
+      moves = turning_.write_out(cycle, s, b, facts_.before(s), &fault, &there);
+      if (values.empty()) values = there;
+      head = moves.has_value();
+      if (error.starts_with("its words are computed") && !why.starts_with("its words are computed"))
+        error = why;
+      else if (!fault.empty())
+        error = fault;
+    }
   }
   if (!moves) return no_moves(std::move(s), error, out);
   context_.diagnostics.note("TRN-333", s.line.span,
-                            loops ? "the cycle is written out as a loop over its passes: the target has none that "
-                                    "moves the same way"
-                                  : "the cycle is written out as its " + std::to_string(moves->size()) +
-                                        " moves: the target has none that moves the same way");
+                            loops && !head
+                                ? "the cycle is written out as a loop over its passes: the target has none that "
+                                  "moves the same way"
+                                : "the cycle is written out as its " + std::to_string(moves->size()) +
+                                      " moves: the target has none that moves the same way");
+  if (!values.empty()) {
+    context_.diagnostics.warning(
+        "TRN-337", s.line.span, "the moves of the cycle are those for the values at the head of the program: " + values,
+        "translate again when these lines change");
+  }
   put_moves(std::move(s), std::move(*moves), std::move(pieces), out);
 }
 

@@ -250,13 +250,19 @@ bool always_absolute(const Program& program, const ModalState& power_on) {
   return absolute;
 }
 
+/// The cycle of the block leaves the tool where it was.
+bool ends_at_call(const Block& b) {
+  const auto* named = machining_of(b);
+  return named != nullptr && cycles::find_machining(named->name)->ends == cycles::CycleEnd::at_call;
+}
+
 /// The words of X and Z, as far as they say where the tool stands afterwards.
 void follow_place(const Block& b, bool absolute, TurnState& state) {
   for (const auto& a : b.actions) {
     const auto* set = std::get_if<ModalSet>(&a.data);
     const bool other = set != nullptr && (set->setting == Setting::units || set->setting == Setting::diameter);
     if (other || std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
-        std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<ToolSelect>(a.data))
+        (std::holds_alternative<CycleDefine>(a.data) && !ends_at_call(b)) || std::holds_alternative<ToolSelect>(a.data))
       state.x.reset(), state.z.reset();
   }
   if (!b.has_motion) return;
@@ -357,7 +363,7 @@ void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, co
 }
 
 TurnCycles::TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
-    : context_(context) {
+    : context_(context), routine_(routine), constants_(program) {
   const LabelUses uses = label_uses(program, routine);
   TurnState state;
   const auto sense = only_sense(program);
@@ -394,8 +400,14 @@ TurnCycles::TurnCycles(const Program& program, const Routine& routine, const Leg
   });
 }
 
-std::optional<Body> TurnCycles::write_out(const NamedCycle& named, const Statement& s, const Block& b,
-                                          const Facts& facts, std::string* error) const {
+std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Statement& s, const Block& b,
+                                          const Facts& facts, std::string* error, std::string* values) const {
+  NamedCycle named = words;
+  std::map<std::string, double> used;
+  const auto fold = [&](const Value& v) { return constants_.fold(v, routine_, s, &used); };
+  if (values != nullptr) {
+    for (auto& [word, v] : named.words) v = fold(v);
+  }
   const auto* cycle = cycles::find_machining(named.name);
   const auto it = sites_.find(s.id);
   if (cycle == nullptr || it == sites_.end()) return *error = "cycles of this kind are not carried yet", std::nullopt;
@@ -407,12 +419,20 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& named, const Stateme
     return *error = "its words are computed when the program runs", std::nullopt;
   // Cycles that end at a place of their own begin at one as well, with a rapid to it.
   const bool anywhere = cycle->ends != cycles::CycleEnd::at_call;
-  if (!anywhere && (!facts.position[axis::x] || !facts.position[axis::z]))
-    return *error = "the place of the tool before it is not known here", std::nullopt;
   const double unit = m->units == Units::inch ? 25.4 : 1;
+  std::optional<double> x = facts.position[axis::x], z = facts.position[axis::z];
+  if (values != nullptr && !anywhere) {
+    const auto place = [&](std::optional<double>& at, const std::optional<Value>& word, double k) {
+      const auto n = at || !word ? std::nullopt : known(fold(*word));
+      if (n) at = *n / k;
+    };
+    place(x, site.state.x, m->diameter == DiameterMode::radius ? 1 : 2);
+    place(z, site.state.z, 1);
+  }
+  if (!anywhere && (!x || !z)) return *error = "the place of the tool before it is not known here", std::nullopt;
   cycles::TurnContext context;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  context.start = {facts.position[axis::x].value_or(unknown) * unit, facts.position[axis::z].value_or(unknown) * unit};
+  context.start = {x.value_or(unknown) * unit, z.value_or(unknown) * unit};
   context.nose_width = nose_width(site.state);
   const auto& tools = context_.source_machine.tools;
   const auto tool =
@@ -437,6 +457,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& named, const Stateme
     if (!writer.add(move, error)) return std::nullopt;
   }
   if (!writer.finish(cycle->ends_modes, error)) return std::nullopt;
+  if (values != nullptr) *values = listed(used);
   return std::move(writer.blocks);
 }
 

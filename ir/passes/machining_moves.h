@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ir/cycles/machining.h"
+#include "ir/passes/head_constants.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/turning_forms.h"
 
@@ -31,9 +32,11 @@ class TurnCycles {
  public:
   TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context);
 
-  /// The moves as blocks; nullopt with a sentence: they can't be told here.
+  /// The moves as blocks; nullopt with a sentence: they can't be told here. With `values`, numbers that the head of the
+  /// program gives to variables count as known, and are listed there ("P1=40, P2=3").
   [[nodiscard]] std::optional<Body> write_out(const NamedCycle& cycle, const Statement& s, const Block& b,
-                                              const Facts& facts, std::string* error) const;
+                                              const Facts& facts, std::string* error,
+                                              std::string* values = nullptr) const;
   /// The same with words that only the run knows: expressions, and loops over the passes.
   [[nodiscard]] std::optional<Body> write_out_computed(const NamedCycle& cycle, const Statement& s, const Block& b,
                                                        const Facts& facts, Editor& editor, std::string* error) const;
@@ -52,6 +55,8 @@ class TurnCycles {
   /// Width of the tool in mm; 0: not known.
   [[nodiscard]] double nose_width(const TurnState& state) const;
   const LegaliseContext& context_;
+  const Routine& routine_;
+  HeadConstants constants_;
   std::map<std::uint32_t, Site> sites_;  ///< by id
   std::set<std::uint32_t> profile_blocks_;
 };

@@ -50,9 +50,12 @@ std::optional<Body> ComputedTurn::run() {
   if (row != nullptr && row->kind == cycles::MachiningKind::thread) {
     done = cycle_.name == "thread.counted"  ? thread_by_count()
            : cycle_.name == "thread.chased" ? thread_from_here()
+           : cycle_.name == "thread.chain"  ? fail("its words are computed when the program runs")
                                             : thread_by_section();
   } else if (row != nullptr && row->kind == cycles::MachiningKind::groove) {
     done = groove();
+  } else if (row != nullptr && row->kind == cycles::MachiningKind::straight) {
+    done = straight();
   } else {
     fail("its words are computed when the program runs");
   }

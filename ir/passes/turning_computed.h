@@ -28,6 +28,7 @@ class ComputedTurn {
   /// nullopt: `error` says why it can't be told.
   std::optional<Body> run();
   std::string error;
+  std::optional<double> usual_feed;  ///< in force before the cycle
 
  private:
   /// An axis by its role: one unit of a radius length is `k` units of its words.
@@ -73,6 +74,9 @@ class ComputedTurn {
   void counted_pass(const Value& h);
   bool thread_from_here();
   bool groove();
+  void feed_at(const Spot& to, const Value& f);
+  void withdraw_along(const Value& now, const Value& then, const Value& height, const Value& there, const Spot& last);
+  bool straight();
 
   const NamedCycle& cycle_;
   LineInfo like_;

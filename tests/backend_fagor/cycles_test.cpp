@@ -150,9 +150,12 @@ TEST(FagorCycles, AbsoluteLevelsNeedAbsoluteMode) {
   EXPECT_EQ(b.codes(), "TRN-214");
 }
 
-TEST(FagorCycles, TheLatheHasNone) {
+TEST(FagorCycles, TheLatheHasNoHoles) {
   const auto backend = backends::fagor::make_backend();
-  EXPECT_FALSE(backend->capabilities_for(profile_of("fagor-lathe")).native_cycle);
+  const auto& native = backend->capabilities_for(profile_of("fagor-lathe")).native_cycle;
+  EXPECT_FALSE(native(ir::Cycle{drill()}));
+  EXPECT_TRUE(native(ir::Cycle{ir::NamedCycle{"turn.thread", {{"x", ir::Value(40)}}}}));
+  EXPECT_FALSE(native(ir::Cycle{ir::NamedCycle{"turn.profile", {{"first_label", ir::Value(100)}}}}));
   EXPECT_EQ(refused(actions({define(drill())}), "fagor-lathe"), "TRN-214");
 }
 

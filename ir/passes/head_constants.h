@@ -1,0 +1,42 @@
+// Variables that a program sets once, at its head, to a number: at every later place they have this value.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+/// "P1=40, P2=3".
+std::string listed(const std::map<std::string, double>& values);
+
+class HeadConstants {
+ public:
+  /// Looks at the straight way from the start of the main program to its first jump, branch, loop or call.
+  explicit HeadConstants(const Program& program);
+
+  /// The expression with the numbers in the place of these variables, as it is read by the statement. The names and
+  /// numbers that were put in are added to `used` ("P1=40"), when it is given.
+  [[nodiscard]] Value fold(const Value& v, const Routine& routine, const Statement& at,
+                           std::map<std::string, double>* used = nullptr) const;
+  [[nodiscard]] bool empty() const { return known_.empty(); }
+
+ private:
+  using Key = std::tuple<SpaceId, std::string, std::int64_t>;
+  struct Known {
+    double value = 0;
+    std::uint32_t line = 0;  ///< of the assignment; it holds behind it
+  };
+  static std::optional<Key> key_of(const VarRef& v);
+  void forget_written_elsewhere();
+
+  const Program& program_;
+  std::map<Key, Known> known_;
+};
+
+}  // namespace cnctrans::ir::passes
