@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "ir/cycles/profile_blocks.h"
 #include "ir/text.h"
 #include "translator/contours.h"
 #include "translator/encode.h"
@@ -25,6 +26,13 @@ void collect_calls(const ir::Program& program, std::vector<ir::RoutineName>& out
         if (!m->off && !m->cycle && !m->call.computed) out.push_back(m->call.routine);
       } else if (const auto* r = std::get_if<ir::Repeat>(&s.node)) {
         if (r->has_program) out.push_back(r->program);
+      } else if (const auto* b = std::get_if<ir::Block>(&s.node)) {
+        for (const auto& a : b->actions) {
+          const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+          const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
+          if (auto profile = named != nullptr ? ir::cycles::profile_routine(*named) : std::nullopt)
+            out.push_back(*std::move(profile));
+        }
       }
     });
   }

@@ -77,6 +77,20 @@ bool has_profile(const NamedCycle& cycle) {
   return word(cycle, "first_label") != nullptr || word(cycle, "routine") != nullptr;
 }
 
+std::optional<RoutineName> profile_routine(const NamedCycle& cycle) {
+  RoutineName name;
+  if (const Value* routine = word(cycle, "routine")) {
+    const auto* text = text_of(*routine);
+    if (text == nullptr) return std::nullopt;
+    name.text = *text;
+    return name;
+  }
+  const Value* number = word(cycle, "program");
+  if (number == nullptr || !number->literal()) return std::nullopt;
+  name.number = static_cast<std::int64_t>(number->number);
+  return name;
+}
+
 std::vector<const Statement*> profile_blocks(const Program& program, const Routine& caller, const NamedCycle& cycle,
                                              std::string* error) {
   error->clear();

@@ -14,6 +14,8 @@ namespace cnctrans::ir::cycles {
 bool is_text(const Value& value);
 /// The cycle names blocks of the program as its profile.
 bool has_profile(const NamedCycle& cycle);
+/// The program or subprogram that the cycle names as its profile; nullopt: it names none.
+std::optional<RoutineName> profile_routine(const NamedCycle& cycle);
 /// The blocks from the first to the last label, both included, in the order of the text: those of the routine that
 /// calls the cycle, else of the first routine that has the labels; of the program that the cycle names, if it names
 /// one. Empty with a sentence: there are none.

@@ -346,11 +346,34 @@ std::string shown(const Statement& s) {
 
 }  // namespace
 
+namespace {
+
+/// Some statement runs the routine, or may run any.
+bool is_called(const Program& program, const Routine& routine) {
+  if (routine.kind == RoutineKind::main) return true;
+  bool called = false;
+  const auto look = [&](const CallRoutine& c) { called = called || c.computed || c.routine == routine.name; };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* c = std::get_if<CallRoutine>(&s.node)) look(*c);
+      if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && !m->off && !m->cycle) look(m->call);
+      if (const auto* again = std::get_if<Repeat>(&s.node))
+        called = called || (again->has_program && again->program == routine.name);
+    });
+  }
+  return called;
+}
+
+}  // namespace
+
 void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, const FactsOf& facts) {
   if (blocks.empty()) return;
   for (auto& r : program.routines) {
+    const bool called = is_called(program, r);
     for_each_statement(r.body, [&](Statement& s) {
-      if (blocks.count(s.id) == 0 || !std::holds_alternative<Block>(s.node) || facts.before(s).reachable) return;
+      const auto* block = std::get_if<Block>(&s.node);
+      if (blocks.count(s.id) == 0 || block == nullptr || block->empty()) return;
+      if (called && facts.before(s).reachable) return;
       CommentText c;
       c.text = program.keep(" " + shown(s));
       c.place = CommentPlace::own_line;
