@@ -451,7 +451,10 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (!e.lead_change.is(0))
     extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);
   const bool in_force = same_dialect() && e.start_angle.literal() && e.start_angle.text.empty();  // not written there
-  if (e.has_start_angle && !in_force) extra("SF", e.start_angle);
+  if (e.has_start_angle && !in_force)
+    extra("SF", e.start_angle);
+  else if (!e.has_start_angle && angles_)
+    extra("SF", ir::Value(0.0));
 }
 
 }  // namespace cnctrans::backends::sinumerik

@@ -113,7 +113,19 @@ std::string Writer::main_name() {
 
 /// Files of their own; an archive (programs with transfer headers in one file) when one output is wanted or the source
 /// was one.
+bool Writer::threads_have_angles() const {
+  bool found = false;
+  for (const auto& r : program().routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      found = found || (b != nullptr && b->motion.extra != nullptr && b->motion.extra->has_start_angle);
+    });
+  }
+  return found;
+}
+
 void Writer::write_program() {
+  angles_ = !same_dialect() && threads_have_angles();
   const auto& routines = program().routines;
   const bool was_archive = same_dialect() && !program().files.empty() && program().files.front().archive;
   const bool archive = was_archive || (options().single_output && routines.size() > 1);

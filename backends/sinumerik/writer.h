@@ -82,6 +82,9 @@ class Writer final : public ProgramWriter {
   void externs(const ir::Routine& r);
   std::string proc_line(const ir::Routine& r, const std::string& name);
 
+  /// Some thread of the program starts at an angle of its own: SF= stays in force here, so each thread has to say its.
+  [[nodiscard]] bool threads_have_angles() const;
+
   // statements
   bool condition(const ir::ExprPtr& e, std::string& text);
   std::string goto_text(const ir::Jump& j);
@@ -113,6 +116,7 @@ class Writer final : public ProgramWriter {
   std::uint32_t written_column_ = 0;
   bool list_written_ = false;  ///< the statement before was a list of values in the words of the source
   bool uses_css_ = false;
+  bool angles_ = false;     ///< every thread says its start angle
   std::string group_code_;  ///< G94 G95 G96... of the block being written
   bool group_written_ = false;
   bool block_has_offset_ = false;         ///< the block being written selects an offset or a tool
