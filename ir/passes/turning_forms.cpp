@@ -21,9 +21,11 @@ class Forms {
   void all() {
     if (c_.name == "thread.chased") {
       chased_to_counted();
+      chased_taper_to_counted();
       chased_to_section();
     } else if (c_.name == "thread.counted") {
       counted_to_chased();
+      counted_taper_to_chased();
       counted_to_section();
     } else if (c_.name == "turn.thread") {
       section_to_counted();
@@ -124,6 +126,42 @@ class Forms {
     out.push_back(std::move(f));
   }
 
+  void chased_taper_to_counted() {
+    for (const auto& [w, v] : c_.words) {
+      if (!word(w).literal()) return;
+    }
+    if (!start_.x || !start_.z || !start_.x->literal() || !start_.z->literal()) return;
+    if (word("cone").is(0) || !word("exit").is(0) || !has("x_end") || word("finish_stock").is(0)) return;
+    const double cone = word("cone").number, end = word("x_end").number, passes = std::round(word("passes", 1).number);
+    if (passes < 2) return;
+    const double sense = start_.x->number < end ? -1 : 1, depth = std::fabs(word("depth").number);
+    const double slope = std::tan(cone * std::acos(-1.0) / 180) * k_;
+    const double last = end + sense * depth * k_, length = std::fabs(word("z_end").number - start_.z->number);
+    const double first = last - slope * length;
+    const double lift = sense * (start_.x->number - sense * std::fmax(sense * first, sense * last)) / k_;
+    if (lift < tiny) return;
+    TurnForm f;
+    f.cycle.name = "thread.counted";
+    put(f, "pitch", positive(word("pitch")));
+    put(f, "z", *start_.z);
+    put(f, "z_end", word("z_end"));
+    const auto places = [](double v) { return Value(std::round(v * 1e6) / 1e6); };
+    put(f, "x", places(first));
+    put(f, "x_end", places(last));
+    put(f, "run_in", Value(0.0));
+    put(f, "run_out", Value(0.0));
+    put(f, "depth", Value(depth));
+    put(f, "finish_stock", positive(word("finish_stock")));
+    put(f, "infeed_angle", positive(word("infeed_angle")));
+    put(f, "start_angle", Value(0.0));
+    put(f, "passes", Value(passes - 1));
+    put(f, "idle", Value(0.0));
+    put(f, "variant", Value(sense > 0 ? 3.0 : 4.0));
+    put(f, "starts", word("starts", 1));
+    put(f, "withdrawal", places(lift));
+    out.push_back(std::move(f));
+  }
+
   void chased_to_section() {
     Chased c;
     if (!read(c) || !word("infeed_angle").is(0) || !one_start(word("starts", 1))) return;
@@ -176,6 +214,38 @@ class Forms {
     c.passes = word("passes");
     c.idle = word("idle");
     return c.stock.literal() && c.idle.literal();
+  }
+
+  /// The same on a cone, as numbers: the line through the crests, and the angle that the word has room for.
+  void counted_taper_to_chased() {
+    for (const auto& [w, v] : c_.words) {
+      if (!word(w).literal()) return;
+    }
+    const double variant = word("variant").number, way = word("z_end").number - word("z").number;
+    const double rise = word("x_end").number - word("x").number, angle = word("infeed_angle").number;
+    if (way == 0 || rise == 0 || angle < 0 || !word("start_angle").is(0) || !word("idle").is(0)) return;
+    if ((variant != 3 && variant != 4) || !word("size").is(0) || word("finish_stock").number <= 0) return;
+    const double dir = way < 0 ? -1 : 1, sense = variant == 4 ? -1 : 1;
+    const double from = word("z").number - dir * word("run_in").number;
+    const double to = word("z_end").number + dir * word("run_out").number;
+    const auto crest = [&](double z) { return word("x").number + (z - word("z").number) * rise / way; };
+    const double lift = word("withdrawal").is(0) ? 1 : std::fabs(word("withdrawal").number);
+    const double depth = std::fabs(word("depth").number);
+    TurnForm f;
+    f.cycle.name = "thread.chased";
+    f.from = {clean(Value(sense * std::fmax(sense * crest(from), sense * crest(to)) + sense * lift * k_)),
+              clean(Value(from))};
+    put(f, "x_end", Value(crest(to) - sense * depth * k_));
+    put(f, "z_end", Value(to));
+    put(f, "pitch", positive(word("pitch")));
+    const double slope = (crest(to) - crest(from)) / k_ / std::fabs(to - from);
+    put(f, "cone", Value(std::round(std::atan(slope) * 180 / std::acos(-1.0) * grid_) / grid_));
+    put_unless_zero(f, "infeed_angle", Value(angle));
+    put(f, "depth", Value(depth));
+    put(f, "finish_stock", word("finish_stock"));
+    put(f, "passes", Value(word("passes").number + 1));
+    if (!one_start(word("starts"))) put(f, "starts", word("starts"));
+    out.push_back(std::move(f));
   }
 
   void counted_to_chased() {
