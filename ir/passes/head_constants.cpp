@@ -1,6 +1,7 @@
 #include "ir/passes/head_constants.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/text.h"
@@ -58,6 +59,13 @@ HeadConstants::HeadConstants(const Program& program) : program_(program) {
   if (main == program.routines.end()) return;
   for (const auto& s : main->body) {
     if (!straight(s)) break;
+    if (const auto* d = std::get_if<Declare>(&s.node); d != nullptr && s.line.skip_mask == 0) {
+      for (const auto& item : d->items) {
+        const auto n =
+            item.dimensions.empty() && item.initial.size() == 1 ? constant_value(item.initial[0]) : std::nullopt;
+        if (n) known_[Key{d->space, item.name, 0}] = {*n, s.line.span.line, 0};
+      }
+    }
     const auto* a = std::get_if<Assign>(&s.node);
     if (a == nullptr) continue;
     Statement behind;  // the assignments of a line follow each other
@@ -68,7 +76,7 @@ HeadConstants::HeadConstants(const Program& program) : program_(program) {
       const Value v = fold(Value(item.value), *main, behind);
       const auto n = v.literal() ? std::optional(v.number) : constant_value(v.expr);
       if (n && s.line.skip_mask == 0)
-        known_[*key] = {*n, s.line.span.line};
+        known_[*key] = {*n, s.line.span.line, 1};
       else
         known_.erase(*key);
     }
@@ -107,7 +115,7 @@ void HeadConstants::forget_written_elsewhere() {
   if (hidden) known_.clear();
   std::erase_if(known_, [&](const auto& k) {
     const auto it = writes.find(k.first);
-    return (it != writes.end() && it->second > 1) || anywhere.count(std::get<0>(k.first)) != 0;
+    return (it != writes.end() && it->second > k.second.writes) || anywhere.count(std::get<0>(k.first)) != 0;
   });
 }
 
@@ -120,6 +128,8 @@ Value HeadConstants::fold(const Value& v, const Routine& routine, const Statemen
     const auto key = ref == nullptr ? std::nullopt : key_of(*ref);
     const auto it = key ? known_.find(*key) : known_.end();
     if (it == known_.end()) return node;
+    const bool whole = node->type == Type::integer || node->type == Type::boolean;  // it may have been rounded
+    if (whole && it->second.value != std::round(it->second.value)) return node;
     const auto& space = program_.spaces[ref->space];
     // Elsewhere a variable of the same name may be another one.
     if (main ? it->second.line >= at.line.span.line : !shared(space, std::get<2>(*key))) return node;

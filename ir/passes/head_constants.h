@@ -31,6 +31,7 @@ class HeadConstants {
   struct Known {
     double value = 0;
     std::uint32_t line = 0;  ///< of the assignment; it holds behind it
+    int writes = 1;          ///< by the statement that sets it: 0 for a definition with a value
   };
   static std::optional<Key> key_of(const VarRef& v);
   void forget_written_elsewhere();
