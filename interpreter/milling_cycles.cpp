@@ -42,6 +42,9 @@ double BlockMachine::tool_radius() {
     }
     if (const auto it = profile_.data.find(name); it != profile_.data.end()) return it->second * length;
   }
+  const std::vector<double> row{static_cast<double>(offset_)};
+  const auto written = written_tools_.find({ir::Datum::tool_radius, ir::axis::none, row});
+  if (written != written_tools_.end()) return written->second * (policy_.data_modal ? unit() : 1);
   const auto tool = std::find_if(profile_.tools.begin(), profile_.tools.end(),
                                  [number](const auto& t) { return t.number == number; });
   return tool == profile_.tools.end() ? 0 : tool->radius;

@@ -67,6 +67,7 @@ class Writer final : public ProgramWriter {
   std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);
   void shift(const ir::Action& a, const ir::FrameChange& c);
   void straight_extra(const ir::Motion& m, const ir::MotionExtra& e);
+  void pocket(const ir::Action& a, const ir::HoleCycle& c);
   void hole_cycle(const ir::Action& a, const ir::HoleCycle& c);
   bool turning_cycle(const ir::Action& a, const ir::NamedCycle& c);
   void hole_levels(const ir::Action& a, const ir::HoleCycle& c);

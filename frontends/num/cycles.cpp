@@ -165,6 +165,7 @@ bool Lowering::cycle_bottom(ir::HoleCycle& cycle, const Word& g) {
 
 void Lowering::define_cycle(const Word& g) {
   const int number = saturate<int>(g.number);
+  if (number == 45) return pocket(g);
   ir::HoleCycle cycle;
   switch (number) {
     case 81:
@@ -225,6 +226,11 @@ void Lowering::change_cycle() {
     if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
   }
   if (refuses_new_depth()) return;
+  if (state_.cycle_code == 45) {
+    report_.refuse("NUM-026", at->pos, "the words of a pocket can't be changed while it is active",
+                   "write the cycle again");
+    return;
+  }
   const bool plane_given = has(e('R'));
   const bool to_plane = plane_given && out_->motion.coords.empty();
   if (!cycle_words(cycle, state_.cycle_code)) return;

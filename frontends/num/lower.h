@@ -146,6 +146,8 @@ class Lowering {
   // cycles.cpp
   void define_cycle(const Word& g);
   void change_cycle();
+  void pocket(const Word& g);  // pockets.cpp
+  bool pocket_levels(ir::HoleCycle& cycle);
   bool refuses_new_depth();
   bool cycle_words(ir::HoleCycle& cycle, int number);
   bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);

@@ -140,7 +140,8 @@ void Lowering::resolve_values() {
   if (const Word* w = use(letter('D'))) {
     if (check_literal(*w, static_cast<double>(facts::offset_max))) act(*w, Step::value, ir::ToolOffset{value(*w)});
   }
-  if (const Word* w = has(e('B')) ? use(e('B')) : nullptr) corner(*w);
+  const bool own_corner = has(e('B')) && (used_ & bit(e('B'))) == 0;
+  if (const Word* w = own_corner ? use(e('B')) : nullptr) corner(*w);
   if (has(e('D')) && (used_ & bit(e('D'))) == 0) {
     const Word* w = use(e('D'));
     ir::FrameChange change;

@@ -289,6 +289,8 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       if (facts::missing_feature(row).empty()) return mark(marks_.turning);
       return missing(facts::missing_feature(row));
     case GKind::milling_cycle:
+      if (facts::missing_feature(row).empty()) return mark(marks_.cycle);
+      return missing(facts::missing_feature(row));
     case GKind::spline:
     case GKind::spatial_comp:
     case GKind::transform:

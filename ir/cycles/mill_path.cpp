@@ -130,6 +130,7 @@ void MillPath::put(MillStep step, double u, double v, double w, bool into) {
     const double milling = std::abs(get("mill_feed"));
     double feed = into ? std::abs(get("plunge_feed")) : milling;
     if (finishing_ && !into && get("finish_feed") > 0) feed = get("finish_feed");
+    if (finishing_ && into && get("finish_plunge_feed") > 0) feed = get("finish_plunge_feed");
     if (into && feed == 0) {
       feed = milling;
       m.feed_factor = get("plunge_factor", 1);

@@ -38,6 +38,7 @@ constexpr std::array parameters = {
     MillParameter{"plunge_feed", feed, "into the material; left out or 0: plunge_factor times the feed in force"},
     MillParameter{"plunge_factor", plain, "see plunge_feed; 1 where left out"},
     MillParameter{"finish_feed", feed, "of finishing; left out or 0: mill_feed"},
+    MillParameter{"finish_plunge_feed", feed, "of finishing, into the material; left out or 0: plunge_feed"},
     MillParameter{"finish_infeed", length, "of finishing the wall; 0: in one"},
     MillParameter{"finish_speed", plain, "rev/min of finishing; left out or 0: as before"},
     MillParameter{"sense", plain, "0 climb, 1 conventional milling, 2 clockwise, 3 counter-clockwise"},
@@ -61,14 +62,16 @@ constexpr std::array parameters = {
 constexpr std::array shapes = {
     MillShape{"pocket.rect", MillKind::rectangle,
               "u,v,length,width,half_length,half_width,corner,angle,infeed,signed_infeed,step,step_factor,wall_stock,"
-              "floor_stock,wall_pass,mill_feed,plunge_feed,plunge_factor,finish_feed,finish_infeed,finish_speed,sense,"
+              "floor_stock,wall_pass,mill_feed,plunge_feed,plunge_factor,finish_feed,finish_plunge_feed,finish_infeed,"
+              "finish_speed,sense,"
               "operation,variant,plunge_radius,plunge_pitch,blank_length,blank_width,blank_depth",
               "rectangular pocket"},
-    MillShape{"pocket.circle", MillKind::circle,
-              "u,v,radius,signed_radius,infeed,signed_infeed,step,step_factor,wall_stock,floor_stock,wall_pass,"
-              "mill_feed,plunge_feed,plunge_factor,finish_feed,finish_infeed,finish_speed,sense,operation,variant,"
-              "plunge_radius,plunge_pitch,blank_length,blank_depth",
-              "circular pocket"},
+    MillShape{
+        "pocket.circle", MillKind::circle,
+        "u,v,radius,signed_radius,infeed,signed_infeed,step,step_factor,wall_stock,floor_stock,wall_pass,"
+        "mill_feed,plunge_feed,plunge_factor,finish_feed,finish_plunge_feed,finish_infeed,finish_speed,sense,operation,"
+        "variant,plunge_radius,plunge_pitch,blank_length,blank_depth",
+        "circular pocket"},
     MillShape{"slot.radial", MillKind::slot,
               "u,v,count,length,width,radius,angle,angle_step,infeed,step,step_factor,wall_stock,floor_stock,mill_feed,"
               "plunge_feed,finish_feed,finish_infeed,finish_speed,sense,operation",

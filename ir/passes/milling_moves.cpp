@@ -180,6 +180,7 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
       if (assign == nullptr) return;
       for (const auto& item : assign->items) {
         if (!item.to_system) continue;
+        radius_written_ = radius_written_ || item.system.datum == Datum::tool_radius;
         const auto value = constant_value(item.value);
         const auto [it, fresh] = written_.emplace(datum_name(item.system), value);
         if (!fresh && it->second != value) it->second.reset();
@@ -254,6 +255,7 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
     }
     if (const auto it = machine.data.find(name); it != machine.data.end()) return it->second * scale;
   }
+  if (radius_written_) return *error = "the program writes the radius of its tools", std::nullopt;
   if (!machine.tools.empty()) {
     if (!site.tool) return *error = "which tool is in use is not known here", std::nullopt;
     const auto tool =

@@ -36,7 +36,8 @@ class MillCycles {
   [[nodiscard]] std::optional<double> radius(const Site& site, double length_unit, std::string* error) const;
 
   const LegaliseContext& context_;
-  bool no_feed_ = true;  ///< the program has no F of its own
+  bool radius_written_ = false;  ///< by the program, under any name
+  bool no_feed_ = true;          ///< the program has no F of its own
   mutable std::optional<End> end_;
   std::map<std::uint32_t, Site> sites_;                   ///< by id of the block
   std::map<std::string, std::optional<double>> written_;  ///< data the program writes; nullopt: not one fixed number
