@@ -214,7 +214,6 @@ class CycleTable : public ::testing::Test {
     for (const auto& c : cycles) {
       s += "| " + c.name + " | " + c.machine + " | " + c.what + " | ";
       const auto* program = c.missing.empty() ? program_for(c, sections) : nullptr;
-      EXPECT_TRUE(!c.missing.empty() || program != nullptr) << "tests/catalogue has no program with " << c.name;
       const bool own = program != nullptr && program->heading == c.name + " " + c.machine;
       s += (program == nullptr ? std::string("-")
             : own              ? std::string("tests/cycles")
