@@ -53,6 +53,9 @@ double BlockMachine::tool_radius() {
 bool BlockMachine::run_milling() {
   const auto plane = ir::plane_axes(modal_.plane);
   if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
+  if (modal_.comp != ir::CompSide::off)
+    return failure_.fail(code::bad_cycle,
+                         "a milling cycle runs without radius compensation: it goes by the radius itself");
   ir::cycles::MillContext context;
   context.u = p_[plane.u];
   context.v = p_[plane.v];

@@ -280,6 +280,8 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     return *error = "plane, units or absolute and incremental are not known here", std::nullopt;
   if (diameter != DiameterMode::radius && *in_plane != Plane::yz)
     return *error = "its places would be diameters", std::nullopt;
+  if (setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
+    return *error = "radius compensation is on, or may be", std::nullopt;
   const auto axes = plane_axes(*in_plane);
   const double unit = *units == Units::inch ? 25.4 : 1;
   cycles::HoleContext levels;
