@@ -13,7 +13,7 @@ namespace {
 /// Understood when it was read: only a run that comes here stops.
 bool is_read(const ir::Opaque& o) {
   const auto* f = ir::find_missing_feature(o.feature);
-  return f != nullptr && f->key != "text.unread";
+  return f != nullptr && f->key != "text.unread" && f->key != "machine.axis";
 }
 
 class Checker {
@@ -79,8 +79,10 @@ class Checker {
       case Op::opaque: {
         const auto& o = std::get<ir::Opaque>(in.statement->node);
         if (o.harmless || is_read(o) || told(flow, at)) break;
+        const bool axis = o.feature == "machine.axis";
         diagnostics_.error(code::opaque, in.statement->line.span,
-                           "this statement is not understood and may move the machine or change its state",
+                           axis ? "this block moves an axis that the machine does not have"
+                                : "this statement is not understood and may move the machine or change its state",
                            "the program cannot be run; see the diagnostic of the reader for the same line");
         break;
       }

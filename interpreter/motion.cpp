@@ -217,6 +217,7 @@ bool BlockMachine::polar_end(const ir::Motion& m, Move& move) {
   if (cartesian) return failure_.fail(code::polar, "a coordinate of the plane stands beside polar words");
   move.to[plane.u] = pole_.u + radius * cos_degrees(angle);
   move.to[plane.v] = pole_.v + radius * sin_degrees(angle);
+  base_pending_ &= ~(1U << plane.u | 1U << plane.v);
   return !failure_.set;
 }
 
@@ -239,6 +240,7 @@ bool BlockMachine::line_by_angle(const ir::Motion& m, Move& move) {
     return failure_.fail(code::polar, "a line at this angle never reaches the coordinate");
   }
   const double other = std::abs(travel) <= no_move ? 0 : travel * across / along;
+  base_pending_ &= ~(1U << plane.u | 1U << plane.v);
   if (has_u) {
     move.to[plane.v] = move.from[plane.v] + other;
   } else {

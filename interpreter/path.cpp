@@ -60,6 +60,9 @@ bool BlockMachine::send(const Move& given) {
 }
 
 void BlockMachine::arrived(const Move& move) {
+  if (base_pending_ != 0) {  // increments go on from here, whatever said the end point
+    for (const auto a : axes_) base_pending_ &= move.to[a] != move.from[a] ? ~(1U << a) : ~0U;
+  }
   p_ = move.to;
   if (move.kind == Move::Kind::arc || move.from != move.to) {
     for (std::size_t i = 0; i < 3; ++i) before_[i] = move.from[i];

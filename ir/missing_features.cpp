@@ -25,6 +25,8 @@ constexpr std::array features{
     MissingFeature{"language.synchronised", "synchronised actions and couplings", "depends on the machine's real time"},
     MissingFeature{"language.system_variable", "a system variable without a neutral meaning",
                    "its value is known only to the machine"},
+    MissingFeature{"machine.axis", "a word of an axis that the machine does not have",
+                   "the profile of the machine names its axes"},
     MissingFeature{"motion.geometry", "profiles given by angles, tangency and intersections",
                    "the data of such a profile are solved by the control"},
     MissingFeature{"motion.polynomial", "polynomial interpolation", "planned with the whole motion chapter"},

@@ -58,6 +58,7 @@ class Transfer {
     }
   }
   void operator()(const SetFeed& x) {
+    if (x.block_only) return;
     f_.feed = x.zero_is_maximum && !x.value.literal() ? std::nullopt : known(x.value);
     if (x.zero_is_maximum && f_.feed == 0.0) f_.feed.reset();
   }
@@ -269,7 +270,7 @@ class Transfer {
 
 void assign(const Assign& a, Facts& f) {
   for (const auto& it : a.items) {
-    if (!it.to_system) continue;
+    if (!it.to_system || it.system.datum == Datum::axis_feed) continue;
     // A machine datum may be an offset, a frame or a tool: what depends on them is no longer known.
     Transfer(f).forget_positions();
     f.feed.reset();

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "verifier/normalise.h"
+#include "verifier/tool_names.h"
 
 namespace cnctrans::verifier {
 
@@ -361,7 +362,7 @@ class Comparison {
         }
         return {};
       case EventKind::tool:
-        if (a.change != b.change || (options_.tool_numbers && (a.number != b.number || a.text != b.text))) {
+        if (a.change != b.change || (options_.tool_numbers && !tools_.same(a, b))) {
           return fmt::format("tool {}{} in the source, {}{} in the translation", a.number, a.change ? " (change)" : "",
                              b.number, b.change ? " (change)" : "");
         }
@@ -398,6 +399,7 @@ class Comparison {
   const Event *first_a_, *first_b_;  ///< of the traces before normalisation
   std::vector<OffsetState> offsets_a_, offsets_b_;
   const Options& options_;
+  mutable ToolNames tools_;
   Verdict& verdict_;
   std::size_t i_ = 0, j_ = 0;
   Position from_a_, from_b_;

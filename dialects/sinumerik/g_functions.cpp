@@ -270,7 +270,7 @@ constexpr GFunction printed[] = {
     {"ORIROTT", -1, 54, 3, true, GUse::timing},
     {"ORIROTC", -1, 54, 4, true, GUse::timing},
     {"RTLION", -1, 55, 1, true, GUse::timing},
-    {"RTLIOF", -1, 55, 2, true, GUse::unsupported},
+    {"RTLIOF", -1, 55, 2, true, GUse::timing},
     {"TOWSTD", -1, 56, 1, true, GUse::compensation},
     {"TOWMCS", -1, 56, 2, true, GUse::compensation},
     {"TOWWCS", -1, 56, 3, true, GUse::compensation},

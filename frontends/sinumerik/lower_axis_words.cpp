@@ -56,8 +56,7 @@ bool StatementLowering::indirect_g(const syntax::Statement& s, Parts& parts) {
     return true;
   }
   constexpr double offsets = 8;
-  if (group.number != offsets)
-    return refuse("language.statement", s.pos, "a G function chosen by a variable is not carried yet");
+  if (group.number != offsets) return chosen_g(s, parts);
   auto index = exprs_.lower_as(value, ir::Type::integer);
   if (!index) return false;
   ir::Action a;  // 1 is G500, 2 is G54
@@ -65,6 +64,47 @@ bool StatementLowering::indirect_g(const syntax::Statement& s, Parts& parts) {
   a.pos = s.pos;
   a.text = c_.slice(s.pos);
   parts.actions.push_back(std::move(a));
+  return true;
+}
+
+/// `G[6]=R10`: a branch for each code of the group, as far as all of them are settings.
+bool StatementLowering::chosen_g(const syntax::Statement& s, Parts& parts) {
+  const auto group = saturate<std::int32_t>(s.args[0].args[0].number);
+  const auto index = exprs_.lower_as(s.args[1], ir::Type::integer);
+  if (!index) return false;
+  std::vector<const GFunction*> codes;
+  for (const GFunction& g : g_functions()) {
+    if (g.group != group || g.index == 0) continue;
+    if (g.use != GUse::setting && g.use != GUse::timing && g.use != GUse::compensation)
+      return refuse("language.statement", s.pos, "a G function of this group chosen by a variable is not carried yet");
+    if (g.use == GUse::setting) codes.push_back(&g);
+  }
+  if (codes.empty()) {
+    c_.error("SIN-002", s.pos, "there is no such G function in this group");
+    return false;
+  }
+  ir::Body rest;
+  for (auto g = codes.rbegin(); g != codes.rend(); ++g) {
+    ir::Action a;
+    a.data = ir::ModalSet{static_cast<ir::Setting>((*g)->a), (*g)->b, true, ir::FeedMemory::shared};
+    ir::Block block;
+    block.actions.push_back(std::move(a));
+    ir::Statement then;
+    then.line.span = c_.line;
+    then.node = std::move(block);
+    ir::If node;
+    node.condition = ir::binary(ir::BinaryOp::eq, index, ir::number((*g)->index));
+    node.then_body.push_back(std::move(then));
+    node.has_else = !rest.empty();
+    node.else_body = std::move(rest);
+    node.else_line.span = node.end_line.span = c_.line;
+    ir::Statement branch;
+    branch.line.span = c_.line;
+    branch.node = std::move(node);
+    rest.clear();
+    rest.push_back(std::move(branch));
+  }
+  parts.calls.push_back(std::move(rest.front().node));
   return true;
 }
 
@@ -209,7 +249,7 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   const std::uint32_t before = c_.errors;
   const std::string& word = target.text;
   if (exprs_.is_undefined(index) || (index.kind == ExprKind::call && index.text == "SPI"))
-    return refuse("block.word", s.pos,
+    return refuse(index.kind == ExprKind::call ? "block.word" : "machine.axis", s.pos,
                   word + "[" + std::string(c_.slice(index.pos)) + "]: this axis is not one of the machine " +
                       c_.machine.profile->name);
   const ir::ExprPtr axis = exprs_.axis_operand(index);

@@ -149,7 +149,9 @@ bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
     return false;
   }
   bool ok = true;
-  routine_->kind = ir::RoutineKind::sub;
+  // PROC of a main program (.MPF, _MPF) without parameters is only its heading
+  const bool main = routine_->kind == ir::RoutineKind::main && s.children.empty();
+  if (!main) routine_->kind = ir::RoutineKind::sub;
   routine_->name = routine_name(s.text);
   routine_->has_signature = true;
   routine_->header = info;

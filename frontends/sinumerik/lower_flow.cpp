@@ -35,6 +35,11 @@ void StatementLowering::end_routine(const SourceText* source) {
                          "write its ENDIF, ENDWHILE, ENDFOR, ENDLOOP or UNTIL");
   }
   structure_.reset();
+  if (routine_->has_signature && routine_->kind == ir::RoutineKind::main) {  // a PROC that returns is a subprogram
+    ir::for_each_statement(routine_->body, [this](const ir::Statement& s) {
+      if (std::holds_alternative<ir::Return>(s.node)) routine_->kind = ir::RoutineKind::sub;
+    });
+  }
   routine_ = nullptr;
 }
 

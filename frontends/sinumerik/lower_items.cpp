@@ -100,12 +100,12 @@ bool StatementLowering::reads_like_axis(std::string_view name) {
 /// A name that is not defined here gets a value: from there on it is known.
 bool StatementLowering::assign_undefined(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
   if (value.kind == ExprKind::call && attribute(value.text) != Attribute::none) {
-    return refuse("language.statement", pos,
+    return refuse("machine.axis", pos,
                   target.text + " is an axis that the machine " + c_.machine.profile->name + " does not have");
   }
   if (reads_like_axis(target.text)) {
     return refuse(
-        "language.statement", pos,
+        "machine.axis", pos,
         target.text + " reads like an axis, and the machine " + c_.machine.profile->name + " has none of this name",
         "add the axis to the profile, or define the variable with DEF; the block is kept as text");
   }

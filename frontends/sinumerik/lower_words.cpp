@@ -264,6 +264,7 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   }
   std::string name(1, address);
   if (w.extension >= 0) name += std::to_string(w.extension);
+  feature_ = "machine.axis";
   c_.keep("SIN-003", w.pos, "the machine " + c_.machine.profile->name + " has no axis or function " + name,
           "choose the machine with --machine, or add the axis to its profile; the block is kept as text");
 }

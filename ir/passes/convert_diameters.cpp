@@ -65,7 +65,7 @@ class DiameterPass {
   }
 
   void coordinate(const Statement& s, CoordWord& c, const Block& b, const Facts& facts) const {
-    if (!concerns(c.axis)) return;
+    if (!concerns(c.axis) && c.scale != WordScale::diameter) return;
     const auto distance = distance_of(c, b, facts);
     const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
     const auto to = target_factor(c.axis, WordScale::modal, distance, mode);
@@ -144,13 +144,27 @@ bool keeps_mode(const Program& program, const LegaliseContext& context) {
   return keeps;
 }
 
+/// A word that says itself that it is a diameter, on whatever axis.
+bool has_diameter_word(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !b->has_motion) return;
+      for (const auto& c : b->motion.coords) found = found || c.scale == WordScale::diameter;
+    });
+  }
+  return found;
+}
+
 }  // namespace
 
 void convert_diameters(Program& program, const LegaliseContext& context) {
   const auto diameter = [](const machine::AxisSpec& a) { return a.diameter; };
   const auto& from = context.source_machine.axes;
   const auto& to = context.target_machine.axes;
-  if (std::none_of(from.begin(), from.end(), diameter) && std::none_of(to.begin(), to.end(), diameter)) return;
+  const bool axes = std::any_of(from.begin(), from.end(), diameter) || std::any_of(to.begin(), to.end(), diameter);
+  if (!axes && !has_diameter_word(program)) return;
   const FactsOf facts(program, context);
   DiameterPass pass(context, facts, program.dialect == context.target.dialect, keeps_mode(program, context));
   for (auto& r : program.routines) {

@@ -12,28 +12,51 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-/// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates.
+constexpr std::uint64_t one = 1;
+constexpr unsigned first_plane_bit = axis::count_max;
+constexpr std::uint64_t plane_bits = 7 * (one << first_plane_bit), axis_bits = (one << axis::count_max) - 1;
+
+bool is_polar(const Motion& m) {
+  return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
+}
+
+/// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates. The bits
+/// from first_plane_bit on say which planes may be in force (polar words move both axes of the plane).
 struct UnmovedAxes {
-  using State = std::uint32_t;
-  [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return 0; }
+  using State = std::uint64_t;
+  [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return plane_bits; }
   static void transfer(const Statement& s, State& state) {
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
-      if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) state = ~0U;
+      if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) state |= axis_bits;
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      if (m != nullptr && m->setting == Setting::plane)
+        state = (state & axis_bits) | one << (first_plane_bit + m->value);
     }
     if (!b->has_motion) return;
-    for (const auto& c : b->motion.coords) state &= ~(1U << c.axis);
+    for (const auto& c : b->motion.coords) state &= ~(one << c.axis);
+    if (is_polar(b->motion)) state &= ~polar_axes(state);
+  }
+  /// Axes that polar words move whichever of the planes is in force.
+  static State polar_axes(State state) {
+    State moved = axis_bits;
+    for (const auto plane : {Plane::xy, Plane::zx, Plane::yz}) {
+      const PlaneAxes axes = plane_axes(plane);
+      if ((state >> (first_plane_bit + static_cast<unsigned>(plane)) & one) != 0)
+        moved &= one << axes.u | one << axes.v;
+    }
+    return moved;
   }
   [[nodiscard]] static bool touches(const Routine& r) {
     bool found = false;
     for_each_statement(r.body, [&found](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) return;
-      State none = 0, all = ~0U;
+      State none = 0, all = plane_bits | axis_bits;
       transfer(s, none);
       transfer(s, all);
-      found = found || none != 0 || all != ~0U;
+      found = found || none != 0 || all != (plane_bits | axis_bits);  // planes, frames, moves
     });
     return found;
   }
@@ -287,7 +310,7 @@ class DistancePass {
   /// Where the source's control counts an increment of the axis from, in the frame in force (radius).
   std::optional<double> base(AxisId a, const Block& b, const Facts& facts) const {
     if (facts.position[a]) return facts.position[a];
-    if ((dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;
+    if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
     if (context_.source_machine.option("frame.change_keeps") == "programmed") return shifted_.at[a];
     const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
     if (shifted_.turned || !shifted_.moved[a] || !metric) return std::nullopt;
@@ -306,7 +329,8 @@ class DistancePass {
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
     leave_straight(s);
-    if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) dirty_ = *waiting;
+    if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) dirty_ = static_cast<std::uint32_t>(*waiting);
+    if (b.has_motion && is_polar(b.motion)) shifted_.at.fill(std::nullopt);
     const Facts& facts = facts_.before(s);
     for (const auto& a : b.actions) {
       const auto* f = std::get_if<FrameOp>(&a.data);

@@ -5,6 +5,8 @@
 
 namespace cnctrans::ir::passes {
 
+/// Tools called by name get numbers where the target has no names.
+void number_tools(Program& program, const LegaliseContext& context);
 /// The end of a repeated range stands on the last statement that its source line became.
 void mark_range_ends(Program& program, const LegaliseContext& context);
 /// A routine that saves the modal state of its caller writes it back before its returns, for a target without that.
@@ -14,8 +16,18 @@ void restore_modals(Program& program, const LegaliseContext& context);
 void select_written_offsets(Program& program, const LegaliseContext& context);
 /// Points of a contour that follow from its angles, tangency and intersections, written out.
 void solve_contours(Program& program, const LegaliseContext& context);
+/// A tangent arc that is in force in the source is said in each block.
+void say_tangent_arcs(Program& program, const LegaliseContext& context);
+/// A tap with a compensating chuck as a straight move.
+void write_floating_taps(Program& program, const LegaliseContext& context);
+/// A feed of one block as a feed and the one of before behind it.
+void write_block_feeds(Program& program, const LegaliseContext& context);
+/// Axes that move by themselves as straight moves.
+void write_positioning(Program& program, const LegaliseContext& context);
 /// Computed rotary positions whose sign is a direction become a branch where the target writes the direction itself.
 void choose_directions(Program& program, const LegaliseContext& context);
+/// A scale of two axes as one of all, with the words of the third axis divided.
+void complete_scales(Program& program, const LegaliseContext& context);
 /// The search of a reference point as a move to its place, for a target without such a function.
 void convert_reference_moves(Program& program, const LegaliseContext& context);
 /// Increments right behind a preset of the zero point become absolute where the controls count them differently.

@@ -119,6 +119,7 @@ bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const 
            (s == Setting::length_comp && adds_length_);
   }
   if (std::holds_alternative<SpindleRun>(a.data)) return target_.gear_needed;
+  if (const auto* t = std::get_if<ToolSelect>(&a.data); t != nullptr && !t->name.empty()) return true;  // gets a number
   if (const auto* t = std::get_if<ToolSelect>(&a.data)) return at_once_ && !t->changes && !has<ToolChange>(block);
   if (std::holds_alternative<ToolChange>(a.data)) {
     return (at_once_ || passes::changes_on_select(source_)) && !has<ToolSelect>(block);

@@ -6,8 +6,8 @@ namespace cnctrans::ir::passes {
 
 std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
                                 const Facts& facts, const machine::Profile& machine) {
+  if (scale == WordScale::diameter) return 0.5;  // said by the word itself, on any axis
   if (scale == WordScale::radius || !is_diameter_axis(machine, axis)) return 1;
-  if (scale == WordScale::diameter) return 0.5;
   const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
   if (!mode) return std::nullopt;
   switch (*mode) {
