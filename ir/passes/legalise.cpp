@@ -37,6 +37,7 @@ constexpr std::array pipeline{
     Pass{"cycles", passes::lower_cycles, false},
     Pass{"reference_moves", passes::convert_reference_moves, true},
     Pass{"preset_steps", passes::settle_preset_steps, false},
+    Pass{"shift_parts", passes::join_shift_parts, false},
     Pass{"plane_scales", passes::complete_scales, false},
     Pass{"frames", passes::convert_frames, false},
     Pass{"poles", passes::convert_poles, false},

@@ -42,6 +42,12 @@ class PositioningAxes {
       : program_(program), context_(context), facts_(program, context) {}
 
   void run() {
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* a = std::get_if<Assign>(&s.node);
+        fed_ = fed_ || (a != nullptr && std::any_of(a->items.begin(), a->items.end(), sets_axis_feed));
+      });
+    }
     for (auto& r : program_.routines) {
       uses_ = label_uses(program_, r);
       forget();
@@ -58,7 +64,7 @@ class PositioningAxes {
   }
 
  private:
-  void forget() { feed_.fill(std::nullopt); }
+  void forget() { feed_.fill(fed_ ? std::nullopt : std::optional(0.0)); }
 
   void one(Editor& editor, Statement&& s, Body& out, bool flat) {
     for (const auto& l : labels_on(s.line)) {
@@ -140,6 +146,7 @@ class PositioningAxes {
   const LegaliseContext& context_;
   const FactsOf facts_;
   LabelUses uses_;
+  bool fed_ = false;                                           ///< some axis has a feed of its own somewhere
   std::array<std::optional<double>, axis::count_max> feed_{};  ///< of an axis by itself; 0: rapid; empty: not known
 };
 
