@@ -212,8 +212,6 @@ constexpr std::string_view missing_feature(const GCode& row) {
     case GKind::transform:
     case GKind::grinding_axis:
     case GKind::lathe_transform: return "motion.transformation";
-    case GKind::synchronise: return "language.synchronised";
-    case GKind::save_values:
     case GKind::concatenation: return "language.statement";
     case GKind::hole_cycle: return "";
     default: return {};
@@ -236,6 +234,8 @@ inline constexpr std::array g_remarks{
     GRemark{16, "R+ only; another tool axis is refused (NUM-038)"},
     GRemark{20, "kept as text, no effect (NUM-034)"},
     GRemark{75, "left out with a warning (NUM-033)"},
+    GRemark{76, "with H: kept as text, it changes another program (NUM-034); into this program: refused (NUM-004)"},
+    GRemark{78, "kept as text, no effect on the path (NUM-034)"},
     GRemark{83, "P and Q of one size, or falling; a last peck of its own (num.peck_law = constant) is refused"},
     GRemark{92, "R counts for all arcs (NUM-032)"},
     GRemark{96, "X beside it is no move (NUM-031)"},

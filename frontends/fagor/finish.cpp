@@ -18,16 +18,21 @@ std::shared_ptr<const ir::FrameChange> cleared(ir::FrameSlot slot) {
 }
 
 /// Adds to every block what its functions do besides their own: see finish_program.
-void complete_block(ir::Block& b, const FileFacts& facts, bool clear_preset) {
+/// `table_shift`: the shift in force may be one of G58 and G59, which the next offset cancels.
+void complete_block(ir::Block& b, bool& table_shift, bool both, bool clear_preset) {
   for (std::size_t i = 0; i < b.actions.size(); ++i) {
     std::vector<ir::Action> more;
+    if (both) {
+      const auto* f = std::get_if<ir::FrameOp>(&b.actions[i].data);
+      if (f && f->change->slot == ir::FrameSlot::shift) table_shift = f->change->combine == ir::FrameCombine::replace;
+    }
     if (std::holds_alternative<ir::WorkOffset>(b.actions[i].data)) {
       ir::Action a;
       if (clear_preset) {
         a.data = ir::FrameOp{cleared(ir::FrameSlot::preset)};
         more.push_back(a);
       }
-      if (facts.table_shift) {
+      if (table_shift) {
         a.data = ir::FrameOp{cleared(ir::FrameSlot::shift)};
         more.push_back(a);
       }
@@ -132,6 +137,29 @@ bool has_jumps(const ir::Program& program) {
   return found;
 }
 
+/// No jump, call, subroutine or skipped block: what the text says is the order of work.
+bool in_order_of_text(const ir::Program& program) {
+  bool flow = has_jumps(program) || program.routines.size() > 1;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&flow](const ir::Statement& s) {
+      flow = flow || std::holds_alternative<ir::CallRoutine>(s.node) || std::holds_alternative<ir::ModalCall>(s.node) ||
+             s.line.skip_mask != 0;
+    });
+  }
+  return !flow;
+}
+
+/// The senses of a plane with its axes exchanged were taken from the text: right where the text is the order of work.
+void judge_turned_plane(const ir::Program& program, LowerState& state) {
+  if (!state.facts.first_turned_plane.known() || in_order_of_text(program)) return;
+  state.set_line(state.facts.first_turned_plane);
+  state.error(
+      "FAG-026", {},
+      "a plane with its axes exchanged (G16 XZ, YX, ZY) in a program with jumps, calls or skipped blocks: which "
+      "blocks it holds for can't be told",
+      "write G16 ZX, XY or YZ, and turn the arcs over");
+}
+
 /// The spindle and the longitudinal axis were taken from the text: right where no other way leads to the block.
 void judge_text_uses(const ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
@@ -156,18 +184,23 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_text_uses(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
+  const bool both = facts.table_shift && facts.shift;
   if (clear_preset || facts.table_shift) {
+    bool table_shift = facts.table_shift && !both;
     for (auto& r : program.routines) {
       ir::for_each_statement(r.body, [&](ir::Statement& s) {
-        if (auto* b = std::get_if<ir::Block>(&s.node)) complete_block(*b, facts, clear_preset);
+        if (auto* b = std::get_if<ir::Block>(&s.node)) complete_block(*b, table_shift, both, clear_preset);
       });
     }
   }
-  if (facts.table_shift && facts.shift) {
+  judge_turned_plane(program, state);
+  if (both && !in_order_of_text(program)) {
     state.set_line(facts.first_table_shift);
-    state.error("FAG-027", {},
-                "G58 or G59 and G158 in one program: what the next G54 cancels depends on which came last",
-                "use only one of the two");
+    state.error(
+        "FAG-027", {},
+        "G58 or G59 and G158 in a program with jumps, calls or skipped blocks: what the next G54 cancels depends on "
+        "which came last",
+        "use only one of the two");
   }
   if (facts.first_axis_scale.known() && facts.rotation) {
     state.set_line(facts.first_axis_scale);

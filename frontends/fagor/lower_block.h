@@ -58,7 +58,9 @@ class BlockLowerer {
   void apply_special(const GWord& g);
   void setting(const GWord& g, ir::Order order);
   void compensation(const GWord& g);
-  void plane(const GWord& g, ir::Plane p);
+  void plane(const GWord& g, ir::Plane p, bool turned = false);
+  void turned_plane(const GWord& g, ir::Plane p);
+  [[nodiscard]] ir::PlaneAxes directions();
   void plane_axes(const GWord& g);
   void dwell(const GWord& g);
   void corner(const GWord& g);

@@ -23,6 +23,16 @@ ir::AxisId axis_of(const syntax::Word& w) {
   return ir::fixed_axis(word_letter(w));
 }
 
+/// Cycles along directions of the plane: what they mean with its axes exchanged is not settled.
+bool needs_straight_plane(const dialects::fagor::GCode& row) {
+  switch (row.use) {
+    case Use::hole_cycle: return row.code == 87 || row.code == 88;
+    case Use::machining:
+    case Use::pattern: return true;
+    default: return false;
+  }
+}
+
 std::string the_function(const syntax::Word& w) {
   return "the function " + std::string(word_text(w));
 }
@@ -30,6 +40,11 @@ std::string the_function(const syntax::Word& w) {
 }  // namespace
 
 void BlockLowerer::apply(const GWord& g) {
+  if (state_.turned() && needs_straight_plane(*g.row)) {
+    keep(g, "motion.transformation",
+         the_function(*g.word) + " in a plane with its axes exchanged (G16 XZ, YX, ZY) is kept as text");
+    return;
+  }
   switch (g.row->use) {
     case Use::motion: motion_code_ = &g; return;
     case Use::setting: setting(g, Order::before); return;
@@ -143,13 +158,21 @@ void BlockLowerer::compensation(const GWord& g) {
   set.setting = ir::Setting::comp;
   set.value = g.row->value;
   state_.comp_by_text = static_cast<ir::CompSide>(set.value);
-  act(set, g.word);
+  if (state_.turned() && state_.comp_by_text != ir::CompSide::off) {  // left seen from behind is right
+    const bool left = state_.comp_by_text == ir::CompSide::left;
+    state_.comp_by_text = left ? ir::CompSide::right : ir::CompSide::left;
+    set.value = static_cast<std::uint8_t>(state_.comp_by_text);
+    act(set, g.word);
+    out_->actions.back().text = {};
+  } else {
+    act(set, g.word);
+  }
   if (const Word* n = take('N')) {
     // One spelling with its code where it stands right behind it.
     if (const std::string_view whole = spelling(*g.word, *n); whole.size() <= 16) {
       out_->actions.back().text = whole;
     } else {
-      act(ir::OpaqueWord{word_text(*n)}, n);
+      act(ir::OpaqueWord{word_text(*n)}, n, Order::with);
     }
     state_.note("FAG-008", n->pos,
                 "the collision detection " + std::string(word_text(*n)) +
@@ -170,16 +193,32 @@ void BlockLowerer::end_cycle() {
   result_->needs_program = true;
 }
 
-void BlockLowerer::plane(const GWord& g, ir::Plane p) {
+void BlockLowerer::plane(const GWord& g, ir::Plane p, bool turned) {
   if (p != state_.plane_now()) end_cycle();
-  state_.plane_code(p);
+  const bool arc = state_.motion_by_text == ir::MotionKind::arc_cw || state_.motion_by_text == ir::MotionKind::arc_ccw;
+  if (turned != state_.turned() && (arc || state_.comp_by_text != ir::CompSide::off)) {
+    state_.error("FAG-026", g.word->pos,
+                 "the sense of this plane is the opposite of the one before, and an arc or radius compensation is "
+                 "still in force",
+                 "write G1 and G40 before the plane");
+  }
+  state_.plane_code(p, turned);
   ir::ModalSet set;
   set.setting = ir::Setting::plane;
   set.value = static_cast<std::uint8_t>(p);
   act(set, g.word);
 }
 
-/// G16 with two axes: the three main planes only; a third letter names the longitudinal axis.
+/// The plane seen from behind: G2, G3, G41, G42 and angles change their sense.
+void BlockLowerer::turned_plane(const GWord& g, ir::Plane p) {
+  result_->needs_program = true;
+  state_.note("FAG-040", g.word->pos,
+              "the plane has its axes exchanged: it is read as the usual one, with G2, G3, G41, G42 and the angles of "
+              "G73 in the opposite sense");
+  plane(g, p, true);
+}
+
+/// G16 with two axes of X, Y, Z; a third letter names the longitudinal axis.
 void BlockLowerer::plane_axes(const GWord& g) {
   coords_taken_ = true;
   const auto pair = [this](ir::AxisId a, ir::AxisId b) {
@@ -193,11 +232,23 @@ void BlockLowerer::plane_axes(const GWord& g) {
     plane(g, ir::Plane::zx);
   } else if (pair(ir::axis::y, ir::axis::z)) {
     plane(g, ir::Plane::yz);
+  } else if (pair(ir::axis::y, ir::axis::x)) {
+    turned_plane(g, ir::Plane::xy);
+  } else if (pair(ir::axis::x, ir::axis::z)) {
+    turned_plane(g, ir::Plane::zx);
+  } else if (pair(ir::axis::z, ir::axis::y)) {
+    turned_plane(g, ir::Plane::yz);
   } else {
-    keep(g, "motion.transformation", "a plane of other axes than XY, ZX or YZ is kept as text");
+    keep(g, "motion.transformation", "a plane of other axes than X, Y and Z is kept as text");
   }
-  out_->actions.empty() ? void()
-                        : void(out_->actions.back().text = {});  // the axes belong to the code: not written as one word
+  if (out_->actions.empty()) return;
+  // The axes belong to the code: one spelling. One that is read in the opposite sense is written as it is read.
+  auto& text = out_->actions.back().text;
+  text = {};
+  if (!state_.turned() && coord_count_ == 2 && !coords_[0]->has_value && !coords_[1]->has_value) {
+    const std::string_view whole = spelling(*g.word, *coords_[1]);
+    if (whole.size() <= 8) text = whole;
+  }
 }
 
 void BlockLowerer::dwell(const GWord& g) {

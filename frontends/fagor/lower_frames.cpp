@@ -13,6 +13,11 @@ namespace {
 
 using dialects::fagor::Use;
 
+ir::Value negated(ir::Value v) {
+  if (!v.literal()) return ir::Value(ir::unary(ir::UnaryOp::negate, v.expr));
+  return ir::Value(-v.number);
+}
+
 ir::AxisId axis_of(const syntax::Word& w) {
   return ir::fixed_axis(word_letter(w));
 }
@@ -174,6 +179,13 @@ void BlockLowerer::apply_frame(const GWord& g) {
   act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(change))}, g.word);
 }
 
+/// Abscissa and ordinate as programmed.
+ir::PlaneAxes BlockLowerer::directions() {
+  ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
+  if (state_.turned()) std::swap(p.u, p.v);
+  return p;
+}
+
 /// Successive rotations add up; G73 alone ends them all.
 void BlockLowerer::rotation(const GWord& g) {
   state_.facts.rotation = true;
@@ -187,13 +199,14 @@ void BlockLowerer::rotation(const GWord& g) {
   if (q) {
     change.has_angle = true;
     change.angle = value(*q);
+    if (state_.turned()) change.angle = negated(std::move(change.angle));
   }
   if ((i == nullptr) != (j == nullptr) || (i && !q)) {
     state_.error("FAG-014", g.word->pos, "G73 needs the angle Q, and both I and J or neither");
     return;
   }
   if (i) {
-    const ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
+    const ir::PlaneAxes p = directions();
     change.words.push_back({p.u, value(*i), ir::WordScale::modal, i->pos});
     change.words.push_back({p.v, value(*j), ir::WordScale::modal, j->pos});
   }
@@ -213,7 +226,7 @@ void BlockLowerer::pole(const GWord& g) {
     return;
   }
   ir::FrameChange at;
-  const ir::PlaneAxes p = ir::plane_axes(state_.plane_by_text());
+  const ir::PlaneAxes p = directions();
   at.words.push_back({p.u, value(*i), ir::WordScale::modal, i->pos});
   at.words.push_back({p.v, value(*j), ir::WordScale::modal, j->pos});
   act(ir::PoleSet{std::make_shared<const ir::FrameChange>(std::move(at))}, g.word);

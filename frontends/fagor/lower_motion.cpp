@@ -114,6 +114,12 @@ void BlockLowerer::radius_and_polar(ir::Motion& m) {
     return;
   }
   result_->needs_program = true;
+  if (state_.turned()) {
+    state_.error("FAG-026", (q ? q : r)->pos,
+                 "polar words and angles in a plane with its axes exchanged (G16 XZ, YX, ZY) are not carried",
+                 "write the end point");
+    return;
+  }
   if (q && !r && !arc && m.centers.empty() && in_plane(m)) {
     extra().has_line_angle = true;
     extra().line_angle = value(*q);
@@ -176,6 +182,11 @@ void BlockLowerer::motion() {
     m.code_text = word_text(*code);
   }
   if (motion_code_) m.kind = state_.motion_by_text = motion_code_->row->motion;
+  if (motion_code_ && state_.turned() && (m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw)) {
+    m.kind = state_.motion_by_text =
+        m.kind == ir::MotionKind::arc_cw ? ir::MotionKind::arc_ccw : ir::MotionKind::arc_cw;
+    m.code_text = {};
+  }
   if (straight_) {  // leaves G01 in force
     if (coord_count_ == 0) state_.error("FAG-014", code->pos, std::string(word_text(*code)) + " needs a coordinate");
     if (straight_->row->motion == ir::MotionKind::to_stop && coord_count_ > 1)

@@ -54,6 +54,7 @@ void LowerState::note(std::string_view code, WordPos pos, std::string message, s
 void LowerState::start_routine(bool subroutine) {
   plane_ = profile_->power_on.plane;
   plane_from_caller_ = in_subroutine_ = subroutine;
+  turned_ = false;
   comp_by_text = ir::CompSide::off;
   motion_by_text = ir::MotionKind::modal;
   constants_.clear();
@@ -64,8 +65,10 @@ void LowerState::start_routine(bool subroutine) {
   cycle_by_text = nullptr;
 }
 
-void LowerState::plane_code(ir::Plane plane) {
+void LowerState::plane_code(ir::Plane plane, bool turned) {
   plane_ = plane;
+  turned_ = turned;
+  if (turned && !facts.first_turned_plane.known()) facts.first_turned_plane = line_;
   plane_from_caller_ = false;
   facts.planes[static_cast<std::size_t>(plane)] = true;
   longitudinal_ = ir::axis::none;

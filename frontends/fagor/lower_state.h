@@ -48,6 +48,7 @@ struct FileFacts {
   std::array<bool, 2> units{};   ///< programmed by G71 [0], G70 [1]
   bool rotation = false;         ///< G73
   Span first_table_shift, first_machine_move, first_axis_scale;
+  Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;
   bool second_spindle = false;         ///< G28
   std::vector<TextUse> text_uses;      ///< of the spindle and of the longitudinal axis
@@ -85,7 +86,9 @@ class LowerState {
   // what the text has said
   void start_routine(bool subroutine);
   [[nodiscard]] bool in_subroutine() const { return in_subroutine_; }
-  void plane_code(ir::Plane plane);
+  /// `turned`: the second axis of the plane is its abscissa (G16 XZ): every sense of turning is seen from behind.
+  void plane_code(ir::Plane plane, bool turned = false);
+  [[nodiscard]] bool turned() const { return turned_; }
   void spindle_code(std::uint8_t number);
   void longitudinal_code(ir::AxisId axis);
   /// The spindle of S and M words here (G28, G29).
@@ -127,6 +130,7 @@ class LowerState {
   std::size_t errors_ = 0;
   ir::Plane plane_ = ir::Plane::xy;
   bool plane_from_caller_ = false;
+  bool turned_ = false;
   bool in_subroutine_ = false;
   std::uint8_t spindle_ = 1;
   ir::AxisId longitudinal_ = ir::axis::none;  ///< by G15; none: the normal of the plane

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "base/saturate.h"
+#include "base/text.h"
 #include "dialects/num/functions.h"
+#include "dialects/num/gcodes.h"
 #include "dialects/num/variables.h"
 
 namespace cnctrans::frontends::num {
@@ -197,8 +199,41 @@ ir::ExprPtr Expressions::parameter(const syntax::Expr& e) {
              : ir::at(ir::binary(ir::BinaryOp::multiply, std::move(value), ir::number(found->scale)), e.pos);
 }
 
+/// [.BG90], [.RT]: what the control has in force (reference 14.6); nullopt: not one of these.
+std::optional<ir::SystemRef> status(const syntax::Expr& e) {
+  if (!e.args.empty() || e.text.size() < 4 || e.text[1] != '.') return std::nullopt;
+  const std::string_view name = std::string_view(e.text).substr(2, e.text.size() - 3);
+  constexpr std::pair<std::string_view, ir::Datum> plain[] = {{"RF", ir::Datum::feed},
+                                                              {"RS", ir::Datum::spindle_speed},
+                                                              {"RT", ir::Datum::tool_number},
+                                                              {"RD", ir::Datum::offset_number},
+                                                              {"RED", ir::Datum::rotation_angle}};
+  for (const auto& [symbol, datum] : plain) {
+    if (name == symbol) return axis_ref(datum, ir::axis::none, e.text);
+  }
+  const auto code = name.substr(0, 2) == "BG" ? parse_decimal(name.substr(2)) : std::nullopt;
+  const facts::GCode* row = code ? facts::g_code(*code) : nullptr;
+  if (row == nullptr) return std::nullopt;
+  int setting = -1;
+  switch (row->kind) {
+    case facts::GKind::motion: setting = static_cast<int>(ir::setting_count); break;
+    case facts::GKind::plane: setting = static_cast<int>(ir::Setting::plane); break;
+    case facts::GKind::comp: setting = static_cast<int>(ir::Setting::comp); break;
+    case facts::GKind::units: setting = static_cast<int>(ir::Setting::units); break;
+    case facts::GKind::distance: setting = static_cast<int>(ir::Setting::distance); break;
+    case facts::GKind::feed_mode: setting = static_cast<int>(ir::Setting::feed_mode); break;
+    case facts::GKind::spindle_mode: setting = static_cast<int>(ir::Setting::spindle_mode); break;
+    default: return std::nullopt;
+  }
+  ir::SystemRef ref = table_ref(ir::Datum::active_modal, row->code, e.text);
+  ref.args.push_back(ir::number(setting));
+  ref.args.push_back(ir::number(row->value));
+  return ref;
+}
+
 ir::ExprPtr Expressions::variable(const syntax::Expr& e) {
   if (e.text == "E") return parameter(e);
+  if (auto known = status(e)) return system(std::move(*known), e.pos);
   auto ref = e.text == "L" ? l_variable(e) : symbol(e);
   return ref ? ir::at(ir::variable(std::move(*ref)), e.pos) : nullptr;
 }
@@ -278,6 +313,7 @@ ir::Assign::Item Expressions::latched(ir::AxisId axis) const {
 bool Expressions::is_memory(const facts::EParameter& row) const {
   if (row.meaning == EMeaning::user || row.meaning == EMeaning::scale_factor || row.meaning == EMeaning::tool_note)
     return true;
+  if (row.meaning == EMeaning::tool_length_z && !settings_.lathe) return true;  // the tip radius of a mill
   return offsets_apart_ && is_offset(row);
 }
 
@@ -300,7 +336,7 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
                   "language.system_variable");
     return false;
   }
-  if (row->meaning == EMeaning::tool_note) {
+  if (row->meaning == EMeaning::tool_note || (row->meaning == EMeaning::tool_length_z && !settings_.lathe)) {
     report_.warn("NUM-041", target.pos,
                  name + " (" + std::string(row->title) +
                      ") does not change the programmed path; it is kept as a number and not written into a tool table",

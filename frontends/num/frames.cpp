@@ -148,7 +148,11 @@ void Lowering::preset(const Word& g92) {
     ir::ModalSet set;
     set.setting = ir::Setting::feed_point;
     set.value = facts::u8(!r->is_expression && r->number == 0 ? ir::FeedPoint::centre : ir::FeedPoint::contact);
-    act(*r, Step::setting, set);
+    ir::Action& a = act(*r, Step::setting, set);
+    if (!any) {  // one spelling: R means nothing without its code
+      const std::size_t from = g92.pos.column - 1, to = r->pos.column - 1 + r->pos.length;
+      if (to > from) a.text = text_.substr(from, to - from);
+    }
     report_.warn("NUM-032", r->pos,
                  "G92 R: the feed counts at the contour for arcs of at least this radius; read as for all arcs (times "
                  "differ, the path does not)");

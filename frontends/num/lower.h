@@ -107,6 +107,7 @@ class Lowering {
   [[nodiscard]] bool check_literal(const Word& w, double limit);
   void unknown(const Word& w, std::string_view why);
   /// A word without effect on the path: the block is kept as text when it has only `words` words, else it is left out.
+  void only_text(const Word& w, const dialects::num::GCode& row);
   void leave_out(const Word& w, std::string_view code, const std::string& what, std::size_t words);
 
   // resolve.cpp: what the words mean together

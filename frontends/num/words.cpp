@@ -67,7 +67,31 @@ void Lowering::leave_out(const Word& w, std::string_view code, const std::string
   if (block_->words.size() == words && block_->statements.empty()) {
     return report_.carry(code, w.pos, message + "; the block is kept as text", "block.word");
   }
-  report_.warn(code, w.pos, message + "; it is left out");
+  if (words != 1) return report_.warn(code, w.pos, message + "; it is left out");
+  report_.warn(code, w.pos, message + "; programs for other controls leave it out");
+  act(w, Step::special, ir::OpaqueWord{text_of(w)}, ir::Order::with);
+}
+
+/// G78, and G76 into another program (H): nothing of it shows in this program's path. The block is kept when it holds
+/// nothing else. G76 into blocks of this program changes what they do.
+void Lowering::only_text(const Word& w, const facts::GCode& row) {
+  const bool save = row.kind == GKind::save_values;
+  const std::string_view own = save ? "HN" : "PQ";
+  bool alone = block_->statements.empty(), elsewhere = !save;
+  for (const Word& x : block_->words) {
+    elsewhere = elsewhere || x.address == "H";
+    alone = alone && (&x == &w || (x.address.size() == 1 && own.find(x.address) != std::string_view::npos));
+  }
+  alone = alone && elsewhere;
+  const std::string what = "`" + std::string(text_of(w)) + "` (" + std::string(row.title) + ")";
+  if (alone) {
+    return report_.carry("NUM-034", w.pos, what + " does not change the path of this program; kept as text",
+                         save ? "language.statement" : "language.synchronised");
+  }
+  report_.refuse(
+      "NUM-004", w.pos, what + " is not carried here",
+      save ? "it writes into blocks of this program, or stands beside other words" : "write it in a block of its own",
+      save ? "language.statement" : "language.synchronised");
 }
 
 const syntax::Word* Lowering::use(int slot) {
@@ -284,6 +308,8 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       state_.turning_profile = false;
       state_.stock.reset();
       return;
+    case GKind::synchronise:
+    case GKind::save_values: return only_text(w, row);
     case GKind::thread_segment: return mark(marks_.thread);
     case GKind::turning_cycle:
       if (facts::missing_feature(row).empty()) return mark(marks_.turning);
@@ -296,8 +322,6 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::transform:
     case GKind::grinding_axis:
     case GKind::lathe_transform:
-    case GKind::synchronise:
-    case GKind::save_values:
     case GKind::concatenation: return missing(facts::missing_feature(row));
     case GKind::unknown: break;
   }

@@ -62,7 +62,8 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   item.pos = pos;
   if (c_.errors != before) return false;
   const bool tool_data = target.text.rfind("$TC_", 0) == 0;
-  const bool storage = target.text == "$AC_MARKER" || target.text == "$AC_PARAM";
+  const bool storage =
+      target.text == "$AC_MARKER" || target.text == "$AC_PARAM" || item.system.datum == ir::Datum::part_count;
   if (tool_data && c_.first_time("$TC_"))
     c_.note("SIN-009", pos, "tool data are kept: they do not change the programmed path");
   if (item.system.datum != ir::Datum::work_offset && item.system.datum != ir::Datum::work_offset_fine && !tool_data &&

@@ -121,6 +121,11 @@ class FramePass {
         const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
         const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
         auto same = pending_ ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
+        // Where nothing is turned yet, a turn on top of it is the turn.
+        if (same && same->slot == FrameSlot::rotation && same->combine == FrameCombine::replace &&
+            same->words.empty() && !same->angle.is(0) && !target_.part(before).turns() &&
+            target_.can(FrameSlot::rotation, FrameCombine::add))
+          same->combine = FrameCombine::add;
         const bool said_otherwise = same && same->by_distance_mode != f->change->by_distance_mode;
         if (same && !(said_otherwise && target_.part(state).known())) {
           if (same->combine != f->change->combine || same->by_distance_mode != f->change->by_distance_mode)

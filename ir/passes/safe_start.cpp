@@ -95,6 +95,10 @@ class SafeStart {
       for (const auto& l : labels_on(s.line)) {
         if (uses.is_target(l)) return false;  // comes here again with another function
       }
+      // A hole that is reached in rapid whatever function is in force says nothing of it.
+      const bool hole = std::any_of(b->actions.begin(), b->actions.end(),
+                                    [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
+      if (hole && context_.target_machine.option("cycle.positioning") == "rapid") return false;
       b->motion.kind = context_.source_machine.power_on.motion;
       b->motion.explicit_code = true;
       return true;

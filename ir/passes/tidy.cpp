@@ -46,6 +46,74 @@ bool join_assignments(Statement& before, Statement& s, const Capabilities& targe
   return true;
 }
 
+/// A motion code by itself, right before a block that says its own.
+bool said_again(const Statement& before, const Statement& s) {
+  const auto* a = std::get_if<Block>(&before.node);
+  const auto* b = std::get_if<Block>(&s.node);
+  if (a == nullptr || b == nullptr || !shows_nothing(before.line) || before.line.skip_mask != 0 ||
+      before.line.blank_lines_before != 0 || s.line.joined || s.line.skip_mask != 0)
+    return false;
+  const bool code_only = a->has_motion && a->actions.empty() && !a->motion.moves() && a->repeat_given == 0 &&
+                         a->motion.keeps_modal && a->motion.frame == FrameUse::normal;
+  return code_only && b->has_motion && b->motion.explicit_code && b->motion.kind != MotionKind::modal &&
+         b->motion.keeps_modal;
+}
+
+bool number_only(const LineInfo& line) {
+  return !line.number.empty() && line.labels.empty() && line.comments.empty() && line.skip_mask == 0 &&
+         line.blank_lines_before == 0 && !line.joined;
+}
+
+/// A mark that a pass made, right before a statement with a number of its own: who went to the mark goes there.
+void lead_on(Routine& routine, Body& body, const LegaliseContext& context) {
+  const auto carriers = [&routine](const LabelRef& l) {
+    int count = 0;
+    for_each_statement(routine.body, [&](const Statement& s) {
+      for (const auto& own : labels_on(s.line)) count += same_label(own, l) ? 1 : 0;
+    });
+    return count;
+  };
+  for (std::size_t i = 0; i + 1 < body.size(); ++i) {
+    Statement& mark = body[i];
+    const LineInfo& next = body[i + 1].line;
+    if (!std::holds_alternative<Label>(mark.node) || !number_only(mark.line) || next.number.empty() ||
+        (context.source_numbers != nullptr && context.source_numbers->count(mark.line.number.data()) != 0) ||
+        next.joined || next.skip_mask != 0 || std::holds_alternative<Opaque>(body[i + 1].node))
+      continue;
+    const LabelRef old = labels_on(mark.line).front(), to = labels_on(next).front();
+    if (!to.is_number || carriers(old) != 1 || carriers(to) != 1) continue;
+    bool fixed = true, end = false;
+    for_each_statement(routine.body, [&](Statement& s) {
+      each_label_ref(s, [&](LabelRef& l, bool is_end) {
+        fixed = fixed && !l.computed;
+        end = end || (is_end && same_label(l, old));
+      });
+    });
+    if (!fixed || end) continue;
+    for_each_statement(routine.body, [&](Statement& s) {
+      each_label_ref(s, [&](LabelRef& l, bool /*is_end*/) {
+        if (same_label(l, old)) l = to;
+      });
+    });
+    mark.line.number = {};  // nothing is left of it
+  }
+}
+
+/// A range of one routine that another one runs.
+bool names_labels_of_others(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* call = std::get_if<CallRoutine>(&s.node);
+      const auto* modal = std::get_if<ModalCall>(&s.node);
+      const auto* range = std::get_if<Repeat>(&s.node);
+      found = found || (call != nullptr && call->has_range) || (modal != nullptr && modal->call.has_range) ||
+              (range != nullptr && range->has_program);
+    });
+  }
+  return found;
+}
+
 void tidy_body(Body& body, const Program& program, const Routine& routine, const LegaliseContext& context) {
   const LabelUses uses = label_uses(program, routine);
   Body out;
@@ -54,6 +122,7 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
     each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
     if (program.dialect != context.target.dialect && !out.empty() && join_assignments(out.back(), s, context.target))
       continue;
+    if (program.dialect != context.target.dialect && !out.empty() && said_again(out.back(), s)) out.pop_back();
     if (!out.empty() && can_join(out.back(), s, context.target)) {
       bool end = false;
       for (const auto& l : labels_on(out.back().line)) end = end || uses.is_end(l);
@@ -76,6 +145,10 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
 }  // namespace
 
 void tidy(Program& program, const LegaliseContext& context) {
+  const bool calls_of_parts = names_labels_of_others(program);
+  for (auto& r : program.routines) {
+    if (program.dialect != context.target.dialect && !calls_of_parts) lead_on(r, r.body, context);
+  }
   for (auto& r : program.routines) tidy_body(r.body, program, r, context);
 }
 

@@ -289,7 +289,7 @@ TEST(NumLower, MessagesAndSymbols) {  // 14.4, 18
   EXPECT_EQ(line("VAR\n[A]=5 [B]\nENDV\nL1=[A]*2"),
             "declare real in v \"[A]\" = (#5\"5\")\n& declare real in v \"[B]\"\nset L[1] = v.\"[A]\" * 2");
   EXPECT_NE(line("L1=[A]").find("!NUM-025"), std::string::npos);
-  EXPECT_NE(line("L1=[.RF]").find("!NUM-024"), std::string::npos);
+  EXPECT_NE(line("L1=[.IRX(1)]").find("!NUM-024"), std::string::npos);
 }
 
 TEST(NumLower, StructuredStatements) {  // 13.9
@@ -339,7 +339,7 @@ TEST(NumLower, WhatIsNotCarriedIsRefusedAndKept) {
                                                                                    {"@X=U", "NUM-023"},
                                                                                    {"PULL L1 - L5", "NUM-023"},
                                                                                    {"L1=$0 N", "NUM-023"},
-                                                                                   {"G76+ H1", "NUM-004"},
+                                                                                   {"G76 N10 N20", "NUM-004"},
                                                                                    {"G10 G0 X5 N10", "NUM-045"},
                                                                                    {"G16 P+", "NUM-038"},
                                                                                    {"X5 #", "NUM-001"}}) {
