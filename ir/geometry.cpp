@@ -254,6 +254,7 @@ bool touch(Vec s, Vec p, Vec t, double radius, Fillet& out, std::string& error) 
   out.from = s + l * Vec{std::cos(angle), std::sin(angle)};
   out.to = p;
   out.ccw = side > 0;
+  out.none = length(out.from - p) <= same_point;  // straight on: the circle is touched where it is left
   return true;
 }
 
@@ -274,6 +275,10 @@ bool tangential_exit(const Element& a, const Element& b, double radius, Fillet& 
   }
   Fillet back;
   if (!touch(b.b, a.b, -1.0 * a.end_direction(), radius, back, error)) return false;
+  if (back.none) {
+    error = "the move after a tangential exit is the straight extension of the contour";
+    return false;
+  }
   out.from = back.to;
   out.to = back.from;
   out.centre = back.centre;

@@ -276,6 +276,12 @@ void assign(const Assign& a, Facts& f) {
     f.feed.reset();
     f.spindle.reset();
     if (it.system.datum == Datum::other) f.work_offset.reset();
+    if (it.system.datum == Datum::diameter_on) {
+      const auto value = constant_value(it.value);
+      auto& mode = f.settings[static_cast<std::size_t>(Setting::diameter)];
+      mode.reset();
+      if (value) mode = static_cast<std::uint8_t>(*value != 0 ? DiameterMode::diameter : DiameterMode::radius);
+    }
   }
 }
 

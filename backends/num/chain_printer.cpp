@@ -1,5 +1,6 @@
 #include "backends/num/chain_printer.h"
 
+#include "backends/num/data_names.h"
 #include "base/text.h"
 #include "dialects/num/functions.h"
 #include "dialects/num/variables.h"
@@ -36,7 +37,7 @@ std::string ChainPrinter::variable(const ir::ExprPtr& e, const ir::VarRef& v) {
 }
 
 std::string ChainPrinter::system(const ir::ExprPtr& e, const ir::SystemRef& s) {
-  if (program_.dialect == "num" && !s.text.empty()) return s.text;
+  if ((program_.dialect == "num" && !s.text.empty()) || is_parameter_name(s.text)) return s.text;
   problem(e, "'" + s.text + "' is data of the source machine that this control has no name for");
   return {};
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "backends/num/data_names.h"
 #include "dialects/num/functions.h"
 #include "dialects/num/limits.h"
 #include "dialects/num/options.h"
@@ -121,6 +122,8 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
     return std::holds_alternative<ir::Dwell>(a.data) || std::holds_alternative<ir::FrameOp>(a.data) ||
            std::holds_alternative<ir::SpindleLimit>(a.data);
   };
+  c.system_data = [](const ir::SystemRef& s) { return is_parameter_name(s.text); };
+  c.data_form = [lathe](const ir::SystemRef& s) { return data_form(s, lathe); };
   c.native_cycle = [](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);
     const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "backends/common/comments.h"
+#include "backends/num/data_names.h"
 #include "backends/num/style.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
@@ -181,7 +182,8 @@ void Writer::assign(const ir::Assign& a) {
     if (item.to_system) {
       // The sum of PREF, DEC1 and DEC3 follows from them: the parameter before it is what was written.
       if (same_dialect() && item.system.text.empty() && item.system.datum == ir::Datum::work_offset) continue;
-      if (!same_dialect() || item.system.text.empty()) {
+      const bool named = same_dialect() ? !item.system.text.empty() : is_parameter_name(item.system.text);
+      if (!named) {
         return refuse(no_statement, item.pos,
                       "'" + item.system.text + "' is data of the source machine and is not written here");
       }
@@ -190,7 +192,7 @@ void Writer::assign(const ir::Assign& a) {
       target = target_variable(item.target);
     }
     if (!text.empty()) text += ' ';
-    ir::ExprPtr value = item.to_system ? in_machine_units(item.value) : item.value;
+    ir::ExprPtr value = item.to_system && same_dialect() ? in_machine_units(item.value) : item.value;
     const auto* whole = std::get_if<ir::Call>(&value->node);
     // E takes whole numbers by itself.
     if (same_dialect() && !item.to_system && target.front() == 'E' && whole != nullptr &&

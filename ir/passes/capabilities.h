@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,6 +41,13 @@ struct VariablePool {
   Scope scope = Scope::global;
   bool temporaries = false;           ///< preferred for temporaries
   bool outside_compensation = false;  ///< can't be used while radius compensation is on
+};
+
+/// A machine datum in the target's words: its name, and how many of its units make a millimetre or a degree.
+struct DataForm {
+  std::string text;
+  double units = 1;
+  bool writable = false;
 };
 
 struct Capabilities {
@@ -91,7 +99,9 @@ struct Capabilities {
   double constant_max = 1e300;          ///< largest constant inside an expression
   bool condition_right_chain = false;   ///< single_relation: the right side may be a chain, else a number or variable
   std::function<bool(const SystemRef&)> system_data;  ///< machine data that the backend can name; empty: none
-  std::int32_t word_decimals = 4;                     ///< places of a metric length word
+  /// Machine data that the backend can name in a unit of its own; empty: none.
+  std::function<std::optional<DataForm>(const SystemRef&)> data_form;
+  std::int32_t word_decimals = 4;  ///< places of a metric length word
   std::int32_t word_decimals_inch = 5;
 
   // calls

@@ -37,6 +37,9 @@ void settle_preset_steps(Program& program, const LegaliseContext& context);
 /// Lengths of machine data in the unit of the target.
 void convert_machine_data(Program& program, const LegaliseContext& context);
 
+/// Machine data that follow from the program become numbers; others get the target's name and unit.
+void write_known_data(Program& program, const LegaliseContext& context);
+
 /// IF, WHILE, REPEAT and LOOP in the place of jumps, where the options ask for it.
 void raise_structure(Program& program, const LegaliseContext& context);
 

@@ -62,6 +62,7 @@ class ExpressionLowering {
   ExprPtr call_rule(const Call& c, const ExprPtr& e);
   ExprPtr power(const Binary& b, const ExprPtr& e);
   ExprPtr truth_value(const ExprPtr& e);
+  ExprPtr bcd(const Call& c, const ExprPtr& e);
   ExprPtr trigonometric(const Call& c, const ExprPtr& e);
   ExprPtr full_angle(const Call& c, const ExprPtr& e);
   ExprPtr quadrants(const ExprPtr& y, const ExprPtr& x, bool positive);

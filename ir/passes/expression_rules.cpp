@@ -47,6 +47,10 @@ ExprPtr ExpressionLowering::binary_rule(const Binary& b, const ExprPtr& e) {
     }
     case BinaryOp::int_divide: return node(f1(Function::trunc, div(b.left, b.right)));
     case BinaryOp::power: return power(b, e);
+    case BinaryOp::bit_xor: {  // what one side has, less what both have
+      const ExprPtr x = primary(b.left), y = primary(b.right);
+      return node(sub(binary(BinaryOp::bit_or, x, y), binary(BinaryOp::bit_and, x, y)));
+    }
     default: return fail(e, "the target has no operator " + std::string(name(b.op)));
   }
 }
@@ -98,6 +102,9 @@ ExprPtr ExpressionLowering::unary_rule(const Unary& u, const ExprPtr& e) {
     }
     return node(sub(number(0), inner));
   }
+  if (t.unary.count(u.op) == 0 && u.op == UnaryOp::bit_not) {  // two's complement: ~x is -1 - x of the whole part
+    return node(sub(number(-1), f1(Function::trunc, u.operand)));
+  }
   if (t.unary.count(u.op) == 0) return fail(e, "the target has no operator " + std::string(name(u.op)));
   return unary(u.op, node(u.operand));
 }
@@ -138,9 +145,34 @@ ExprPtr ExpressionLowering::call_rule(const Call& c, const ExprPtr& e) {
     case Function::exp:
     case Function::ln:
     case Function::log10: return logarithm(c, e);
+    case Function::to_bcd:
+    case Function::from_bcd: return bcd(c, e);
     case Function::to_boolean: return node(rel(BinaryOp::ne, c.args[0], 0));
     default: return fail(e, "the target has no function " + std::string(name(c.function)));
   }
+}
+
+/// The digits of one base written in another: a carry of the low base leaves 16 - 10 behind in the high one.
+ExprPtr ExpressionLowering::bcd(const Call& c, const ExprPtr& e) {
+  const bool to = c.function == Function::to_bcd;
+  editor_.context.diagnostics.warning("TRN-134", word_span(like_.span, e->pos),
+                                      to ? "BCD is written as arithmetic: right for whole numbers from 0 to 99999999"
+                                         : "BIN is written as arithmetic: right for whole numbers whose hexadecimal "
+                                           "digits are 0 to 9");
+  const ExprPtr x = primary(c.args[0]);
+  const auto total = temporary(), digits = temporary();
+  if (!total || !digits) return e;
+  assign(*total, x);
+  double from = 1, into = 1;
+  for (int digit = 1; digit < 8; ++digit) {
+    from *= to ? 10 : 16;
+    assign(*digits, lower(div(x, number(from))));
+    assign(*digits, lower(f1(Function::trunc, variable(*digits))));
+    const ExprPtr carried = mul(variable(*digits), number(6 * into));
+    assign(*total, lower(to ? add(variable(*total), carried) : sub(variable(*total), carried)));
+    into *= to ? 16 : 10;
+  }
+  return variable(*total);
 }
 
 ExprPtr ExpressionLowering::trigonometric(const Call& c, const ExprPtr& e) {

@@ -27,6 +27,7 @@ constexpr std::array pipeline{
     Pass{"positioning", passes::write_positioning, false},
     Pass{"directions", passes::choose_directions, false},
     Pass{"machine_data", passes::convert_machine_data, false},
+    Pass{"known_data", passes::write_known_data, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},

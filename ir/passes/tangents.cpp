@@ -227,6 +227,7 @@ class TangentPass {
     std::string why;
     if (!(entry ? tangential_entry : tangential_exit)(here->e, after->e, tangential_.radius.number, lead, why))
       return fail(std::move(why), "check the radius, or program the arc itself");
+    if (lead.none) return std::nullopt;
     const Path arc{here->plane, {true, lead.from, lead.to, lead.centre, lead.ccw}};
     Block block;
     block.has_motion = true;

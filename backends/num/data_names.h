@@ -1,0 +1,15 @@
+// E parameters that stand for neutral machine data (reference 14.3).
+#pragma once
+
+#include <optional>
+
+#include "ir/passes/capabilities.h"
+
+namespace cnctrans::backends::num {
+
+/// The E parameter of a datum, in its unit; nullopt: none, or its number in the table is computed.
+std::optional<ir::DataForm> data_form(const ir::SystemRef& ref, bool lathe);
+/// `E` and five digits.
+bool is_parameter_name(std::string_view text);
+
+}  // namespace cnctrans::backends::num

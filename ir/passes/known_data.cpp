@@ -1,0 +1,247 @@
+// Machine data that the target can't read. What follows from the program's own functions is known on every path and
+// becomes a number; what the target reads under another name is written with that name and in its unit.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "ir/passes/early_passes.h"
+#include "ir/passes/frame_state.h"
+#include "ir/passes/rewrite.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+const SystemRef* datum_in(const ExprPtr& e) {
+  return e ? std::get_if<SystemRef>(&e->node) : nullptr;
+}
+
+class KnownData {
+ public:
+  KnownData(Program& program, const LegaliseContext& context)
+      : context_(context), facts_(program, context), frames_(program, facts_, context) {}
+
+  void statement(Statement& s) {
+    diameter_switch(s);
+    bool used = false;
+    each_expression(s, [&](const ExprPtr& e) { walk(e, [&](const ExprPtr& x) { used = used || foreign(x); }); });
+    if (used) {
+      StatementVisitor visit;
+      visit.expression = [&](const ExprPtr& e) {
+        return map_expr(e, [&](const ExprPtr& x) { return foreign(x) ? read(s, x) : x; });
+      };
+      visit_statement(s, visit);
+    }
+    if (auto* a = std::get_if<Assign>(&s.node)) {
+      for (auto& i : a->items) write(i, s);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool sayable(const SystemRef& ref) const {
+    return context_.target.system_data && context_.target.system_data(ref);
+  }
+  [[nodiscard]] bool foreign(const ExprPtr& e) const {
+    const auto* ref = datum_in(e);
+    return ref != nullptr && !sayable(*ref);
+  }
+
+  /// DIAM=1 says what the code says.
+  void diameter_switch(Statement& s) const {
+    const auto* a = std::get_if<Assign>(&s.node);
+    if (a == nullptr || a->items.size() != 1 || !a->items[0].to_system ||
+        a->items[0].system.datum != Datum::diameter_on || sayable(a->items[0].system))
+      return;
+    const auto value = constant_value(a->items[0].value);
+    if (!value) return;
+    ModalSet set{Setting::diameter, 0, true, {}};
+    set.value = static_cast<std::uint8_t>(*value != 0 ? DiameterMode::diameter : DiameterMode::radius);
+    Block b;
+    b.actions.push_back(Action{set, Order::before, {}, {}});
+    s.node = std::move(b);
+  }
+
+  ExprPtr read(const Statement& s, const ExprPtr& e) {
+    const SystemRef& ref = *datum_in(e);
+    if (!context_.source_machine.data.contains(ref.text)) {
+      if (const auto value = known(s, ref)) {
+        context_.diagnostics.note("TRN-132", word_span(s.line.span, e->pos),
+                                  ref.text + " is " + shortest(*value) + " here on every path: written as the number");
+        return number(*value);
+      }
+    }
+    const auto own = context_.target.data_form ? context_.target.data_form(ref) : std::nullopt;
+    if (!own) return e;
+    const ExprPtr named = renamed(e, *own);
+    return own->units == 1 ? named : binary(BinaryOp::divide, named, number(own->units));
+  }
+  static ExprPtr renamed(const ExprPtr& e, const DataForm& own) {
+    Expr copy = *e;
+    std::get<SystemRef>(copy.node).text = own.text;
+    return std::make_shared<const Expr>(std::move(copy));
+  }
+
+  /// Data that a source may write while the names of other controls can only be read.
+  static bool only_read(const SystemRef& ref) {
+    return (ref.datum == Datum::tool_radius && ref.args.empty()) || ref.datum == Datum::cycle_time ||
+           ref.datum == Datum::feed_override;
+  }
+
+  void write(Assign::Item& i, const Statement& s) {
+    if (!i.to_system) return;
+    if (const auto value = constant_value(i.value); value && as_number(i.value) == nullptr) i.value = number(*value);
+    if (only_read(i.system)) {
+      context_.diagnostics.error("TRN-122", s.line.span, "the target can't write " + quoted(i.system.text),
+                                 "change it on the machine, or replace it by a variable");
+      return;
+    }
+    if (sayable(i.system) || !context_.target.data_form) return;
+    const auto own = context_.target.data_form(i.system);
+    if (!own || !own->writable) return;
+    i.system.text = own->text;
+    if (own->units == 1) return;
+    const auto value = constant_value(i.value);
+    if (!value) {
+      i.value = call(Function::round, {binary(BinaryOp::multiply, i.value, number(own->units))});
+      return;
+    }
+    const double whole = std::nearbyint(*value * own->units);
+    if (std::fabs(whole - *value * own->units) > 1e-6) {
+      context_.diagnostics.warning("TRN-133", s.line.span,
+                                   own->text + " counts in steps of " + shortest(1 / own->units) + ": the value " +
+                                       shortest(*value) + " is rounded");
+    }
+    i.value = number(whole);
+  }
+
+  /// The value when every path agrees on it.
+  std::optional<double> known(const Statement& s, const SystemRef& ref) const {
+    const Facts& facts = facts_.before(s);
+    if (!facts.reachable) return std::nullopt;
+    switch (ref.datum) {
+      case Datum::active_modal: return modal(facts, ref);
+      case Datum::diameter_on: {
+        const auto mode = setting<DiameterMode>(facts, Setting::diameter);
+        if (!mode) return std::nullopt;
+        return *mode == DiameterMode::radius ? 0 : 1;
+      }
+      case Datum::active_plane: return plane(facts);
+      case Datum::programmed_position: return position(facts, ref.axis);
+      case Datum::feed: return facts.feed;
+      case Datum::feed_per_minute: return in_mode(facts.feed, facts, Setting::feed_mode, FeedMode::per_minute);
+      case Datum::feed_per_rev: return in_mode(facts.feed, facts, Setting::feed_mode, FeedMode::per_rev);
+      case Datum::spindle_speed: return facts.spindle;
+      case Datum::rpm: return in_mode(facts.spindle, facts, Setting::spindle_mode, SpindleMode::rpm);
+      case Datum::cutting_speed: return in_mode(facts.spindle, facts, Setting::spindle_mode, SpindleMode::css);
+      case Datum::active_offset: return facts.work_offset ? std::optional<double>(*facts.work_offset) : std::nullopt;
+      case Datum::mirrored_axes:
+      case Datum::scale_factor:
+      case Datum::axis_scale:
+      case Datum::rotation_angle: return framed(frames_.before(s), ref);
+      default: return std::nullopt;
+    }
+  }
+
+  /// args: the source's own number, the setting, the value asked for; motion and offset stand behind the settings.
+  static std::optional<double> modal(const Facts& facts, const SystemRef& ref) {
+    if (ref.args.size() != 3) return std::nullopt;
+    const auto which = constant_value(ref.args[1]), asked = constant_value(ref.args[2]);
+    if (!which || !asked) return std::nullopt;
+    const auto same = [&asked](auto value) -> std::optional<double> {
+      if (!value) return std::nullopt;
+      return static_cast<double>(*value) == *asked ? 1 : 0;
+    };
+    const auto n = static_cast<std::size_t>(*which);
+    if (n == setting_count) return same(facts.motion);
+    if (n == setting_count + 1) return same(facts.work_offset);
+    return n < setting_count ? same(facts.settings[n]) : std::nullopt;
+  }
+
+  template <class Mode>
+  static std::optional<double> in_mode(std::optional<double> value, const Facts& facts, Setting s, Mode mode) {
+    return setting<Mode>(facts, s) == mode ? value : std::nullopt;
+  }
+  /// As a word of the axis would say it.
+  [[nodiscard]] std::optional<double> position(const Facts& facts, AxisId a) const {
+    const auto* spec = context_.source_machine.axis(a);
+    if (spec == nullptr || a >= facts.position.size() || !facts.position[a]) return std::nullopt;
+    if (!spec->diameter) return facts.position[a];
+    const auto mode = setting<DiameterMode>(facts, Setting::diameter);
+    if (!mode) return std::nullopt;
+    return *facts.position[a] * (*mode == DiameterMode::radius ? 1 : 2);
+  }
+
+  [[nodiscard]] std::optional<double> order(AxisId a) const {
+    const auto& axes = context_.source_machine.axes;
+    const auto at = std::find_if(axes.begin(), axes.end(), [a](const machine::AxisSpec& x) { return x.id == a; });
+    return at == axes.end() ? std::nullopt : std::optional<double>(at - axes.begin());
+  }
+  [[nodiscard]] std::optional<double> plane(const Facts& facts) const {
+    const auto p = setting<Plane>(facts, Setting::plane);
+    if (!p) return std::nullopt;
+    const auto axes = plane_axes(*p);
+    const auto u = order(axes.u), v = order(axes.v);
+    if (!u || !v) return std::nullopt;
+    return 16 * (*u + 1) + *v + 1;
+  }
+
+  [[nodiscard]] std::optional<double> framed(const FrameState& state, const SystemRef& ref) const {
+    const PlanarFrame& mirror = state.slot(FrameSlot::mirror);
+    const PlanarFrame& scale = state.slot(FrameSlot::scale);
+    const PlanarFrame& rotation = state.slot(FrameSlot::rotation);
+    const auto literal = [](const std::optional<Value>& v) -> std::optional<double> {
+      return v && v->literal() ? std::optional(v->number) : std::nullopt;
+    };
+    if (ref.datum == Datum::rotation_angle) {
+      const auto angle = rotation.foreign ? std::nullopt : literal(rotation.angle);
+      if (!angle) return std::nullopt;
+      const double turn = std::fmod(*angle, 360);
+      return turn < 0 ? turn + 360 : turn;
+    }
+    if (ref.datum == Datum::scale_factor) return scale.foreign ? std::nullopt : literal(scale.factor);
+    if (ref.datum == Datum::axis_scale) {
+      if (!state.slot(FrameSlot::chain).neutral() || scale.foreign) return std::nullopt;
+      return literal(scale.factor);
+    }
+    if (!mirror.mirror || mirror.foreign) return std::nullopt;
+    double bits = 0;
+    for (AxisId a = 0; a < PlanarFrame::axes; ++a) {
+      if ((*mirror.mirror >> a & 1U) == 0) continue;
+      const auto n = order(a);
+      if (!n) return std::nullopt;
+      bits += std::ldexp(1, static_cast<int>(*n));
+    }
+    return bits;
+  }
+
+  const LegaliseContext& context_;
+  FactsOf facts_;
+  FrameStates frames_;
+};
+
+bool reads_or_writes_data(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      each_expression(s, [&found](const ExprPtr& e) {
+        walk(e, [&found](const ExprPtr& x) { found = found || datum_in(x) != nullptr; });
+      });
+      const auto* a = std::get_if<Assign>(&s.node);
+      found = found || (a != nullptr && std::any_of(a->items.begin(), a->items.end(),
+                                                    [](const Assign::Item& i) { return i.to_system; }));
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void write_known_data(Program& program, const LegaliseContext& context) {
+  if (program.dialect == context.target.dialect || !reads_or_writes_data(program)) return;
+  KnownData pass(program, context);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
+  }
+}
+
+}  // namespace cnctrans::ir::passes
