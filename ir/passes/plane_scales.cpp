@@ -74,7 +74,7 @@ class PlaneScales {
     for (std::size_t i = at + 1; i < end; ++i) divided = divide(body[i], *two) || divided;
     if (!divided) return;
     const std::string name(program_.axis_name(two->other));
-    context_.diagnostics.note("TRN-337", body[at].line.span,
+    context_.diagnostics.note("TRN-339", body[at].line.span,
                               "the target scales all axes: the " + name +
                                   " words up to the end of this scale are divided by its factor, so that " + name +
                                   " moves as it did");
