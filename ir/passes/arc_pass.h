@@ -236,6 +236,7 @@ class ArcPass {
     }
     if (!whole) {
       const auto to = wanted_mode(arc, from);
+      if (to == CenterMode::follows_distance && steps_from_unknown(arc) && by_increments(arc)) return;
       if (!to || !convert_centers(arc, from, *to)) {
         if (by_increments(arc)) return;
         return fail(arc, "TRN-313",
@@ -244,6 +245,13 @@ class ArcPass {
       }
     }
     full_circle(arc);
+  }
+
+  /// The end is given by increments and where they count from is no number: the words can't become absolute.
+  static bool steps_from_unknown(const Arc& arc) {
+    return std::any_of(arc.b.motion.coords.begin(), arc.b.motion.coords.end(), [&arc](const CoordWord& c) {
+      return c.mode == WordMode::incremental && !arc.facts.position[c.axis];
+    });
   }
 
   /// The block under increments of its own: neither its start nor its end need be known then. False: an absolute word.

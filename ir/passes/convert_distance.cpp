@@ -100,7 +100,7 @@ class DistancePass {
       else
         ++own;
     }
-    const bool switches = own == 0 && mode && uniform(b);
+    const bool switches = own == 0 && mode && uniform(b) && !centres_follow(b);
     if (foreign == 0 || to_block_mode(b, mode, facts, !switches)) {
       out.push_back(std::move(s));
       return;
@@ -231,12 +231,16 @@ class DistancePass {
     return true;
   }
 
+  /// Under the other mode the centre would be another one.
+  static bool centres_follow(const Block& b) {
+    return std::any_of(b.motion.centers.begin(), b.motion.centers.end(),
+                       [](const CenterWord& c) { return c.mode == CenterMode::follows_distance; });
+  }
+
   /// A block of increments with absolute words beside them: all of them absolute. False: nothing is changed.
   bool all_absolute(Block& b, const Facts& facts) const {
     const std::vector<CoordWord> as_it_was = b.motion.coords;
-    const bool centres = std::any_of(b.motion.centers.begin(), b.motion.centers.end(),
-                                     [](const CenterWord& c) { return c.mode == CenterMode::follows_distance; });
-    if (centres || b.motion.extra) return false;
+    if (centres_follow(b) || b.motion.extra) return false;
     for (auto& c : b.motion.coords) {
       if (c.mode == WordMode::modal) c.mode = WordMode::incremental;
     }

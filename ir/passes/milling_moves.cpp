@@ -187,9 +187,16 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
       }
     });
   }
+  // A tool or offset that is the only one of the program stays what it is, wherever control comes from.
+  std::set<std::optional<std::int32_t>> tools, offsets;
   for (const auto& r : program.routines) {
-    for_each_statement(r.body, [this](const Statement& s) {
+    for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        if (const auto* t = std::get_if<ToolSelect>(&b->actions[i].data))
+          tools.insert(t->name.empty() ? whole(t->number) : std::nullopt);
+        if (const auto* d = std::get_if<ToolOffset>(&b->actions[i].data)) offsets.insert(whole(d->number));
+      }
       no_feed_ = no_feed_ && (b == nullptr || std::none_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
                                 return std::holds_alternative<SetFeed>(a.data);
                               }));
@@ -200,9 +207,9 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
   for (const auto& s : routine.body) outside.insert(s.id);
   Site site;
   if (routine.kind == RoutineKind::main) site.offset = 0;
-  const auto forget = [&site] {
-    site.tool.reset();
-    site.offset.reset();
+  const auto forget = [&] {
+    if (tools.size() > 1) site.tool.reset();
+    if (!offsets.empty() && !(offsets.size() == 1 && offsets.count(site.offset) != 0)) site.offset.reset();
     ++site.after;
   };
   for_each_statement(routine.body, [&](const Statement& s) {
