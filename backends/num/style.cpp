@@ -94,6 +94,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.pools = pools(later);
   c.distance_inside_block = true;
   c.centers = {ir::CenterMode::follows_distance};
+  c.corners = {ir::CornerKind::round, ir::CornerKind::chamfer_leg};
   c.radius_major = false;
   c.helix_pitch = true;
   c.line_angle = true;

@@ -86,6 +86,7 @@ void words(ir::Capabilities& c) {  // reference-language 14
            std::holds_alternative<ir::CycleDefine>(a.data) || std::holds_alternative<ir::CycleCancel>(a.data) ||
            std::holds_alternative<ir::PreparationStop>(a.data);
   };
+  c.corner_modal = c.corner_feed = true;
   c.corners = {ir::CornerKind::round, ir::CornerKind::chamfer_leg, ir::CornerKind::chamfer_chord};
   c.polar = c.line_angle = true;
   c.distance_per_word = true;

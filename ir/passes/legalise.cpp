@@ -42,6 +42,7 @@ constexpr std::array pipeline{
     Pass{"plane_scales", passes::complete_scales, false},
     Pass{"frames", passes::convert_frames, false},
     Pass{"poles", passes::convert_poles, false},
+    Pass{"corners", passes::write_out_corners, false},
     Pass{"tangents", passes::write_out_tangents, false},
     Pass{"arcs", passes::convert_arcs, true},
     Pass{"distance", passes::convert_distance, true},

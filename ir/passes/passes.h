@@ -17,6 +17,7 @@ void lower_control(Program& program, const LegaliseContext& context);       ///<
 void lower_cycles(Program& program, const LegaliseContext& context);        ///< native or exploded, how they are modal
 void convert_frames(Program& program, const LegaliseContext& context);      ///< work offsets, programmable frame
 void convert_poles(Program& program, const LegaliseContext& context);       ///< poles, arcs by polar words
+void write_out_corners(Program& program, const LegaliseContext& context);   ///< chords, lasting corners, their feeds
 void write_out_tangents(Program& program, const LegaliseContext& context);  ///< entries, exits, tangent arcs
 void convert_arcs(Program& program, const LegaliseContext& context);        ///< centre forms, radius, helix
 void convert_distance(Program& program, const LegaliseContext& context);    ///< absolute and incremental words

@@ -7,7 +7,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
-#include "ir/passes/words.h"
+#include "ir/passes/path_points.h"
 
 namespace cnctrans::ir::passes {
 
@@ -17,16 +17,10 @@ namespace {
 
 constexpr double tiny = 1e-9;
 
-/// An element of the path and the plane it lies in.
-struct Path {
-  Plane plane = Plane::xy;
-  Element e;
-};
-
 class TangentPass {
  public:
   TangentPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts) {}
+      : program_(program), context_(context), facts_(facts), points_(context, facts) {}
 
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
@@ -56,7 +50,7 @@ class TangentPass {
       }
       if (b != nullptr && moves_frames(*b)) before.reset();
       if (b != nullptr && b->has_motion && b->motion.moves() && !arc) {
-        const auto path = path_of(s);
+        const auto path = points_.path_of(s);
         if (!path || length(path->e.b - path->e.a) > tiny || path->e.arc) before = path;
       }
       if (arc) before = last_;
@@ -75,101 +69,16 @@ class TangentPass {
     return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
            std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node);
   }
-  static bool moves_frames(const Block& b) {
-    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-      return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data);
-    });
-  }
   std::optional<MotionKind> kind_of(const Block& b, const Statement& s) const {
     if (!b.has_motion || !b.motion.moves()) return std::nullopt;
     return motion_in(b, facts_.before(s));
-  }
-
-  /// The programmed points of a plain line or arc, as far as they are numbers.
-  std::optional<Path> path_of(const Statement& s) const {
-    const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::normal || b->motion.extra) return std::nullopt;
-    const Facts& facts = facts_.before(s);
-    const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
-    const auto kind = motion_in(*b, facts);
-    if (!plane || !kind) return std::nullopt;
-    const auto axes = plane_axes(*plane);
-    const auto u = facts.position[axes.u], v = facts.position[axes.v];
-    if (!u || !v) return std::nullopt;
-    Path path{*plane, {false, {*u, *v}, {*u, *v}, {}, false}};
-    for (const auto& c : b->motion.coords) {
-      if (c.axis != axes.u && c.axis != axes.v) continue;
-      const auto d = distance_of(c, *b, facts);
-      const auto f = to_radius(c.axis, c.scale, d, *b, facts, context_.source_machine);
-      if (!d || !f || !c.value.literal()) return std::nullopt;
-      double& to = c.axis == axes.u ? path.e.b.u : path.e.b.v;
-      to = c.value.number * *f + (*d == Distance::incremental ? to : 0);
-    }
-    if (*kind == MotionKind::linear || *kind == MotionKind::rapid) return path;
-    if (*kind != MotionKind::arc_cw && *kind != MotionKind::arc_ccw) return std::nullopt;
-    path.e.arc = true;
-    path.e.ccw = *kind == MotionKind::arc_ccw;
-    if (b->motion.radius_given) {
-      if (!b->motion.radius.literal()) return std::nullopt;
-      const auto c = centre_by_radius(path.e.a, path.e.b, b->motion.radius.number, path.e.ccw, long_chord);
-      if (!c) return std::nullopt;
-      path.e.c = *c;
-      return path;
-    }
-    if (b->motion.centers.empty()) return std::nullopt;
-    path.e.c = path.e.a;
-    const auto distance = setting_in<Distance>(*b, facts, Setting::distance);
-    for (const auto& w : b->motion.centers) {
-      const bool relative = w.mode == CenterMode::from_start ||
-                            (w.mode == CenterMode::follows_distance && distance == Distance::incremental);
-      const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, *b, facts,
-                               context_.source_machine);
-      if (!f || !w.value.literal() || (w.mode == CenterMode::follows_distance && !distance)) return std::nullopt;
-      double& c = w.axis == axes.u ? path.e.c.u : path.e.c.v;
-      c = w.value.number * *f + (relative ? c : 0);
-    }
-    return path;
-  }
-
-  /// Both words of the plane, absolute and as radius; the other words stay.
-  void set_end(Motion& m, Plane plane, Vec to) const {
-    const auto axes = plane_axes(plane);
-    for (const auto& [axis, value] : {std::pair{axes.u, to.u}, std::pair{axes.v, to.v}}) {
-      auto it =
-          std::find_if(m.coords.begin(), m.coords.end(), [axis = axis](const CoordWord& c) { return c.axis == axis; });
-      if (it == m.coords.end()) it = m.coords.insert(m.coords.end(), CoordWord{});
-      it->axis = axis;
-      it->value = Value{rounded_off(value)};
-      it->mode = WordMode::absolute;
-      it->scale = is_diameter_axis(context_.source_machine, axis) ? WordScale::radius : WordScale::modal;
-      it->pos = {};
-    }
-  }
-  static void set_centre(Motion& m, Plane plane, Vec from, Vec centre) {
-    const auto axes = plane_axes(plane);
-    m.radius_given = false;
-    m.radius = Value{};
-    m.centers.clear();
-    for (const auto& [axis, value] : {std::pair{axes.u, centre.u - from.u}, std::pair{axes.v, centre.v - from.v}}) {
-      CenterWord w;
-      w.axis = axis;
-      w.mode = CenterMode::from_start;
-      w.scale = WordScale::radius;
-      w.value = Value{rounded_off(value)};
-      m.centers.push_back(w);
-    }
-  }
-  /// Noise of the arithmetic far below the last place of any control.
-  static double rounded_off(double v) {
-    const double r = std::round(v * 1e9) / 1e9;
-    return r == 0 ? 0 : r;
   }
 
   void tangent_arc(Statement& s, const std::optional<Path>& before) {
     auto& m = std::get<Block>(s.node).motion;
     const auto kind = m.kind;
     m.kind = MotionKind::linear;  // to look at its points
-    const auto points = path_of(s);
+    const auto points = points_.path_of(s);
     m.kind = kind;
     if (!before || !points || before->plane != points->plane) {
       return refuse(s, program_, context_, "TRN-301",
@@ -185,7 +94,7 @@ class TangentPass {
     m.kind = ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
     m.explicit_code = true;
     m.code_text = {};
-    set_centre(m, points->plane, points->e.a, centre);
+    PathPoints::set_centre(m, points->plane, points->e.a, centre);
   }
 
   /// Takes the entry or exit out of the block; false: it has none, or the target writes it itself.
@@ -214,8 +123,8 @@ class TangentPass {
       if (entered(body[j]) || (b == nullptr && !passes_by(body[j])) || (b != nullptr && moves_frames(*b))) break;
       if (b != nullptr && b->has_motion && b->motion.moves()) next = &body[j];
     }
-    const auto here = path_of(s);
-    const auto after = next != nullptr ? path_of(*next) : std::nullopt;
+    const auto here = points_.path_of(s);
+    const auto after = next != nullptr ? points_.path_of(*next) : std::nullopt;
     if (!here || !after || here->plane != after->plane || !tangential_.radius.literal() || s.line.skip_mask != 0)
       return fail(
           "a tangential entry or exit, which the target lacks; the points around it are not known here as numbers",
@@ -234,12 +143,12 @@ class TangentPass {
     block.motion.kind = lead.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
     block.motion.explicit_code = true;
     block.motion.keeps_modal = false;
-    set_end(block.motion, arc.plane, lead.to);
-    set_centre(block.motion, arc.plane, lead.from, lead.centre);
+    points_.set_end(block.motion, arc.plane, lead.to);
+    PathPoints::set_centre(block.motion, arc.plane, lead.from, lead.centre);
     if (entry)
-      set_end(std::get<Block>(s.node).motion, arc.plane, lead.from);
+      points_.set_end(std::get<Block>(s.node).motion, arc.plane, lead.from);
     else
-      set_end(std::get<Block>(next->node).motion, arc.plane, after->e.b);
+      points_.set_end(std::get<Block>(next->node).motion, arc.plane, after->e.b);
     context_.diagnostics.note("TRN-336", word_span(s.line.span, tangential_pos_),
                               "the tangential entry or exit is written as an arc of its own");
     last_ = arc;
@@ -249,6 +158,7 @@ class TangentPass {
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  PathPoints points_;
   LabelUses uses_;
   TangentialEnd tangential_;
   WordPos tangential_pos_;

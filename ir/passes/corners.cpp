@@ -1,0 +1,268 @@
+// Corner functions that the target lacks (equivalences 9.9): one that stays in force becomes one in every block it acts
+// on, a chamfer by its chord one by its legs, and a corner with a feed of its own is written out as an element.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ir/geometry.h"
+#include "ir/passes/blocks.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/path_points.h"
+
+namespace cnctrans::ir::passes {
+
+using namespace geometry;
+
+namespace {
+
+class CornerPass {
+ public:
+  CornerPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : program_(program), context_(context), facts_(facts), points_(context, facts) {}
+
+  void routine(Routine& r) {
+    uses_ = label_uses(program_, r);
+    lasting_.reset();
+    walk(r.body);
+    if (lasting_ && !r.body.empty() && r.kind == RoutineKind::sub) leaves(r.body.back());
+  }
+
+ private:
+  [[nodiscard]] const Capabilities& target() const { return context_.target; }
+
+  void walk(Body& body) {
+    Body out;
+    out.reserve(body.size());
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      Statement& s = body[i];
+      if (lasting_ && (entered(s) || (!std::holds_alternative<Block>(s.node) && !passes_by(s)))) leaves(s);
+      each_body(s, [&](Body& inner) { walk(inner); });
+      std::optional<Statement> element;
+      if (std::holds_alternative<Block>(s.node)) element = take(body, i);
+      out.push_back(std::move(s));
+      if (element) out.push_back(std::move(*element));
+    }
+    body = std::move(out);
+  }
+
+  [[nodiscard]] bool entered(const Statement& s) const {
+    const auto labels = labels_on(s.line);
+    return std::any_of(labels.begin(), labels.end(),
+                       [this](const LabelRef& l) { return uses_.is_target(l) || uses_.is_end(l); });
+  }
+  static bool passes_by(const Statement& s) {
+    return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
+           std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node) ||
+           std::holds_alternative<End>(s.node);
+  }
+  /// The flow of the program comes or goes while a corner function is in force.
+  void leaves(Statement& s) {
+    refuse(s, program_, context_, "TRN-350",
+           "a corner function is in force here, which the target has for single blocks only; the program comes here or "
+           "goes on from here on another way",
+           "end it before, or write the corner in every block", {});
+    lasting_.reset();
+  }
+
+  /// Brings the corner of the block into a form of the target; the element that stands for it where it has none.
+  std::optional<Statement> take(Body& body, std::size_t at) {
+    Statement& s = body[at];
+    auto& b = std::get<Block>(s.node);
+    for (std::size_t i = 0; i < b.actions.size(); ++i) {
+      const auto* c = std::get_if<Corner>(&b.actions[i].data);
+      if (c == nullptr || !c->modal || target().corner_modal) continue;
+      lasting_ = *c;
+      if (lasting_->value.literal() && lasting_->value.number <= 0) lasting_.reset();
+      b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(i));
+      settle(s);
+      break;
+    }
+    auto* block = std::get_if<Block>(&s.node);
+    if (block == nullptr) return std::nullopt;
+    const auto own = std::find_if(block->actions.begin(), block->actions.end(), [](const Action& a) {
+      const auto* c = std::get_if<Corner>(&a.data);
+      return c != nullptr && !c->modal;
+    });
+    if (own != block->actions.end()) return single(body, at, static_cast<std::size_t>(own - block->actions.begin()));
+    if (!lasting_ || !contour(s)) return std::nullopt;
+    if (!lasting_->value.literal()) {
+      leaves(s);
+      return std::nullopt;
+    }
+    const Statement* next = following(body, at);
+    if (next == nullptr || !contour(*next) || plane_at(s) != plane_at(*next)) return std::nullopt;
+    Action a;
+    Corner c = *lasting_;
+    c.modal = false;
+    a.data = c;
+    a.order = Order::before;
+    block->actions.push_back(std::move(a));
+    return single(body, at, block->actions.size() - 1);
+  }
+
+  /// The corner of one block.
+  std::optional<Statement> single(Body& body, std::size_t at, std::size_t action) {
+    Statement& s = body[at];
+    auto& b = std::get<Block>(s.node);
+    auto& c = std::get<Corner>(b.actions[action].data);
+    const WordPos pos = b.actions[action].pos;
+    if (c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0) {
+      const auto angle = angle_at(body, at);
+      if (!angle || !c.value.literal()) {
+        refuse(s, program_, context_, "TRN-351",
+               "a chamfer by its chord, which the target wants by its legs; the directions before and behind it are "
+               "not known here",
+               "write the chamfer by its leg", pos);
+        return std::nullopt;
+      }
+      const double half = std::sin(*angle / 2 * std::numbers::pi / 180);
+      if (half > 0) c.value = Value{std::round(c.value.number / (2 * half) * 1e6) / 1e6};
+      c.kind = CornerKind::chamfer_leg;
+    }
+    if (!c.feed || target().corner_feed) return std::nullopt;
+    return with_feed(body, at, action);
+  }
+
+  /// Degrees inside of the corner behind the block.
+  std::optional<double> angle_at(Body& body, std::size_t at) {
+    const Statement* next = following(body, at);
+    if (next == nullptr || !contour(*next)) return std::nullopt;
+    const auto a = points_.path_of(body[at]), b = points_.path_of(*next);
+    if (a && b && a->plane == b->plane) return interior_angle(a->e, b->e);
+    const auto first = only_axis(body[at]), second = only_axis(*next);
+    return first && second && *first != *second ? std::optional<double>(90) : std::nullopt;
+  }
+  /// The axis of a straight move along one axis of the plane.
+  std::optional<AxisId> only_axis(const Statement& s) const {
+    const auto& b = std::get<Block>(s.node);
+    const auto plane = plane_at(s);
+    if (!plane || b.motion.extra || motion_in(b, facts_.before(s)) != MotionKind::linear) return std::nullopt;
+    const auto axes = plane_axes(*plane);
+    std::optional<AxisId> axis;
+    for (const auto& c : b.motion.coords) {
+      if (c.axis != axes.u && c.axis != axes.v) continue;
+      if (axis) return std::nullopt;
+      axis = c.axis;
+    }
+    return axis;
+  }
+
+  /// The corner as an element of its own, at its feed; the block behind it goes on at the feed before.
+  std::optional<Statement> with_feed(Body& body, std::size_t at, std::size_t action) {
+    Statement& s = body[at];
+    auto& b = std::get<Block>(s.node);
+    const Corner c = std::get<Corner>(b.actions[action].data);
+    const WordPos pos = b.actions[action].pos;
+    const auto fail = [&](std::string why) -> std::optional<Statement> {
+      refuse(s, program_, context_, "TRN-352",
+             "a feed for this corner alone, which the target lacks; " + std::move(why),
+             "write the corner as an element of its own", pos);
+      return std::nullopt;
+    };
+    Statement* next = following(body, at);
+    const auto here = points_.path_of(s), after = next != nullptr ? points_.path_of(*next) : std::nullopt;
+    if (!here || !after || here->plane != after->plane || !contour(*next) || !c.value.literal() ||
+        s.line.skip_mask != 0)
+      return fail("the points around it are not known here as numbers");
+    auto& then = std::get<Block>(next->node);
+    const auto feed = facts_.before(*next).feed;
+    const bool given = sets_feed(then);
+    if (!given && !feed) return fail("the feed behind it is not known here");
+    if (here->e.arc || after->e.arc) return fail("it stands at an arc");
+    Fillet f;
+    std::string why;
+    if (!(c.kind == CornerKind::round ? fillet : chamfer)(here->e, after->e, c.value.number, f, why))
+      return fail(std::move(why));
+    b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(action));
+    if (f.none) return std::nullopt;
+    Block element;
+    element.has_motion = true;
+    const bool straight = c.kind != CornerKind::round;
+    element.motion.kind = straight ? MotionKind::linear : f.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
+    element.motion.explicit_code = true;
+    element.motion.keeps_modal = false;
+    points_.set_end(b.motion, here->plane, f.from);
+    points_.set_end(element.motion, here->plane, f.to);
+    points_.set_end(then.motion, here->plane, after->e.b);
+    if (!straight) PathPoints::set_centre(element.motion, here->plane, f.from, f.centre);
+    add_feed(element, *c.feed);
+    if (!given) add_feed(then, Value{*feed});
+    context_.diagnostics.note("TRN-353", word_span(s.line.span, pos),
+                              "the corner is written as an element of its own, for its feed");
+    return made(s.line, std::move(element));
+  }
+  static bool sets_feed(const Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(),
+                       [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
+  }
+  static void add_feed(Block& b, const Value& value) {
+    Action a;
+    a.data = SetFeed{value};
+    a.order = Order::before;
+    b.actions.push_back(std::move(a));
+  }
+
+  /// The next statement that moves, where nothing stands between that could change the way there.
+  Statement* following(Body& body, std::size_t at) {
+    for (std::size_t j = at + 1; j < body.size(); ++j) {
+      auto* b = std::get_if<Block>(&body[j].node);
+      if (b == nullptr && !passes_by(body[j])) return nullptr;
+      if (b != nullptr && moves_frames(*b)) return nullptr;
+      if (b != nullptr && b->has_motion && b->motion.moves()) return &body[j];
+    }
+    return nullptr;
+  }
+  std::optional<Plane> plane_at(const Statement& s) const {
+    return setting_in<Plane>(std::get<Block>(s.node), facts_.before(s), Setting::plane);
+  }
+  /// A move at feed in the plane.
+  bool contour(const Statement& s) const {
+    const auto& b = std::get<Block>(s.node);
+    if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
+    const auto kind = motion_in(b, facts_.before(s));
+    const bool straight = kind == MotionKind::linear;
+    if (!straight && kind != MotionKind::arc_cw && kind != MotionKind::arc_ccw) return false;
+    const auto plane = plane_at(s);
+    if (!straight || !plane || b.motion.extra) return true;
+    const auto axes = plane_axes(*plane);
+    return std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                       [&](const CoordWord& c) { return c.axis == axes.u || c.axis == axes.v; });
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  PathPoints points_;
+  LabelUses uses_;
+  std::optional<Corner> lasting_;  ///< in force
+};
+
+/// Whether there is a corner that the target can't write as it stands.
+bool wanted(const Program& program, const Capabilities& target) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* c = std::get_if<Corner>(&a.data);
+        found =
+            found || (c != nullptr && ((c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
+                                       (c->kind == CornerKind::chamfer_chord && target.corners.count(c->kind) == 0)));
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void write_out_corners(Program& program, const LegaliseContext& context) {
+  if (context.target.corners.empty() || !wanted(program, context.target)) return;
+  const FactsOf facts(program, context);
+  CornerPass pass(program, context, facts);
+  for (auto& r : program.routines) pass.routine(r);
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,103 @@
+#include "ir/passes/path_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ir/passes/words.h"
+
+namespace cnctrans::ir::passes {
+
+using namespace geometry;
+
+namespace {
+
+/// Noise of the arithmetic far below the last place of any control.
+double rounded_off(double v) {
+  const double r = std::round(v * 1e9) / 1e9;
+  return r == 0 ? 0 : r;
+}
+
+}  // namespace
+
+std::optional<Path> PathPoints::path_of(const Statement& s) const {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::normal || b->motion.extra) return std::nullopt;
+  const Facts& facts = facts_.before(s);
+  const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
+  const auto kind = motion_in(*b, facts);
+  if (!plane || !kind) return std::nullopt;
+  const auto axes = plane_axes(*plane);
+  const auto u = facts.position[axes.u], v = facts.position[axes.v];
+  if (!u || !v) return std::nullopt;
+  Path path{*plane, {false, {*u, *v}, {*u, *v}, {}, false}};
+  for (const auto& c : b->motion.coords) {
+    if (c.axis != axes.u && c.axis != axes.v) continue;
+    const auto d = distance_of(c, *b, facts);
+    const auto f = to_radius(c.axis, c.scale, d, *b, facts, context_.source_machine);
+    if (!d || !f || !c.value.literal()) return std::nullopt;
+    double& to = c.axis == axes.u ? path.e.b.u : path.e.b.v;
+    to = c.value.number * *f + (*d == Distance::incremental ? to : 0);
+  }
+  if (*kind == MotionKind::linear || *kind == MotionKind::rapid) return path;
+  if (*kind != MotionKind::arc_cw && *kind != MotionKind::arc_ccw) return std::nullopt;
+  path.e.arc = true;
+  path.e.ccw = *kind == MotionKind::arc_ccw;
+  if (b->motion.radius_given) {
+    if (!b->motion.radius.literal()) return std::nullopt;
+    const auto c = centre_by_radius(path.e.a, path.e.b, b->motion.radius.number, path.e.ccw, long_chord);
+    if (!c) return std::nullopt;
+    path.e.c = *c;
+    return path;
+  }
+  if (b->motion.centers.empty()) return std::nullopt;
+  path.e.c = path.e.a;
+  const auto distance = setting_in<Distance>(*b, facts, Setting::distance);
+  for (const auto& w : b->motion.centers) {
+    const bool relative = w.mode == CenterMode::from_start ||
+                          (w.mode == CenterMode::follows_distance && distance == Distance::incremental);
+    const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, *b, facts,
+                             context_.source_machine);
+    if (!f || !w.value.literal() || (w.mode == CenterMode::follows_distance && !distance)) return std::nullopt;
+    double& c = w.axis == axes.u ? path.e.c.u : path.e.c.v;
+    c = w.value.number * *f + (relative ? c : 0);
+  }
+  return path;
+}
+
+void PathPoints::set_end(Motion& m, Plane plane, Vec to) const {
+  const auto axes = plane_axes(plane);
+  for (const auto& [axis, value] : {std::pair{axes.u, to.u}, std::pair{axes.v, to.v}}) {
+    auto it =
+        std::find_if(m.coords.begin(), m.coords.end(), [axis = axis](const CoordWord& c) { return c.axis == axis; });
+    if (it == m.coords.end()) it = m.coords.insert(m.coords.end(), CoordWord{});
+    it->axis = axis;
+    it->value = Value{rounded_off(value)};
+    it->mode = WordMode::absolute;
+    it->scale = is_diameter_axis(context_.source_machine, axis) ? WordScale::radius : WordScale::modal;
+    it->pos = {};
+  }
+}
+
+void PathPoints::set_centre(Motion& m, Plane plane, Vec from, Vec centre) {
+  const auto axes = plane_axes(plane);
+  m.radius_given = false;
+  m.radius = Value{};
+  m.centers.clear();
+  for (const auto& [axis, value] : {std::pair{axes.u, centre.u - from.u}, std::pair{axes.v, centre.v - from.v}}) {
+    CenterWord w;
+    w.axis = axis;
+    w.mode = CenterMode::from_start;
+    w.scale = WordScale::radius;
+    w.value = Value{rounded_off(value)};
+    m.centers.push_back(w);
+  }
+}
+
+bool moves_frames(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data);
+  });
+}
+
+}  // namespace cnctrans::ir::passes
