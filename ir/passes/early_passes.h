@@ -37,6 +37,8 @@ void settle_preset_steps(Program& program, const LegaliseContext& context);
 /// Lengths of machine data in the unit of the target.
 void convert_machine_data(Program& program, const LegaliseContext& context);
 
+/// Variables of texts whose text the program gives, for a target that has numbers only.
+void write_known_texts(Program& program, const LegaliseContext& context);
 /// Machine data that follow from the program become numbers; others get the target's name and unit.
 void write_known_data(Program& program, const LegaliseContext& context);
 

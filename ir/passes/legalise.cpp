@@ -17,6 +17,7 @@ struct Pass {
 
 constexpr std::array pipeline{
     Pass{"headings", passes::move_headings, false},
+    Pass{"texts", passes::write_known_texts, false},
     Pass{"returns", passes::normalise_returns, false},
     Pass{"range_ends", passes::mark_range_ends, false},
     Pass{"saved_modals", passes::restore_modals, false},
