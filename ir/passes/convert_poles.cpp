@@ -159,7 +159,7 @@ class PolePass {
     }
     if (is_polar_line(b, facts)) {
       const bool done = polar_words(b, facts);
-      if (problem.empty() && !done && !context_.target.polar) {
+      if (problem.empty() && !done && !stays_polar(b)) {
         problem = "the pole of these polar words, or the point before them,";
       }
     } else if (!polar_arc_done_) {
@@ -290,10 +290,18 @@ class PolePass {
     return Point2{*u, *v};
   }
 
+  /// The target has polar words, and all that the block says beside them: the pitch of a helix by its turns is found
+  /// from the points.
+  [[nodiscard]] bool stays_polar(const Block& b) const {
+    const auto& x = b.motion.extra;
+    const bool turns = x && x->has_turns && !x->turns.is(0);
+    return context_.target.polar && (!turns || context_.target.helix_turns);
+  }
+
   /// An arc whose end is an angle about its centre: with its radius about the pole every target has it (the writer
   /// leaves out a word that the target does not take), the other forms become axis words. False: not known.
   bool polar_arc(Block& b, const Facts& facts) {
-    if (b.motion.centers.empty() && b.motion.extra->has_polar_radius && context_.target.polar) {
+    if (b.motion.centers.empty() && b.motion.extra->has_polar_radius && stays_polar(b)) {
       forget_point();
       return true;
     }
@@ -315,7 +323,7 @@ class PolePass {
     if (!r && pole_ && start) r = Value{clean(std::hypot(start->u - pole_->u, start->v - pole_->v))};
     const auto f = factors(b, facts, Distance::absolute);
     if (!r || !pole_ || !f) return false;
-    if (r->literal() && x.polar_angle.literal() && !context_.target.polar) return false;  // numbers: by to_cartesian
+    if (r->literal() && x.polar_angle.literal() && !stays_polar(b)) return false;  // numbers: by to_cartesian
     r->text = {};
     const Value q = x.polar_angle;
     forget_point();
@@ -323,7 +331,7 @@ class PolePass {
     radius_ = r;
     angle_ = q;
     angle_->text = {};
-    if (context_.target.polar) {
+    if (stays_polar(b)) {
       x.has_polar_radius = true;
       x.polar_radius = *r;
       m.extra = std::make_shared<const MotionExtra>(std::move(x));
@@ -385,7 +393,7 @@ class PolePass {
       u = around(r, q, Function::cos, pole_->u, f->u);
       v = around(r, q, Function::sin, pole_->v, f->v);
     }
-    if (context_.target.polar) return true;  // only followed
+    if (stays_polar(b)) return true;  // only followed
     const auto inc = factors(b, facts, Distance::incremental);
     const bool steps = distance == Distance::incremental && start && at_ && inc;
     if (steps) {
@@ -411,7 +419,7 @@ class PolePass {
     Motion& m = b.motion;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
     const auto start = here(facts);
-    const auto centre = m.centers.empty() ? pole_ : centre_of(b, facts, start, distance);
+    const auto centre = m.centers.empty() ? pole_ : own_centre(b, facts, start, distance);
     const auto f = factors(b, facts, distance);
     const bool absolute =
         x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
@@ -442,27 +450,18 @@ class PolePass {
       w.value = Value{offset};
       m.centers.push_back(w);
     }
+    if (x.has_turns && !context_.target.helix_turns && context_.target.helix_pitch)
+      turns_to_pitch(x, b, facts, plane_axes(*plane_).w, {*start, end, *centre}, context_.source_machine);
     x.has_polar_radius = x.has_polar_angle = false;
     x.polar_radius = x.polar_angle = Value{};
     m.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
     return true;
   }
 
-  std::optional<Point2> centre_of(const Block& b, const Facts& facts, std::optional<Point2> start,
-                                  std::optional<Distance> distance) const {
+  std::optional<Point2> own_centre(const Block& b, const Facts& facts, std::optional<Point2> start,
+                                   std::optional<Distance> distance) const {
     if (!start || !plane_) return std::nullopt;
-    const PlaneAxes axes = plane_axes(*plane_);
-    Point2 c = *start;
-    for (const auto& w : b.motion.centers) {
-      const bool abs =
-          w.mode == CenterMode::absolute || (w.mode == CenterMode::follows_distance && distance == Distance::absolute);
-      const auto f = to_radius(w.axis, w.scale, abs ? Distance::absolute : Distance::incremental, b, facts,
-                               context_.source_machine);
-      if (!f || !w.value.literal() || (w.axis != axes.u && w.axis != axes.v)) return std::nullopt;
-      double& slot = w.axis == axes.u ? c.u : c.v;
-      slot = (abs ? 0 : slot) + w.value.number * *f;
-    }
-    return c;
+    return centre_of(b, facts, *start, *plane_, distance, context_.source_machine);
   }
 
   Program& program_;

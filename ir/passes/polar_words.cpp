@@ -1,7 +1,10 @@
 #include "ir/passes/polar_words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "ir/geometry.h"
 
 namespace cnctrans::ir::passes {
 
@@ -32,6 +35,42 @@ bool is_polar_line(const Block& b, const Facts& facts) {
   const auto kind = motion_in(b, facts);
   return (kind == MotionKind::linear || kind == MotionKind::rapid) &&
          (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
+}
+
+std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start, Plane plane,
+                                std::optional<Distance> distance, const machine::Profile& machine) {
+  const PlaneAxes axes = plane_axes(plane);
+  Point2 c = start;
+  for (const auto& w : b.motion.centers) {
+    const bool abs =
+        w.mode == CenterMode::absolute || (w.mode == CenterMode::follows_distance && distance == Distance::absolute);
+    const auto f = to_radius(w.axis, w.scale, abs ? Distance::absolute : Distance::incremental, b, facts, machine);
+    if (!f || !w.value.literal() || (w.axis != axes.u && w.axis != axes.v)) return std::nullopt;
+    double& slot = w.axis == axes.u ? c.u : c.v;
+    slot = (abs ? 0 : slot) + w.value.number * *f;
+  }
+  return c;
+}
+
+void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId normal, const ArcPoints& arc,
+                    const machine::Profile& machine) {
+  const auto word = std::find_if(b.motion.coords.begin(), b.motion.coords.end(),
+                                 [normal](const CoordWord& c) { return c.axis == normal; });
+  const auto kind = motion_in(b, facts);
+  if (word == b.motion.coords.end() || !word->value.literal() || !x.turns.literal() || !kind) return;
+  if (*kind != MotionKind::arc_cw && *kind != MotionKind::arc_ccw) return;
+  const auto d = distance_of(*word, b, facts);
+  const auto f = to_radius(normal, word->scale, d, b, facts, machine);
+  const auto from = facts.position[normal];
+  if (!d || !f || (*d == Distance::absolute && !from)) return;
+  const double travel = word->value.number * *f - (*d == Distance::absolute ? *from : 0);
+  const double angle = geometry::swept_angle({arc.start.u, arc.start.v}, {arc.end.u, arc.end.v},
+                                             {arc.centre.u, arc.centre.v}, *kind == MotionKind::arc_ccw);
+  if (travel == 0) return;
+  x.has_pitch = true;
+  x.pitch = Value{clean(std::fabs(travel) / (x.turns.number + angle / 360))};
+  x.has_turns = false;
+  x.turns = Value{};
 }
 
 bool uses_polar(const Program& program) {

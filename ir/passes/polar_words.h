@@ -26,6 +26,19 @@ Value around(const Value& r, const Value& q, Function wave, double from, double 
 bool is_polar_arc(const Block& b, const Facts& facts);
 bool is_polar_line(const Block& b, const Facts& facts);
 
+/// The centre that the words of an arc give; nullopt: not known.
+std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start, Plane plane,
+                                std::optional<Distance> distance, const machine::Profile& machine);
+
+/// The points of an arc in its plane.
+struct ArcPoints {
+  Point2 start, end, centre;
+};
+/// The full turns of a helix as its travel per turn; nothing happens where the travel along `normal` or the sense is
+/// not known.
+void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId normal, const ArcPoints& arc,
+                    const machine::Profile& machine);
+
 /// The program has polar words or sets a pole.
 bool uses_polar(const Program& program);
 
