@@ -20,7 +20,7 @@ class DiameterPass {
     Facts assumed;
     const Facts& known = facts_.before(s);
     const bool idle =
-        one_mode_ && !in_main && !setting<DiameterMode>(known, Setting::diameter);  // nothing calls it here
+        one_mode_ && (!in_main || !known.reachable) && !setting<DiameterMode>(known, Setting::diameter);  // not run
     if (idle) {
       assumed = known;
       assumed.settings[static_cast<std::size_t>(Setting::diameter)] =
