@@ -1,5 +1,6 @@
 // Last looks: marks without a block join the next block, empty blocks that passes left over disappear.
 #include <algorithm>
+#include <optional>
 
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
@@ -57,6 +58,22 @@ bool said_again(const Statement& before, const Statement& s) {
                          a->motion.keeps_modal && a->motion.frame == FrameUse::normal;
   return code_only && b->has_motion && b->motion.explicit_code && b->motion.kind != MotionKind::modal &&
          b->motion.keeps_modal;
+}
+
+/// The slot that the block makes neutral, when that is all it does.
+std::optional<FrameSlot> cleared(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || b->has_motion || b->actions.size() != 1 || b->repeat_given != 0 || s.line.skip_mask != 0)
+    return std::nullopt;
+  const auto* f = std::get_if<FrameOp>(&b->actions[0].data);
+  return f != nullptr && f->change && f->change->combine == FrameCombine::clear ? std::optional(f->change->slot)
+                                                                                : std::nullopt;
+}
+/// The same right behind.
+bool cleared_again(const Statement& before, const Statement& s) {
+  const auto slot = cleared(before);
+  return slot && slot == cleared(s) && shows_nothing(s.line) && s.line.blank_lines_before == 0 && !s.line.joined &&
+         !before.line.joined;
 }
 
 bool number_only(const LineInfo& line) {
@@ -122,6 +139,7 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
     each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
     if (program.dialect != context.target.dialect && !out.empty() && join_assignments(out.back(), s, context.target))
       continue;
+    if (program.dialect != context.target.dialect && !out.empty() && cleared_again(out.back(), s)) continue;
     if (program.dialect != context.target.dialect && !out.empty() && said_again(out.back(), s)) out.pop_back();
     if (!out.empty() && can_join(out.back(), s, context.target)) {
       bool end = false;
