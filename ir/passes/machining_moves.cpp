@@ -370,17 +370,23 @@ void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, co
   if (blocks.empty()) return;
   for (auto& r : program.routines) {
     const bool called = is_called(program, r);
-    for_each_statement(r.body, [&](Statement& s) {
-      const auto* block = std::get_if<Block>(&s.node);
-      if (blocks.count(s.id) == 0 || block == nullptr || block->empty()) return;
-      if (called && facts.before(s).reachable) return;
+    const auto remark = [&program](Statement& s, const std::string& text) {
       CommentText c;
-      c.text = program.keep(" " + shown(s));
+      c.text = program.keep(" " + text);
       c.place = CommentPlace::own_line;
       s.line.comments.insert(s.line.comments.begin(), c);
       s.line.number = {};
       s.line.labels.clear();
       s.node = Block{};
+    };
+    for_each_statement(r.body, [&](Statement& s) {
+      const auto* kept = std::get_if<Opaque>(&s.node);
+      if (kept != nullptr && kept->harmless && kept->feature == "cycle.turning")  // a point of the blank
+        return remark(s, std::string(trim(kept->text)));
+      const auto* block = std::get_if<Block>(&s.node);
+      if (blocks.count(s.id) == 0 || block == nullptr || block->empty()) return;
+      if (called && facts.before(s).reachable) return;
+      remark(s, shown(s));
     });
   }
 }
