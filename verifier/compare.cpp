@@ -119,35 +119,30 @@ class Comparison {
   /// Dwells that follow each other are one. Revolutions of a known speed are a time.
   bool step_dwell() {
     const Dwells a = dwells(a_, i_), b = dwells(b_, j_);
-    const bool revolutions = a.revolutions && b.revolutions;
-    const auto seconds = [this](const Dwells& d) { return d.revolutions ? d.amount * 60 / rpm_ : d.amount; };
-    const bool comparable = a.revolutions == b.revolutions || rpm_ > 0;
-    const double apart = revolutions ? a.amount - b.amount : comparable ? seconds(a) - seconds(b) : 0;
-    if (!comparable || std::fabs(apart) > options_.tolerances.seconds * double(std::max(a.events, b.events))) {
-      const auto unit = [](const Dwells& d) { return d.revolutions ? "revolutions" : "s"; };
-      return differ(fmt::format("dwell of {} {} in the source, {} {} in the translation", shortest(a.amount), unit(a),
-                                shortest(b.amount), unit(b)),
-                    i_, j_);
-    }
+    const double allowed = options_.tolerances.seconds * double(std::max(a.events, b.events));
+    const auto whole = [this](const Dwells& d) { return d.seconds + d.turns * 60 / rpm_; };
+    const bool known = rpm_ > 0 && (a.turns == 0) != (b.turns == 0);
+    const bool same = known ? std::fabs(whole(a) - whole(b)) <= allowed
+                            : std::fabs(a.seconds - b.seconds) <= allowed && std::fabs(a.turns - b.turns) <= allowed;
+    if (!same) return differ(fmt::format("dwell of {} in the source, {} in the translation", said(a), said(b)), i_, j_);
     verdict_.events += std::max(a.events, b.events);
     i_ += a.events;
     j_ += b.events;
     return true;
   }
   struct Dwells {
-    double amount = 0;
-    bool revolutions = false;
+    double seconds = 0, turns = 0;
     std::size_t events = 0;
   };
   static Dwells dwells(const std::vector<const Event*>& trace, std::size_t from) {
     Dwells d;
-    d.revolutions = trace[from]->revolutions;
-    for (; from < trace.size() && trace[from]->kind == EventKind::dwell; ++from) {
-      if (trace[from]->revolutions != d.revolutions) break;
-      d.amount += trace[from]->amount;
-      ++d.events;
-    }
+    for (; from < trace.size() && trace[from]->kind == EventKind::dwell; ++from, ++d.events)
+      (trace[from]->revolutions ? d.turns : d.seconds) += trace[from]->amount;
     return d;
+  }
+  static std::string said(const Dwells& d) {
+    if (d.turns == 0) return shortest(d.seconds) + " s";
+    return shortest(d.turns) + " revolutions" + (d.seconds == 0 ? "" : " and " + shortest(d.seconds) + " s");
   }
 
   bool step_motion(const Event& a, const Event& b) {

@@ -131,6 +131,12 @@ TEST(Compare, RevolutionsAreATimeAtAKnownSpeed) {
   EXPECT_EQ(compare({spindle(600), linear(1), dwell(5, true)}, {spindle(600), linear(1), dwell(0.6)}).status,
             Status::differs);
   EXPECT_EQ(compare({linear(1), dwell(5, true)}, {linear(1), dwell(0.5)}).status, Status::differs);
+  EXPECT_EQ(compare({spindle(600), linear(1), dwell(5, true), dwell(1)}, {spindle(600), linear(1), dwell(1.5)}).status,
+            Status::verified);
+  EXPECT_EQ(compare({spindle(600), linear(1), dwell(5, true), dwell(1)}, {spindle(600), linear(1), dwell(1)}).status,
+            Status::differs);
+  EXPECT_EQ(compare({linear(1), dwell(5, true), dwell(1)}, {linear(1), dwell(1), dwell(5, true)}).status,
+            Status::verified);
 }
 
 }  // namespace
