@@ -393,7 +393,15 @@ class PolePass {
       u = around(r, q, Function::cos, pole_->u, f->u);
       v = around(r, q, Function::sin, pole_->v, f->v);
     }
-    if (stays_polar(b)) return true;  // only followed
+    if (stays_polar(b)) {  // only followed
+      if (modal || context_.target.distance_per_word || distance != Distance::absolute) return true;
+      x.has_polar_radius = x.has_polar_angle = true;
+      x.polar_radius = r;
+      x.polar_angle = q;
+      x.polar_mode = WordMode::modal;
+      b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
+      return true;
+    }
     const auto inc = factors(b, facts, Distance::incremental);
     const bool steps = distance == Distance::incremental && start && at_ && inc;
     if (steps) {
