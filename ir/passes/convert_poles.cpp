@@ -302,7 +302,12 @@ class PolePass {
   /// leaves out a word that the target does not take), the other forms become axis words. False: not known.
   bool polar_arc(Block& b, const Facts& facts) {
     if (b.motion.centers.empty() && b.motion.extra->has_polar_radius && stays_polar(b)) {
+      const MotionExtra& x = *b.motion.extra;
+      const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+      const bool absolute = polar_absolute(x, distance);
       forget_point();
+      if (absolute && pole_ && x.has_polar_angle && x.polar_angle.literal() && x.polar_radius.literal())
+        at_ = around(*pole_, x.polar_radius.number, x.polar_angle.number);
       return true;
     }
     return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra);
@@ -314,8 +319,7 @@ class PolePass {
     Motion& m = b.motion;
     MotionExtra x = *m.extra;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const bool absolute =
-        x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
+    const bool absolute = polar_absolute(x, distance);
     if (!m.centers.empty() || x.has_polar_radius || !absolute || distance != Distance::absolute || !plane_)
       return false;
     std::optional<Value> r = radius_;
@@ -427,10 +431,11 @@ class PolePass {
     Motion& m = b.motion;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
     const auto start = here(facts);
-    const auto centre = m.centers.empty() ? pole_ : own_centre(b, facts, start, distance);
+    const auto centre = m.centers.empty()   ? pole_
+                        : !start || !plane_ ? std::nullopt
+                                            : centre_of(b, facts, *start, *plane_, distance, context_.source_machine);
     const auto f = factors(b, facts, distance);
-    const bool absolute =
-        x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
+    const bool absolute = polar_absolute(x, distance);
     if (!start || !centre || !f || !distance || !x.polar_angle.literal()) return false;
     const Point2 d{start->u - centre->u, start->v - centre->v};
     const double turn = absolute ? 0 : std::atan2(d.v, d.u);
@@ -464,12 +469,6 @@ class PolePass {
     x.polar_radius = x.polar_angle = Value{};
     m.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
     return true;
-  }
-
-  std::optional<Point2> own_centre(const Block& b, const Facts& facts, std::optional<Point2> start,
-                                   std::optional<Distance> distance) const {
-    if (!start || !plane_) return std::nullopt;
-    return centre_of(b, facts, *start, *plane_, distance, context_.source_machine);
   }
 
   Program& program_;

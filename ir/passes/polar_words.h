@@ -22,6 +22,11 @@ Point2 around(Point2 pole, double r, double q);
 /// word).
 Value around(const Value& r, const Value& q, Function wave, double from, double factor);
 
+/// The polar words of the block count from the pole, not from the point before.
+inline bool polar_absolute(const MotionExtra& x, std::optional<Distance> distance) {
+  return x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
+}
+
 /// An arc, or a line, whose end stands in polar words.
 bool is_polar_arc(const Block& b, const Facts& facts);
 bool is_polar_line(const Block& b, const Facts& facts);
