@@ -24,7 +24,7 @@ void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cy
            l.value.number < cycle->bottom.value.number;
   };
   if (below(cycle->retract) || below(cycle->reference)) {
-    report_.warn("NUM-041", at.pos,
+    report_.warn("NUM-047", at.pos,
                  "a plane of this cycle lies below its depth: the tool goes there in rapid and drills upwards");
   }
   ir::CycleDefine define;
