@@ -222,7 +222,8 @@ std::string Printer::variable(const ExprPtr& e, const ir::VarRef& v) {
     return "P?";
   }
   if (const auto n = ir::constant_value(v.index)) {
-    if (*n != std::floor(*n) || !facts::valid_parameter(static_cast<std::int64_t>(*n))) {
+    constexpr double most = 1e6;  // no control has so many; what is larger need not fit an integer
+    if (*n != std::floor(*n) || std::fabs(*n) > most || !facts::valid_parameter(static_cast<std::int64_t>(*n))) {
       problem(e, "the control has no parameter P" + shortest(*n));
     }
     const std::size_t at = e->pos.column;

@@ -123,7 +123,7 @@ std::string Expressions::name(const ir::VarRef& v) {
       return {};
     }
     const auto n = literal(v.index);
-    if (n && *n == std::floor(*n) && *n >= 0) return 'R' + std::to_string(static_cast<std::int64_t>(*n));
+    if (n && *n == std::floor(*n) && *n >= 0 && *n < 1e15) return 'R' + std::to_string(static_cast<std::int64_t>(*n));
     return "R[" + index(v.index) + ']';
   }
   std::string text = v.name;

@@ -59,7 +59,7 @@ bool names_pref(std::string_view text) {
 /// Whether the text names a latched position (E7x001).
 bool names_latched(std::string_view text) {
   for (std::size_t at = text.find("E7"); at != std::string_view::npos; at = text.find("E7", at + 1)) {
-    if (text.substr(at + 3, 3) == "001") return true;
+    if (at + 3 < text.size() && text.substr(at + 3, 3) == "001") return true;
   }
   return false;
 }

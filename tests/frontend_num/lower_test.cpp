@@ -379,4 +379,13 @@ TEST(NumLower, StreamTakesPlainLines) {
   EXPECT_EQ(next("G79 N5", 6), StreamLine::needs_program);
 }
 
+// Found by the fuzz target: the look for latched positions went behind the end of the text.
+TEST(NumLower, TextsThatEndInsideOfAParameter) {
+  for (const std::string_view end : {"E", "E7", "E70", "E6", "E700", "E7000", "E70001"}) {
+    const auto o = read("%1\nG0 X1\nL1=" + std::string(end));
+    EXPECT_EQ(o.program.routines.size(), 1U) << end;
+    EXPECT_NE(o.codes, "") << end;
+  }
+}
+
 }  // namespace
