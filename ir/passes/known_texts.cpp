@@ -29,6 +29,11 @@ class KnownTexts {
     follow(routine_.body, here);
     for_each_statement(routine_.body, [this](const Statement& s) {
       each_expression(s, [this](const ExprPtr& e) { walk(e, [this](const ExprPtr& x) { read(x); }); });
+      if (const auto* c = std::get_if<CallRoutine>(&s.node)) {
+        for (const auto& a : c->arguments) {
+          if (a.by_reference) left_.insert(a.reference.name);
+        }
+      }
     });
     remove(routine_.body);
   }
@@ -97,13 +102,19 @@ class KnownTexts {
           if (argument.by_reference) here.erase(name_of(argument.reference));
         }
       }
-      if (std::holds_alternative<Opaque>(s.node)) here.clear();
+      if (runs_again(s)) here.clear();
     }
+  }
+  /// Text of the routine may run here that stands elsewhere, or that is not known.
+  static bool runs_again(const Statement& s) {
+    const auto* c = std::get_if<CallRoutine>(&s.node);
+    return std::holds_alternative<Repeat>(s.node) || std::holds_alternative<Opaque>(s.node) ||
+           (c != nullptr && c->has_range);
   }
   void forget(const Body& body, Texts& here) const {
     for_each_statement(body, [&](const Statement& s) {
       each_target(s, [&](const VarRef& v) { here.erase(name_of(v)); });
-      if (std::holds_alternative<Opaque>(s.node) || std::holds_alternative<CallRoutine>(s.node)) here.clear();
+      if (runs_again(s) || std::holds_alternative<CallRoutine>(s.node)) here.clear();
     });
   }
 
