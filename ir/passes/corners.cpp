@@ -38,6 +38,11 @@ class CornerPass {
       Statement& s = body[i];
       if (lasting_ && (entered(s) || (!std::holds_alternative<Block>(s.node) && !passes_by(s)))) leaves(s);
       each_body(s, [&](Body& inner) { walk(inner); });
+      if (lasting_ && !std::holds_alternative<Block>(s.node)) {
+        bool nested = false;
+        each_body(s, [&](Body&) { nested = true; });
+        if (nested) leaves(s);  // it was set inside
+      }
       std::optional<Statement> element;
       if (std::holds_alternative<Block>(s.node)) element = take(body, i);
       out.push_back(std::move(s));
@@ -72,6 +77,10 @@ class CornerPass {
     for (std::size_t i = 0; i < b.actions.size(); ++i) {
       const auto* c = std::get_if<Corner>(&b.actions[i].data);
       if (c == nullptr || !c->modal || target().corner_modal) continue;
+      if (s.line.skip_mask != 0) {
+        leaves(s);
+        return std::nullopt;
+      }
       lasting_ = *c;
       if (lasting_->value.literal() && lasting_->value.number <= 0) lasting_.reset();
       b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(i));
@@ -87,6 +96,10 @@ class CornerPass {
     if (own != block->actions.end()) return single(body, at, static_cast<std::size_t>(own - block->actions.begin()));
     if (!lasting_ || !contour(s)) return std::nullopt;
     if (!lasting_->value.literal()) {
+      leaves(s);
+      return std::nullopt;
+    }
+    if (skipped_behind(body, at)) {
       leaves(s);
       return std::nullopt;
     }
@@ -203,12 +216,21 @@ class CornerPass {
     b.actions.push_back(std::move(a));
   }
 
+  /// A block that may be skipped stands before the next move, or is it.
+  static bool skipped_behind(const Body& body, std::size_t at) {
+    for (std::size_t j = at + 1; j < body.size(); ++j) {
+      if (body[j].line.skip_mask != 0) return true;
+      const auto* b = std::get_if<Block>(&body[j].node);
+      if (b != nullptr && b->has_motion && b->motion.moves()) return false;
+    }
+    return false;
+  }
   /// The next statement that moves, where nothing stands between that could change the way there.
   Statement* following(Body& body, std::size_t at) {
     for (std::size_t j = at + 1; j < body.size(); ++j) {
       auto* b = std::get_if<Block>(&body[j].node);
       if (b == nullptr && !passes_by(body[j])) return nullptr;
-      if (b != nullptr && moves_frames(*b)) return nullptr;
+      if (b != nullptr && (moves_frames(*b) || body[j].line.skip_mask != 0)) return nullptr;
       if (b != nullptr && b->has_motion && b->motion.moves()) return &body[j];
     }
     return nullptr;
