@@ -78,7 +78,13 @@ class Checker {
       case Op::end: return;
       case Op::opaque: {
         const auto& o = std::get<ir::Opaque>(in.statement->node);
-        if (o.harmless || is_read(o) || told(flow, at)) break;
+        if (o.harmless || told(flow, at)) break;
+        if (const auto* f = ir::find_missing_feature(o.feature); f != nullptr && f->beside_path) {
+          diagnostics_.warning(code::beside_path, in.statement->line.span,
+                               "the run goes past this: " + std::string(f->title), std::string(f->reason));
+          break;
+        }
+        if (is_read(o)) break;
         const bool axis = o.feature == "machine.axis";
         diagnostics_.error(code::opaque, in.statement->line.span,
                            axis ? "this block moves an axis that the machine does not have"

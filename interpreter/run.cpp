@@ -248,8 +248,10 @@ void Runner::step(Instruction& in) {
       if (!std::get<ir::Opaque>(in.statement->node).harmless) {
         const auto& o = std::get<ir::Opaque>(in.statement->node);
         const auto* f = ir::find_missing_feature(o.feature);
-        failure_.fail(code::not_carried, "this block is kept as text and not carried out" +
-                                             (f != nullptr ? " (" + std::string(f->title) + ")" : std::string{}));
+        if (f == nullptr || !f->beside_path) {
+          failure_.fail(code::not_carried, "this block is kept as text and not carried out" +
+                                               (f != nullptr ? " (" + std::string(f->title) + ")" : std::string{}));
+        }
       }
       go_to(at_ + 1);
       return;

@@ -8,6 +8,16 @@ namespace cnctrans::ir {
 namespace {
 // Keys in alphabetical order. A row disappears in the commit that builds the feature.
 constexpr std::array features{
+    MissingFeature{"beside.compensation", "corrections that the control makes beside the programmed path",
+                   "the trace shows programmed positions; the machine adds to them", true},
+    MissingFeature{"beside.coupling", "axes and spindles that follow others (coupling, trailing, electronic gear)",
+                   "the trace shows programmed positions; the follower moves on the machine only", true},
+    MissingFeature{"beside.data", "data of the machine that the program sets and the run does not use",
+                   "they change how the machine works, not the programmed positions of this run", true},
+    MissingFeature{"beside.realtime", "actions in real time (synchronised actions, interrupts, oscillation)",
+                   "they depend on the machine's signals and on time", true},
+    MissingFeature{"beside.tool_management", "management of tools and magazines",
+                   "the magazine is known to the machine only", true},
     MissingFeature{"block.word", "a word whose meaning is not carried", "no IR action for it yet"},
     MissingFeature{"cycle.hole", "parameters of hole cycles whose meaning is not sure",
                    "the cycles are carried; these words are not described where the project looks them up"},

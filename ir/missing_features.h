@@ -11,6 +11,9 @@ struct MissingFeature {
   std::string_view key;     ///< stable, e.g. "cycle.pocket"
   std::string_view title;   ///< what it is, for people
   std::string_view reason;  ///< why it is missing, and until when
+  /// It acts beside the programmed path (couplings, tool management, actions in real time): a run goes past it with a
+  /// warning. A translation refuses it like the others.
+  bool beside_path = false;
 };
 std::span<const MissingFeature> missing_features();
 /// The entry; nullptr when there is none.

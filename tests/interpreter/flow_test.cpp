@@ -208,6 +208,11 @@ TEST(Check, WhatIsNeverReachedOnlyWarns) {
 TEST(Check, OpaqueAndUnknownSubprogram) {
   EXPECT_THAT(lines_of("block rapid X 1\nopaque \"WHATEVER(1)\""), ElementsAre("end error RUN-103"));
   EXPECT_THAT(lines_of("block rapid X 1\nopaque \"WHATEVER(1)\" harmless"), ElementsAre("rapid X1"));
+  const auto beside =
+      run_lines("block rapid X 1\nopaque \"TRAILON(Y,X)\" feature \"beside.coupling\"\nblock rapid X 2");
+  EXPECT_THAT(beside.lines, ElementsAre("rapid X1", "rapid X2"));
+  ASSERT_EQ(beside.diagnostics.warning_count(), 1U);
+  EXPECT_EQ(beside.diagnostics.all()[0].code, "RUN-043");
   EXPECT_THAT(lines_of("block rapid X 1\ncall 7"), ElementsAre("end error RUN-102"));
   EXPECT_THAT(lines_of("block rapid X 1\ncall 7 optional"), ElementsAre("rapid X1"));
   EXPECT_THAT(lines_of("exit"), ElementsAre("end error RUN-105"));
