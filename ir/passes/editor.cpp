@@ -102,9 +102,11 @@ Editor::Editor(Program& p, Routine& r, const LegaliseContext& c)
     : program(p), routine(r), context(c), uses_(label_uses(p, r)), used_(p, r) {
   for_each_statement(routine.body, [this](const Statement& s) {
     for (const auto& l : labels_on(s.line)) {
-      (l.is_number ? numbers_ : identifiers_).insert(l.text);
       std::int64_t n = 0;
-      if (l.is_number && std::from_chars(l.text.data(), l.text.data() + l.text.size(), n).ec == std::errc{}) {
+      if (!l.is_number) {
+        identifiers_.insert(l.text);
+      } else if (std::from_chars(l.text.data(), l.text.data() + l.text.size(), n).ec == std::errc{}) {
+        numbers_.push_back(n);
         next_number_ = std::max(next_number_, n);
       }
     }
@@ -131,11 +133,12 @@ LabelRef Editor::fresh_label() {
   std::int64_t n = (next_number_ / 10 + 1) * 10;
   if (n > target().label_max) {  // the space above is used up: take a gap
     n = 1;
-    while (numbers_.count(std::to_string(n)) != 0) ++n;
+    std::sort(numbers_.begin(), numbers_.end());
+    for (const std::int64_t used : numbers_) n += used == n ? 1 : 0;
   } else {
     next_number_ = n;
   }
-  numbers_.insert(std::to_string(n));
+  numbers_.push_back(n);
   return LabelRef{std::to_string(n), true, nullptr};
 }
 

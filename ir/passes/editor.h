@@ -67,9 +67,10 @@ class Editor {
   VarRef variable_number(const std::string& prefix, std::int64_t n);
   LabelUses uses_;
   UsedVariables& used();
-  UsedVariables used_;       ///< of the routine, before a pass takes it apart
-  bool used_whole_ = false;  ///< of the other routines as well, from the first temporary on
-  std::set<std::string> numbers_, identifiers_;
+  UsedVariables used_;                 ///< of the routine, before a pass takes it apart
+  bool used_whole_ = false;            ///< of the other routines as well, from the first temporary on
+  std::vector<std::int64_t> numbers_;  ///< of labels, as they stand; asked only when the numbers above are used up
+  std::set<std::string> identifiers_;
   std::int64_t next_number_ = 0;
   std::int64_t next_identifier_ = 0;
   std::vector<VarRef> free_;
