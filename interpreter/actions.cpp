@@ -93,9 +93,7 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::ToolOffset& a) const {
-    const double number = m.value(a.number);
-    if (m.failure_.set) return false;
-    m.offset_ = static_cast<std::int32_t>(std::lround(number));
+    if (!m.whole(m.value(a.number), "offset number", m.offset_)) return false;
     auto& e = m.plain(EventKind::offset);
     e.number = m.offset_;
     m.emitter_.emit(e);
@@ -298,11 +296,21 @@ void BlockMachine::emit_if_running(const ir::Block& b, int number) {
 
 // --- tool, coolant, machine functions --------------------------------------------------------------------------
 
+/// `number` rounded to a whole one. `what`: said where no such number exists.
+bool BlockMachine::whole(double number, std::string_view what, std::int32_t& out) {
+  if (failure_.set) return false;
+  if (!(std::abs(number) < 2147483647.0)) {
+    return failure_.fail(code::number_range, "there is no " + std::string(what) + " of " + number_text(number));
+  }
+  out = static_cast<std::int32_t>(std::lround(number));
+  return true;
+}
+
 bool BlockMachine::select_tool(const ir::ToolSelect& t) {
   const double number = t.name.empty() ? value(t.number) : 0;
   if (failure_.set) return false;
   tool_name_ = std::string(t.name);
-  tool_ = static_cast<std::int32_t>(std::lround(number));
+  if (!whole(number, "tool number", tool_)) return false;
   tool_came_with_t_ = t.changes;
   return true;
 }
@@ -339,8 +347,8 @@ void BlockMachine::emit_stop(bool optional) {
 
 bool BlockMachine::machine_function(const ir::MachineFunction& f) {
   if (f.auxiliary) return true;  // an auxiliary output has no event
-  const auto code = f.computed ? static_cast<std::int32_t>(std::lround(value(f.value))) : f.code;
-  if (failure_.set) return false;
+  std::int32_t code = f.code;
+  if (f.computed && !whole(value(f.value), "M function", code)) return false;
   if (const auto* m = profile_.m_code(code); m != nullptr && m->meaning != machine::MMeaning::machine_function) {
     return profile_function(*m);
   }

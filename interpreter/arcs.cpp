@@ -1,6 +1,7 @@
 // Arcs of a block: centre, sense, turns.
 #include <cmath>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
@@ -196,7 +197,7 @@ bool BlockMachine::arc_turns(const ir::Motion& m, Move& move) {
                                                   rounded(travel, 4) + " mm over " + rounded(part * 360, 3) +
                                                   " degrees");
     }
-    move.turns = static_cast<std::int32_t>(turns);
+    move.turns = saturate<std::int32_t>(turns);
   }
   // A full circle counts as one turn with 0 added; `turns` are added to it.
   return !failure_.set;

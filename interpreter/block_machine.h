@@ -154,6 +154,7 @@ class BlockMachine final : public SystemData {
   void set_feed(const ir::SetFeed& f);
   void set_spindle_value(const ir::SetSpindle& s);
   void set_spindle_limit(const ir::SpindleLimit& l);
+  bool whole(double number, std::string_view what, std::int32_t& out);
   bool select_tool(const ir::ToolSelect& t);
   bool machine_function(const ir::MachineFunction& m);
   bool define_cycle(const ir::CycleDefine& c);

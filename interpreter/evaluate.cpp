@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/expressions.h"
 #include "interpreter/functions.h"
@@ -194,7 +195,7 @@ std::string Evaluator::text_result(const Node& n) {
   if (f == ir::Function::axis_text || f == ir::Function::character) {
     const double x = std::round(number(children_[first]));
     if (failure_.set) return {};
-    if (f == ir::Function::axis_text) return system_->axis_name(static_cast<ir::AxisId>(x));
+    if (f == ir::Function::axis_text) return system_->axis_name(saturate<ir::AxisId>(x));
     if (!(x >= 0 && x <= 255)) failure_.fail(code::function_domain, "a character has a code of 0 to 255");
     return x > 0 && x <= 255 ? std::string(1, static_cast<char>(x)) : std::string{};
   }
@@ -212,7 +213,7 @@ std::string Evaluator::text_result(const Node& n) {
     return {};
   }
   if (start >= static_cast<double>(subject.size())) return {};
-  return subject.substr(static_cast<std::size_t>(start), static_cast<std::size_t>(length));
+  return subject.substr(saturate<std::size_t>(start), saturate<std::size_t>(length));
 }
 
 std::string Evaluator::text(ExprId id) {

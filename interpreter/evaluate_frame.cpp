@@ -1,6 +1,7 @@
 // Values of type frame: they are evaluated from the tree as it stands, since they are rare.
 #include <cmath>
 
+#include "base/saturate.h"
 #include "interpreter/expressions.h"
 #include "interpreter/frame_parts.h"
 #include "interpreter/run_codes.h"
@@ -48,7 +49,7 @@ Frame Evaluator::frame_call(const ir::Call& c) {
     const Frame f = frame(*c.args[0]);
     ir::AxisId axis = 0;
     if (failure_.set || !axis_of(c.args[1], axis)) return out;
-    const auto part = static_cast<ir::FramePart>(static_cast<int>(number_of(c.args[2])));
+    const auto part = static_cast<ir::FramePart>(saturate<int>(number_of(c.args[2])));
     double value = number_of(c.args[3]);
     if (part == ir::FramePart::shift || part == ir::FramePart::fine) value = system_->length_of(axis, value);
     if (part == ir::FramePart::scale && value == 0) failure_.fail(code::frame, "a scale of zero");
@@ -92,7 +93,7 @@ double Evaluator::frame_part(const ir::Call& c) {
   const Frame f = frame(*c.args[0]);
   ir::AxisId axis = 0;
   if (failure_.set || !axis_of(c.args[1], axis)) return 0;
-  const auto part = static_cast<ir::FramePart>(static_cast<int>(number_of(c.args[2])));
+  const auto part = static_cast<ir::FramePart>(saturate<int>(number_of(c.args[2])));
   const double value = part_of(f, axis, part);
   if (part != ir::FramePart::shift && part != ir::FramePart::fine) return value;
   return value / system_->length_of(axis, 1);

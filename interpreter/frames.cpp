@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/saturate.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
 
@@ -45,7 +46,7 @@ Frame BlockMachine::programmable_frame() const {
 }
 
 bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
-  const auto row = w.off ? 0 : static_cast<std::int32_t>(std::lround(value(w.index)));
+  const auto row = w.off ? 0 : saturate<std::int32_t>(std::round(value(w.index)));
   modal_.work_offset = row;
   load_offset(row);
   return !failure_.set && rebuild_frame();

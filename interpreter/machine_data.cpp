@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
@@ -28,7 +29,7 @@ std::size_t slot_of(ir::FrameSlot s) {
 }
 /// active_modal also says whether a part of the programmable frame counts: setting_count + 2 + FrameSlot; else -1.
 int frame_slot(std::span<const double> args) {
-  const int n = args.size() == 3 ? static_cast<int>(args[1]) - static_cast<int>(ir::setting_count) - 2 : -1;
+  const int n = args.size() == 3 ? saturate<int>(args[1]) - static_cast<int>(ir::setting_count) - 2 : -1;
   return n >= 0 && n <= static_cast<int>(ir::FrameSlot::chain) ? n : -1;
 }
 double value_of(const ir::ModalState& state, int setting) {
@@ -95,7 +96,7 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
             (policy_.data_modal || policy_.position_as_words ? axis_[ref.axis].scale_absolute : 1);
       return true;
     case Datum::work_offset: {
-      const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]));
+      const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]));
       out = 0;
       if (row != work_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis) / length;
       return true;
@@ -106,7 +107,7 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       out = along(compose(offset_frame(), slots_[slot_of(ir::FrameSlot::preset)]));
       return true;
     case Datum::work_offset_fine: {
-      const auto row = fine_offsets_.find(args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]));
+      const auto row = fine_offsets_.find(args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]));
       out = 0;
       if (row != fine_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis) / length;
       return true;
@@ -186,8 +187,12 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
   const auto plane = ir::plane_axes(modal_.plane);
   switch (ref.datum) {
     case Datum::call_has_argument:
-      out = static_cast<double>(args.empty() ? arguments_given
-                                             : ((arguments_given >> static_cast<unsigned>(args[0])) & 1U));
+      if (args.empty()) {
+        out = static_cast<double>(arguments_given);
+        return true;
+      }
+      if (args[0] < 0) return false;
+      out = args[0] < 64 ? static_cast<double>((arguments_given >> saturate<unsigned>(args[0])) & 1U) : 0;
       return true;
     case Datum::active_modal:
       if (args.size() != 3) return false;
@@ -195,7 +200,7 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
         out = (suspended_ >> slot & 1U) == 0 ? 1 : 0;
         return true;
       }
-      out = value_of(modal_, static_cast<int>(args[1])) == args[2] ? 1 : 0;
+      out = value_of(modal_, saturate<int>(args[1])) == args[2] ? 1 : 0;
       return true;
     case Datum::active_plane: out = static_cast<double>(16 * (order(plane.u) + 1) + order(plane.v) + 1); return true;
     case Datum::mirrored_axes:
@@ -233,7 +238,7 @@ bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> 
     case Datum::frame_active: out = offset_frame(); return true;
     case Datum::frame_total: out = frame_; return true;
     case Datum::frame_settable: {
-      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(std::lround(args[0]));
+      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
       out = Frame{};
       if (const auto it = offset_shapes_.find(row); it != offset_shapes_.end()) out = it->second;
       if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) {
@@ -267,7 +272,7 @@ bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double>
       active_shape_ = f.linear_part();
       return rebuild_frame();
     case Datum::frame_settable: {
-      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(std::lround(args[0]));
+      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
       table(work_offsets_[row]);
       fine_offsets_.erase(row);
       offset_shapes_[row] = f.linear_part();
@@ -283,7 +288,7 @@ bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double>
 bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
   switch (ref.datum) {
     case Datum::work_offset: {
-      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]);
+      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]);
       const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
       work_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
       if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
@@ -298,7 +303,7 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
     }
     case Datum::work_offset_fine: {
       const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
-      const auto row = args.empty() ? modal_.work_offset : static_cast<std::int32_t>(args[0]);
+      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]);
       fine_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
       return true;
     }

@@ -1,6 +1,7 @@
 // What one statement does to the modal facts.
 #include <cmath>
 
+#include "base/saturate.h"
 #include "ir/contour.h"
 #include "ir/cycles/machining.h"
 #include "ir/dataflow.h"
@@ -68,7 +69,7 @@ class Transfer {
   void operator()(const WorkOffset& x) {
     const auto row = x.off ? std::optional(0.0) : known(x.index);
     std::optional<std::int32_t> offset;
-    if (row && std::fabs(*row) < 1e6) offset = static_cast<std::int32_t>(std::lround(*row));
+    if (row && std::fabs(*row) < 1e6) offset = saturate<std::int32_t>(std::round(*row));
     if (!offset || offset != f_.work_offset) forget_positions();
     f_.work_offset = offset;
   }

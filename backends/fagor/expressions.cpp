@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "backends/fagor/tables.h"
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/operators.h"
@@ -99,7 +100,7 @@ Printed built_constant(double value) {
     text = whole;
   } else if (std::fabs(value) < 2147483648.0) {
     char hex[16];
-    std::snprintf(hex, sizeof hex, "$%X", static_cast<unsigned>(std::fabs(value)));
+    std::snprintf(hex, sizeof hex, "$%X", saturate<unsigned>(std::fabs(value)));
     text = hex;
   } else {  // groups of six digits: (123456*1000+...) by powers of 1000
     std::string left = whole;
@@ -223,12 +224,12 @@ std::string Printer::variable(const ExprPtr& e, const ir::VarRef& v) {
   }
   if (const auto n = ir::constant_value(v.index)) {
     constexpr double most = 1e6;  // no control has so many; what is larger need not fit an integer
-    if (*n != std::floor(*n) || std::fabs(*n) > most || !facts::valid_parameter(static_cast<std::int64_t>(*n))) {
+    if (*n != std::floor(*n) || std::fabs(*n) > most || !facts::valid_parameter(saturate<std::int64_t>(*n))) {
       problem(e, "the control has no parameter P" + shortest(*n));
     }
     const std::size_t at = e->pos.column;
     const bool letter = *n >= 0 && *n <= 25 && e->pos.length == 1 && at != 0 && at <= source_.size() &&
-                        source_[at - 1] == facts::parameter_letter(static_cast<int>(*n));
+                        source_[at - 1] == facts::parameter_letter(saturate<int>(*n));
     if (letter) return std::string(1, source_[at - 1]);
     return 'P' + shortest(*n);
   }

@@ -3,6 +3,7 @@
 
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
+#include "base/saturate.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -27,7 +28,7 @@ void Writer::further_line(WordPos pos) {
 void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
   if (w.off) return add(std::string(g(Use::machine_coordinates)), Rank::setting, a.pos);
   if (w.index.literal()) {
-    const auto row = static_cast<int>(w.index.number);
+    const auto row = saturate<int>(w.index.number);
     if (row < 1 || row > 20 || w.index.number != row) {
       return refuse(no_word, a.pos, "the control has the zero offsets 1 to 20");
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/saturate.h"
 #include "dialects/num/variables.h"
 
 namespace cnctrans::backends::num {
@@ -27,7 +28,7 @@ std::optional<ir::DataForm> row(EMeaning meaning, std::int64_t index, double uni
 std::optional<std::int64_t> fixed_index(const ir::SystemRef& ref) {
   const auto n = ref.args.size() == 1 ? ir::constant_value(ref.args[0]) : std::nullopt;
   if (!n || *n != std::floor(*n) || *n < 1 || *n > 255) return std::nullopt;
-  return static_cast<std::int64_t>(*n);
+  return saturate<std::int64_t>(*n);
 }
 
 double units_of(ir::AxisId axis) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/saturate.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/milling.h"
 #include "dialects/sinumerik/turning.h"
@@ -340,7 +341,7 @@ static std::string contour_text(const ir::NamedCycle& cycle) {
   std::string first, last;
   for (const auto& [word, v] : cycle.words) {
     const auto* s = v.expr ? std::get_if<ir::String>(&v.expr->node) : nullptr;
-    const std::string text = s != nullptr ? s->text : 'N' + std::to_string(static_cast<long>(v.number));
+    const std::string text = s != nullptr ? s->text : 'N' + std::to_string(saturate<long>(v.number));
     if (word == "routine") return '"' + text + '"';
     if (word == "first_label") first = text;
     if (word == "last_label") last = text;

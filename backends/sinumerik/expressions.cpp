@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/saturate.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
 
@@ -123,7 +124,7 @@ std::string Expressions::name(const ir::VarRef& v) {
       return {};
     }
     const auto n = literal(v.index);
-    if (n && *n == std::floor(*n) && *n >= 0 && *n < 1e15) return 'R' + std::to_string(static_cast<std::int64_t>(*n));
+    if (n && *n == std::floor(*n) && *n >= 0 && *n < 1e15) return 'R' + std::to_string(saturate<std::int64_t>(*n));
     return "R[" + index(v.index) + ']';
   }
   std::string text = v.name;
@@ -141,7 +142,8 @@ std::string Expressions::name(const ir::SystemRef& s) {
   }
   std::string text = own_name ? s.text : std::string(known->name);
   if (s.datum == ir::Datum::call_has_argument && own_name && s.args.size() == 1) {  // counted from 1
-    if (const auto n = literal(s.args[0])) return text + '[' + std::to_string(static_cast<int>(*n) + 1) + ']';
+    if (const auto n = literal(s.args[0]))
+      return text + '[' + std::to_string(saturate<std::int32_t>(*n) + std::int64_t{1}) + ']';
     const auto* less = std::get_if<ir::Binary>(&s.args[0]->node);
     if (less != nullptr && literal(less->right) == 1.0) return text + '[' + index(less->left) + ']';
   }
@@ -208,7 +210,7 @@ std::optional<Printed> Expressions::active_code(const ir::ExprPtr& e) {
   const auto* ref = std::get_if<ir::SystemRef>(&at->node);
   if (ref == nullptr || ref->text != "$P_GG" || ref->args.empty()) return std::nullopt;
   const auto number = literal(ref->args[0]);
-  const auto code = static_cast<std::int32_t>(number.value_or(0));
+  const auto code = saturate<std::int32_t>(number.value_or(0));
   const dialect::GFunction* g = !number    ? nullptr
                                 : code < 0 ? dialect::g_function(-code / 100, -code % 100)
                                            : dialect::g_function(code);

@@ -1,6 +1,7 @@
 // Statements: assignments, structures, jumps, calls, messages, definitions (reference-language 3, 6-9).
 #include "backends/sinumerik/tables.h"
 #include "backends/sinumerik/writer.h"
+#include "base/saturate.h"
 #include "base/text.h"
 
 namespace cnctrans::backends::sinumerik {
@@ -319,7 +320,7 @@ void Writer::message(const ir::Message& m) {
       if (own_number && m.number) {
         text += expressions_.assigned(m.number, ir::Type::integer);
       } else if (number && *number >= 0 && *number <= 4999) {
-        text += std::to_string(first_user_alarm + static_cast<std::int64_t>(*number));
+        text += std::to_string(first_user_alarm + saturate<std::int32_t>(*number));
       } else {
         refuse("TRN-201", {}, "this error number has no counterpart among the user alarms (65000 to 69999)");
       }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/saturate.h"
 #include "dialects/sinumerik/variables.h"
 #include "frontends/sinumerik/lower_statements.h"
 
@@ -21,7 +22,7 @@ std::size_t elements_from(const ir::VarRef& first, const Symbol* symbol, std::si
     const auto n = ir::constant_value(first.indices[i]);
     const std::size_t size = symbol->sizes[i];
     if (!n || size == 0 || *n < 0 || *n >= static_cast<double>(size)) return 0;
-    flat = flat * size + static_cast<std::size_t>(*n);
+    flat = flat * size + saturate<std::size_t>(*n);
     count *= size;
   }
   return count - flat;
@@ -77,7 +78,7 @@ bool StatementLowering::assign_list(const ir::VarRef& target, ir::Type type, con
       const auto n = ir::constant_value(exprs_.lower_as(list.args[1], ir::Type::integer));
       if (!n || *n < 0)
         return refuse("language.statement", list.args[1].pos, "REP() with a computed count is not carried yet");
-      count = static_cast<std::size_t>(*n);
+      count = saturate<std::size_t>(*n);
       if (rest != 0 && count > rest) {
         c_.error("SIN-017", pos, "the list is longer than the array");
         return false;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/cycles.h"
 #include "frontends/sinumerik/lower_statements.h"
@@ -37,7 +38,7 @@ std::size_t element_count(const Expr& dimensions) {
   std::size_t n = 1;
   for (const Expr& d : dimensions.args) {
     if (d.kind != ExprKind::number || d.number < 1 || d.number > 65535) return 0;
-    n *= static_cast<std::size_t>(d.number);
+    n *= saturate<std::size_t>(d.number);
     if (n > longest_initial_list) return 0;
   }
   return n;
@@ -72,7 +73,7 @@ bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t
   if (e.args.size() > 1) {
     if (e.args[1].kind != ExprKind::number)
       return refuse("language.statement", e.pos, "REP() with a computed count is not carried yet");
-    count = std::min(elements, static_cast<std::size_t>(std::max(e.args[1].number, 0.0)));
+    count = std::min(elements, saturate<std::size_t>(std::max(e.args[1].number, 0.0)));
   }
   out.assign(count, value);
   return true;
@@ -100,7 +101,7 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
     for (std::size_t i = 0; i < symbol.sizes.size() && i < v.args[0].args.size(); ++i) {
       const Expr& d = v.args[0].args[i];
       if (d.kind == ExprKind::number && d.number >= 1 && d.number <= 65535)
-        symbol.sizes[i] = static_cast<std::uint32_t>(d.number);
+        symbol.sizes[i] = saturate<std::uint32_t>(d.number);
     }
     if (place) {
       symbol.type = *type;
@@ -183,7 +184,7 @@ bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
     }
     for (std::size_t i = 0; i < symbol.sizes.size() && i < dimensions; ++i) {
       const Expr& d = p.args[2].args[i];
-      if (d.kind == ExprKind::number) symbol.sizes[i] = static_cast<std::uint32_t>(d.number);
+      if (d.kind == ExprKind::number) symbol.sizes[i] = saturate<std::uint32_t>(d.number);
     }
     out.by_reference = p.args[1].kind != ExprKind::missing;
     out.type_text = type_text(p.args[0], c_);

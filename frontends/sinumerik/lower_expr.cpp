@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/limits.h"
@@ -128,7 +129,8 @@ ir::ExprPtr ExprLowering::lower_character(const Expr& e) {
   if (!value || value->type == ir::Type::string) return value;
   const auto* n = std::get_if<ir::Number>(&value->node);
   if (n != nullptr && n->value >= 1 && n->value <= 127 && n->value == std::trunc(n->value))
-    return make_expr(ir::String{std::string(1, static_cast<char>(n->value))}, ir::Type::string, e.pos);
+    return make_expr(ir::String{std::string(1, static_cast<char>(saturate<unsigned char>(n->value)))}, ir::Type::string,
+                     e.pos);
   value = convert(std::move(value), ir::Type::integer, e.pos);
   if (!value) return nullptr;
   return make_expr(ir::Call{ir::Function::character, {std::move(value)}}, ir::Type::string, e.pos);

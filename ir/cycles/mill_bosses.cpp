@@ -46,7 +46,7 @@ bool boss(MillPath& path, bool circle, std::string* error) {
   const double left = rough ? stock : 0;
   double taken = 0;  // thickness of what is taken away, at its thickest
   if (rough) taken = std::max({blank_a - a - left, blank_b - b - left, 0.0});
-  const auto rounds = static_cast<long>(std::max(1.0, std::ceil(taken / (usual_step * 2 * r) - 1e-9)));
+  const auto rounds = path.times(taken / (usual_step * 2 * r));
   const auto out = [&](long k) {  // of the round beyond the finished wall
     return left + taken * static_cast<double>(rounds - k) / static_cast<double>(rounds);
   };
@@ -84,7 +84,7 @@ bool milled_thread(MillPath& path, std::string* error) {
   const bool ccw = external ? outside_ccw(path, error) : path.inside_ccw(error);
   if (!error->empty()) return false;
   const double depth = std::abs(n.surface - n.bottom);
-  const auto turns = static_cast<long>(std::max(1.0, std::ceil(depth / pitch - 1e-9)));
+  const auto turns = path.times(depth / pitch);
   const double top = n.bottom + n.up * static_cast<double>(turns) * pitch;
   const double round = external ? core + r : outer - r;
   const double far = external ? std::max(round + 2 * r, outer + r + clearance(path)) : 0;

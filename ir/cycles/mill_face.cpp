@@ -73,7 +73,7 @@ bool face(MillPath& path, std::string* error) {
   passes.to = along + to_plus * beyond;
   if (along_far) std::swap(passes.from, passes.to);
   const double total = std::abs(across) + std::abs(path.get("overrun_across"));
-  const auto count = static_cast<long>(std::max(1.0, std::ceil(total / step - 1e-9)));
+  const auto count = path.times(total / step);
   for (long k = 1; k <= count; ++k) {
     const double in = total * static_cast<double>(k) / static_cast<double>(count) - r;  // from the nearer edge
     const double q = across_far ? std::abs(across) - in : in;

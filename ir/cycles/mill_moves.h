@@ -35,8 +35,13 @@ class MillPath {
   /// Step in the plane; 0 and a sentence: larger than the tool.
   [[nodiscard]] double step(double factor, std::string* error) const;
   /// Bottoms of the levels from `top` to `bottom`, the last is the bottom.
-  [[nodiscard]] std::vector<double> depths(double top, double bottom, double infeed, bool equal) const;
-  [[nodiscard]] std::vector<double> depths(double top, double bottom) const;
+  [[nodiscard]] std::vector<double> depths(double top, double bottom, double infeed, bool equal);
+  [[nodiscard]] std::vector<double> depths(double top, double bottom);
+
+  /// `exact` rounded up, at least 1: how many passes, rounds or strokes. A cycle of more than anyone mills is a fault
+  /// of its numbers: 1, and too_many() from then on.
+  [[nodiscard]] long times(double exact);
+  [[nodiscard]] bool too_many() const { return too_many_; }
 
   [[nodiscard]] Plunge plunge_way() const { return plunge_of(mill_); }
 
@@ -79,7 +84,7 @@ class MillPath {
   double u_, v_, w_;
   double origin_u_ = 0, origin_v_ = 0, cos_ = 1, sin_ = 0;
   double scale_ = 1;
-  bool finishing_ = false, lost_ = false;
+  bool finishing_ = false, lost_ = false, too_many_ = false;
 };
 
 /// The way round a rounded rectangle about the frame's origin: `a`, `b` half sizes, `c` radius of the corners; from

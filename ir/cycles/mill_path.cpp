@@ -68,12 +68,19 @@ double MillPath::step(double factor, std::string* error) const {
   return given > 0 ? given : get("step_factor", factor) * diameter;
 }
 
-std::vector<double> MillPath::depths(double top, double bottom, double infeed, bool equal) const {
+long MillPath::times(double exact) {
+  constexpr double most_passes = 100'000;
+  constexpr std::size_t most_moves = 1'000'000;
+  if (std::isnan(exact) || exact > most_passes || moves_.size() > most_moves) too_many_ = true;
+  return too_many_ ? 1 : static_cast<long>(std::max(1.0, std::ceil(exact - 1e-9)));
+}
+
+std::vector<double> MillPath::depths(double top, double bottom, double infeed, bool equal) {
   const double total = std::abs(top - bottom);
   std::vector<double> out;
   if (total < tiny) return out;
   if (infeed <= 0) infeed = total;
-  const auto n = static_cast<long>(std::max(1.0, std::ceil(total / infeed - 1e-9)));
+  const auto n = times(total / infeed);
   for (long k = 1; k < n; ++k) {
     const double part =
         equal ? total * static_cast<double>(k) / static_cast<double>(n) : infeed * static_cast<double>(k);
@@ -83,7 +90,7 @@ std::vector<double> MillPath::depths(double top, double bottom, double infeed, b
   return out;
 }
 
-std::vector<double> MillPath::depths(double top, double bottom) const {
+std::vector<double> MillPath::depths(double top, double bottom) {
   const double given = get("signed_infeed");
   if (given != 0) return depths(top, bottom, std::abs(given), given > 0);
   return depths(top, bottom, std::abs(get("infeed")), true);

@@ -28,7 +28,7 @@ void clear(MillPath& path, const Area& area, double step, bool ccw, double from)
   }
   if (area.line()) return;
   const double width = area.b;
-  const auto rounds = static_cast<long>(std::ceil(width / step - 1e-9));
+  const auto rounds = path.times(width / step);
   for (long k = 1; k <= rounds; ++k) {
     const double out = width * static_cast<double>(rounds - k) / static_cast<double>(rounds);
     const Area ring = area.less(out);
@@ -72,7 +72,7 @@ bool go_down(MillPath& path, Plunge way, const Area& area, double w, bool ccw, s
       if (r > area.b + tiny) return *error = "the helix into the pocket is larger than the pocket", false;
       path.mill(r, 0);
       const double top = path.height();
-      const auto turns = static_cast<long>(std::ceil(depth / pitch - 1e-9));
+      const long turns = depth < tiny ? 0 : path.times(depth / pitch);
       for (long k = 1; k <= turns; ++k)
         path.plunge_circle(0, 0, top + (w - top) * static_cast<double>(k) / static_cast<double>(turns), ccw);
       path.plunge_circle(0, 0, w, ccw);
@@ -87,7 +87,7 @@ bool go_down(MillPath& path, Plunge way, const Area& area, double w, bool ccw, s
       if (half < tiny) return *error = "the pocket is too small for a ramp", false;
       path.mill(-half, 0);
       const double top = path.height(), most = 2 * half * std::tan(angle * radians);
-      const auto strokes = static_cast<long>(std::ceil(depth / most - 1e-9));
+      const long strokes = depth < tiny ? 0 : path.times(depth / most);
       double side = 1;
       for (long k = 1; k <= strokes; ++k, side = -side)
         path.plunge_to(side * half, 0, top + (w - top) * static_cast<double>(k) / static_cast<double>(strokes));

@@ -74,7 +74,7 @@ void rough(MillPath& path, const Ring& ring, double out, double step, bool ccw) 
       backwards = !backwards;
       continue;
     }
-    const auto rounds = static_cast<long>(std::ceil(out / step - 1e-9));
+    const auto rounds = path.times(out / step);
     for (long i = 1; i <= rounds; ++i) {
       const double w = out * static_cast<double>(i) / static_cast<double>(rounds);
       const auto to = ring.at(ring.radius + w, ring.opening);

@@ -181,6 +181,10 @@ std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleN
     case MillKind::thread: done = detail::milled_thread(path, error); break;
     case MillKind::face: done = detail::face(path, error); break;
   }
+  if (done && path.too_many()) {
+    *error = "the cycle has too many passes";
+    done = false;
+  }
   if (done && path.lost()) {
     *error = "the place of the tool before it is not known here";
     done = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/saturate.h"
 #include "ir/labels.h"
 
 namespace cnctrans::ir::cycles {
@@ -23,7 +24,7 @@ std::string key_of(const Value& v) {
   if (const auto* s = text_of(v)) return label_key(*s, false);
   const auto n = v.literal() ? std::optional(v.number) : constant_value(v.expr);
   if (!n || *n < 0 || *n != std::floor(*n) || *n > 1e15) return {};
-  return label_key(std::to_string(static_cast<std::int64_t>(*n)), true);
+  return label_key(std::to_string(saturate<std::int64_t>(*n)), true);
 }
 bool carries(const LineInfo& line, const std::string& key) {
   if (!line.number.empty() && label_key(line.number, true) == key) return true;
@@ -87,7 +88,7 @@ std::optional<RoutineName> profile_routine(const NamedCycle& cycle) {
   }
   const Value* number = word(cycle, "program");
   if (number == nullptr || !number->literal()) return std::nullopt;
-  name.number = static_cast<std::int64_t>(number->number);
+  name.number = saturate<std::int64_t>(number->number);
   return name;
 }
 

@@ -1,6 +1,7 @@
 // Threads of a lathe: infeeds, entries, exits, several starts.
 #include <algorithm>
 
+#include "base/saturate.h"
 #include "ir/cycles/turning_moves.h"
 
 namespace cnctrans::ir::cycles::detail {
@@ -37,7 +38,7 @@ bool depths(const Roles& r, double depth, std::vector<double>& out, std::string*
 
 /// The entry by H, or by the sign of A.
 int entry_of(const Roles& r) {
-  if (r.has("entry")) return static_cast<int>(r.number("entry"));
+  if (r.has("entry")) return saturate<int>(r.number("entry"));
   const double a = r.number("infeed_angle", 30);
   return a == 0 ? 0 : a > 0 ? 1 : 2;
 }

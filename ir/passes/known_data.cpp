@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/frame_state.h"
@@ -209,7 +210,7 @@ class KnownData {
       if ((*mirror.mirror >> a & 1U) == 0) continue;
       const auto n = order(a);
       if (!n) return std::nullopt;
-      bits += std::ldexp(1, static_cast<int>(*n));
+      bits += std::ldexp(1, saturate<int>(*n));
     }
     return bits;
   }

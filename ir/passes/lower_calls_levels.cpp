@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/saturate.h"
 #include "ir/passes/lower_calls.h"
 
 namespace cnctrans::ir::passes {
@@ -59,7 +60,7 @@ class Levels {
     if (v.space != space_ || !v.index) return std::nullopt;
     const auto n = constant_index(v);
     if (!n || *n < lo_ || *n >= lo_ + static_cast<std::int64_t>(count_)) return std::nullopt;
-    return static_cast<std::size_t>(*n - lo_);
+    return saturate<std::size_t>(*n - lo_);
   }
   VarRef source_variable(std::size_t v) const {
     return VarRef{space_, {}, number(static_cast<double>(lo_ + static_cast<std::int64_t>(v))), {}};

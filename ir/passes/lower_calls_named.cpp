@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/saturate.h"
 #include "ir/passes/lower_calls.h"
 
 namespace cnctrans::ir::passes {
@@ -208,7 +209,7 @@ class NamedLocals {
     std::vector<std::int64_t> list;
     for (const auto& d : i.dimensions) {
       const auto v = constant_value(d);
-      list.push_back(v ? static_cast<std::int64_t>(*v) : 0);
+      list.push_back(v ? saturate<std::int64_t>(*v) : 0);
     }
     return list;
   }

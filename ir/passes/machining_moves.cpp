@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "ir/cycles/profile_blocks.h"
 #include "ir/passes/blocks.h"
@@ -285,7 +286,7 @@ void follow(const Block& b, TurnState& state) {
     if (std::holds_alternative<SpindleOrient>(a.data)) state.spindle = SpindleState::off;
     if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
       const auto n = known(t->number);
-      state.tool = n ? std::optional(static_cast<std::int32_t>(std::lround(*n))) : std::nullopt;
+      state.tool = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 
@@ -22,7 +23,7 @@ std::optional<double> known(const Value& v) {
 }
 std::optional<std::int32_t> whole(const Value& v) {
   const auto n = known(v);
-  return n ? std::optional(static_cast<std::int32_t>(std::lround(*n))) : std::nullopt;
+  return n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
 }
 
 bool has_milling(const Program& program) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
@@ -16,7 +17,7 @@ std::int64_t digits_of(const std::string& name) {
   const auto first = name.find_first_of("0123456789");
   if (first == std::string::npos || name.find_first_not_of("0123456789", first) != std::string::npos) return -1;
   const auto v = parse_decimal(std::string_view(name).substr(first));
-  return v && *v < 1e9 ? static_cast<std::int64_t>(*v) : -1;
+  return v && *v < 1e9 ? saturate<std::int64_t>(*v) : -1;
 }
 
 class RoutineNames {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "base/saturate.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/rewrite.h"
@@ -21,7 +22,7 @@ class ToolNumbers {
     each_tool([&](ToolSelect& t, const Statement& s, const Action& a) {
       named = named || !t.name.empty();
       if (!t.name.empty()) return;
-      if (t.number.literal()) taken_.insert(static_cast<std::int32_t>(t.number.number));
+      if (t.number.literal()) taken_.insert(saturate<std::int32_t>(t.number.number));
       if (!t.number.literal() && computed_ == nullptr) computed_ = &a;
       if (!t.number.literal()) computed_at_ = s.line.span;
     });

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "ir/cycles/machining.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/cycle_computed.h"
@@ -223,7 +224,7 @@ bool ComputedTurn::thread_by_section() {
   safe_first_ = kept(lifted(first_p_));
   safe_last_ = cylinder ? safe_first_ : lifted(last_p_);
   const double angle = number_word("infeed_angle", 30);
-  entry_ = has("entry") ? static_cast<int>(number_word("entry")) : angle == 0 ? 0 : angle > 0 ? 1 : 2;
+  entry_ = has("entry") ? saturate<int>(number_word("entry")) : angle == 0 ? 0 : angle > 0 ? 1 : 2;
   if (entry_ < 0 || entry_ > 5) return fail("the kind of entry of the thread is 0 to 5");
   tan_ = tangent(Value(angle));
   if (tan_.is(0)) entry_ = 0;

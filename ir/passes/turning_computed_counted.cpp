@@ -1,6 +1,7 @@
 // Threads by a number of passes with words that only the run knows.
 #include <cmath>
 
+#include "base/saturate.h"
 #include "ir/passes/cycle_computed.h"
 #include "ir/passes/turning_computed.h"
 
@@ -19,7 +20,7 @@ Value root(const Value& v) {
 
 /// A given number of passes: ir/cycles/counted_threads.cpp.
 bool ComputedTurn::thread_by_count() {
-  const int variant = static_cast<int>(number_word("variant"));
+  const int variant = saturate<int>(number_word("variant"));
   if (variant < 1 || variant > 4) return fail("this way of cutting a thread is not carried out");
   const bool inside = variant % 2 == 0;
   out_sign_ = Value(inside ? -1.0 : 1.0);

@@ -1,5 +1,6 @@
 #include "ir/passes/variable_use.h"
 
+#include "base/saturate.h"
 #include "ir/passes/call_graph.h"
 
 namespace cnctrans::ir::passes {
@@ -52,7 +53,7 @@ void VariableUse::dimensions(const Declare& d, std::size_t routine) {
     auto& n = named[{d.space, i.name}];
     n.routines.insert(routine);
     for (const auto& x : i.dimensions) {
-      n.dimensions.push_back(static_cast<std::int64_t>(constant_value(x).value_or(1)));
+      n.dimensions.push_back(saturate<std::int64_t>(constant_value(x).value_or(1)));
     }
   }
 }

@@ -2,6 +2,7 @@
 // the offset is selected.
 #include <algorithm>
 
+#include "base/saturate.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
@@ -20,7 +21,7 @@ std::optional<std::int32_t> written_row(const Statement& s, bool& several) {
     const auto& item = a->items[i];
     if (!item.to_system || item.system.datum != Datum::work_offset) continue;
     const auto n = item.system.args.empty() ? std::optional(-1.0) : constant_value(item.system.args[0]);
-    const std::int32_t here = n ? static_cast<std::int32_t>(*n) : -2;
+    const std::int32_t here = n ? saturate<std::int32_t>(*n) : -2;
     several = several || (row && *row != here) || here == -2;
     row = here;
   }
