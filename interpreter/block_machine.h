@@ -91,8 +91,18 @@ class BlockMachine final : public SystemData {
     unread_.insert(name);
   }
   [[nodiscard]] bool preset_unread(const std::string& name) const { return unread_.count(name) != 0; }
+  /// Data that nobody gave: the value of a machine at rest was taken, here for the first time.
+  struct Assumed {
+    Span where;
+    std::string name;
+    double value = 0;
+    std::string hint;  ///< how to give another
+  };
+  [[nodiscard]] const std::vector<Assumed>& assumed() const { return assumed_; }
   std::uint64_t arguments_given = 0;  ///< of the present call level
-  bool single_points = false;         ///< a pattern stops at each point: a modal subprogram runs there
+  std::size_t calls_open = 0;
+  std::string_view last_label;  ///< number of the numbered statement carried out last; empty: none yet
+  bool single_points = false;   ///< a pattern stops at each point: a modal subprogram runs there
   /// A pattern in work has further points.
   [[nodiscard]] bool points_left() const { return pattern_here_ && next_point_ < points_.size(); }
 
@@ -144,6 +154,9 @@ class BlockMachine final : public SystemData {
   bool read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
+  bool read_of_run(const ir::SystemRef& ref, const std::string& name, double& out);
+  bool read_at_rest(const std::string& name, double& out);
+  void assume(const std::string& name, double value, const std::string& hint = {});
 
   // actions (actions.cpp)
   friend struct ActionRunner;
@@ -233,6 +246,7 @@ class BlockMachine final : public SystemData {
   // path (path.cpp): corners and emission
   bool send(const Move& move);
   bool emit_move(const Move& move, bool past_held);
+  void add_travel(const Axes& from, const Event& e);
   bool join(Move& next);
   bool corner_between(const Pending& p, const Element& a, const Element& b, Fillet& f, std::string& error);
   bool hold_if_corner(const Move& move);
@@ -335,7 +349,11 @@ class BlockMachine final : public SystemData {
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
-  std::set<std::string> unread_;  ///< of those, what --set gave and nothing has asked for
+  std::vector<Assumed> assumed_;
+  Axes travelled_{};  ///< way of the axes since the start, or since the program set it
+  Axes travel_set_{};
+  std::uint32_t travel_given_ = 0;  ///< bit n: the program set the way of axis n
+  std::set<std::string> unread_;    ///< of those, what --set gave and nothing has asked for
 };
 
 }  // namespace cnctrans::interpreter

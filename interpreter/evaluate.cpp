@@ -54,16 +54,24 @@ double Evaluator::number(ExprId id) {
       std::array<double, 8> args{};
       const std::size_t count = std::min<std::size_t>(n.b, args.size());
       const auto& ref = *static_cast<const ir::SystemRef*>(n.what);
+      bool named = false;  // an index that is a name: the machine's own
       for (std::size_t i = 0; i < count; ++i) {
         const auto child = children_[n.a + i];
-        if (nodes_[child].is_text) {
-          failure_.fail(code::no_datum,
-                        "the value of " + ref.text + "[" + text(child) + "] is known to the machine only");
-          return 0;
-        }
-        args[i] = number(child);
+        named = named || nodes_[child].is_text;
+        if (!nodes_[child].is_text) args[i] = number(child);
       }
       double value = 0;
+      if (named) {
+        ir::SystemRef whole;
+        whole.text = ref.text + "[";
+        for (std::size_t i = 0; i < count; ++i) {
+          const auto child = children_[n.a + i];
+          whole.text += (i == 0 ? "" : ",") + (nodes_[child].is_text ? text(child) : shortest(args[i]));
+        }
+        whole.text += "]";
+        if (!failure_.set) system_->read(whole, {}, value);
+        return value;
+      }
       if (!failure_.set) system_->read(ref, std::span<const double>(args.data(), count), value);
       return value;
     }

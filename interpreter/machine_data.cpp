@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "machine/data_at_rest.h"
 
 namespace cnctrans::interpreter {
 
@@ -75,9 +76,74 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
     }
   }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
-  return failure_.fail(code::no_datum,
-                       "the value of " + datum_key(ref, args) +
-                           " is known to the machine only; the profile's \"data\" or --set gives it one");
+  const std::string name = datum_key(ref, args);
+  if (read_of_run(ref, name, out) || read_at_rest(name, out)) return true;
+  return failure_.fail(
+      code::no_datum,
+      "the value of " + name + " is known to the machine only; the profile's \"data\" or --set gives it one");
+}
+
+/// Data that the run follows, which the profile names.
+bool BlockMachine::read_of_run(const ir::SystemRef& ref, const std::string& name, double& out) {
+  const auto answer = machine::data_of_run(profile_, name);
+  if (!answer) return false;
+  const auto& s = spindles_[static_cast<std::size_t>(answer->spindle)];
+  switch (answer->datum) {
+    case machine::RunDatum::travelled: {
+      if (ref.axis >= ir::axis::count_max || !axis_[ref.axis].present) return false;
+      const double start = travel_set_[ref.axis];
+      if ((travel_given_ >> ref.axis & 1U) == 0)
+        assume(name + " before the start", start, "the program sets it: (" + name + "=0)");
+      out = (start + travelled_[ref.axis]) / (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
+      return true;
+    }
+    case machine::RunDatum::next_offset: out = offset_; return true;
+    case machine::RunDatum::spindle_angle: out = s.angle; return true;
+    case machine::RunDatum::rpm: out = s.value[static_cast<std::size_t>(ir::SpindleMode::rpm)]; return true;
+    case machine::RunDatum::cutting_speed: out = s.value[static_cast<std::size_t>(ir::SpindleMode::css)]; return true;
+    case machine::RunDatum::spindle_limit: out = s.has_limit ? s.limit : 0; return true;
+    case machine::RunDatum::call_level: out = static_cast<double>(calls_open); return true;
+    case machine::RunDatum::next_tool: out = tool_; return true;
+    case machine::RunDatum::spindle_position: out = s.angle; return s.oriented;
+    case machine::RunDatum::turning_speed: {
+      const bool turns = s.state == ir::SpindleState::cw || s.state == ir::SpindleState::ccw;
+      if (turns && s.mode == ir::SpindleMode::css) return false;
+      out = turns ? s.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] : 0;
+      assume(name, out);
+      return true;
+    }
+    case machine::RunDatum::plane_normal: {
+      const auto normal = std::find(axes_.begin(), axes_.end(), ir::plane_axes(modal_.plane).w);
+      out = normal == axes_.end() ? 0 : static_cast<double>(normal - axes_.begin() + 1);
+      return true;
+    }
+    case machine::RunDatum::program_number: {
+      const auto* main = program_ != nullptr ? program_->main() : nullptr;
+      out = main != nullptr ? static_cast<double>(main->name.number) : -1;
+      return out >= 0;
+    }
+    case machine::RunDatum::last_label: {
+      const auto number = parse_decimal(last_label);
+      out = number.value_or(0);
+      return number.has_value();
+    }
+  }
+  return false;
+}
+
+bool BlockMachine::read_at_rest(const std::string& name, double& out) {
+  const auto value = machine::data_at_rest(profile_, name);
+  if (!value) return false;
+  out = *value;
+  assume(name, *value);
+  return true;
+}
+
+void BlockMachine::assume(const std::string& name, double value, const std::string& hint) {
+  const auto same = [&](const Assumed& a) { return a.name == name; };
+  if (std::any_of(assumed_.begin(), assumed_.end(), same)) return;
+  assumed_.push_back({failure_.where, name, value,
+                      hint.empty() ? "give another by --set " + name + "=VALUE or in the profile's \"data\"" : hint});
 }
 
 bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
@@ -325,6 +391,14 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
       return failure_.fail(code::no_datum,
                            "writing " + datum_key(ref, args) + " would move the machine's zero; it is not carried");
     default: break;
+  }
+  if (const auto answer = machine::data_of_run(profile_, datum_key(ref, args));
+      answer && answer->datum == machine::RunDatum::travelled) {
+    if (!check_axis(ref.axis)) return false;
+    travel_set_[ref.axis] = v * (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
+    travelled_[ref.axis] = 0;
+    travel_given_ |= 1U << ref.axis;
+    return true;
   }
   written_[datum_key(ref, args)] = v;
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length)

@@ -5,6 +5,7 @@
 
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "machine/data_at_rest.h"
 
 namespace cnctrans::interpreter {
 
@@ -86,6 +87,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
       moves = true;
       linear = linear || !axis.rotary;
     }
+    travelled_[a] += std::abs(x - to[a]);
     to[a] = x;
   }
   if (failure_.set) return false;
@@ -316,10 +318,15 @@ bool BlockMachine::fixed_point_move(const ir::Motion& m) {
   for (const auto& w : m.coords) {
     if (!check_axis(w.axis)) return false;
     const auto& spec = *profile_.axis(w.axis);
+    const std::string name = "fixed point " + number_text(n) + " of axis " + spec.name;
+    if (const auto rest = machine::data_at_rest(profile_, name); rest && n >= 1 && spec.fixed_points.empty()) {
+      assume(name, *rest, "\"fixed_points\" of the axis in the profile give the real one");
+      points.push_back(*rest);
+      continue;
+    }
     if (!(n >= 1 && n <= static_cast<double>(spec.fixed_points.size()))) {
-      return failure_.fail(code::no_datum, "fixed point " + number_text(n) + " of axis " + spec.name +
-                                               " is known to the machine only; \"fixed_points\" in the profile "
-                                               "gives it");
+      return failure_.fail(code::no_datum,
+                           name + " is known to the machine only; \"fixed_points\" in the profile gives it");
     }
     points.push_back(spec.fixed_points[static_cast<std::size_t>(n) - 1]);
   }

@@ -1,4 +1,5 @@
 // From resolved moves to events; corners between two elements.
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter/block_machine.h"
@@ -172,6 +173,38 @@ bool BlockMachine::corner_between(const Pending& p, const Element& a, const Elem
   return chamfer(a, b, leg, f, error);
 }
 
+/// The way that each axis goes; on an arc to its outermost points and back.
+void BlockMachine::add_travel(const Axes& from, const Event& e) {
+  const bool arc = e.kind == EventKind::arc;
+  const auto plane = ir::plane_axes(e.plane);
+  for (const auto a : axes_) {
+    if (!arc || (a != plane.u && a != plane.v)) travelled_[a] += std::abs(e.to.value[a] - from[a]);
+  }
+  if (!arc) return;
+  const double radius = std::hypot(from[plane.u] - e.center_u, from[plane.v] - e.center_v);
+  const double begin = std::atan2(from[plane.v] - e.center_v, from[plane.u] - e.center_u);
+  const double end = std::atan2(e.to.value[plane.v] - e.center_v, e.to.value[plane.u] - e.center_u);
+  const double pi = std::acos(-1.0);
+  double sweep = e.cw ? begin - end : end - begin;
+  while (sweep <= 1e-9) sweep += 2 * pi;
+  sweep += 2 * pi * e.turns;
+  // Between two neighbouring extremes the cosine falls or rises all the way.
+  const auto way = [&](double at) {
+    double sum = 0, done = 0;
+    while (done < sweep) {
+      const double here = e.cw ? at - done : at + done;
+      const double step =
+          e.cw ? here - pi * (std::ceil(here / pi - 1e-12) - 1) : pi * (std::floor(here / pi + 1e-12) + 1) - here;
+      const double next = std::min(done + step, sweep);
+      sum += std::abs(std::cos(e.cw ? at - next : at + next) - std::cos(here));
+      done = next;
+    }
+    return sum * radius;
+  };
+  travelled_[plane.u] += way(begin);
+  travelled_[plane.v] += way(begin - pi / 2);
+}
+
 /// Maps a move to the machine and emits it; a move that changes nothing makes no event (a full circle does).
 bool BlockMachine::emit_move(const Move& move, bool past_held) {
   Axes to = move.to;
@@ -181,6 +214,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
     to = frame_.apply(to);
   }
   auto& e = path_event_;
+  const Axes from = e.to.value;
   bool moves = false, linear = move.kind == Move::Kind::arc || !move.feed_degrees;
   for (const auto a : axes_) {
     if (std::abs(to[a] - e.to.value[a]) <= no_move) continue;
@@ -227,6 +261,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
       break;
     }
   }
+  add_travel(from, e);
   if (past_held) {
     emitter_.pass(e);
   } else {

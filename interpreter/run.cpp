@@ -65,6 +65,12 @@ Result Runner::run() {
                          "several contours fit the data of these elements; the one nearest to its start was run",
                          "say which point is meant (E+ or E-)");
   }
+  for (const auto& datum : machine_.assumed()) {
+    diagnostics_.warning(code::data_at_rest, datum.where,
+                         "the value of " + datum.name + " is known to the machine only; " + shortest(datum.value) +
+                             " was taken, as of a machine at rest",
+                         datum.hint);
+  }
   switch (state_) {
     case State::event_limit: return finish(EndReason::event_limit, last_);
     case State::step_limit: return finish(EndReason::step_limit, last_);
@@ -189,7 +195,9 @@ void Runner::loop() {
         covered_[id] = 1;
       }
     }
+    const auto* statement = in.statement;
     step(in);
+    if (statement != nullptr && !statement->line.number.empty()) machine_.last_label = statement->line.number;
     if (failure_.set) fail_state();
   }
 }
@@ -304,6 +312,7 @@ void Runner::enter_top() {
   repeat_end_ = repeats_.size() > a.repeats ? repeats_.back().end : nowhere;
   evaluator_.enter(&flow_->names, &a.locals);
   machine_.arguments_given = variables_.level().arguments;
+  machine_.calls_open = calls_.size() - 1;
 }
 
 Result run(const ir::Program& program, const machine::Profile& profile, const Options& options, TraceSink& sink,

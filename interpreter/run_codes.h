@@ -41,6 +41,7 @@ inline constexpr std::string_view not_carried = "RUN-040";
 inline constexpr std::string_view spindle_number = "RUN-041";
 inline constexpr std::string_view needs_whole_program = "RUN-042";
 inline constexpr std::string_view beside_path = "RUN-043";
+inline constexpr std::string_view data_at_rest = "RUN-044";
 // Found before anything moves.
 inline constexpr std::string_view unknown_label = "RUN-101";
 inline constexpr std::string_view unknown_routine = "RUN-102";

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/source.h"
+#include "machine/data_at_rest.h"
 #include "machine/embedded.h"
 #include "machine/options.h"
 #include "machine/profile.h"
@@ -221,6 +222,37 @@ void read_data(const json& object, Profile& p) {
   }
 }
 
+/// Values, or false: none of what the base has.
+void read_data_at_rest(const json& object, Profile& p) {
+  if (object.is_boolean() && !object.get<bool>()) return forget_data_at_rest(p);
+  if (!object.is_object()) fail("data_at_rest must be an object, or false");
+  for (const auto& item : object.items()) {
+    if (!item.value().is_number()) fail("data_at_rest." + item.key() + " must be a number");
+    p.data[std::string(at_rest_mark) + item.key()] = item.value().get<double>();
+  }
+}
+
+void read_data_of_run(const json& object, Profile& p) {
+  if (!object.is_object()) fail("data_of_run must be an object");
+  for (const auto& item : object.items()) {
+    const auto code = item.value().is_string() ? run_answer_code(item.value().get<std::string>()) : std::nullopt;
+    if (!code) fail("data_of_run." + item.key() + " names nothing that a run answers");
+    p.data[std::string(of_run_mark) + item.key()] = *code;
+  }
+}
+
+void data_json(const Profile& p, nlohmann::ordered_json& j) {
+  for (const auto& [name, value] : p.data) {
+    if (name.starts_with(at_rest_mark)) {
+      j["data_at_rest"][name.substr(at_rest_mark.size())] = value;
+    } else if (name.starts_with(of_run_mark)) {
+      j["data_of_run"][name.substr(of_run_mark.size())] = run_answer_text(value);
+    } else {
+      j["data"][name] = value;
+    }
+  }
+}
+
 void read_options(const json& object, Profile& p) {
   if (!object.is_object()) fail("options must be an object");
   for (const auto& item : object.items()) {
@@ -267,6 +299,8 @@ Profile read_profile(const json& root) {
   if (const auto* j = r.find("tools")) read_tools(*j, p);
   if (const auto* j = r.find("work_offsets")) read_work_offsets(*j, p);
   if (const auto* j = r.find("data")) read_data(*j, p);
+  if (const auto* j = r.find("data_at_rest")) read_data_at_rest(*j, p);
+  if (const auto* j = r.find("data_of_run")) read_data_of_run(*j, p);
   if (const auto* j = r.find("options")) read_options(*j, p);
   r.number("max_rapid", p.max_rapid);
   r.number("arc_tolerance", p.arc_tolerance);
@@ -343,7 +377,7 @@ std::string to_json(const Profile& p) {
                           {"nose_width", t.nose_width},
                           {"offset", t.offset}});
   }
-  if (!p.data.empty()) j["data"] = p.data;
+  data_json(p, j);
   for (const auto& [row, values] : p.work_offsets) {
     auto& out = j["work_offsets"][std::to_string(row)] = json::object();
     for (const auto& [axis, value] : values) {

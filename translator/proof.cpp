@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "machine/data_at_rest.h"
 #include "translator/coverage.h"
 #include "translator/explore.h"
 
@@ -20,7 +21,9 @@ Replayed replay(const Side& side, interpreter::Options options) {
   options.library = [&side](const ir::RoutineName& name) { return side.loader.find(name); };
   options.fault = [&side](FileId f, std::uint32_t from, std::uint32_t to) { return side.loader.fault(f, from, to); };
   interpreter::TraceRecorder recorder;
-  r.result = interpreter::run(side.program, side.profile, options, recorder, r.diagnostics);
+  machine::Profile profile = side.profile;
+  machine::forget_data_at_rest(profile);
+  r.result = interpreter::run(side.program, profile, options, recorder, r.diagnostics);
   r.events = std::move(recorder.events);
   return r;
 }

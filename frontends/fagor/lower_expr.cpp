@@ -139,7 +139,7 @@ void arguments(const Expr& e, LowerState& state, ir::SystemRef& ref) {
 void note_machine_datum(const Expr& e, LowerState& state) {
   if (!state.facts.machine_data.insert(e.text).second) return;
   state.note("FAG-020", e.pos, "the value of " + e.text + " is known to the machine only",
-             "a run takes it from the profile (\"data\") or from --set, else it stops where the value is needed; "
+             "a run takes it from the profile (\"data\") or from --set, else that of a machine at rest (RUN-044); "
              "no other control can be told it");
 }
 

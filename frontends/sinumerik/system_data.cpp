@@ -129,7 +129,8 @@ ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
   ir::SystemRef ref = system(e);
   if (c_.errors != before) return nullptr;
   if (ref.datum == ir::Datum::other && c_.first_time(e.text)) {
-    c_.warning("SIN-015", e.pos, e.text + " is known only to the machine: a run stops where it is read");
+    c_.warning("SIN-015", e.pos,
+               e.text + " is known only to the machine: a run takes the profile's value, or stops where it is read");
   }
   const ir::Type type = ref.datum == ir::Datum::call_has_argument ? ir::Type::boolean : ir::Type::real;
   return make_expr(std::move(ref), type, e.pos);

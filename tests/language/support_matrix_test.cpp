@@ -59,7 +59,7 @@ std::string e_table() {
                        : e.unit == facts::EUnit::length ? "0.001 mm"
                                                         : "0.001 mm or 0.0001 degrees";
     const std::string support = e.meaning == facts::EMeaning::machine
-                                    ? "value from the profile's data or --set (else RUN-007); writing: NUM-044"
+                                    ? "value from the profile's data or --set (else RUN-044); writing: NUM-044"
                                 : e.meaning == facts::EMeaning::tool_note ? "kept as a number (NUM-041)"
                                 : e.meaning == facts::EMeaning::display   ? "kept as text, no effect (NUM-034)"
                                                                           : "carried";

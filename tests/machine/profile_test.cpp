@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "machine/data_at_rest.h"
 #include "machine/options.h"
 
 namespace cnctrans::machine {
@@ -72,7 +73,47 @@ TEST(Profile, ExtendsABuiltinAndReplacesWhatIsWritten) {
   EXPECT_EQ(p->tools.at(0).radius, 0.8);
 }
 
+TEST(Profile, DataAtRestByPatternTheLongestFirst) {
+  std::string error;
+  const auto p = from_json(R"({"extends": "linuxcnc-mill", "name": "shop",
+      "data_at_rest": {"IN[*]": 1, "IN[1?]": 2, "IN[12]": 3, "E7#001": 4},
+      "data_of_run": {"WAY?": "travelled", "SPEED2": "rpm:2"}})",
+                           &error);
+  ASSERT_TRUE(p) << error;
+  EXPECT_EQ(data_at_rest(*p, "IN[5]"), 1);
+  EXPECT_EQ(data_at_rest(*p, "IN[13]"), 2);
+  EXPECT_EQ(data_at_rest(*p, "IN[12]"), 3);
+  EXPECT_EQ(data_at_rest(*p, "E72001"), 4);
+  EXPECT_EQ(data_at_rest(*p, "E7A001"), std::nullopt);
+  EXPECT_EQ(data_at_rest(*p, "INX"), std::nullopt);
+  ASSERT_TRUE(data_of_run(*p, "WAYX"));
+  EXPECT_EQ(data_of_run(*p, "WAYX")->datum, RunDatum::travelled);
+  EXPECT_EQ(data_of_run(*p, "SPEED2")->datum, RunDatum::rpm);
+  EXPECT_EQ(data_of_run(*p, "SPEED2")->spindle, 2);
+  EXPECT_FALSE(data_of_run(*p, "WAY"));
+  const auto again = from_json(to_json(*p), &error);
+  ASSERT_TRUE(again) << error;
+  EXPECT_EQ(again->data, p->data);
+  auto forgotten = *p;
+  forget_data_at_rest(forgotten);
+  EXPECT_FALSE(data_at_rest(forgotten, "IN[5]"));
+  EXPECT_TRUE(data_of_run(forgotten, "WAYX"));
+}
+
+TEST(Profile, DataAtRestIsInheritedUnlessItIsSwitchedOff) {
+  std::string error;
+  const auto kept = from_json(R"({"extends": "fagor-lathe", "name": "a"})", &error);
+  const auto none = from_json(R"({"extends": "fagor-lathe", "name": "a", "data_at_rest": false})", &error);
+  const auto own = from_json(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}]})", &error);
+  ASSERT_TRUE(kept && none && own) << error;
+  EXPECT_EQ(data_at_rest(*kept, "FRO"), 100);
+  EXPECT_FALSE(data_at_rest(*none, "FRO"));
+  EXPECT_FALSE(data_at_rest(*own, "FRO"));
+}
+
 TEST(Profile, FaultsAreNamed) {
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "data_of_run": {"A": "luck"}})"), HasSubstr("data_of_run.A"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "data_at_rest": {"A": "1"}})"), HasSubstr("data_at_rest.A"));
   EXPECT_THAT(fault("{"), HasSubstr("JSON"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "colour": 1})"), HasSubstr("colour"));
   EXPECT_THAT(fault(R"({"extends": "nobody"})"), HasSubstr("nobody"));
