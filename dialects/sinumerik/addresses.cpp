@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
@@ -46,11 +47,11 @@ constexpr NamedWordRow words[] = {
     {"CTOL", timing},
     {"OTOL", timing},
     {"STOLF", timing},
+    {"ORIS", timing},
     {"OVR", timing},
     {"OVRRAP", timing},
     {"ACC", timing},
     {"FB", block_feed},
-    {"FD", unsupported},
     // radius compensation and tool data
     {"DISC", compensation},
     {"OFFN", compensation},
@@ -61,9 +62,6 @@ constexpr NamedWordRow words[] = {
     {"TOFFR", compensation},
     {"TOFF", compensation},
     {"DL", compensation},
-    {"ISD", unsupported},
-    {"CUTMOD", unsupported},
-    {"TCARR", unsupported},
     // orientation, splines, polynomials, probing, oscillation
     {"LEAD", orientation},
     {"TILT", orientation},
@@ -77,13 +75,8 @@ constexpr NamedWordRow words[] = {
     {"MEAS", probe},
     {"MEAW", probe_to_end},
     {"FP", fixed_point},
-    {"SPP", unsupported},
-    {"SPN", unsupported},
-    {"ALF", unsupported},
     {"DISPR", unsupported},
     {"PRIO", unsupported},
-    {"OST1", unsupported},
-    {"OST2", unsupported},
 };
 
 constexpr ProcedureRow procedure_rows[] = {
@@ -128,7 +121,6 @@ constexpr ProcedureRow procedure_rows[] = {
     {"IPOENDA", Procedure::timing},
     {"ADISPOSA", Procedure::timing},
     {"IPOBRKA", Procedure::timing},
-    {"FPRAON", Procedure::unsupported},
     {"SETMS", Procedure::master_spindle},
     {"GEOAX", Procedure::unsupported},
     {"TRANSMIT", Procedure::transformation},
@@ -138,43 +130,20 @@ constexpr ProcedureRow procedure_rows[] = {
     {"TRACON", Procedure::transformation},
     {"TRAFOOF", Procedure::transformation},
     {"PRESETON", Procedure::preset},
-    {"DRFOF", Procedure::unsupported},
-    {"TRAILON", Procedure::unsupported},
-    {"TRAILOF", Procedure::unsupported},
-    {"TANG", Procedure::unsupported},
-    {"TANGON", Procedure::unsupported},
-    {"TANGOF", Procedure::unsupported},
-    {"TANGDEL", Procedure::unsupported},
-    {"TLIFT", Procedure::unsupported},
-    {"COUPDEF", Procedure::unsupported},
-    {"COUPON", Procedure::unsupported},
-    {"COUPONC", Procedure::unsupported},
-    {"COUPOF", Procedure::unsupported},
-    {"COUPOFS", Procedure::unsupported},
-    {"COUPDEL", Procedure::unsupported},
-    {"LEADON", Procedure::unsupported},
-    {"LEADOF", Procedure::unsupported},
     {"SPLINEPATH", Procedure::unsupported},
     {"POLYPATH", Procedure::unsupported},
-    {"CTABDEF", Procedure::unsupported},
-    {"CTABEND", Procedure::unsupported},
     {"CONTPRON", Procedure::unsupported},
     {"CONTDCON", Procedure::unsupported},
     {"EXECUTE", Procedure::unsupported},
     {"EXECTAB", Procedure::unsupported},
     {"CALCDAT", Procedure::unsupported},
     {"INTERSEC", Procedure::unsupported},
-    {"CPROTDEF", Procedure::unsupported},
-    {"NPROTDEF", Procedure::unsupported},
-    {"CPROT", Procedure::unsupported},
-    {"NPROT", Procedure::unsupported},
     {"EXECSTRING", Procedure::unsupported},
     {"CALLPATH", Procedure::timing},
     {"WRITE", Procedure::unsupported},
     {"READ", Procedure::unsupported},
     {"DELETE", Procedure::unsupported},
     {"ISFILE", Procedure::unsupported},
-    {"CHANDATA", Procedure::unsupported},
     {"NEWCONF", Procedure::coordination},
     {"GET", Procedure::coordination},
     {"GETD", Procedure::coordination},
@@ -191,28 +160,10 @@ constexpr ProcedureRow procedure_rows[] = {
     {"DISABLE", Procedure::coordination},
     {"ENABLE", Procedure::coordination},
     {"CLRINT", Procedure::coordination},
-    {"CANCEL", Procedure::unsupported},
-    {"LOCK", Procedure::unsupported},
-    {"UNLOCK", Procedure::unsupported},
-    {"RESET", Procedure::unsupported},
     {"GETSELT", Procedure::unsupported},
     {"GETEXET", Procedure::unsupported},
-    {"TCA", Procedure::unsupported},
-    {"TCI", Procedure::unsupported},
-    {"SETPIECE", Procedure::unsupported},
     {"DELDL", Procedure::unsupported},
-    {"DZERO", Procedure::unsupported},
-    {"FXS", Procedure::unsupported},
-    {"PUTFTOC", Procedure::unsupported},
-    {"PUTFTOCF", Procedure::unsupported},
-    {"FCTDEF", Procedure::unsupported},
-    {"TOFFON", Procedure::unsupported},
-    {"TOFFOF", Procedure::unsupported},
-    {"WAITC", Procedure::unsupported},
-    {"WAITENC", Procedure::unsupported},
     {"ORIRESET", Procedure::coordination},
-    {"TMON", Procedure::unsupported},
-    {"TMOF", Procedure::unsupported},
 };
 
 constexpr std::string_view keywords[] = {
@@ -229,24 +180,16 @@ constexpr std::string_view keywords[] = {
 /// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
 /// of these is never a variable.
 constexpr std::string_view predefined[] = {
-    "ADDFRAME", "AXCTSWE",    "AXCTSWED",   "AXTOSPI",    "BLSYNC",    "CALCPOSI",   "CHECKSUM",  "CHKDM",
-    "CHKDNO",   "CORROF",     "COUPRES",    "CTAB",       "CTABDEL",   "CTABEXISTS", "CTABFNO",   "CTABFPOL",
-    "CTABFSEG", "CTABID",     "CTABINV",    "CTABISLOCK", "CTABLOCK",  "CTABMEMTYP", "CTABMPOL",  "CTABMSEG",
-    "CTABNO",   "CTABNOMEM",  "CTABPERIOD", "CTABPOL",    "CTABPOLID", "CTABSEG",    "CTABSEGID", "CTABSEV",
-    "CTABSSV",  "CTABTEP",    "CTABTEV",    "CTABTMAX",   "CTABTMIN",  "CTABTSP",    "CTABTSV",   "CTABUNLOCK",
-    "DELDTG",   "DELTOOLENV", "DIACYCOFA",  "DIAMCHAN",   "DIAMCHANA", "DILF",       "EGDEF",     "EGDEL",
-    "EGOFC",    "EGOFS",      "EGON",       "EGONSYN",    "EGONSYNE",  "FDA",        "FILEDATE",  "FILEINFO",
-    "FILESIZE", "FILESTAT",   "FILETIME",   "FMA",        "FOCOF",     "FOCON",      "FPO",       "FPR",
-    "FPRAOF",   "FTOC",       "FXST",       "FXSW",       "GETACTT",   "GETACTTD",   "GETDNO",    "GETFREELOC",
-    "GETT",     "GETTCOR",    "GETTENV",    "GWPSOF",     "GWPSON",    "ICYCOF",     "ICYCON",    "ISVAR",
-    "LENTOAX",  "LIFTFAST",   "MASLDEF",    "MASLDEL",    "MASLOF",    "MASLOFS",    "MASLON",    "MEAFRAME",
-    "MEASURE",  "MOV",        "MVTOOL",     "NEWT",       "OMA1",      "OMA2",       "OMA3",      "OMA4",
-    "OMA5",     "ORIS",       "OS",         "OSB",        "OSCILL",    "OSCTRL",     "OSE",       "OSNSC",
-    "OSP1",     "OSP2",       "OST1",       "OST2",       "POLF",      "POLFA",      "POLFMASK",  "POLFMLIN",
-    "POSM",     "POSRANGE",   "PUNCHACC",   "QECLRNOF",   "QECLRNON",  "RDISABLE",   "RESETMON",  "SETDNO",
-    "SETMTH",   "SETTA",      "SETTCOR",    "SETTIA",     "SIRELAY",   "SIRELIN",    "SIRELOUT",  "SIRELTIME",
-    "SPI",      "SR",         "SRA",        "ST",         "STA",       "STOPREOF",   "STRINGIS",  "SYNFCT",
-    "TFGREF",   "TOOLENV",    "WALCS"};
+    "ADDFRAME",   "AXTOSPI",  "BLSYNC",    "CALCPOSI",  "CHECKSUM",   "CHKDM",     "CHKDNO",     "CTAB",
+    "CTABEXISTS", "CTABFNO",  "CTABFPOL",  "CTABFSEG",  "CTABID",     "CTABINV",   "CTABISLOCK", "CTABMEMTYP",
+    "CTABMPOL",   "CTABMSEG", "CTABNO",    "CTABNOMEM", "CTABPERIOD", "CTABPOL",   "CTABPOLID",  "CTABSEG",
+    "CTABSEGID",  "CTABSEV",  "CTABSSV",   "CTABTEP",   "CTABTEV",    "CTABTMAX",  "CTABTMIN",   "CTABTSP",
+    "CTABTSV",    "DELDTG",   "DIACYCOFA", "DIAMCHAN",  "DIAMCHANA",  "FILEDATE",  "FILEINFO",   "FILESIZE",
+    "FILESTAT",   "FILETIME", "FOCOF",     "FOCON",     "FPO",        "FTOC",      "GETACTT",    "GETACTTD",
+    "GETDNO",     "GETTCOR",  "GETTENV",   "ICYCOF",    "ICYCON",     "ISVAR",     "LENTOAX",    "MEAFRAME",
+    "MEASURE",    "MOV",      "OMA1",      "OMA2",      "OMA3",       "OMA4",      "OMA5",       "POSRANGE",
+    "RDISABLE",   "SETTCOR",  "SIRELAY",   "SIRELIN",   "SIRELOUT",   "SIRELTIME", "SPI",        "STRINGIS",
+    "SYNFCT",     "TOOLENV",  "WALCS"};
 
 /// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
 /// them.
@@ -278,8 +221,8 @@ const NamedWordRow* named_word(std::string_view name) {
 }
 
 bool is_timing_of_axis(std::string_view capitals) {
-  constexpr std::string_view names[] = {"ACC",     "ACCLIMA",  "OVRA",   "VELOLIM", "VELOLIMA",
-                                        "JERKLIM", "JERKLIMA", "SCPARA", "ATOL",    "FGREF"};
+  constexpr std::string_view names[] = {"ACC",      "ACCLIMA", "OVRA", "VELOLIM", "VELOLIMA", "JERKLIM",
+                                        "JERKLIMA", "SCPARA",  "ATOL", "FGREF",   "ADISPOSA"};
   for (const auto& n : names) {
     if (n == capitals) return true;
   }
@@ -344,7 +287,7 @@ std::span<const std::string_view> axis_and_frame_functions() {
 }
 
 bool is_reserved(std::string_view capitals) {
-  if (is_predefined(capitals)) return true;
+  if (is_predefined(capitals) || beside(capitals) != nullptr || definition(capitals) != nullptr) return true;
   if (std::binary_search(std::begin(carried_functions), std::end(carried_functions), capitals)) return true;
   for (const auto& k : keywords) {
     if (k == capitals) return true;

@@ -224,7 +224,7 @@ void FileReading::unread(const syntax::Block& block, ir::LineInfo info) {
 }
 
 void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
-  if (!WordLowering::is_motion_block(block)) {
+  if (statements_.defines() || !WordLowering::is_motion_block(block)) {
     if (statements_.lower(block, std::move(info)) || context_.only_kept()) ++stats_.blocks_read;
     return;
   }

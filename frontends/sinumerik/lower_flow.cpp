@@ -19,6 +19,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   labels_.clear();
   externs_.clear();
   executable_seen_ = ended_ = false;
+  definition_ = nullptr;
   c_.symbols.clear();
   c_.macros.clear();
   c_.master_spindle = 1;
@@ -30,6 +31,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
 
 void StatementLowering::end_routine(const SourceText* source) {
   if (!structure_) return;
+  open_definition();
   for (const Span& place : structure_->finish(source)) {
     c_.diagnostics.error("SIN-010", place, "this structure has no end in its program",
                          "write its ENDIF, ENDWHILE, ENDFOR, ENDLOOP or UNTIL");
@@ -109,6 +111,10 @@ void StatementLowering::add_unread(const Block& block, ir::LineInfo info) {
 bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
   feature_ = {};
   for (const auto& l : block.labels) labels_.push_back(to_upper_ascii(l));
+  if (in_definition(block, info)) {
+    executable_seen_ = true;
+    return true;
+  }
   const bool row = std::all_of(block.statements.begin(), block.statements.end(),
                                [](const Statement& s) { return s.keyword == "=" || s.keyword == "()"; });
   if (row) {
@@ -163,9 +169,16 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
     add_opaque(block, info, "language.statement", true);
     return true;
   }
-  if (k == "SYNC")
-    return refuse("language.synchronised", s.pos,
-                  "synchronised actions are not carried yet: this one could move the machine or change its state");
+  if (k == "SYNC") {
+    const std::string_view feature = action_feature(s.text);
+    if (feature.empty())
+      return refuse("language.synchronised", s.pos,
+                    "this synchronised action is not carried: it can move an axis of the machine or set what the "
+                    "program reads");
+    tell_beside(s.pos, "this action", feature);
+    add_opaque(block, info, feature, false);
+    return true;
+  }
   if (k == "DEFINE") return macro(s, block, info);
   if (k == "ISOCALL") return refuse("language.statement", s.pos, "calling a program in ISO mode is not carried yet");
   return false;

@@ -417,16 +417,19 @@ bool StatementLowering::sort_items(const Block& block, Parts& parts) {
     const bool word_next = s == block.statements.size() ||
                            (w < block.words.size() && block.words[w].pos.column < block.statements[s].pos.column);
     if (word_next) {
-      ok = sort_word(block, block.words[w++], parts) && ok;
+      const Word& word = block.words[w++];
+      ok = (beside_word(word, parts) || sort_word(block, word, parts)) && ok;
       continue;
     }
     const syntax::Statement& next = block.statements[s++];
+    if (beside_statement(next, parts)) continue;
     ok = (next.keyword == "=" ? sort_assignment(next, parts) : sort_call(next.text, next.args, next.pos, parts)) && ok;
   }
   return ok;
 }
 
 bool StatementLowering::items(const Block& block, ir::LineInfo info) {
+  if (interrupt_routine(block, info)) return true;
   Parts parts;
   bool ok = sort_items(block, parts);
   ir::Block words;
@@ -471,8 +474,14 @@ bool StatementLowering::items(const Block& block, ir::LineInfo info) {
   }
   for (auto& a : parts.actions) words.actions.push_back(std::move(a));
   if (!parts.assign.items.empty()) emit(info, std::move(parts.assign));
-  const bool nothing_else = parts.calls.empty() && tail == Tail::none;
+  const bool nothing_else = parts.calls.empty() && parts.beside_text.empty() && tail == Tail::none;
   if (!words.empty() || (nothing_else && !info.joined)) emit(info, std::move(words));
+  if (!parts.beside_text.empty()) {
+    ir::Opaque o;
+    o.text = std::move(parts.beside_text);
+    o.feature = parts.beside_feature;
+    emit(info, std::move(o));
+  }
   for (auto& call : parts.calls) emit(info, std::move(call));
   if (tail == Tail::program_end) emit(info, ir::End{c_.slice(words_.tail_pos()), true});
   if (tail == Tail::subprogram_end) emit(info, ir::Return{{}, c_.slice(words_.tail_pos())});

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dialects/sinumerik/beside.h"
 #include "frontends/common/structure_builder.h"
 #include "frontends/common/syntax.h"
 #include "frontends/sinumerik/context.h"
@@ -32,6 +33,8 @@ class StatementLowering {
   bool lower(const syntax::Block& block, ir::LineInfo info);
   /// Adds a statement (comment lines, blocks of the hot path).
   void add(ir::Statement statement);
+  /// The block stands in a curve table or another definition: it belongs to `lower`, also when it has words only.
+  [[nodiscard]] bool defines() const { return definition_ != nullptr; }
   /// Adds the block as Opaque text.
   void add_opaque(const syntax::Block& block, ir::LineInfo info, std::string_view feature, bool harmless);
   /// Adds a block that can't be read as Opaque text; when it opens or closes a structure by its first word, the
@@ -81,6 +84,16 @@ class StatementLowering {
   bool call_arguments(const std::string& name, const std::vector<syntax::Expr>& args, ir::CallRoutine& call);
   bool refuse(std::string_view feature, WordPos pos, std::string message, std::string hint = {});
 
+  // beside the programmed path (lower_beside.cpp): true when it is, and put into `parts` or added
+  bool beside_word(const syntax::Word& word, Parts& parts);
+  bool beside_statement(const syntax::Statement& s, Parts& parts);
+  void put_beside(std::string_view feature, WordPos pos, Parts& parts);
+  void tell_beside(WordPos pos, const std::string& what, std::string_view feature);
+  bool interrupt_routine(const syntax::Block& block, const ir::LineInfo& info);
+  bool in_definition(const syntax::Block& block, const ir::LineInfo& info);
+  void open_definition();
+  [[nodiscard]] std::string_view action_feature(std::string_view text) const;
+
   // cycles (lower_cycles.cpp)
   ir::CyclePtr cycle(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
   ir::CyclePtr turning(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
@@ -120,6 +133,8 @@ class StatementLowering {
   std::optional<frontends::StructureBuilder> structure_;
   std::vector<std::string> labels_;                                ///< of the routine so far, in text order, capitals
   std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
+  const Definition* definition_ = nullptr;                         ///< the blocks belong to it
+  Span definition_line_;                                           ///< where it begins
   bool ended_ = false;
   bool executable_seen_ = false;
   bool defines_characters_ = false;

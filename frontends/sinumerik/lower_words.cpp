@@ -6,6 +6,7 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "dialects/sinumerik/beside.h"
 
 namespace cnctrans::sinumerik {
 
@@ -25,6 +26,8 @@ std::uint8_t u(Enum e) {
 
 bool WordLowering::is_motion_block(const syntax::Block& block) {
   for (const Word& w : block.words) {
+    if (w.address.size() > 1 && beside(w.address, w.has_value ? BesideForm::address : BesideForm::code) != nullptr)
+      return false;
     switch (w.address[0]) {
       case 'L':
       case 'l':

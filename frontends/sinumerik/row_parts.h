@@ -1,6 +1,8 @@
 // What a row of items holds once it is sorted. Only for the .cpp files of StatementLowering.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,8 @@ struct StatementLowering::Parts {
   std::vector<ir::CoordWord> coords;       ///< positioning axes, axes named by a constant
   std::vector<ir::ComputedWord> computed;  ///< axes named by a variable
   std::vector<ir::CenterWord> centers;     ///< IP[..]
+  std::string beside_text;                 ///< what acts beside the path, as it stands
+  std::string_view beside_feature;
   bool has_count = false;
   ir::ExprPtr count;
   WordPos count_pos;

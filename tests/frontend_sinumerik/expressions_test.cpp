@@ -127,7 +127,8 @@ TEST(SinumerikExpressions, SystemVariables) {  // motion 24.1
   EXPECT_TRUE(offset.to_system);
   EXPECT_EQ(offset.system.datum, ir::Datum::work_offset);
   EXPECT_EQ(read("R1=$A_DBB[3]\n").warnings(), "SIN-015");
-  EXPECT_EQ(read("$A_DBB[3]=1\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("$MC_GEOAX[3]=1\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("$A_DBB[3]=1\n").warnings(), "");  // beside the path
 }
 
 TEST(SinumerikExpressions, MacrosAreWrittenOut) {  // 8.6
@@ -148,8 +149,9 @@ TEST(SinumerikExpressions, MacrosAreWrittenOut) {  // 8.6
 }
 
 TEST(SinumerikExpressions, PredefinedNamesAreNoVariables) {
-  EXPECT_EQ(read("OSP1[Z]=10\n").warnings(), "SIN-008");
-  EXPECT_EQ(read("SR=2\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("OMA1=2\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("SR=2\nOSP1[Z]=10\n").warnings(), "");  // beside the path: a note
+  EXPECT_EQ(read("DEF REAL SR\nSR=2\n").program.routines[0].body.size(), 2U);
   EXPECT_EQ(read("DEF AXIS AX1\nAX1=AXNAME(\"X\")\n").warnings(), "");
   EXPECT_EQ(read("DEF REAL TAB1[3]\nSUBB(TAB1)\n").warnings(), "");
   EXPECT_EQ(read("MX1=5\n").warnings(), "SIN-008");  // an axis of the machine builder

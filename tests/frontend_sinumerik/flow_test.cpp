@@ -177,7 +177,7 @@ TEST(SinumerikCycles, WhatIsNotCarriedIsRefused) {
   EXPECT_EQ(read("MCALL POCKET3(50,0,1,-5,60,40,8,0,0,0,2,0,0,300,100,2,11)\n").warnings(), "SIN-008");
   EXPECT_EQ(read("CYCLE83(50,0,2,-30,,,8,0,0,0,1,7)\n").errors(), "SIN-021");
   EXPECT_EQ(read("CYCLE81()\n").errors(), "SIN-021");
-  EXPECT_EQ(read("ID=1 DO M8\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("ID=1 DO R1=8\n").warnings(), "SIN-008");
   EXPECT_EQ(read("TRAORI\n").warnings(), "SIN-041");
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
@@ -23,8 +24,11 @@ std::string reason(std::string_view key) {
          " (`" + std::string(key) + "`)";
 }
 
+constexpr const char* beside_path = "acts beside the programmed path, see below";
+
 std::string use_of(const facts::GFunction& g) {
   using enum facts::GUse;
+  if (facts::beside(g.name, facts::BesideForm::code) != nullptr) return beside_path;
   switch (g.use) {
     case unsupported: return reason(facts::missing_feature(g));
     case timing: return "kept as text: the programmed path is the same";
@@ -80,6 +84,27 @@ std::string procedure_table() {
   return s + "| " + rest + " | " + reason("language.statement") + " |\n";
 }
 
+std::string beside_table() {
+  using enum facts::BesideForm;
+  std::string s = "| Word | Written as | Feature |\n|---|---|---|\n";
+  for (const auto& r : facts::beside_rows()) {
+    std::string forms;
+    const auto add = [&](facts::BesideForm f, std::string_view text) {
+      if ((r.forms & static_cast<std::uint8_t>(f)) != 0) forms += (forms.empty() ? "" : ", ") + std::string(text);
+    };
+    add(procedure, "procedure");
+    add(address, "address");
+    add(indexed, "address of an axis");
+    add(code, "G function");
+    s += "| " + std::string(r.name) + " | " + forms + (r.gives_back ? ", no variable as an argument" : "") + " | `" +
+         std::string(r.feature) + "` |\n";
+  }
+  for (const auto& d : facts::definitions())
+    s += "| " + std::string(d.begin) + " to " + std::string(d.end) + " | blocks that define | `" +
+         std::string(d.feature) + "` |\n";
+  return s;
+}
+
 std::string function_table() {
   std::string s = "| Function | Arguments | Result |\n|---|---|---|\n";
   for (const auto& f : facts::functions) {
@@ -110,7 +135,8 @@ TEST(SupportMatrix, OfSinumerikIsTheOneOfTheTables) {
   const auto from = text.find(begin), to = text.find(end);
   ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
   const std::string made = "\n### G functions and named functions\n\n" + g_table() + "\n### Addresses\n\n" +
-                           word_table() + "\n### Procedures\n\n" + procedure_table() + "\n### Functions\n\n" +
+                           word_table() + "\n### Procedures\n\n" + procedure_table() +
+                           "\n### Words beside the programmed path\n\n" + beside_table() + "\n### Functions\n\n" +
                            function_table() + "\n### Options of a machine profile\n\n" + option_table() + "\n";
   const std::string whole = text.substr(0, from + begin.size()) + made + text.substr(to);
   if (std::getenv("CNCTRANS_WRITE_DOCS") != nullptr) {  // NOLINT(concurrency-mt-unsafe)

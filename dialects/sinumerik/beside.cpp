@@ -1,0 +1,382 @@
+#include "dialects/sinumerik/beside.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string>
+
+namespace cnctrans::sinumerik {
+
+namespace {
+
+constexpr auto procedure = static_cast<std::uint8_t>(BesideForm::procedure);
+constexpr auto address = static_cast<std::uint8_t>(BesideForm::address);
+constexpr auto indexed = static_cast<std::uint8_t>(BesideForm::indexed);
+constexpr auto code = static_cast<std::uint8_t>(BesideForm::code);
+
+constexpr BesideRow rows[] = {
+    {"ALF", "beside.realtime", address},
+    {"AXCTSWE", "beside.data", procedure},
+    {"AXCTSWED", "beside.data", procedure},
+    {"CANCEL", "beside.realtime", procedure},
+    {"CHANDATA", "beside.data", procedure},
+    {"CORROF", "beside.compensation", procedure},
+    {"COUPDEF", "beside.coupling", procedure},
+    {"COUPDEL", "beside.coupling", procedure},
+    {"COUPOF", "beside.coupling", procedure},
+    {"COUPOFS", "beside.coupling", procedure},
+    {"COUPON", "beside.coupling", procedure},
+    {"COUPONC", "beside.coupling", procedure},
+    {"COUPRES", "beside.coupling", procedure},
+    {"CPROT", "beside.data", procedure},
+    {"CTABDEL", "beside.coupling", procedure},
+    {"CTABLOCK", "beside.coupling", procedure},
+    {"CTABUNLOCK", "beside.coupling", procedure},
+    {"CUT3DC", "beside.compensation", code},
+    {"CUT3DCC", "beside.compensation", code},
+    {"CUT3DCCD", "beside.compensation", code},
+    {"CUT3DF", "beside.compensation", code},
+    {"CUT3DFF", "beside.compensation", code},
+    {"CUT3DFS", "beside.compensation", code},
+    {"CUTMOD", "beside.compensation", address},
+    {"DELT", "beside.tool_management", procedure, true},
+    {"DELTOOLENV", "beside.tool_management", procedure, true},
+    {"DILF", "beside.realtime", address},
+    {"DRFOF", "beside.compensation", procedure},
+    {"DZERO", "beside.tool_management", procedure, true},
+    {"EGDEF", "beside.coupling", procedure},
+    {"EGDEL", "beside.coupling", procedure},
+    {"EGOFC", "beside.coupling", procedure},
+    {"EGOFS", "beside.coupling", procedure},
+    {"EGON", "beside.coupling", procedure},
+    {"EGONSYN", "beside.coupling", procedure},
+    {"EGONSYNE", "beside.coupling", procedure},
+    {"FCTDEF", "beside.realtime", procedure},
+    {"FD", "beside.realtime", address},
+    {"FDA", "beside.realtime", indexed},
+    {"FMA", "beside.realtime", indexed},
+    {"FPR", "beside.data", procedure},
+    {"FPRAOF", "beside.data", procedure},
+    {"FPRAON", "beside.data", procedure},
+    {"FTOCON", "beside.compensation", code},
+    {"FXS", "beside.realtime", indexed},
+    {"FXST", "beside.realtime", indexed},
+    {"FXSW", "beside.realtime", indexed},
+    {"GETFREELOC", "beside.tool_management", procedure, true},
+    {"GETT", "beside.tool_management", procedure, true},
+    {"GWPSOF", "beside.data", procedure},
+    {"GWPSON", "beside.data", procedure},
+    {"ISD", "beside.compensation", address},
+    {"LEADOF", "beside.coupling", procedure},
+    {"LEADON", "beside.coupling", procedure},
+    {"LIFTFAST", "beside.realtime", procedure},
+    {"LOCK", "beside.realtime", procedure},
+    {"MASLDEF", "beside.coupling", procedure},
+    {"MASLDEL", "beside.coupling", procedure},
+    {"MASLOF", "beside.coupling", procedure},
+    {"MASLOFS", "beside.coupling", procedure},
+    {"MASLON", "beside.coupling", procedure},
+    {"MVTOOL", "beside.tool_management", procedure, true},
+    {"NEWT", "beside.tool_management", procedure, true},
+    {"NPROT", "beside.data", procedure},
+    {"OS", "beside.realtime", indexed},
+    {"OSB", "beside.realtime", indexed},
+    {"OSCILL", "beside.realtime", indexed},
+    {"OSCTRL", "beside.realtime", indexed},
+    {"OSE", "beside.realtime", indexed},
+    {"OSNSC", "beside.realtime", indexed},
+    {"OSP1", "beside.realtime", indexed},
+    {"OSP2", "beside.realtime", indexed},
+    {"OST1", "beside.realtime", indexed},
+    {"OST2", "beside.realtime", indexed},
+    {"POLF", "beside.realtime", procedure | indexed},
+    {"POLFA", "beside.realtime", procedure | indexed},
+    {"POLFMASK", "beside.realtime", procedure},
+    {"POLFMLIN", "beside.realtime", procedure},
+    {"PON", "beside.realtime", code},
+    {"PONS", "beside.realtime", code},
+    {"POSM", "beside.tool_management", procedure, true},
+    {"PUNCHACC", "beside.realtime", procedure},
+    {"PUTFTOC", "beside.compensation", procedure},
+    {"PUTFTOCF", "beside.compensation", procedure},
+    {"QECLRNOF", "beside.compensation", procedure},
+    {"QECLRNON", "beside.compensation", procedure},
+    {"RESET", "beside.realtime", procedure},
+    {"RESETMON", "beside.tool_management", procedure, true},
+    {"SETDNO", "beside.tool_management", procedure, true},
+    {"SETMTH", "beside.tool_management", procedure, true},
+    {"SETPIECE", "beside.tool_management", procedure, true},
+    {"SETTA", "beside.tool_management", procedure, true},
+    {"SETTIA", "beside.tool_management", procedure, true},
+    {"SON", "beside.realtime", code},
+    {"SONS", "beside.realtime", code},
+    {"SPN", "beside.realtime", address},
+    {"SPP", "beside.realtime", address},
+    {"SR", "beside.realtime", address},
+    {"SRA", "beside.realtime", indexed},
+    {"ST", "beside.realtime", address},
+    {"STA", "beside.realtime", indexed},
+    {"STOPREOF", "beside.realtime", procedure},
+    {"TANG", "beside.coupling", procedure},
+    {"TANGDEL", "beside.coupling", procedure},
+    {"TANGOF", "beside.coupling", procedure},
+    {"TANGON", "beside.coupling", procedure},
+    {"TCA", "beside.tool_management", procedure, true},
+    {"TCARR", "beside.data", address},
+    {"TCI", "beside.tool_management", procedure, true},
+    {"TCOFR", "beside.data", code},
+    {"TCOFRX", "beside.data", code},
+    {"TCOFRY", "beside.data", code},
+    {"TCOFRZ", "beside.data", code},
+    {"TFGREF", "beside.data", indexed},
+    {"TLIFT", "beside.coupling", procedure},
+    {"TMOF", "beside.tool_management", procedure, true},
+    {"TMON", "beside.tool_management", procedure, true},
+    {"TOFF", "beside.compensation", indexed},
+    {"TOFFL", "beside.compensation", indexed},
+    {"TOFFOF", "beside.compensation", procedure},
+    {"TOFFON", "beside.compensation", procedure},
+    {"TRAILOF", "beside.coupling", procedure},
+    {"TRAILON", "beside.coupling", procedure},
+    {"UNLOCK", "beside.realtime", procedure},
+    {"WAITC", "beside.coupling", procedure},
+    {"WAITENC", "beside.data", procedure},
+};
+
+constexpr Definition all_definitions[] = {{"CPROTDEF", "EXECUTE", "beside.data"},
+                                          {"CTABDEF", "CTABEND", "beside.coupling"},
+                                          {"NPROTDEF", "EXECUTE", "beside.data"}};
+
+struct DatumRow {
+  std::string_view name;  ///< the name, or its beginning when it ends in `*`
+  std::string_view feature;
+};
+/// Setting data of a later software that the reference does not name count like the others. Machine data count only
+/// when the reference says what they do: another one may change axes, codes or coordinates.
+constexpr DatumRow data[] = {
+    {"$SC_*", "beside.data"},
+    {"$SN_*", "beside.data"},
+    {"$SA_*", "beside.data"},
+    {"$MC_CTAB_*", "beside.data"},
+    {"$MC_TOFF_*", "beside.data"},
+    {"$MC_CUBIC_SPLINE_BLOCKS", "beside.data"},
+    {"$MC_COMPRESS*", "beside.data"},
+    {"$MC_ADD_MOVE_ACCEL_RESERVE", "beside.data"},
+    {"$MA_COMPRESS_POS_TOL", "beside.data"},
+    {"$MA_MS_*", "beside.data"},
+    {"$MA_MAX_AX_*", "beside.data"},
+    {"$MA_EPS_TLIFT_TANG_STEP", "beside.data"},
+    {"$A_OUT", "beside.realtime"},
+    {"$A_OUTA", "beside.realtime"},
+    {"$A_DB*", "beside.realtime"},
+    {"$A_DLB", "beside.realtime"},
+    {"$A_DLW", "beside.realtime"},
+    {"$A_DLD", "beside.realtime"},
+    {"$A_DLR", "beside.realtime"},
+    {"$AC_TIMER", "beside.realtime"},
+    {"$AC_FIFO*", "beside.realtime"},
+    {"$AC_OVR", "beside.realtime"},
+    {"$AA_OVR", "beside.realtime"},
+    {"$AC_VC", "beside.realtime"},
+    {"$AA_VC", "beside.realtime"},
+    {"$AC_PROG_NET_TIME_TRIGGER", "beside.realtime"},
+    {"$AA_OFF", "beside.compensation"},
+    {"$AA_TOFF", "beside.compensation"},
+    {"$AA_LEAD_S*", "beside.coupling"},
+};
+/// Setting data that decide what a programmed word means.
+constexpr std::string_view of_the_path[] = {
+    "$SC_DEFAULT_FEED",     "$SC_DEFAULT_SCALE_FACTOR_AXIS", "$SC_DEFAULT_SCALE_FACTOR_P",
+    "$SC_FEEDRATE_SCALING", "$SC_FRAME_OFFSET_INCR_PROG",    "$SC_THREAD_START_ANGLE",
+    "$SC_TOFRAME_MODE",     "$SC_TOOL_OFFSET_INCR_PROG",     "$SA_SCALE_FACTOR",
+};
+
+char capital(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+/// As std::string_view::compare, `name` in any case.
+int compare(std::string_view capitals, std::string_view name) {
+  const std::size_t n = std::min(capitals.size(), name.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const char c = capital(name[i]);
+    if (capitals[i] != c) return capitals[i] < c ? -1 : 1;
+  }
+  return capitals.size() == name.size() ? 0 : capitals.size() < name.size() ? -1 : 1;
+}
+
+bool of_name(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '$';
+}
+
+}  // namespace
+
+std::span<const BesideRow> beside_rows() {
+  return rows;
+}
+
+const BesideRow* beside(std::string_view name) {
+  const auto* at = std::lower_bound(std::begin(rows), std::end(rows), name,
+                                    [](const BesideRow& r, std::string_view n) { return compare(r.name, n) < 0; });
+  return at == std::end(rows) || compare(at->name, name) != 0 ? nullptr : at;
+}
+
+const BesideRow* beside(std::string_view name, BesideForm form) {
+  const auto* row = beside(name);
+  return row != nullptr && (row->forms & static_cast<std::uint8_t>(form)) != 0 ? row : nullptr;
+}
+
+std::string_view beside_datum(std::string_view capitals) {
+  if (std::find(std::begin(of_the_path), std::end(of_the_path), capitals) != std::end(of_the_path)) return {};
+  for (const auto& row : data) {
+    const bool beginning = row.name.back() == '*';
+    if (beginning ? capitals.starts_with(row.name.substr(0, row.name.size() - 1)) : capitals == row.name)
+      return row.feature;
+  }
+  return {};
+}
+
+std::span<const Definition> definitions() {
+  return all_definitions;
+}
+
+const Definition* definition(std::string_view begin) {
+  for (const auto& d : all_definitions) {
+    if (d.begin == begin) return &d;
+  }
+  return nullptr;
+}
+
+// --- synchronised actions ---------------------------------------------------------------------------------------
+
+namespace {
+
+/// The words of the action behind DO, one by one: name, index, and whether a value follows.
+class ActionText {
+ public:
+  explicit ActionText(std::string_view text) {
+    for (const char c : text) text_ += capital(c);
+    std::size_t at = 0;
+    while ((at = text_.find("DO", at)) != std::string::npos) {
+      const bool begins = at == 0 || !of_name(text_[at - 1]);
+      at += 2;
+      if (begins && (at == text_.size() || !of_name(text_[at]))) break;
+    }
+    at_ = std::min(at, text_.size());
+  }
+  std::string_view name, index;
+  bool set = false;   ///< NAME=, NAME[..]=
+  bool call = false;  ///< NAME(..)
+  bool next() {
+    while (at_ < text_.size() && !of_name(text_[at_])) ++at_;
+    if (at_ == text_.size()) return false;
+    const std::size_t from = at_;
+    while (at_ < text_.size() && of_name(text_[at_])) ++at_;
+    name = std::string_view(text_).substr(from, at_ - from);
+    index = {};
+    skip_blanks();
+    if (peek() == '[') index = in_brackets('[', ']');
+    skip_blanks();
+    set = peek() == '=' && (at_ + 1 == text_.size() || text_[at_ + 1] != '=');
+    call = peek() == '(';
+    if (call) in_brackets('(', ')');
+    if (set) value();
+    return true;
+  }
+
+ private:
+  [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  void skip_blanks() {
+    while (peek() == ' ' || peek() == '\t') ++at_;
+  }
+  std::string_view in_brackets(char open, char close) {
+    const std::size_t from = at_ + 1;
+    int depth = 0;
+    for (; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '"') at_ = std::min(text_.find('"', at_ + 1), text_.size() - 1);
+      if (text_[at_] == open) ++depth;
+      if (text_[at_] == close && --depth == 0) break;
+    }
+    const std::size_t to = at_;
+    if (at_ < text_.size()) ++at_;
+    return std::string_view(text_).substr(from, to - std::min(from, to));
+  }
+  /// An expression ends at the blank behind it: `DO $A_OUT[1]=1 M7`.
+  void value() {
+    ++at_;
+    bool open = true;  // an operand is due
+    while (at_ < text_.size()) {
+      skip_blanks();
+      const char c = peek();
+      if (c == '(' || c == '[') {
+        if (!open && c == '(' && text_[at_ - 1] == ' ') return;
+        in_brackets(c, c == '(' ? ')' : ']');
+        open = false;
+      } else if (of_name(c) || c == '.' || c == '"' || c == '\'') {
+        if (!open) return;
+        const std::size_t from = at_;
+        while (at_ < text_.size() &&
+               (of_name(text_[at_]) || text_[at_] == '.' || text_[at_] == '"' || text_[at_] == '\''))
+          ++at_;
+        const std::string_view word = std::string_view(text_).substr(from, at_ - from);
+        open = word == "NOT" || word == "B_NOT";
+        skip_blanks();
+        for (const std::string_view op : {"DIV", "MOD", "AND", "OR", "XOR", "B_AND", "B_OR", "B_XOR"}) {
+          const std::size_t end = at_ + op.size();
+          if (text_.compare(at_, op.size(), op) != 0 || (end < text_.size() && of_name(text_[end]))) continue;
+          at_ = end;
+          open = true;
+        }
+      } else if (c == '\0') {
+        return;
+      } else {
+        ++at_;
+        open = true;
+      }
+    }
+  }
+
+  std::string text_;
+  std::size_t at_ = 0;
+};
+
+constexpr std::string_view procedures_of_actions[] = {"CANCEL",  "DELDTG",   "FTOC",   "LEADOF", "LEADON", "LOCK",
+                                                      "MOV",     "RDISABLE", "RESET",  "SETAL",  "SYNFCT", "STOPREOF",
+                                                      "TRAILOF", "TRAILON",  "UNLOCK", "FXS"};
+constexpr std::string_view words_of_actions[] = {"M",    "H",    "S",     "FA",   "FXS", "FXST",
+                                                 "FXSW", "SPOS", "SPOSA", "OVRA", "ACC"};
+constexpr std::string_view moves_of_actions[] = {"MOV", "POS", "POSA", "MEASA", "MEAWA", "MEAC"};
+
+template <std::size_t n>
+bool in(const std::string_view (&list)[n], std::string_view name) {
+  return std::find(std::begin(list), std::end(list), name) != std::end(list);
+}
+
+}  // namespace
+
+std::string_view beside_action(std::string_view text, const std::function<bool(std::string_view)>& is_machine_axis) {
+  ActionText action(text);
+  bool any = false;
+  while (action.next()) {
+    any = true;
+    const std::string_view name = action.name;
+    if (action.set && name[0] == '$') {
+      if (beside_datum(name).empty()) return {};
+      continue;
+    }
+    if (in(moves_of_actions, name)) {
+      const bool measures = name.starts_with("MEA");
+      if (!measures && is_machine_axis(action.index)) return {};
+      continue;
+    }
+    if (in(procedures_of_actions, name)) continue;
+    const std::size_t letters = name.find_first_of("0123456789");
+    const std::string_view word = name.substr(0, letters);
+    if (in(words_of_actions, word)) continue;
+    if (name == "G70" || name == "G71" || name == "G700" || name == "G710") continue;
+    return {};
+  }
+  return any ? "beside.realtime" : std::string_view{};
+}
+
+}  // namespace cnctrans::sinumerik

@@ -1,0 +1,127 @@
+// What acts beside the programmed path: couplings, tool management, actions in real time, data of the machine. It
+// becomes a text of its own next to its block, whose moves stay (dialects/sinumerik/beside.h).
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/sinumerik/beside.h"
+#include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/row_parts.h"
+#include "ir/missing_features.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Block;
+using syntax::Expr;
+using syntax::ExprKind;
+using syntax::Statement;
+using syntax::Word;
+
+void StatementLowering::put_beside(std::string_view feature, WordPos pos, Parts& parts) {
+  if (!parts.beside_text.empty()) parts.beside_text += ' ';
+  parts.beside_text += c_.slice(pos);
+  if (parts.beside_feature.empty()) parts.beside_feature = feature;
+  tell_beside(pos, std::string(c_.slice(pos)), feature);
+}
+
+void StatementLowering::tell_beside(WordPos pos, const std::string& what, std::string_view feature) {
+  c_.note("SIN-044", pos, what + " acts beside the programmed path: " + std::string(ir::missing_feature(feature).title),
+          "kept as text: a run goes past it, and no other control gets it");
+}
+
+bool StatementLowering::beside_word(const Word& w, Parts& parts) {
+  if (w.address.size() < 2) return false;
+  const BesideRow* row = nullptr;
+  if (w.has_value && w.extension < 0) {
+    row = beside(w.address, BesideForm::address);
+  } else if (!w.has_value) {
+    row = beside(w.address, BesideForm::code);
+    if (row == nullptr) row = beside(w.address, BesideForm::procedure);
+  }
+  if (row == nullptr || c_.symbol(to_upper_ascii(w.address)) != nullptr) return false;
+  put_beside(row->feature, w.pos, parts);
+  return true;
+}
+
+bool StatementLowering::beside_statement(const Statement& s, Parts& parts) {
+  if (s.keyword == "()") {
+    const BesideRow* row = beside(s.text, BesideForm::procedure);
+    if (row == nullptr || c_.symbol(s.text) != nullptr) return false;
+    const auto variable = [this](const Expr& e) {
+      return e.kind == ExprKind::variable || (e.kind == ExprKind::name && c_.symbol(e.text) != nullptr);
+    };
+    if (row->gives_back && std::any_of(s.args.begin(), s.args.end(), variable)) return false;
+    put_beside(row->feature, s.pos, parts);
+    return true;
+  }
+  const Expr& target = s.args[0];
+  if (!target.text.empty() && target.text[0] == '$') {
+    const std::string_view feature = beside_datum(target.text);
+    if (feature.empty()) return false;
+    put_beside(feature, s.pos, parts);
+    return true;
+  }
+  const BesideRow* row = target.args.empty() ? nullptr : beside(target.text, BesideForm::indexed);
+  if (row == nullptr || c_.symbol(target.text) != nullptr) return false;
+  put_beside(row->feature, s.pos, parts);
+  return true;
+}
+
+/// SETINT(3) PRIO=1 LIFTZ LIFTFAST: the routine is called by a signal, not by this block.
+bool StatementLowering::interrupt_routine(const Block& block, const ir::LineInfo& info) {
+  const auto sets = [](const Statement& s) { return s.keyword == "()" && s.text == "SETINT"; };
+  if (!std::any_of(block.statements.begin(), block.statements.end(), sets)) return false;
+  tell_beside(block.statements.front().pos, "SETINT", "beside.realtime");
+  add_opaque(block, info, "beside.realtime", false);
+  return true;
+}
+
+namespace {
+
+bool ends_program(const Block& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const Word& w) {
+    const bool m = w.address == "M" || w.address == "m";
+    return m && w.has_value && !w.is_expression && (w.number == 2 || w.number == 17 || w.number == 30);
+  });
+}
+
+}  // namespace
+
+/// Blocks of a curve table or of the contour of a protection zone: they define, nothing moves.
+bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& info) {
+  const bool one = block.statements.size() == 1 && block.statements.front().keyword == "()";
+  const bool bare = block.statements.empty() && block.words.size() == 1 && !block.words.front().has_value;
+  const std::string name = one    ? block.statements.front().text
+                           : bare ? to_upper_ascii(block.words.front().address)
+                                  : std::string{};
+  if (definition_ == nullptr) {
+    definition_ = one ? sinumerik::definition(name) : nullptr;
+    if (definition_ == nullptr) return false;
+    definition_line_ = c_.line;
+    tell_beside(block.statements.front().pos,
+                "what stands up to " + std::string(definition_->end) + " defines and moves nothing; it",
+                definition_->feature);
+    add_opaque(block, info, definition_->feature, false);
+    return true;
+  }
+  if (ends_program(block)) {
+    open_definition();
+    return false;
+  }
+  add_opaque(block, info, definition_->feature, false);
+  if (name == definition_->end) definition_ = nullptr;
+  return true;
+}
+
+void StatementLowering::open_definition() {
+  if (definition_ == nullptr) return;
+  c_.diagnostics.error("SIN-010", definition_line_, std::string(definition_->begin) + " has no end in its program",
+                       "write " + std::string(definition_->end) + " behind the blocks that define");
+  definition_ = nullptr;
+}
+
+std::string_view StatementLowering::action_feature(std::string_view text) const {
+  return beside_action(text, [this](std::string_view name) { return c_.machine.axis(name) != ir::axis::none; });
+}
+
+}  // namespace cnctrans::sinumerik
