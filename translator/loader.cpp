@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "translator/program_axes.h"
 
 namespace cnctrans::translator {
 
@@ -109,6 +110,7 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
     y.name = "Y";
     profile->axes.insert(profile->axes.begin() + 1, y);
   }
+  if (profile && source != nullptr) add_axes_of_program(dialect, *source, *profile);
   return profile;
 }
 
@@ -145,6 +147,7 @@ const ir::Program* Loader::read_main(const SourcePtr& source, Diagnostics& diagn
 const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
   const FileId id = files_.add(source);
   if (source->encoding() != Encoding::utf8) note_encoding(source->text(), 1, id, diagnostics);
+  if (mains_.empty()) note_added_axes(profile_, id, diagnostics);
   const frontends::ReadOptions options{reader_, &profile_};
   const std::size_t said = diagnostics.all().size();
   mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));

@@ -17,7 +17,8 @@
 namespace cnctrans::translator {
 
 /// The profile for a source: `machine` (built-in name or file) when given; else by the file's extension; else by
-/// unmistakable content (constant cutting speed or diameter programming without any Y word: lathe); else mill.
+/// unmistakable content (constant cutting speed or diameter programming without any Y word: lathe); else mill. A
+/// machine that nobody named gets the axes that the program moves (program_axes.h).
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
                                                const SourceText* source, std::string* error);
 /// True for a regular file: it can be opened and read as often as one likes. What has been read from a pipe is gone.

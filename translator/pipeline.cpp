@@ -8,6 +8,7 @@
 #include "ir/text.h"
 #include "translator/contours.h"
 #include "translator/encode.h"
+#include "translator/program_axes.h"
 #include "translator/proof.h"
 #include "translator/readable.h"
 #include "translator/stream.h"
@@ -203,8 +204,9 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
       !options.target_machine.empty()
           ? options.target_machine
           : std::string(to->name) + (source_profile->kind == machine::Kind::lathe ? "-lathe" : "-mill");
-  const auto target_profile = machine::load(target_name, &result.error);
+  auto target_profile = machine::load(target_name, &result.error);
   if (!target_profile) return result;
+  if (options.target_machine.empty()) add_axes(*target_profile, added_axes(*source_profile));
   result.source_machine = source_profile->name;
   result.target_machine = target_profile->name;
   result.lathe = source_profile->kind == machine::Kind::lathe;
@@ -236,7 +238,8 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   ir::Program work = source_program;
   // In its own language for its own machine a program is legal as it stands.
   const std::string& source_name = options.machine.empty() ? source_profile->name : options.machine;
-  const bool as_it_stands = from == to && source_name == target_name && options.cycles == ir::CycleWriting::native &&
+  const std::string& named_target = options.target_machine.empty() ? target_profile->name : options.target_machine;
+  const bool as_it_stands = from == to && source_name == named_target && options.cycles == ir::CycleWriting::native &&
                             !options.raise_structure;
   if (!as_it_stands) end_main(work, result.diagnostics);
   if (from != to) read_contours(work, *source_profile);
@@ -358,7 +361,7 @@ RunResult run(
   if (!source) return result;
   const auto profile = choose_profile(*dialect, options.machine, source.get(), &result.error);
   if (!profile) return result;
-  if (options.may_stream && options.run.set.empty() && can_reopen(path)) {
+  if (options.may_stream && added_axes(*profile).empty() && options.run.set.empty() && can_reopen(path)) {
     FileTable files;
     const auto counter = make_sink(files, {});
     StreamRun streamed = run_stream(path, *dialect, *profile, options, *counter, files);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "backends/common/backend.h"
@@ -31,6 +32,7 @@ struct Dialect {
   char comment_open = ';';                         ///< marks of comments, for a look at a text before it is read
   char comment_close = 0;                          ///< 0: to the end of the line
   LatheMarks lathe;                                ///< for files whose extension does not tell
+  std::vector<std::pair<int, char>> axis_codes{};  ///< G functions that use an axis without a word of it
   std::shared_ptr<const frontends::Frontend> frontend;
   std::shared_ptr<const backends::Backend> backend;
 };

@@ -9,6 +9,7 @@
 #include "ir/passes/stream_watch.h"
 #include "translator/encode.h"
 #include "translator/line_shapes.h"
+#include "translator/program_axes.h"
 #include "translator/readable.h"
 
 namespace cnctrans::translator {
@@ -332,7 +333,7 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   }
   const auto head = SourceText::from_string(path, std::string(look.first));
   const auto source = choose_profile(*from, options.machine, head.get(), &result.error);
-  if (!source) return result;
+  if (!source || !added_axes(*source).empty()) return result;  // a warning has to say so
   const auto target =
       machine::load(!options.target_machine.empty()
                         ? options.target_machine
