@@ -140,6 +140,7 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::PreparationStop& /*a*/) const { return true; }
+  bool operator()(const ir::SplineAxes& /*a*/) const { return true; }
   bool operator()(const ir::OpaqueWord& /*a*/) const {
     return true;
   }  // its diagnostic decides whether the program runs

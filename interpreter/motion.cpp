@@ -163,7 +163,9 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
       move.kind = Move::Kind::probe;
       move.toward = kind == ir::MotionKind::probe_toward;
       break;
-    case ir::MotionKind::spline:
+    case ir::MotionKind::spline_akima:
+    case ir::MotionKind::spline_b:
+    case ir::MotionKind::spline_cubic:
     case ir::MotionKind::polynomial:
       return failure_.fail(code::not_carried, "splines and polynomials are not carried out yet");
     default:

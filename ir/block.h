@@ -70,6 +70,17 @@ enum class FrameUse : std::uint8_t {
   no_programmable,      ///< settable offset stays, programmable frame off
 };
 
+/// The polynomial by which an axis runs: start + a1 p + a2 p^2 .. a5 p^5, the parameter p from 0 to the interval. The
+/// end is the coordinate word of the axis; a1 follows from it.
+struct PolynomialWord {
+  AxisId axis = axis::none;    ///< none: the common denominator of the geometry axes, 1 at its start
+  Value end;                   ///< of the denominator only
+  Value a2, a3, a4, a5;        ///< in the units of the axis' words
+  std::uint8_t degree = 1;     ///< 1..5: as many coefficients are written
+  bool after_address = false;  ///< written behind the address of the axis, not the axis inside of the word
+  WordPos pos;
+};
+
 /// What only some motions need.
 struct MotionExtra {
   // arcs
@@ -105,6 +116,14 @@ struct MotionExtra {
   Value fixed_point;  ///< 1..
   // axes that variables name
   std::vector<ComputedWord> computed;
+  // polynomials and splines
+  std::vector<PolynomialWord> polynomials;
+  bool has_interval = false;
+  Value interval;  ///< polynomial: the parameter runs from 0 to it (1 without); B-spline: length of the knot span
+  bool has_weight = false;
+  Value weight;  ///< B-spline: of the control point of this block (1 without)
+  bool has_degree = false;
+  Value degree;  ///< B-spline: 1..3 (3 without)
 };
 
 struct Motion {
@@ -280,10 +299,18 @@ struct OpaqueWord {
   std::string_view word;
 };
 
+struct SplineAxis {
+  AxisId axis = axis::x;
+};
+/// The axes that later splines join; the others move along with them, straight in the parameter of the curve.
+struct SplineAxes {
+  std::vector<SplineAxis> axes;
+};
+
 using ActionData =
     std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear, ToolSelect,
                  ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock, Coolant, MachineFunction,
-                 Stop, CycleDefine, CycleCancel, Corner, TangentialEnd, PreparationStop, OpaqueWord>;
+                 Stop, CycleDefine, CycleCancel, Corner, TangentialEnd, PreparationStop, OpaqueWord, SplineAxes>;
 
 /// When an action is carried out relative to the motion of its block.
 enum class Order : std::uint8_t { before, with, after };

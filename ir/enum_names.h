@@ -35,7 +35,7 @@ template <> struct EnumText<Plane> : NamedByFunction<Plane, Plane::yz> {};
 template <> struct EnumText<Distance> : NamedByFunction<Distance, Distance::incremental> {};
 template <> struct EnumText<Units> : NamedByFunction<Units, Units::inch> {};
 template <> struct EnumText<MotionKind> : NamedByFunction<MotionKind, MotionKind::tap_floating> {};
-template <> struct EnumText<Setting> : NamedByFunction<Setting, Setting::feed_override> {};
+template <> struct EnumText<Setting> : NamedByFunction<Setting, Setting::polynomial_axes> {};
 template <> struct EnumText<HoleKind> : NamedByFunction<HoleKind, HoleKind::mill> {};
 template <> struct EnumText<LevelBase> : NamedByFunction<LevelBase, LevelBase::distance_mode> {};
 template <> struct EnumText<PeckLaw> : NamedByFunction<PeckLaw, PeckLaw::balanced> {};
@@ -69,6 +69,7 @@ inline constexpr NameList<5> search_names{"whole_first", "forward", "backward", 
 inline constexpr NameList<2> level_names{"shared", "new_level"};
 inline constexpr NameList<3> message_names{"show", "clear", "error"};
 inline constexpr NameList<5> scope_names{"global", "level", "routine", "program", "system"};
+inline constexpr NameList<4> curve_use_names{"none", "define", "run", "remove"};
 inline constexpr NameList<2> routine_names{"main", "sub"};
 inline constexpr NameList<2> locality_names{"global", "file_local"};
 inline constexpr NameList<2> encoding_names{"utf8", "windows1252"};
@@ -98,6 +99,7 @@ template <> struct EnumText<Search> : NamedByTable<search_names> {};
 template <> struct EnumText<CallLevel> : NamedByTable<level_names> {};
 template <> struct EnumText<MessageKind> : NamedByTable<message_names> {};
 template <> struct EnumText<Scope> : NamedByTable<scope_names> {};
+template <> struct EnumText<CurveUse> : NamedByTable<curve_use_names> {};
 template <> struct EnumText<RoutineKind> : NamedByTable<routine_names> {};
 template <> struct EnumText<Locality> : NamedByTable<locality_names> {};
 template <> struct EnumText<Encoding> : NamedByTable<encoding_names> {};
@@ -119,11 +121,12 @@ std::optional<E> enum_value(std::string_view text) {
 }
 
 /// Keyword of each kind of action, in the order of ActionData. A modal setting has its own name as keyword.
-inline constexpr NameList<24> action_names{
+inline constexpr NameList<25> action_names{
     "set",          "feed",         "spindle",          "spindle_run", "spindle_orient",   "spindle_limit",
     "spindle_gear", "tool",         "tool_change",      "tool_offset", "work_offset",      "frame",
     "pole",         "dwell",        "exact_stop_block", "coolant",     "machine_function", "stop",
-    "cycle",        "cycle_cancel", "corner",           "tangential",  "preparation_stop", "opaque_word"};
+    "cycle",        "cycle_cancel", "corner",           "tangential",  "preparation_stop", "opaque_word",
+    "spline_axes"};
 static_assert(action_names.size() == std::variant_size_v<ActionData>);
 
 /// Keyword of each kind of statement, in the order of Statement::node.

@@ -64,6 +64,18 @@ void fields(V& v, T& x) {
   v.item("value", x.value);
   v.pos(x.pos);
 }
+template <class V, Is<PolynomialWord> T>
+void fields(V& v, T& x) {
+  v.axis_opt("of", x.axis);
+  v.opt("end", x.end);
+  v.opt("a2", x.a2);
+  v.opt("a3", x.a3);
+  v.opt("a4", x.a4);
+  v.opt("a5", x.a5);
+  v.opt("degree", x.degree, 1);
+  v.flag("after_address", x.after_address);
+  v.place("at", x.pos);
+}
 template <class V, Is<MotionExtra> T>
 void fields(V& v, T& x) {
   v.given("turns", x.has_turns, x.turns);
@@ -84,6 +96,10 @@ void fields(V& v, T& x) {
   v.flag("probe_goes_on", x.probe_goes_on);
   v.given("fixed_point", x.has_fixed_point, x.fixed_point);
   v.each("computed", x.computed);
+  v.each("polynomial", x.polynomials);
+  v.given("interval", x.has_interval, x.interval);
+  v.given("weight", x.has_weight, x.weight);
+  v.given("spline_degree", x.has_degree, x.degree);
 }
 template <class V, Is<Motion> T>
 void fields(V& v, T& x) {
@@ -240,6 +256,14 @@ void fields(V&, T&) {}
 template <class V, Is<OpaqueWord> T>
 void fields(V& v, T& x) {
   v.item("word", x.word);
+}
+template <class V, Is<SplineAxis> T>
+void fields(V& v, T& x) {
+  v.axis("axis", x.axis);
+}
+template <class V, Is<SplineAxes> T>
+void fields(V& v, T& x) {
+  v.words("axes", x.axes);
 }
 template <class V, Is<Action> T>
 void fields(V& v, T& x) {

@@ -69,6 +69,8 @@ void fields(V& v, T& x) {
   v.flag("order_free", x.order_free);
   v.flag("in", x.has_program);
   if (x.has_program) v.routine_name("program", x.program);
+  v.opt("curve_use", x.curve_use, CurveUse::none);
+  v.opt("curve", x.curve);
 }
 /// The value of an argument, or the variable it hands over.
 template <class V, Is<Argument> T>

@@ -19,12 +19,15 @@ constexpr std::array<std::string_view, 3> comp_names{"off", "left", "right"};
 constexpr std::array<std::string_view, 2> on_off_names{"off", "on"};
 constexpr std::array<std::string_view, 2> retract_names{"initial", "reference"};
 constexpr std::array<std::string_view, 2> feed_point_names{"centre", "contact"};
-constexpr std::array<std::string_view, 19> motion_names{
-    "modal",       "rapid",         "linear",          "arc_cw",
-    "arc_ccw",     "thread",        "thread_variable", "arc_through_point",
-    "arc_tangent", "spline",        "polynomial",      "probe_toward",
-    "probe_away",  "to_stop",       "reference_point", "fixed_point",
-    "tap_rigid",   "tap_rigid_out", "tap_floating"};
+constexpr std::array<std::string_view, 3> spline_end_names{"free", "natural", "tangent"};
+constexpr std::array<std::string_view, 2> reference_names{"arc_length", "parameter"};
+constexpr std::array<std::string_view, 21> motion_names{
+    "modal",           "rapid",        "linear",          "arc_cw",
+    "arc_ccw",         "thread",       "thread_variable", "arc_through_point",
+    "arc_tangent",     "spline_akima", "spline_b",        "spline_cubic",
+    "polynomial",      "probe_toward", "probe_away",      "to_stop",
+    "reference_point", "fixed_point",  "tap_rigid",       "tap_rigid_out",
+    "tap_floating"};
 
 struct SettingRow {
   std::string_view name;
@@ -42,7 +45,11 @@ constexpr std::array<SettingRow, setting_count> settings{{{"plane", plane_names}
                                                           {"length_comp", on_off_names},
                                                           {"retract_plane", retract_names},
                                                           {"feed_point", feed_point_names},
-                                                          {"feed_override", on_off_names}}};
+                                                          {"feed_override", on_off_names},
+                                                          {"spline_start", spline_end_names},
+                                                          {"spline_end", spline_end_names},
+                                                          {"path_reference", reference_names},
+                                                          {"polynomial_axes", on_off_names}}};
 
 template <class E>
 std::uint8_t raw(E e) {
@@ -65,6 +72,10 @@ std::uint8_t ModalState::get(Setting s) const {
     case Setting::retract_plane: return raw(retract_plane);
     case Setting::feed_point: return raw(feed_point);
     case Setting::feed_override: return raw(feed_override);
+    case Setting::spline_start: return raw(spline_start);
+    case Setting::spline_end: return raw(spline_end);
+    case Setting::path_reference: return raw(path_reference);
+    case Setting::polynomial_axes: return raw(polynomial_axes);
     case Setting::count_: break;
   }
   return 0;
@@ -84,6 +95,10 @@ void ModalState::set(Setting s, std::uint8_t value) {
     case Setting::retract_plane: retract_plane = static_cast<RetractPlane>(value); break;
     case Setting::feed_point: feed_point = static_cast<FeedPoint>(value); break;
     case Setting::feed_override: feed_override = static_cast<OnOff>(value); break;
+    case Setting::spline_start: spline_start = static_cast<SplineEnd>(value); break;
+    case Setting::spline_end: spline_end = static_cast<SplineEnd>(value); break;
+    case Setting::path_reference: path_reference = static_cast<PathReference>(value); break;
+    case Setting::polynomial_axes: polynomial_axes = static_cast<OnOff>(value); break;
     case Setting::count_: break;
   }
 }

@@ -23,6 +23,10 @@ enum class CompSide : std::uint8_t { off, left, right };
 enum class RetractPlane : std::uint8_t { initial, reference };  ///< where a modal hole cycle returns to between holes
 enum class FeedPoint : std::uint8_t { centre, contact };
 enum class OnOff : std::uint8_t { off, on };
+/// How a spline begins or ends: by its outermost three points, with curvature zero, along the neighbouring block.
+enum class SplineEnd : std::uint8_t { free, natural, tangent };
+/// What axes beside the curve follow: its length, or its parameter.
+enum class PathReference : std::uint8_t { arc_length, parameter };
 
 /// The motion function in force. `modal` in a block: the one in force before (no code written).
 enum class MotionKind : std::uint8_t {
@@ -35,7 +39,9 @@ enum class MotionKind : std::uint8_t {
   thread_variable,
   arc_through_point,
   arc_tangent,
-  spline,
+  spline_akima,  ///< through the end points of the blocks, slopes by Akima
+  spline_b,      ///< the end points of the blocks are its control points
+  spline_cubic,  ///< through the end points of the blocks, curvature continuous
   polynomial,
   probe_toward,
   probe_away,
@@ -49,18 +55,22 @@ enum class MotionKind : std::uint8_t {
 
 /// Settings that a `ModalSet` action can name; the value is one of the enumerators of the type in brackets.
 enum class Setting : std::uint8_t {
-  plane,          ///< [Plane]
-  distance,       ///< [Distance]
-  units,          ///< [Units]; flag `feed_too`: F words change unit as well
-  diameter,       ///< [DiameterMode]
-  feed_mode,      ///< [FeedMode]; `FeedMemory` in the flags says what becomes of F
-  path_mode,      ///< [PathMode]
-  spindle_mode,   ///< [SpindleMode]
-  comp,           ///< [CompSide] tool radius compensation
-  length_comp,    ///< [OnOff] tool length compensation (controls that switch it)
-  retract_plane,  ///< [RetractPlane]
-  feed_point,     ///< [FeedPoint]
-  feed_override,  ///< [OnOff] override enabled
+  plane,            ///< [Plane]
+  distance,         ///< [Distance]
+  units,            ///< [Units]; flag `feed_too`: F words change unit as well
+  diameter,         ///< [DiameterMode]
+  feed_mode,        ///< [FeedMode]; `FeedMemory` in the flags says what becomes of F
+  path_mode,        ///< [PathMode]
+  spindle_mode,     ///< [SpindleMode]
+  comp,             ///< [CompSide] tool radius compensation
+  length_comp,      ///< [OnOff] tool length compensation (controls that switch it)
+  retract_plane,    ///< [RetractPlane]
+  feed_point,       ///< [FeedPoint]
+  feed_override,    ///< [OnOff] override enabled
+  spline_start,     ///< [SplineEnd]
+  spline_end,       ///< [SplineEnd]
+  path_reference,   ///< [PathReference]
+  polynomial_axes,  ///< [OnOff] off: polynomials are not carried out, only their ends
   count_
 };
 inline constexpr std::size_t setting_count = static_cast<std::size_t>(Setting::count_);
@@ -83,6 +93,9 @@ struct ModalState {
   RetractPlane retract_plane = RetractPlane::initial;
   FeedPoint feed_point = FeedPoint::centre;
   OnOff feed_override = OnOff::on;
+  SplineEnd spline_start = SplineEnd::natural, spline_end = SplineEnd::natural;
+  PathReference path_reference = PathReference::arc_length;
+  OnOff polynomial_axes = OnOff::on;
   MotionKind motion = MotionKind::rapid;
   std::int32_t work_offset = 0;  ///< 0: none (machine zero); 1.. : table rows (1 = first settable offset)
 
@@ -90,6 +103,14 @@ struct ModalState {
   void set(Setting s, std::uint8_t value);
   bool operator==(const ModalState&) const = default;
 };
+
+inline constexpr bool is_spline(MotionKind k) {
+  return k == MotionKind::spline_akima || k == MotionKind::spline_b || k == MotionKind::spline_cubic;
+}
+/// Curves by points or coefficients.
+inline constexpr bool is_curve(MotionKind k) {
+  return is_spline(k) || k == MotionKind::polynomial;
+}
 
 /// Abscissa, ordinate and normal of a plane.
 struct PlaneAxes {

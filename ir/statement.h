@@ -123,6 +123,13 @@ struct Switch {
   std::vector<std::pair<ExprPtr, Jump>> cases;
   std::vector<Jump> fallback;  ///< none or one
 };
+/// The blocks of a range as the points of a curve with a number.
+enum class CurveUse : std::uint8_t {
+  none,
+  define,  ///< the curve is defined; its blocks are not carried out
+  run,     ///< they are carried out as the points of one curve
+  remove   ///< the curve is forgotten; no labels
+};
 /// The blocks from the one labelled `first` to the one labelled `last` (inclusive) are carried out `count` times, here.
 /// `last` empty (no text, not computed): from `first` up to this statement, itself not included.
 struct Repeat {
@@ -132,6 +139,8 @@ struct Repeat {
   bool order_free = false;   ///< the labels may stand in either order
   bool has_program = false;  ///< the range stands in another routine
   RoutineName program;
+  CurveUse curve_use = CurveUse::none;
+  std::int32_t curve = 0;  ///< number of the curve
 };
 
 enum class CallLevel : std::uint8_t {

@@ -124,6 +124,9 @@ void ProgramWriter::action(const ir::Action& a) {
     void operator()(const ir::TangentialEnd& x) const { w.tangential_end(a, x); }
     void operator()(const ir::PreparationStop& /*x*/) const { w.preparation_stop(a); }
     void operator()(const ir::OpaqueWord& x) const { w.opaque_word(a, x); }
+    void operator()(const ir::SplineAxes& /*x*/) const {
+      w.refuse("TRN-202", a.pos, "the choice of the axes of splines has no counterpart here");
+    }
   };
   std::visit(Visitor{*this, a}, a.data);
 }

@@ -11,8 +11,7 @@ namespace {
 
 bool needs_feed(MotionKind k) {
   return k == MotionKind::linear || k == MotionKind::arc_cw || k == MotionKind::arc_ccw ||
-         k == MotionKind::arc_through_point || k == MotionKind::arc_tangent || k == MotionKind::spline ||
-         k == MotionKind::polynomial;
+         k == MotionKind::arc_through_point || k == MotionKind::arc_tangent || is_curve(k);
 }
 
 const ModalSet* set_of(const Action& a, Setting s) {

@@ -72,6 +72,10 @@ struct PlainAction {
       case Setting::retract_plane: return target.retract_plane_switch;
       case Setting::feed_point: return target.feed_point_switch;
       case Setting::feed_override: return target.feed_override_switch;
+      case Setting::spline_start:
+      case Setting::spline_end:
+      case Setting::path_reference:
+      case Setting::polynomial_axes: return false;
       case Setting::distance: return one_distance();
       case Setting::plane:
       case Setting::spindle_mode:

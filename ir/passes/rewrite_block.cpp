@@ -90,6 +90,14 @@ struct BlockValues {
     if (e.has_probe_edge) one(e.probe_edge, Role::turns);
     if (e.has_fixed_point) one(e.fixed_point, Role::turns);
     for (auto& c : e.computed) one(c.value, Role::turns, axis::none, c.pos);
+    for (auto& p : e.polynomials) {
+      const auto role = p.axis == axis::none ? Role::turns : Role::coordinate;
+      if (p.axis == axis::none) one(p.end, role, axis::none, p.pos);
+      for (auto* a : {&p.a2, &p.a3, &p.a4, &p.a5}) one(*a, role, p.axis, p.pos);
+    }
+    if (e.has_interval) one(e.interval, Role::turns);
+    if (e.has_weight) one(e.weight, Role::turns);
+    if (e.has_degree) one(e.degree, Role::turns);
   }
 
   void act(Action& a) {

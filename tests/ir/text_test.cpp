@@ -190,6 +190,9 @@ TEST(Fields, NoMemberIsForgotten) {
   expect_complete<Corner>("Corner");
   expect_complete<TangentialEnd>("TangentialEnd");
   expect_complete<OpaqueWord>("OpaqueWord");
+  expect_complete<SplineAxis>("SplineAxis");
+  expect_complete<SplineAxes>("SplineAxes");
+  expect_complete<PolynomialWord>("PolynomialWord");
   expect_complete<Action>("Action");
   expect_complete<Level>("Level", 1);
   expect_complete<Pecks>("Pecks");
