@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ir/dataflow.h"
+#include "ir/fact_set.h"
 #include "tests/ir/read_ir.h"
 #include "tests/support/random_program.h"
 
@@ -348,13 +349,14 @@ TEST(Dataflow, RandomProgramsReachAFixedPoint) {
   for (unsigned seed = 1; seed <= 150; ++seed) {
     const Program p = test::random_program(seed);
     const FactTable table = analyse(p, {});
+    const std::uint32_t framed = detail::framed_axes(p, {});
     for (const auto& r : p.routines) {
       const ControlFlow flow = control_flow(p, r);
       for_each_statement(r.body, [&](const Statement& s) {
         const bool plain = std::holds_alternative<Block>(s.node) || std::holds_alternative<Jump>(s.node);
         if (!plain || !table.before(s.id).reachable || table.before(s.id).modal_call != 0) return;
         Facts after = table.before(s.id);
-        apply(s, after);
+        detail::apply(s, after, framed);  // frame statements reach the axes of this program only
         for (const auto to : flow.successors[s.id]) {
           if (to == 0) continue;
           Facts there = table.before(to);
