@@ -431,7 +431,14 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
     add(modal ? word(address, w.value, w.pos) : attribute_word(address, attribute, w.value, w.pos), Rank::coordinate,
         w.pos);
   }
-  if (e.has_probe_edge) extra(e.probe_goes_on ? "MEAW" : "MEAS", e.probe_edge);
+  const auto measures_axis = [](const ir::Action& a) {  // MEASA[X]=, written as it stood
+    const auto* text = std::get_if<ir::OpaqueWord>(&a.data);
+    return text != nullptr && to_upper_ascii(text->word.substr(0, 3)) == "MEA";
+  };
+  const auto* block = std::get_if<ir::Block>(&current().node);
+  const bool said =
+      same_dialect() && block != nullptr && std::any_of(block->actions.begin(), block->actions.end(), measures_axis);
+  if (e.has_probe_edge && !said) extra(e.probe_goes_on ? "MEAW" : "MEAS", e.probe_edge);
   if (e.has_fixed_point) extra("FP", e.fixed_point);
   for (const ir::CenterWord& w : e.through) {
     if (w.axis > ir::axis::z) return refuse("TRN-202", w.pos, "this point of an arc has no counterpart here");

@@ -55,9 +55,9 @@ constexpr NamedWordRow words[] = {
     // radius compensation and tool data
     {"DISC", compensation},
     {"OFFN", compensation},
-    {"DISR", unsupported},
-    {"DISCL", unsupported},
-    {"FAD", unsupported},
+    {"DISR", joint},
+    {"DISCL", joint},
+    {"FAD", joint},
     {"TOFFL", compensation},
     {"TOFFR", compensation},
     {"TOFF", compensation},
@@ -70,8 +70,8 @@ constexpr NamedWordRow words[] = {
     {"PW", unsupported},
     {"SD", unsupported},
     {"PL", unsupported},
-    {"STAT", unsupported},
-    {"TU", unsupported},
+    {"STAT", joint},
+    {"TU", joint},
     {"MEAS", probe},
     {"MEAW", probe_to_end},
     {"FP", fixed_point},
@@ -132,17 +132,12 @@ constexpr ProcedureRow procedure_rows[] = {
     {"PRESETON", Procedure::preset},
     {"SPLINEPATH", Procedure::unsupported},
     {"POLYPATH", Procedure::unsupported},
-    {"CONTPRON", Procedure::unsupported},
-    {"CONTDCON", Procedure::unsupported},
     {"EXECUTE", Procedure::unsupported},
     {"EXECTAB", Procedure::unsupported},
     {"CALCDAT", Procedure::unsupported},
     {"INTERSEC", Procedure::unsupported},
     {"EXECSTRING", Procedure::unsupported},
     {"CALLPATH", Procedure::timing},
-    {"WRITE", Procedure::unsupported},
-    {"READ", Procedure::unsupported},
-    {"DELETE", Procedure::unsupported},
     {"ISFILE", Procedure::unsupported},
     {"NEWCONF", Procedure::coordination},
     {"GET", Procedure::coordination},
@@ -160,8 +155,6 @@ constexpr ProcedureRow procedure_rows[] = {
     {"DISABLE", Procedure::coordination},
     {"ENABLE", Procedure::coordination},
     {"CLRINT", Procedure::coordination},
-    {"GETSELT", Procedure::unsupported},
-    {"GETEXET", Procedure::unsupported},
     {"DELDL", Procedure::unsupported},
     {"ORIRESET", Procedure::coordination},
 };
@@ -175,21 +168,20 @@ constexpr std::string_view keywords[] = {
     "CHAN",   "TRUE",    "FALSE",   "SET",      "REP",     "SAVE",     "PREPRO",  "ACTBLOCNO", "NO_AXIS", "SYNR",
     "SYNW",   "SYNRW",   "INIPO",   "INIRE",    "INICF",   "PRLOC",    "PHU",     "LLI",       "ULI",     "APR",
     "APW",    "APX",     "APRP",    "APRB",     "APWP",    "APWB",     "POS",     "POSA",      "POSP",    "FA",
-    "FL",     "AX",      "IP",      "PO",       "MEASA",   "MEAWA",    "MEAC"};
+    "FL",     "AX",      "IP",      "PO",       "MEASA",   "MEAWA"};
 
 /// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
 /// of these is never a variable.
 constexpr std::string_view predefined[] = {
-    "ADDFRAME",   "AXTOSPI",  "BLSYNC",    "CALCPOSI",  "CHECKSUM",   "CHKDM",     "CHKDNO",     "CTAB",
-    "CTABEXISTS", "CTABFNO",  "CTABFPOL",  "CTABFSEG",  "CTABID",     "CTABINV",   "CTABISLOCK", "CTABMEMTYP",
-    "CTABMPOL",   "CTABMSEG", "CTABNO",    "CTABNOMEM", "CTABPERIOD", "CTABPOL",   "CTABPOLID",  "CTABSEG",
-    "CTABSEGID",  "CTABSEV",  "CTABSSV",   "CTABTEP",   "CTABTEV",    "CTABTMAX",  "CTABTMIN",   "CTABTSP",
-    "CTABTSV",    "DELDTG",   "DIACYCOFA", "DIAMCHAN",  "DIAMCHANA",  "FILEDATE",  "FILEINFO",   "FILESIZE",
-    "FILESTAT",   "FILETIME", "FOCOF",     "FOCON",     "FPO",        "FTOC",      "GETACTT",    "GETACTTD",
-    "GETDNO",     "GETTCOR",  "GETTENV",   "ICYCOF",    "ICYCON",     "ISVAR",     "LENTOAX",    "MEAFRAME",
-    "MEASURE",    "MOV",      "OMA1",      "OMA2",      "OMA3",       "OMA4",      "OMA5",       "POSRANGE",
-    "RDISABLE",   "SETTCOR",  "SIRELAY",   "SIRELIN",   "SIRELOUT",   "SIRELTIME", "SPI",        "STRINGIS",
-    "SYNFCT",     "TOOLENV",  "WALCS"};
+    "ADDFRAME",   "AXTOSPI",  "BLSYNC",    "CALCPOSI",  "CHECKSUM",   "CHKDM",    "CHKDNO",     "CTAB",
+    "CTABEXISTS", "CTABFNO",  "CTABFPOL",  "CTABFSEG",  "CTABID",     "CTABINV",  "CTABISLOCK", "CTABMEMTYP",
+    "CTABMPOL",   "CTABMSEG", "CTABNO",    "CTABNOMEM", "CTABPERIOD", "CTABPOL",  "CTABPOLID",  "CTABSEG",
+    "CTABSEGID",  "CTABSEV",  "CTABSSV",   "CTABTEP",   "CTABTEV",    "CTABTMAX", "CTABTMIN",   "CTABTSP",
+    "CTABTSV",    "DELDTG",   "DIACYCOFA", "DIAMCHAN",  "DIAMCHANA",  "FOCOF",    "FOCON",      "FPO",
+    "FTOC",       "GETACTT",  "GETACTTD",  "GETDNO",    "GETTCOR",    "GETTENV",  "ICYCOF",     "ICYCON",
+    "ISVAR",      "LENTOAX",  "MEAFRAME",  "MEASURE",   "MOV",        "OMA1",     "OMA2",       "OMA3",
+    "OMA4",       "OMA5",     "POSRANGE",  "RDISABLE",  "SETTCOR",    "SIRELAY",  "SIRELIN",    "SIRELOUT",
+    "SIRELTIME",  "SPI",      "STRINGIS",  "SYNFCT",    "TOOLENV",    "WALCS"};
 
 /// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
 /// them.
@@ -269,8 +261,7 @@ Procedure procedure(std::string_view capitals) {
 }
 
 std::string_view procedure_missing_feature(std::string_view capitals) {
-  if (capitals == "WRITE" || capitals == "READ" || capitals == "DELETE" || capitals == "ISFILE")
-    return "language.files";
+  if (capitals == "ISFILE") return "language.files";
   const bool transformation = capitals.rfind("TRA", 0) == 0 && capitals.rfind("TRAIL", 0) != 0;
   return transformation ? "motion.transformation" : "language.statement";
 }

@@ -31,6 +31,7 @@ enum class NamedWord : std::uint8_t {
   probe_to_end,
   orientation,   ///< of the tool under a transformation: kept
   timing,        ///< tolerances, overrides, accelerations: the nominal path is the same
+  joint,         ///< how a machine reaches the programmed end
   compensation,  ///< acts only on the compensated path
   unsupported
 };

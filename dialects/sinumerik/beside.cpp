@@ -39,6 +39,7 @@ constexpr BesideRow rows[] = {
     {"CUT3DFF", "beside.compensation", code},
     {"CUT3DFS", "beside.compensation", code},
     {"CUTMOD", "beside.compensation", address},
+    {"DELETE", "beside.data", procedure, true},
     {"DELT", "beside.tool_management", procedure, true},
     {"DELTOOLENV", "beside.tool_management", procedure, true},
     {"DILF", "beside.realtime", address},
@@ -54,6 +55,11 @@ constexpr BesideRow rows[] = {
     {"FCTDEF", "beside.realtime", procedure},
     {"FD", "beside.realtime", address},
     {"FDA", "beside.realtime", indexed},
+    {"FILEDATE", "beside.data", procedure, true},
+    {"FILEINFO", "beside.data", procedure, true},
+    {"FILESIZE", "beside.data", procedure, true},
+    {"FILESTAT", "beside.data", procedure, true},
+    {"FILETIME", "beside.data", procedure, true},
     {"FMA", "beside.realtime", indexed},
     {"FPR", "beside.data", procedure},
     {"FPRAOF", "beside.data", procedure},
@@ -62,7 +68,9 @@ constexpr BesideRow rows[] = {
     {"FXS", "beside.realtime", indexed},
     {"FXST", "beside.realtime", indexed},
     {"FXSW", "beside.realtime", indexed},
+    {"GETEXET", "beside.tool_management", procedure, true},
     {"GETFREELOC", "beside.tool_management", procedure, true},
+    {"GETSELT", "beside.tool_management", procedure, true},
     {"GETT", "beside.tool_management", procedure, true},
     {"GWPSOF", "beside.data", procedure},
     {"GWPSON", "beside.data", procedure},
@@ -76,6 +84,7 @@ constexpr BesideRow rows[] = {
     {"MASLOF", "beside.coupling", procedure},
     {"MASLOFS", "beside.coupling", procedure},
     {"MASLON", "beside.coupling", procedure},
+    {"MEAC", "beside.realtime", indexed},
     {"MVTOOL", "beside.tool_management", procedure, true},
     {"NEWT", "beside.tool_management", procedure, true},
     {"NPROT", "beside.data", procedure},
@@ -101,6 +110,7 @@ constexpr BesideRow rows[] = {
     {"PUTFTOCF", "beside.compensation", procedure},
     {"QECLRNOF", "beside.compensation", procedure},
     {"QECLRNON", "beside.compensation", procedure},
+    {"READ", "beside.data", procedure, true},
     {"RESET", "beside.realtime", procedure},
     {"RESETMON", "beside.tool_management", procedure, true},
     {"SETDNO", "beside.tool_management", procedure, true},
@@ -141,9 +151,12 @@ constexpr BesideRow rows[] = {
     {"UNLOCK", "beside.realtime", procedure},
     {"WAITC", "beside.coupling", procedure},
     {"WAITENC", "beside.data", procedure},
+    {"WRITE", "beside.data", procedure, true},
 };
 
 constexpr Definition all_definitions[] = {{"CPROTDEF", "EXECUTE", "beside.data"},
+                                          {"CONTDCON", "EXECUTE", "beside.data", true},
+                                          {"CONTPRON", "EXECUTE", "beside.data", true},
                                           {"CTABDEF", "CTABEND", "beside.coupling"},
                                           {"NPROTDEF", "EXECUTE", "beside.data"}};
 
@@ -151,21 +164,19 @@ struct DatumRow {
   std::string_view name;  ///< the name, or its beginning when it ends in `*`
   std::string_view feature;
 };
-/// Setting data of a later software that the reference does not name count like the others. Machine data count only
-/// when the reference says what they do: another one may change axes, codes or coordinates.
+/// Setting data and machine data that the reference does not name count like the others, unless their name tells that
+/// they are about axes, codes or coordinates.
 constexpr DatumRow data[] = {
     {"$SC_*", "beside.data"},
     {"$SN_*", "beside.data"},
     {"$SA_*", "beside.data"},
-    {"$MC_CTAB_*", "beside.data"},
-    {"$MC_TOFF_*", "beside.data"},
-    {"$MC_CUBIC_SPLINE_BLOCKS", "beside.data"},
-    {"$MC_COMPRESS*", "beside.data"},
-    {"$MC_ADD_MOVE_ACCEL_RESERVE", "beside.data"},
-    {"$MA_COMPRESS_POS_TOL", "beside.data"},
-    {"$MA_MS_*", "beside.data"},
-    {"$MA_MAX_AX_*", "beside.data"},
-    {"$MA_EPS_TLIFT_TANG_STEP", "beside.data"},
+    {"$MC_*", "beside.data"},
+    {"$MN_*", "beside.data"},
+    {"$MA_*", "beside.data"},
+    {"$MD_*", "beside.data"},
+    {"$AN_CEC*", "beside.compensation"},
+    {"$AA_ENC_COMP*", "beside.compensation"},
+    {"$AA_QEC*", "beside.compensation"},
     {"$A_OUT", "beside.realtime"},
     {"$A_OUTA", "beside.realtime"},
     {"$A_DB*", "beside.realtime"},
@@ -190,6 +201,12 @@ constexpr std::string_view of_the_path[] = {
     "$SC_FEEDRATE_SCALING", "$SC_FRAME_OFFSET_INCR_PROG",    "$SC_THREAD_START_ANGLE",
     "$SC_TOFRAME_MODE",     "$SC_TOOL_OFFSET_INCR_PROG",     "$SA_SCALE_FACTOR",
 };
+
+/// Parts of the names of machine data that decide what a programmed word means or where the machine is.
+constexpr std::string_view machine_data_of_the_path[] = {
+    "AXCONF",  "BASE_FUNCTION", "CUTTING_EDGE", "DIAMETER", "EXTERN", "FIX_POINT", "FRAME",   "GCODE",
+    "GEOAX",   "INDEX_AX",      "INT_INCR",     "IS_ROT",   "MIRROR", "MODULO",    "REFP_",   "RESET_MODE",
+    "SCALING", "SPIND_ASSIGN",  "TOOL_CHANGE",  "TRAANG",   "TRACYL", "TRAFO",     "TRANSMIT"};
 
 char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -228,6 +245,11 @@ const BesideRow* beside(std::string_view name, BesideForm form) {
 
 std::string_view beside_datum(std::string_view capitals) {
   if (std::find(std::begin(of_the_path), std::end(of_the_path), capitals) != std::end(of_the_path)) return {};
+  if (capitals.starts_with("$M")) {
+    for (const auto& part : machine_data_of_the_path) {
+      if (capitals.find(part) != std::string_view::npos) return {};
+    }
+  }
   for (const auto& row : data) {
     const bool beginning = row.name.back() == '*';
     if (beginning ? capitals.starts_with(row.name.substr(0, row.name.size() - 1)) : capitals == row.name)

@@ -35,11 +35,13 @@ const BesideRow* beside(std::string_view name);
 /// empty for every other one.
 std::string_view beside_datum(std::string_view capitals);
 
-/// A definition whose blocks up to its end are no moves: CTABDEF to CTABEND, CPROTDEF and NPROTDEF to EXECUTE.
+/// A definition whose blocks up to its end are no moves: CTABDEF to CTABEND, CPROTDEF, NPROTDEF and
+/// CONTPRON to EXECUTE.
 struct Definition {
   std::string_view begin;    ///< capitals
   std::string_view end;      ///< capitals
   std::string_view feature;  ///< of all of its lines
+  bool gives_back = false;   ///< as in BesideRow
 };
 std::span<const Definition> definitions();
 /// By the procedure that begins it (capitals); null when there is none.

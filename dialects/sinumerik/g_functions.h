@@ -24,6 +24,7 @@ enum class GUse : std::uint8_t {
   approach,      ///< reference point, fixed point: a = ir::MotionKind
   timing,        ///< timing, dynamics, smoothing: the nominal path is the same
   compensation,  ///< how radius compensation goes round corners and starts: the programmed path is the same
+  joint,         ///< the ends of the moves are the programmed ones, the way between them is another
   unsupported    ///< could move the machine differently and is not carried
 };
 enum class FrameVerb : std::uint8_t { trans, atrans, rot, arot, scale, ascale, mirror, amirror, rots, arots, g58, g59 };

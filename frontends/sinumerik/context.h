@@ -89,6 +89,9 @@ struct FileContext {
   std::uint32_t kept = 0;                              ///< of those, constructs that are read but not carried
   std::set<std::string, std::less<>> said{};           ///< names of unknown meaning that were reported, capitals
 
+  std::set<std::string, std::less<>> read_names{};     ///< variables of the routine read so far, capitals
+  std::set<std::string, std::less<>> unknown_names{};  ///< of those, the ones that the machine has given a value
+
   std::uint8_t master_spindle = 1;  ///< SETMS, in the order of the text
   bool offset_chosen = true;        ///< a D was written since the last T, in the order of the text
 

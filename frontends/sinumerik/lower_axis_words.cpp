@@ -143,7 +143,11 @@ bool StatementLowering::preset(const std::string& name, const std::vector<Expr>&
   change->slot = ir::FrameSlot::preset;
   change->combine = ir::FrameCombine::replace_named;
   for (std::size_t i = 0; i < args.size(); i += 2) {
-    Expr machine_axis = args[i];  // A1: the machine axis of X
+    Expr machine_axis = args[i];
+    const std::string& own = machine_axis.text;  // A1: the machine axis of A
+    if (machine_axis.kind == ExprKind::name && own.size() == 2 && own[1] == '1' && c_.symbol(own) == nullptr &&
+        c_.machine.axis(own) == ir::axis::none)
+      machine_axis.text.resize(1);
     const auto axis = exprs_.is_undefined(machine_axis) ? nullptr : exprs_.axis_operand(machine_axis);
     const auto* literal = axis ? std::get_if<ir::AxisName>(&axis->node) : nullptr;
     if (literal == nullptr)
@@ -210,6 +214,33 @@ bool StatementLowering::axis_setting(const std::string& name, const std::vector<
     return refuse("language.statement", pos, "the axis " + spec->name + " has no diameter programming on this machine");
   }
   parts.actions.push_back(std::move(a));
+  return true;
+}
+
+/// MEASA[X]=(1,1,-1): mode, then the edges of the probe. All axes of the block are measured where the move ends: no
+/// probe is modelled (motion reference 6.2).
+bool StatementLowering::probe_item(const syntax::Statement& s, Parts& parts) {
+  const Expr& job = s.args[1];
+  const bool list = job.kind == ExprKind::call && job.text.empty() && !job.args.empty();
+  const Expr& mode = list ? job.args[0] : job;
+  const bool cancels = mode.kind == ExprKind::number && mode.number == 0;
+  if (cancels) {
+    put_beside("beside.realtime", s.pos, parts);
+    return true;
+  }
+  if (!list || job.args.size() < 2 || job.args.size() > 5 || mode.kind != ExprKind::number) {
+    c_.error("SIN-012", s.pos, s.args[0].text + "[] takes a mode and one to four edges of the probe");
+    return false;
+  }
+  if (!exprs_.axis_operand(s.args[0].args[0])) return false;
+  parts.probe_edge = &job.args[1];
+  parts.probe_goes_on = s.args[0].text == "MEAWA";
+  ir::Action kept;
+  kept.pos = s.pos;
+  kept.text = c_.slice(s.pos);
+  kept.data = ir::OpaqueWord{kept.text};
+  kept.order = ir::Order::before;
+  parts.actions.push_back(std::move(kept));
   return true;
 }
 
@@ -306,6 +337,17 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
 
 /// The words of single axes join the motion of the block.
 bool StatementLowering::put_axis_words(Parts& parts, ir::Block& words) {
+  if (parts.probe_edge != nullptr) {
+    Attribute none = Attribute::none;
+    const std::uint32_t before = c_.errors;
+    ir::MotionExtra extra;
+    if (words.motion.extra) extra = *words.motion.extra;
+    extra.has_probe_edge = true;
+    extra.probe_edge = exprs_.value_of(*parts.probe_edge, none);
+    extra.probe_goes_on = parts.probe_goes_on;
+    words.motion.extra = std::make_shared<const ir::MotionExtra>(std::move(extra));
+    if (c_.errors != before) return false;
+  }
   if (parts.coords.empty() && parts.computed.empty() && parts.centers.empty()) return true;
   for (const auto& a : words.actions) {
     if (!std::holds_alternative<ir::FrameOp>(a.data) && !std::holds_alternative<ir::PoleSet>(a.data) &&

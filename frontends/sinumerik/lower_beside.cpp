@@ -5,6 +5,8 @@
 
 #include "base/text.h"
 #include "dialects/sinumerik/beside.h"
+#include "dialects/sinumerik/g_functions.h"
+#include "dialects/sinumerik/variables.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/row_parts.h"
 #include "ir/missing_features.h"
@@ -47,23 +49,32 @@ bool StatementLowering::beside_statement(const Statement& s, Parts& parts) {
   if (s.keyword == "()") {
     const BesideRow* row = beside(s.text, BesideForm::procedure);
     if (row == nullptr || c_.symbol(s.text) != nullptr) return false;
-    const auto variable = [this](const Expr& e) {
-      return e.kind == ExprKind::variable || (e.kind == ExprKind::name && c_.symbol(e.text) != nullptr);
-    };
-    if (row->gives_back && std::any_of(s.args.begin(), s.args.end(), variable)) return false;
+    if (row->gives_back && !gives_unknown(s.args)) return false;
     put_beside(row->feature, s.pos, parts);
     return true;
   }
   const Expr& target = s.args[0];
-  if (!target.text.empty() && target.text[0] == '$') {
-    const std::string_view feature = beside_datum(target.text);
-    if (feature.empty()) return false;
-    put_beside(feature, s.pos, parts);
-    return true;
-  }
   const BesideRow* row = target.args.empty() ? nullptr : beside(target.text, BesideForm::indexed);
   if (row == nullptr || c_.symbol(target.text) != nullptr) return false;
   put_beside(row->feature, s.pos, parts);
+  return true;
+}
+
+/// The variables among the arguments get values that no run knows. False when it can't be made sure that nobody reads
+/// them: of the routine's own ones, those it reads later in its text are refused there.
+bool StatementLowering::gives_unknown(const std::vector<Expr>& args) {
+  std::vector<std::string> names;
+  for (const Expr& e : args) {
+    const Symbol* symbol = c_.symbol(e.text);
+    if (e.kind == ExprKind::variable && symbol == nullptr) return false;  // an R parameter
+    if (symbol == nullptr || (e.kind != ExprKind::name && e.kind != ExprKind::variable)) continue;
+    const auto own = space_of(symbol->type, false);
+    const bool parameter = std::any_of(routine_->parameters.begin(), routine_->parameters.end(),
+                                       [&](const ir::Parameter& p) { return p.variable.name == e.text; });
+    if (!own || *own != symbol->space || parameter || c_.read_names.contains(e.text)) return false;
+    names.push_back(e.text);
+  }
+  c_.unknown_names.insert(names.begin(), names.end());
   return true;
 }
 
@@ -76,7 +87,28 @@ bool StatementLowering::interrupt_routine(const Block& block, const ir::LineInfo
   return true;
 }
 
+/// REPOSL RMI DISPR=2: the end of an interrupt routine, which no run calls. It returns like RET; behind it only the end
+/// of the routine may stand.
+bool StatementLowering::return_move(const Block& block, const ir::LineInfo& info) {
+  const auto returns = [](const Word& w) {
+    return !w.has_value && w.address.size() > 5 && to_upper_ascii(w.address).starts_with("REPOS") &&
+           g_function(w.address) != nullptr;
+  };
+  const auto word = std::find_if(block.words.begin(), block.words.end(), returns);
+  if (word == block.words.end()) return false;
+  tell_beside(word->pos, std::string(c_.slice(word->pos)), "beside.realtime");
+  add_opaque(block, info, "beside.realtime", false);
+  returned_ = true;
+  return true;
+}
+
 namespace {
+
+bool ends_routine(const Block& block) {
+  const bool ret = block.statements.size() == 1 && block.statements.front().text == "RET";
+  const bool bare = block.words.size() == 1 && to_upper_ascii(block.words.front().address) == "RET";
+  return ret || bare;
+}
 
 bool ends_program(const Block& block) {
   return std::any_of(block.words.begin(), block.words.end(), [](const Word& w) {
@@ -86,6 +118,14 @@ bool ends_program(const Block& block) {
 }
 
 }  // namespace
+
+/// What stands behind a return to the contour is reached by jumps only, and a run would come there in sequence.
+bool StatementLowering::behind_return(const Block& block, const ir::LineInfo& info) {
+  if (!std::exchange(returned_, false) || ends_program(block) || ends_routine(block)) return false;
+  c_.keep("SIN-008", WordPos{}, "a block behind a return to the contour (REPOS) is not carried yet");
+  add_opaque(block, info, "language.statement", false);
+  return true;
+}
 
 /// Blocks of a curve table or of the contour of a protection zone: they define, nothing moves.
 bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& info) {
@@ -97,6 +137,10 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
   if (definition_ == nullptr) {
     definition_ = one ? sinumerik::definition(name) : nullptr;
     if (definition_ == nullptr) return false;
+    if (definition_->gives_back && !gives_unknown(block.statements.front().args)) {
+      definition_ = nullptr;
+      return false;
+    }
     definition_line_ = c_.line;
     tell_beside(block.statements.front().pos,
                 "what stands up to " + std::string(definition_->end) + " defines and moves nothing; it",
@@ -108,8 +152,10 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
     open_definition();
     return false;
   }
-  add_opaque(block, info, definition_->feature, false);
-  if (name == definition_->end) definition_ = nullptr;
+  const bool ends = name == definition_->end;
+  const bool known = !ends || !one || gives_unknown(block.statements.front().args);
+  add_opaque(block, info, known ? definition_->feature : std::string_view("language.statement"), false);
+  if (ends) definition_ = nullptr;
   return true;
 }
 

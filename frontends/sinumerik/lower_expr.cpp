@@ -207,11 +207,21 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
 std::optional<ir::VarRef> ExprLowering::whole_array(const Expr& e, ir::Type& type) {
   const Symbol* symbol = e.kind == ExprKind::name || e.kind == ExprKind::variable ? c_.symbol(e.text) : nullptr;
   if (symbol == nullptr || symbol->dimensions == 0 || !e.args.empty()) return std::nullopt;
+  if (!may_be_read(e)) return std::nullopt;
   ir::VarRef ref;
   ref.space = symbol->space;
   ref.name = e.text;
   type = symbol->type;
   return ref;
+}
+
+/// False (reported) when a procedure that the run goes past has set the variable.
+bool ExprLowering::may_be_read(const Expr& e) {
+  if (c_.symbol(e.text) == nullptr) return true;
+  c_.read_names.insert(e.text);
+  if (!c_.unknown_names.contains(e.text)) return true;
+  c_.keep("SIN-046", e.pos, e.text + " has got its value from the machine or from a file: no run knows it");
+  return false;
 }
 
 /// `NAME[5]` of a text: the character at this place.
@@ -227,6 +237,7 @@ ir::ExprPtr ExprLowering::character_of(const Expr& e) {
 
 ir::ExprPtr ExprLowering::named(const Expr& e) {
   if (!e.text.empty() && e.text[0] == '$') return system_operand(e);
+  if (!may_be_read(e)) return nullptr;
   if (const Symbol* symbol = c_.symbol(e.text); symbol != nullptr) {
     if (symbol->type == ir::Type::string && e.args.size() == symbol->dimensions + 1U) return character_of(e);
     if (symbol->type == ir::Type::frame) {

@@ -67,6 +67,7 @@ class ExprLowering {
   ir::ExprPtr active_g_function(const syntax::Expr& e);
   ir::ExprPtr character_of(const syntax::Expr& e);
   ir::ExprPtr named(const syntax::Expr& e);
+  bool may_be_read(const syntax::Expr& e);
   ir::ExprPtr unary(const syntax::Expr& e);
   ir::ExprPtr binary(const syntax::Expr& e);
   ir::ExprPtr call(const syntax::Expr& e);

@@ -23,10 +23,14 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
     c_.error("SIN-004", w.pos, std::string(w.address) + " has no value");
     return;
   }
-  Attribute attribute = Attribute::none;
-  ir::Value value = exprs_.value(block, w, attribute);
   const std::string name = to_upper_ascii(w.address);
   const NamedWordRow* row = named_word(name);
+  if (row != nullptr && row->use == NamedWord::joint) {
+    push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::before, w.pos);
+    return c_.note("SIN-009", w.pos, name + "= is kept as text: it says how the programmed end is reached");
+  }
+  Attribute attribute = Attribute::none;
+  ir::Value value = exprs_.value(block, w, attribute);
   if (row == nullptr) {
     if (const ir::AxisId axis = c_.machine.axis(name); axis != ir::axis::none) {
       return coordinate(axis, w, std::move(value), attribute);
@@ -120,6 +124,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       has_rpl_ = true;
       rpl_ = std::move(value);
       return;
+    case NamedWord::joint: return;
     case NamedWord::timing:
     case NamedWord::compensation:
       push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);

@@ -20,7 +20,10 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   externs_.clear();
   executable_seen_ = ended_ = false;
   definition_ = nullptr;
+  returned_ = false;
   c_.symbols.clear();
+  c_.read_names.clear();
+  c_.unknown_names.clear();
   c_.macros.clear();
   c_.master_spindle = 1;
   c_.thread_start = {};
@@ -115,6 +118,7 @@ bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
     executable_seen_ = true;
     return true;
   }
+  if (behind_return(block, info)) return false;
   const bool row = std::all_of(block.statements.begin(), block.statements.end(),
                                [](const Statement& s) { return s.keyword == "=" || s.keyword == "()"; });
   if (row) {

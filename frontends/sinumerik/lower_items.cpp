@@ -6,6 +6,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/limits.h"
 #include "frontends/sinumerik/lower_statements.h"
@@ -62,8 +63,9 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   item.pos = pos;
   if (c_.errors != before) return false;
   const bool tool_data = target.text.rfind("$TC_", 0) == 0;
-  const bool storage =
-      target.text == "$AC_MARKER" || target.text == "$AC_PARAM" || item.system.datum == ir::Datum::part_count;
+  const std::string_view beside_path = beside_datum(target.text);
+  const bool storage = target.text == "$AC_MARKER" || target.text == "$AC_PARAM" ||
+                       item.system.datum == ir::Datum::part_count || !beside_path.empty();
   if (tool_data && c_.first_time("$TC_"))
     c_.note("SIN-009", pos, "tool data are kept: they do not change the programmed path");
   if (item.system.datum != ir::Datum::work_offset && item.system.datum != ir::Datum::work_offset_fine && !tool_data &&
@@ -73,6 +75,14 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   }
   item.value = exprs_.lower(value);
   if (!item.value) return false;
+  const bool number = item.value->type != ir::Type::string && item.value->type != ir::Type::axis;
+  const bool named = std::any_of(item.system.args.begin(), item.system.args.end(),
+                                 [](const ir::ExprPtr& a) { return a->type == ir::Type::string; });
+  if (!beside_path.empty() && (!number || named)) {
+    put_beside(beside_path, pos, parts);
+    return true;
+  }
+  if (!beside_path.empty()) tell_beside(pos, std::string(c_.slice(pos)), beside_path);
   if (tool_data && (item.value->type == ir::Type::string || item.value->type == ir::Type::axis)) {
     ir::Action a;  // the name of a tool, an axis of a tool carrier
     a.pos = pos;
@@ -173,6 +183,7 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
   if (target.text == "POS" || target.text == "POSA" || target.text == "FA" || target.text == "AX" ||
       target.text == "IP")
     return axis_item(s, parts);
+  if ((target.text == "MEASA" || target.text == "MEAWA") && one_index) return probe_item(s, parts);
   if (is_timing_of_axis(target.text)) {
     ir::Action a;
     a.pos = s.pos;
@@ -429,7 +440,7 @@ bool StatementLowering::sort_items(const Block& block, Parts& parts) {
 }
 
 bool StatementLowering::items(const Block& block, ir::LineInfo info) {
-  if (interrupt_routine(block, info)) return true;
+  if (interrupt_routine(block, info) || return_move(block, info)) return true;
   Parts parts;
   bool ok = sort_items(block, parts);
   ir::Block words;

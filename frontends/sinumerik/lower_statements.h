@@ -34,7 +34,7 @@ class StatementLowering {
   /// Adds a statement (comment lines, blocks of the hot path).
   void add(ir::Statement statement);
   /// The block stands in a curve table or another definition: it belongs to `lower`, also when it has words only.
-  [[nodiscard]] bool defines() const { return definition_ != nullptr; }
+  [[nodiscard]] bool defines() const { return definition_ != nullptr || returned_; }
   /// Adds the block as Opaque text.
   void add_opaque(const syntax::Block& block, ir::LineInfo info, std::string_view feature, bool harmless);
   /// Adds a block that can't be read as Opaque text; when it opens or closes a structure by its first word, the
@@ -69,6 +69,7 @@ class StatementLowering {
   bool chosen_g(const syntax::Statement& s, Parts& parts);
   bool indirect_g(const syntax::Statement& s, Parts& parts);
   bool axis_item(const syntax::Statement& s, Parts& parts);
+  bool probe_item(const syntax::Statement& s, Parts& parts);
   bool spindle_item(const syntax::Statement& s, Parts& parts);
   bool put_axis_words(Parts& parts, ir::Block& words);
   bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
@@ -91,6 +92,9 @@ class StatementLowering {
   void tell_beside(WordPos pos, const std::string& what, std::string_view feature);
   bool interrupt_routine(const syntax::Block& block, const ir::LineInfo& info);
   bool in_definition(const syntax::Block& block, const ir::LineInfo& info);
+  bool gives_unknown(const std::vector<syntax::Expr>& args);
+  bool behind_return(const syntax::Block& block, const ir::LineInfo& info);
+  bool return_move(const syntax::Block& block, const ir::LineInfo& info);
   void open_definition();
   [[nodiscard]] std::string_view action_feature(std::string_view text) const;
 
@@ -135,6 +139,7 @@ class StatementLowering {
   std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
   const Definition* definition_ = nullptr;                         ///< the blocks belong to it
   Span definition_line_;                                           ///< where it begins
+  bool returned_ = false;  ///< the block before returns to the contour, and so from the routine
   bool ended_ = false;
   bool executable_seen_ = false;
   bool defines_characters_ = false;

@@ -28,6 +28,7 @@ bool WordLowering::is_motion_block(const syntax::Block& block) {
   for (const Word& w : block.words) {
     if (w.address.size() > 1 && beside(w.address, w.has_value ? BesideForm::address : BesideForm::code) != nullptr)
       return false;
+    if (w.address.size() > 5 && !w.has_value && (w.address[0] == 'R' || w.address[0] == 'r')) return false;  // REPOSL
     switch (w.address[0]) {
       case 'L':
       case 'l':
@@ -179,6 +180,20 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
     case GUse::compensation:
       push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
       c_.note("SIN-009", pos, std::string(g.name) + " is kept as text: it does not change the programmed path");
+      break;
+    case GUse::joint:
+      push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::before, pos);
+      if (g.number < 0) {
+        c_.warning("SIN-045", pos,
+                   std::string(g.name) +
+                       ": the axes of the machine move together to the programmed end; the way between the ends is "
+                       "shown as a straight line");
+      } else {
+        c_.warning("SIN-045", pos,
+                   std::string(g.name) +
+                       ": the soft approach or retraction depends on the tool's radius; the move is "
+                       "shown as a straight line to its programmed end");
+      }
       break;
     case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
   }

@@ -16,10 +16,12 @@ struct StatementLowering::Parts {
   std::vector<std::pair<const GFunction*, WordPos>> indirect;
   std::vector<ir::Action> actions;  ///< further actions (spindle positions, preparation stop)
   std::vector<decltype(ir::Statement::node)> calls;
-  std::vector<ir::CoordWord> coords;       ///< positioning axes, axes named by a constant
-  std::vector<ir::ComputedWord> computed;  ///< axes named by a variable
-  std::vector<ir::CenterWord> centers;     ///< IP[..]
-  std::string beside_text;                 ///< what acts beside the path, as it stands
+  std::vector<ir::CoordWord> coords;         ///< positioning axes, axes named by a constant
+  std::vector<ir::ComputedWord> computed;    ///< axes named by a variable
+  std::vector<ir::CenterWord> centers;       ///< IP[..]
+  const syntax::Expr* probe_edge = nullptr;  ///< MEASA, MEAWA: the first edge asked for
+  bool probe_goes_on = false;
+  std::string beside_text;  ///< what acts beside the path, as it stands
   std::string_view beside_feature;
   bool has_count = false;
   ir::ExprPtr count;

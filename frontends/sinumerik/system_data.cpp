@@ -32,6 +32,10 @@ constexpr DatumRow data[] = {
     {"$AA_IB", ir::Datum::machine_position, true},    {"$AA_IBN", ir::Datum::machine_position, true},
     {"$AA_IEN", ir::Datum::settable_position, true},  {"$AA_MW", ir::Datum::measured_work, true},
     {"$AA_MM", ir::Datum::measured_machine, true},    {"$AC_MEA", ir::Datum::probe_state, false},
+    {"$AA_MM1", ir::Datum::measured_machine, true},   {"$AA_MM2", ir::Datum::measured_machine, true},
+    {"$AA_MM3", ir::Datum::measured_machine, true},   {"$AA_MM4", ir::Datum::measured_machine, true},
+    {"$AA_MW1", ir::Datum::measured_work, true},      {"$AA_MW2", ir::Datum::measured_work, true},
+    {"$AA_MW3", ir::Datum::measured_work, true},      {"$AA_MW4", ir::Datum::measured_work, true},
     {"$P_UIFRNUM", ir::Datum::active_offset, false},  {"$P_F", ir::Datum::feed, false},
     {"$P_S", ir::Datum::spindle_speed, false},
 };

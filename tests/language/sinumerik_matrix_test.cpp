@@ -33,6 +33,7 @@ std::string use_of(const facts::GFunction& g) {
     case unsupported: return reason(facts::missing_feature(g));
     case timing: return "kept as text: the programmed path is the same";
     case compensation: return "kept as text: acts on the compensated path only";
+    case joint: return "run as a straight move to the programmed end (SIN-045); no other control gets it";
     case path: return g.b != 0 ? "carried as continuous path; the rounding is not (SIN-019)" : "carried";
     case limit: return "carried for spindles; limits of the working area are kept as text";
     case suppress: return "carried for straight moves";
@@ -58,6 +59,7 @@ std::string word_table() {
     s += "| " + std::string(w.name) + "= | " +
          (w.use == unsupported    ? reason("block.word")
           : w.use == orientation  ? "kept as text, a run passes over it; no other control gets it"
+          : w.use == joint        ? "kept as text: says how the programmed end is reached; no other control gets it"
           : w.use == timing       ? "kept as text: the programmed path is the same"
           : w.use == compensation ? "kept as text: acts on the compensated path or the tool length only"
                                   : "carried") +
