@@ -31,6 +31,16 @@ void StatementLowering::tell_beside(WordPos pos, const std::string& what, std::s
           "kept as text: a run goes past it, and no other control gets it");
 }
 
+bool StatementLowering::without_effect(const std::string& name, WordPos pos, Parts& parts) {
+  ir::Opaque o;
+  o.text = c_.slice(pos);
+  o.feature = "language.statement";
+  o.harmless = true;
+  c_.note("SIN-009", pos, name + " is kept as text: it does not change the programmed path");
+  parts.calls.emplace_back(std::move(o));
+  return true;
+}
+
 bool StatementLowering::beside_word(const Word& w, Parts& parts) {
   if (w.address.size() < 2) return false;
   const BesideRow* row = nullptr;

@@ -381,16 +381,6 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
   return true;
 }
 
-bool StatementLowering::without_effect(const std::string& name, WordPos pos, Parts& parts) {
-  ir::Opaque o;
-  o.text = c_.slice(pos);
-  o.feature = "language.statement";
-  o.harmless = true;
-  c_.note("SIN-009", pos, name + " is kept as text: it does not change the programmed path");
-  parts.calls.emplace_back(std::move(o));
-  return true;
-}
-
 bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   if (const Procedure use = procedure(name); use != Procedure::none) return predefined(use, name, args, pos, parts);
   // Without arguments it ends the swivelled plane; one that begins it is refused, so there is none (18.5).
