@@ -103,6 +103,7 @@ class Writer : public ProgramWriter {
   void frame_words(const ir::FrameChange& f, WordPos pos);
   void shift(const ir::Action& a, const ir::FrameChange& f);
   void rotation(const ir::Action& a, const ir::FrameChange& f);
+  void inclined_plane(const ir::Action& a, const ir::FrameChange& f);
   void scale(const ir::Action& a, const ir::FrameChange& f);
   void mirror(const ir::Action& a, const ir::FrameChange& f);
   void plane_point(const std::vector<ir::FrameWord>& words, WordPos pos);

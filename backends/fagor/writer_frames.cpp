@@ -73,6 +73,7 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& op) {
     add(std::string(g(Use::scale)), Rank::setting, a.pos);
     return frame_words(f, a.pos);
   }
+  if (same_dialect() && f.slot == ir::FrameSlot::chain) return inclined_plane(a, f);
   if (f.combine == FrameCombine::compose || f.slot == ir::FrameSlot::chain) return ProgramWriter::frame_op(a, op);
   switch (f.slot) {
     case ir::FrameSlot::preset:
@@ -87,6 +88,18 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& op) {
     case ir::FrameSlot::mirror: return mirror(a, f);
     case ir::FrameSlot::chain: return;
   }
+}
+
+/// G49 and its words: the origin, then the turns by their letters; what the block does not say turns by 0.
+void Writer::inclined_plane(const ir::Action& a, const ir::FrameChange& f) {
+  if (f.kind == ir::FrameKind::translate) {
+    add(std::string(g(Use::inclined_plane)), Rank::setting, a.pos);
+    return frame_words(f, a.pos);
+  }
+  constexpr std::string_view letters = "ABCQRS";
+  if (!a.text.empty() && letters.find(a.text[0]) != std::string_view::npos)
+    return add(word(a.text.substr(0, 1), f.angle, a.pos), Rank::coordinate, a.pos);
+  if (!f.angle.is(0)) refuse(no_word, a.pos, "this rotation has no counterpart here");
 }
 
 /// G158 replaces on the axes it names; alone it ends the shift of all axes. G58 and G59 have no words.

@@ -63,6 +63,7 @@ enum class Use : std::uint8_t {
   pole,                 ///< G93
   scale,                ///< G72
   rotation,             ///< G73
+  inclined_plane,       ///< G49: origin, then turns about the axes
   home,                 ///< G74
   straight,             ///< G52 G75 G76: one straight move of its own; `motion`; leaves G01 and G40
   spindle_choice,       ///< G28 G29 without axes: `value` is the spindle of the blocks that follow

@@ -176,12 +176,32 @@ void judge_text_uses(const ir::Program& program, LowerState& state) {
   }
 }
 
+/// G49 alone in a file that inclines no plane: nothing to end.
+void drop_inclined_ends(ir::Program& program, LowerState& state) {
+  if (state.facts.first_inclined_plane.known() || state.facts.inclined_ends.empty()) return;
+  for (const Span& where : state.facts.inclined_ends) {
+    state.set_line(where);
+    state.note("FAG-008", {}, "G49 alone ends no inclined plane of this file; the block is kept as text");
+  }
+  for (auto& r : program.routines) {
+    ir::for_each_statement(r.body, [](ir::Statement& s) {
+      auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || b->actions.size() != 1 || b->has_motion) return;
+      const auto* op = std::get_if<ir::FrameOp>(&b->actions[0].data);
+      if (op == nullptr || op->change->slot != ir::FrameSlot::chain || op->change->kind != ir::FrameKind::translate)
+        return;
+      s.node = ir::Opaque{std::string(b->actions[0].text), "motion.transformation", true};
+    });
+  }
+}
+
 }  // namespace
 
 void finish_program(ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
   judge_planes(program, state);
   judge_text_uses(program, state);
+  drop_inclined_ends(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
   const bool both = facts.table_shift && facts.shift;
@@ -205,6 +225,12 @@ void finish_program(ir::Program& program, LowerState& state) {
   if (facts.first_axis_scale.known() && facts.rotation) {
     state.set_line(facts.first_axis_scale);
     state.error("FAG-027", {}, "factors of single axes (G72 X) and a rotation (G73) in one program are not carried",
+                "transform the coordinates of the part");
+  }
+  if (facts.first_inclined_plane.known() && facts.inner_frames) {
+    state.set_line(facts.first_inclined_plane);
+    state.error("FAG-027", {},
+                "an inclined plane (G49) and a shift, mirror image, scale or rotation in one program are not carried",
                 "transform the coordinates of the part");
   }
   const bool inch_machine = state.profile().power_on.units == ir::Units::inch;

@@ -24,7 +24,8 @@ using ir::Order;
 /// Its words follow an order of their own, not that of a plain block.
 bool has_own_words(const facts::GCode& row) {
   return row.use == Use::refused || row.use == Use::no_path || row.use == Use::call || row.use == Use::hole_cycle ||
-         row.use == Use::cycle_change || row.use == Use::machining || row.use == Use::pattern;
+         row.use == Use::cycle_change || row.use == Use::machining || row.use == Use::pattern ||
+         row.use == Use::inclined_plane;
 }
 
 std::string word_name(const syntax::Word& w) {

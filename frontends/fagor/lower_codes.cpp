@@ -7,6 +7,7 @@
 
 #include "frontends/fagor/lower_block.h"
 #include "frontends/fagor/lower_expr.h"
+#include "ir/missing_features.h"
 
 namespace cnctrans::fagor {
 
@@ -72,6 +73,7 @@ void BlockLowerer::apply(const GWord& g) {
     case Use::scale:
     case Use::rotation:
     case Use::pole: apply_frame(g); return;
+    case Use::inclined_plane: inclined_plane(g); return;
     default: apply_special(g); return;
   }
 }
@@ -120,19 +122,22 @@ void BlockLowerer::give_up(const GWord& g) {
 }
 
 /// The end of something that is not carried out, or a transformation that leaves the programmed path as it is: G46 S1
-/// says how the slides follow, G46 alone and G45, G49 alone end theirs.
+/// says how the slides follow, G46 alone and G45 alone ends its own.
 bool BlockLowerer::ends_nothing(const GWord& g) {
   if (g.row->code == 46) {
     const Word* s = letter('S');
     return coord_count_ == 0 && (!s || (s->expr < 0 && (s->number == 0 || s->number == 1)));
   }
-  return (g.row->code == 45 || g.row->code == 49) && in_->words.size() == 1;
+  return g.row->code == 45 && in_->words.size() == 1;
 }
 
 /// The whole block stays as text; a run stops there.
 void BlockLowerer::keep(const GWord& g, std::string_view feature, std::string message) {
+  const auto* missing = ir::find_missing_feature(feature);
+  const bool beside = missing != nullptr && missing->beside_path;
   state_.warning("FAG-007", g.word->pos, std::move(message),
-                 "a run stops here; only a program for this control can be written with it");
+                 std::string(beside ? "a run goes on without it" : "a run stops here") +
+                     "; only a program for this control can be written with it");
   result_->opaque = feature;
   result_->needs_program = true;
 }
@@ -384,7 +389,7 @@ void BlockLowerer::choose_spindle(const GWord& g) {
 void BlockLowerer::couple_spindles(const GWord& g) {
   const bool axes = coord_count_ != 0 || (g.row->code != 30 && !letter('S'));
   if (axes) {
-    keep(g, g.row->feature, the_function(*g.word) + " (" + std::string(g.row->title) + ") is kept as text");
+    keep(g, "beside.coupling", the_function(*g.word) + " (" + std::string(g.row->title) + ") is kept as text");
     return;
   }
   if (g.row->code == 30 && !letter('D')) {

@@ -1,4 +1,6 @@
 // Zero offsets, programmed frames and the pole.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -101,7 +103,7 @@ void BlockLowerer::apply_offset(const GWord& g) {
       break;
     }
     case Use::shift:
-      state_.facts.shift = true;
+      state_.facts.shift = state_.facts.inner_frames = true;
       result_->needs_program = true;
       change.slot = ir::FrameSlot::shift;
       change.combine = coord_count_ == 0 ? ir::FrameCombine::clear : ir::FrameCombine::replace_named;
@@ -126,8 +128,56 @@ void BlockLowerer::apply_offset(const GWord& g) {
 
 // --- mirror, scale, rotation, pole ----------------------------------------------------------------------------------
 
+/// G49 X Y Z A B C turns about X, the new Y and the new Z, with Q R S about Z, the new Y and the new Z (25.6); alone it
+/// ends the plane. All three turns stand in the IR, 0 with the place of the code where the word is missing.
+void BlockLowerer::inclined_plane(const GWord& g) {
+  constexpr std::array<char, 3> letters{'Q', 'R', 'S'};
+  const auto written = [this](char c) { return c == 'R' ? radius_count_ != 0 : letter(c) != nullptr; };
+  const bool spherical = std::any_of(letters.begin(), letters.end(), written);
+  if (written('I') || written('J') || written('K') || written('T')) return give_up(g);
+  result_->needs_program = true;
+  ir::FrameChange origin;
+  origin.slot = ir::FrameSlot::chain;
+  origin.combine = ir::FrameCombine::replace;
+  std::array<const Word*, 3> turned{};
+  for (std::size_t i = 0; i < coord_count_; ++i) {
+    const ir::AxisId axis = axis_of(*coords_[i]);
+    if (axis >= ir::axis::a && axis <= ir::axis::c)
+      turned[static_cast<std::size_t>(axis - ir::axis::a)] = coords_[i];
+    else if (axis <= ir::axis::z)
+      origin.words.push_back({axis, value(*coords_[i]), ir::WordScale::modal, coords_[i]->pos});
+    else
+      state_.error("FAG-014", coords_[i]->pos, "G49 takes X Y Z with A B C or with Q R S [27]");
+  }
+  const bool by_axes = std::any_of(turned.begin(), turned.end(), [](const Word* w) { return w != nullptr; });
+  if (by_axes && spherical) state_.error("FAG-014", g.word->pos, "G49 takes A B C or Q R S, not both [27]");
+  coords_taken_ = true;
+  const bool alone = coord_count_ == 0 && !spherical;
+  act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(origin))}, g.word);
+  if (alone) {
+    state_.facts.inclined_ends.push_back(word_span(state_.line(), g.word->pos));
+    return;
+  }
+  if (!state_.facts.first_inclined_plane.known())
+    state_.facts.first_inclined_plane = word_span(state_.line(), g.word->pos);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Word* w = turned[i];
+    if (spherical) w = letters[i] != 'R' ? take(letters[i]) : radius_count_ != 0 ? radii_[0] : nullptr;
+    if (spherical && letters[i] == 'R') radii_taken_ = std::min<std::size_t>(radius_count_, 1);
+    ir::FrameChange turn;
+    turn.slot = ir::FrameSlot::chain;
+    turn.kind = ir::FrameKind::rotate;
+    turn.combine = ir::FrameCombine::compose;
+    turn.has_angle = true;
+    turn.angle = w != nullptr ? value(*w) : ir::Value(0);
+    turn.rotation_axis = spherical ? (i == 1 ? ir::axis::y : ir::axis::z) : static_cast<ir::AxisId>(i);
+    act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(turn))}, w != nullptr ? w : g.word);
+  }
+}
+
 void BlockLowerer::apply_frame(const GWord& g) {
   result_->needs_program = true;
+  state_.facts.inner_frames = state_.facts.inner_frames || g.row->use != Use::pole;
   ir::FrameChange change;
   switch (g.row->use) {
     case Use::mirror_off:

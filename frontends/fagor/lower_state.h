@@ -40,13 +40,16 @@ struct TextUse {
 
 /// Features of the file that change how other blocks are completed at its end.
 struct FileFacts {
-  std::array<bool, 3> planes{};  ///< programmed by G17 G18 G19 G16
-  bool preset = false;           ///< G92 with axes
-  bool table_shift = false;      ///< G58 G59
-  bool shift = false;            ///< G158
-  bool rotary = false;           ///< an absolute word of a rotary axis was read as a plain coordinate
-  std::array<bool, 2> units{};   ///< programmed by G71 [0], G70 [1]
-  bool rotation = false;         ///< G73
+  std::array<bool, 3> planes{};     ///< programmed by G17 G18 G19 G16
+  bool preset = false;              ///< G92 with axes
+  bool table_shift = false;         ///< G58 G59
+  bool shift = false;               ///< G158
+  bool rotary = false;              ///< an absolute word of a rotary axis was read as a plain coordinate
+  std::array<bool, 2> units{};      ///< programmed by G71 [0], G70 [1]
+  bool rotation = false;            ///< G73
+  bool inner_frames = false;        ///< G10 to G14, G72, G73, G158
+  Span first_inclined_plane;        ///< G49 with words
+  std::vector<Span> inclined_ends;  ///< G49 alone
   Span first_table_shift, first_machine_move, first_axis_scale;
   Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;

@@ -11,6 +11,7 @@
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/words.h"
 #include "frontends/fagor/lower_expr.h"
+#include "ir/missing_features.h"
 
 namespace cnctrans::fagor {
 
@@ -70,8 +71,11 @@ Node StatementLowerer::kept(const syntax::Statement& s, std::string_view feature
     const auto end = s.text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz");
     const std::string name =
         s.keyword.empty() || end == 0 || !s.text.starts_with(s.keyword.front()) ? s.keyword : s.text.substr(0, end);
+    const auto* missing = ir::find_missing_feature(feature);
+    const bool beside = missing != nullptr && missing->beside_path;
     state_.warning("FAG-022", s.pos, "the statement " + (s.text.empty() ? s.keyword : name) + " is kept as text",
-                   "a run stops here; only a program for this control can be written with it");
+                   std::string(beside ? "a run goes on without it" : "a run stops here") +
+                       "; only a program for this control can be written with it");
   }
   return ir::Opaque{std::string(text_), std::string(feature), harmless};
 }
@@ -90,7 +94,7 @@ Node StatementLowerer::assign(const syntax::Statement& s) {
   syntax::Statement named = s;
   if (screen || input) named.keyword = s.args[0].text;
   if (screen) return kept(named, "language.statement", true);
-  if (input) return kept(named, "language.statement", false);
+  if (input) return kept(named, "beside.data", false);  // what is read later is asked of --set
   if (s.args.size() / 2 > static_cast<std::size_t>(facts::max_assignments)) {
     state_.warning("FAG-024", s.pos, "the control takes 26 assignments in a block");
   }

@@ -185,7 +185,7 @@ TEST(FagorBlock, KeptAsText) {  // understood, not carried out: no error, and th
   EXPECT_EQ(line("G29 X ; back"), "opaque \"G29 X\" feature \"language.synchronised\" ; \" back\" | FAG-007");
   EXPECT_EQ(line("M45 SP1"), "opaque \"M45 SP1\" feature \"block.word\" | FAG-007");
   EXPECT_EQ(line("GP101 X5"), "opaque \"GP101 X5\" feature \"block.word\" | FAG-012");
-  EXPECT_EQ(line("( WKEY ) ; waits"), "opaque \"( WKEY )\" feature \"language.statement\" ; \" waits\" | FAG-022");
+  EXPECT_EQ(line("( WKEY ) ; waits"), "opaque \"( WKEY )\" feature \"beside.data\" ; \" waits\" | FAG-022");
   EXPECT_EQ(line("(PROBE 3,X50,Z0,B5,F100)"), "opaque \"(PROBE 3,X50,Z0,B5,F100)\" feature \"motion.probe\" | FAG-022");
   EXPECT_EQ(line("(ESBLK)"), "opaque \"(ESBLK)\" feature \"language.statement\" harmless | FAG-023");
   EXPECT_EQ(line("G1 X5 P3=2"), "opaque \"G1 X5 P3=2\" feature \"text.unread\" | FAG-004");

@@ -10,6 +10,7 @@
 #include "dialects/fagor/variables.h"
 #include "dialects/fagor/words.h"
 #include "ir/missing_features.h"
+#include "machine/data_at_rest.h"
 #include "machine/profile.h"
 #include "tests/language/markdown.h"
 
@@ -56,6 +57,7 @@ std::string what(const facts::GCode& g) {
     case Use::pole: return "polar origin";
     case Use::scale: return "scale";
     case Use::rotation: return "rotation";
+    case Use::inclined_plane: return "inclined plane";
     case Use::home: return "home search";
     case Use::cycle_cancel: return "cycle off";
     case Use::call: return "subroutine of the same number";
@@ -74,6 +76,7 @@ std::string support(const facts::GCode& g) {
     case Use::soft_corner:
     case Use::look_ahead: return "carried as G05 (FAG-008)";
     case Use::plane_axes: return "carried for XY, ZX, YZ; others " + reason("motion.transformation");
+    case Use::inclined_plane: return "carried with A B C and with Q R S; others " + reason(g.feature);
     case Use::home: return "carried with axes; alone " + reason("block.word");
     default: return "carried";
   }
@@ -125,6 +128,9 @@ std::string variable_table() {
     };
     return in(*lathe, name) || in(*mill, name);
   };
+  const auto name_in = [&](const facts::VariableInfo& v) {
+    return std::string(v.name) + (v.axis ? "X" : "") + (v.index == facts::Index::none ? "" : "[0]");
+  };
   std::string s = "| Variable | Access | Unit | Answered by |\n|---|---|---|---|\n";
   for (const auto& v : facts::variables()) {
     const std::string_view access = v.access == facts::Access::read         ? "R"
@@ -132,10 +138,12 @@ std::string variable_table() {
                                     : v.access == facts::Access::read_write ? "R/W"
                                                                             : "-";
     const std::string index = v.index == facts::Index::always ? "n" : v.index == facts::Index::maybe ? "[n]" : "";
-    const std::string by = given(v)                      ? "the profile"
-                           : v.datum != ir::Datum::other ? "the program"
-                           : v.access == facts::Access::write
-                               ? "-"
+    const std::string by = given(v)                                  ? "the profile"
+                           : v.datum != ir::Datum::other             ? "the program"
+                           : v.access == facts::Access::write        ? "-"
+                           : machine::data_of_run(*mill, name_in(v)) ? "the program"
+                           : machine::data_at_rest(*mill, name_in(v))
+                               ? "`--set` or the profile, else a machine at rest (RUN-044)"
                                : "`--set` or the profile: " + reason("language.system_variable");
     s += "| `" + std::string(v.name) + (v.axis ? "(X-C)" : "") + index + "` | " + std::string(access) + " | " +
          std::string(facts::name(v.unit)) + " | " + by + " |\n";
