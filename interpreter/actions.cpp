@@ -139,8 +139,15 @@ struct ActionRunner {
     m.set_tangential(a);
     return true;
   }
-  bool operator()(const ir::PreparationStop& /*a*/) const { return true; }
-  bool operator()(const ir::SplineAxes& /*a*/) const { return true; }
+  bool operator()(const ir::PreparationStop& /*a*/) const { return m.split_curve(); }
+  bool operator()(const ir::SplineAxes& a) const {
+    m.spline_axes_.clear();
+    for (const auto& axis : a.axes) {
+      if (!m.check_axis(axis.axis)) return false;
+      m.spline_axes_.push_back(axis.axis);
+    }
+    return true;
+  }
   bool operator()(const ir::OpaqueWord& /*a*/) const {
     return true;
   }  // its diagnostic decides whether the program runs

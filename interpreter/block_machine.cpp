@@ -35,6 +35,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.position_as_words = is("machine_position.scale", "words");
   policy_.offsets_at_once = is("work_offset.write", "at_once");
   policy_.preset_is_offset = is("frame.preset", "with_work_offset");
+  curve_tolerance_ = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
   policy_.data_modal = is("machine_data.units", "modal");
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
@@ -151,6 +152,7 @@ void BlockMachine::message(std::string text, const Span& where) {
 }
 
 bool BlockMachine::finish() {
+  if (curve_ && !close_curve(nullptr)) return false;
   if (!contour_.empty())
     return failure_.fail(code::contour_open, "the program ends before the element that closes the contour");
   if (!pending_) return true;
@@ -161,6 +163,7 @@ bool BlockMachine::finish() {
 }
 
 void BlockMachine::end_event(EndReason reason, const Failure& failure, const Span& where) {
+  if (curve_) close_curve(nullptr);
   if (pending_) release_pending();
   Event e;
   e.kind = EventKind::end;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +15,7 @@
 #include "interpreter/expressions.h"
 #include "interpreter/failure.h"
 #include "interpreter/frame.h"
+#include "interpreter/open_curve.h"
 #include "ir/block.h"
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
@@ -65,6 +67,12 @@ class BlockMachine final : public SystemData {
   void message(std::string text, const Span& where);
   /// Contours that several points fit were settled by the nearest one, here.
   [[nodiscard]] const std::vector<Span>& chosen_contours() const { return chosen_contours_; }
+  /// Where splines began, whose course between the points the makers' manuals leave open.
+  [[nodiscard]] const std::vector<Span>& curves_assumed() const { return curves_assumed_; }
+  [[nodiscard]] double curve_tolerance() const { return curve_tolerance_; }
+  /// The next spline block stands at its first point (a curve with a definition of its own); the curve ends.
+  void begin_defined_curve() { curve_from_first_point_ = true; }
+  bool end_defined_curve();
   /// The program has ended: nothing may wait for a next element.
   bool finish();
   void end_event(EndReason reason, const Failure& failure, const Span& where);
@@ -233,6 +241,17 @@ class BlockMachine final : public SystemData {
   /// Of a move of rotary axes alone: degrees, whatever the unit of length.
   [[nodiscard]] double feed_degrees() const { return feed_degrees_[static_cast<std::size_t>(modal_.feed_mode)]; }
 
+  // splines and polynomials (curves.cpp)
+  bool curve_allowed(const ir::Motion& m, bool spline);
+  void begin_curve(ir::MotionKind kind);
+  bool spline_words(const ir::Motion& m, double& weight, double& interval);
+  bool spline_point(const ir::Motion& m, ir::MotionKind kind);
+  bool leave_curve(ir::MotionKind kind);
+  bool close_curve(const Move* next);
+  bool split_curve();
+  [[nodiscard]] Axes start_direction(const Move& move) const;
+  bool polynomial(const ir::Motion& m);
+
   // contours whose points follow from later blocks (contours.cpp)
   struct OpenElement {
     Move move;
@@ -320,6 +339,15 @@ class BlockMachine final : public SystemData {
   Vec last_centre_;
   bool last_ccw_ = false;
   double lead_ = 0, reached_pitch_ = 0;  ///< of threads, mm per revolution: programmed, and at the end of the last one
+
+  // splines
+  std::unique_ptr<OpenCurve> curve_;
+  bool curve_broken_ = false;            ///< closed while its motion function is still in force
+  bool curve_from_first_point_ = false;  ///< its first block is where it begins
+  bool for_contour_ = false;
+  double curve_tolerance_ = 0.001;
+  std::vector<ir::AxisId> spline_axes_;  ///< empty: the first three
+  std::vector<Span> curves_assumed_;
 
   // per block
   std::optional<Pending> block_corner_;

@@ -15,8 +15,13 @@ constexpr std::size_t deepest_repeat = 200;
 void Runner::repeat(const ir::Repeat& r) {
   std::int64_t count = 1;
   if (!whole_number(r.count, 1, count)) return;
-  if (count <= 0) {
+  if (!curve_statement(r)) return;
+  if (count <= 0 || r.curve_use == ir::CurveUse::define || r.curve_use == ir::CurveUse::remove) {
     go_to(at_ + 1);
+    return;
+  }
+  if (r.has_program && r.curve_use == ir::CurveUse::run) {
+    failure_.fail(code::not_carried, "a curve whose points stand in another program is not carried out");
     return;
   }
   if (r.has_program) {
@@ -48,8 +53,22 @@ void Runner::repeat(const ir::Repeat& r) {
   }
   repeats_.push_back(
       {begin, end, at_ + 1, count, false, r.search == ir::Search::whole_first ? std::string{} : last, end});
+  repeats_.back().curve = r.curve_use == ir::CurveUse::run;
+  if (repeats_.back().curve) machine_.begin_defined_curve();
   repeat_end_ = end;
   at_ = begin;
+}
+
+/// Curves with a number: defined, deleted; one that runs must be defined.
+bool Runner::curve_statement(const ir::Repeat& r) {
+  switch (r.curve_use) {
+    case ir::CurveUse::none: return true;
+    case ir::CurveUse::define: return curves_.insert(r.curve).second || true;
+    case ir::CurveUse::remove: return curves_.erase(r.curve) != 0 || true;
+    case ir::CurveUse::run: break;
+  }
+  if (curves_.contains(r.curve)) return true;
+  return failure_.fail(code::curve_data, "there is no curve " + std::to_string(r.curve) + " at this moment");
 }
 
 bool Runner::range_in(Flow& flow, const ir::LabelRef& first, const ir::LabelRef& last, bool order_free,

@@ -36,8 +36,14 @@ class Emitter {
   /// The held events go out.
   void release() {
     holding_ = false;
-    for (const auto& e : held_) pass(e);
+    pass_held(held_.size());
     held_.clear();
+    passed_ = 0;
+  }
+  /// How many events wait, and the first `count` of them go out while the others wait on.
+  [[nodiscard]] std::size_t held() const { return held_.size(); }
+  void pass_held(std::size_t count) {
+    for (; passed_ < count; ++passed_) pass(held_[passed_]);
   }
   /// The `end` event is always delivered.
   void finish(const Event& e) {
@@ -47,7 +53,7 @@ class Emitter {
   }
   [[nodiscard]] bool limit_reached() const { return limit_; }
   /// Events so far, the held ones too.
-  [[nodiscard]] std::uint64_t seen() const { return count_ + held_.size(); }
+  [[nodiscard]] std::uint64_t seen() const { return count_ + held_.size() - passed_; }
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
  private:
@@ -57,6 +63,7 @@ class Emitter {
   bool limit_ = false;
   bool holding_ = false;
   std::vector<Event> held_;
+  std::size_t passed_ = 0;  ///< of them
 };
 
 }  // namespace cnctrans::interpreter

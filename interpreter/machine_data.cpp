@@ -67,6 +67,11 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
     }
     return true;
   }
+  if (curve_ && (ref.datum == Datum::work_position || ref.datum == Datum::machine_position)) {
+    return failure_.fail(code::curve_place,
+                         "the position is read between the points of a spline: reading it stops the preparation, which "
+                         "ends the curve");
+  }
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length) {
     // Another name of the control may have written the same datum.
     const auto it = written_tools_.find({ref.datum, ref.axis, {args.begin(), args.end()}});

@@ -33,6 +33,7 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   } else if (m.keeps_modal) {
     modal_.motion = left_in_force(kind);
   }
+  if (curve_ && !leave_curve(kind)) return false;
   if (kind == ir::MotionKind::reference_point) return reference_move(m);
   if (kind == ir::MotionKind::fixed_point) return fixed_point_move(m);
   if (!m.moves()) return true;
@@ -46,10 +47,12 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
       (cycle_defined_here_ || cycle_triggers(b))) {
     kind = ir::MotionKind::rapid;
   }
+  if (ir::is_spline(kind)) return spline_point(m, kind);
+  if (kind == ir::MotionKind::polynomial) return polynomial(m);
   const bool rapid = kind == ir::MotionKind::rapid;
   if (m.frame == ir::FrameUse::normal) {
     const bool quick = plain_frame_ && !m.extra && contour_.empty() && !marks_.any() && base_pending_ == 0 &&
-                       !pending_ && !block_corner_ && modal_corner_ == 0;
+                       !pending_ && !block_corner_ && modal_corner_ == 0 && !curve_;
     if (quick && (rapid || kind == ir::MotionKind::linear)) return quick_line(m, rapid);
     return general_motion(m, kind);
   }
@@ -163,11 +166,6 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
       move.kind = Move::Kind::probe;
       move.toward = kind == ir::MotionKind::probe_toward;
       break;
-    case ir::MotionKind::spline_akima:
-    case ir::MotionKind::spline_b:
-    case ir::MotionKind::spline_cubic:
-    case ir::MotionKind::polynomial:
-      return failure_.fail(code::not_carried, "splines and polynomials are not carried out yet");
     default:
       if (is_arc(kind) && !arc(m, kind, move)) return false;
   }

@@ -49,6 +49,7 @@ Axes between(const Move& m, double part) {
 
 /// A move goes out, or waits because its end is a corner.
 bool BlockMachine::send(const Move& given) {
+  if (curve_ && !close_curve(&given)) return false;
   Move move = given;
   const Axes end = move.to;
   if (pending_ && !join(move)) return false;
@@ -207,6 +208,7 @@ void BlockMachine::add_travel(const Axes& from, const Event& e) {
 
 /// Maps a move to the machine and emits it; a move that changes nothing makes no event (a full circle does).
 bool BlockMachine::emit_move(const Move& move, bool past_held) {
+  if (curve_ && !past_held && !close_curve(&move)) return false;
   Axes to = move.to;
   if (plain_frame_) {
     for (const auto a : axes_) to[a] += frame_.t[a];

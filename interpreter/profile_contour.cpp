@@ -51,6 +51,7 @@ ir::Block geometry_of(const ir::Block& b) {
 
 void BlockMachine::stand_for_contour(const ir::ModalState& state, std::optional<ir::cycles::TurnPoint> from) {
   restore_modal(state);
+  for_contour_ = true;
   for (auto& slot : slots_) slot = Frame{};
   use_frame(Frame{});
   modal_.motion = ir::MotionKind::linear;

@@ -42,6 +42,9 @@ inline constexpr std::string_view spindle_number = "RUN-041";
 inline constexpr std::string_view needs_whole_program = "RUN-042";
 inline constexpr std::string_view beside_path = "RUN-043";
 inline constexpr std::string_view data_at_rest = "RUN-044";
+inline constexpr std::string_view curve_assumed = "RUN-045";
+inline constexpr std::string_view curve_place = "RUN-046";
+inline constexpr std::string_view curve_data = "RUN-047";
 // Found before anything moves.
 inline constexpr std::string_view unknown_label = "RUN-101";
 inline constexpr std::string_view unknown_routine = "RUN-102";

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ class Runner {
     bool block = false;           ///< a block that repeats itself
     std::string last{};           ///< label of its end where a later one counts as well; empty: only the one found
     std::uint32_t first_end = 0;  ///< with `last`: the end of a pass that is not left
+    bool curve = false;           ///< its blocks are the points of a curve
   };
   struct PendingCall {
     bool active = false;
@@ -94,6 +96,7 @@ class Runner {
 
   // calls.cpp
   void repeat(const ir::Repeat& r);
+  bool curve_statement(const ir::Repeat& r);
   void call(const ir::CallRoutine& c);
   void modal_call(const ir::ModalCall& m);
   void run_modal_call(std::uint32_t next);
@@ -122,6 +125,7 @@ class Runner {
 
   std::deque<Activation> calls_;
   std::vector<RepeatFrame> repeats_;
+  std::set<std::int32_t> curves_;  ///< defined now
   Flow* flow_ = nullptr;
   std::uint32_t at_ = 0;
   std::uint32_t repeat_end_ = nowhere, stop_ = nowhere;

@@ -163,8 +163,7 @@ class Transfer {
 
   /// The motion ends where its words say.
   static bool ends_at_words(std::optional<MotionKind> kind) {
-    switch (kind.value_or(MotionKind::polynomial)) {
-      case MotionKind::polynomial:
+    switch (kind.value_or(MotionKind::probe_toward)) {
       case MotionKind::probe_toward:
       case MotionKind::probe_away:
       case MotionKind::to_stop:

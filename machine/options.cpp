@@ -43,6 +43,9 @@ constexpr std::array specs{
                "how a program reads a machine position: radius in mm, or in the unit and diameter mode of its words"},
     OptionSpec{"machine_move.words", "modal|absolute", "modal",
                "words of a move in machine coordinates: increments in incremental mode, or positions in any mode"},
+    OptionSpec{"path.curve_tolerance", "number", "0.001",
+               "mm (degrees on rotary axes) by which the straight steps of a spline or polynomial leave the curve at "
+               "most: 0.000001 to 1"},
     OptionSpec{"polar.plane_resets_pole", "no|yes", "no", "a plane function puts the pole to the zero point"},
     OptionSpec{"polar.pole_follows_arc", "no|yes", "no", "the centre of an arc becomes the pole"},
     OptionSpec{"polar.pole_stays", "no|yes", "no",

@@ -307,6 +307,15 @@ void Writer::frame_use(const ir::Motion& m) {
   offset_pending_ = true;
 }
 
+namespace {
+
+bool in_polynomial(const ir::Motion& m, ir::AxisId axis) {
+  return m.extra && std::any_of(m.extra->polynomials.begin(), m.extra->polynomials.end(),
+                                [axis](const auto& p) { return p.axis == axis; });
+}
+
+}  // namespace
+
 /// "ACP", "ACN", "DC" for rotary moves with a direction; empty: a plain word.
 std::string Writer::rotary_attribute(const ir::CoordWord& w) {
   switch (w.direction) {
@@ -332,6 +341,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   std::string name(axis_name(w.axis));
   if (m.kind == ir::MotionKind::reference_point)
     return add(name + "1=0", Rank::coordinate, w.pos);  // the machine's axis
+  if (in_polynomial(m, w.axis)) return;                 // written with its coefficients
   if (w.positioning == ir::Positioning::alone) name = "POS[" + name + ']';
   if (w.positioning == ir::Positioning::alone_not_awaited) name = "POSA[" + name + ']';
   std::string attribute = rotary_attribute(w);
@@ -356,6 +366,23 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
     if (value.number >= 360) value = ir::Value(std::fmod(value.number, 360.0));
   }
   add(attribute_word(name, attribute, value, w.pos), Rank::coordinate, w.pos);
+}
+
+/// PO[X]=(end,a2,a3), or X=PO(end,a2,a3); the common denominator PO[]=(end,a2).
+void Writer::polynomial(const ir::Motion& m, const ir::PolynomialWord& p) {
+  const auto word = std::find_if(m.coords.begin(), m.coords.end(), [&](const auto& w) { return w.axis == p.axis; });
+  const bool common = p.axis == ir::axis::none;
+  if (!common && word == m.coords.end()) return refuse("TRN-202", p.pos, "a polynomial without its end");
+  const ir::Value& end = common ? p.end : word->value;
+  std::string attribute;
+  if (!common && word->mode != ir::WordMode::modal) attribute = word->mode == ir::WordMode::absolute ? "AC" : "IC";
+  std::string values = value_text(end, p.pos);
+  if (!attribute.empty() && p.after_address) values = attribute + '(' + values + ')';
+  const ir::Value* const higher[] = {&p.a2, &p.a3, &p.a4, &p.a5};
+  for (std::size_t i = 0; i + 1 < p.degree && i < std::size(higher); ++i) values += ',' + value_text(*higher[i], p.pos);
+  const std::string name = common ? std::string{} : std::string(axis_name(p.axis));
+  std::string text = p.after_address ? (common ? "PO(" : name + "=PO(") : "PO[" + name + "]=" + attribute + '(';
+  add(text + values + ')', Rank::coordinate, p.pos);
 }
 
 void Writer::center(const ir::Motion& m, const ir::CenterWord& w) {
@@ -431,6 +458,10 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
     add(modal ? word(address, w.value, w.pos) : attribute_word(address, attribute, w.value, w.pos), Rank::coordinate,
         w.pos);
   }
+  for (const ir::PolynomialWord& p : e.polynomials) polynomial(m, p);
+  if (e.has_degree) extra("SD", e.degree);
+  if (e.has_weight) extra("PW", e.weight);
+  if (e.has_interval) extra("PL", e.interval);
   const auto measures_axis = [](const ir::Action& a) {  // MEASA[X]=, written as it stood
     const auto* text = std::get_if<ir::OpaqueWord>(&a.data);
     return text != nullptr && to_upper_ascii(text->word.substr(0, 3)) == "MEA";

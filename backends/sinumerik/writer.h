@@ -69,6 +69,7 @@ class Writer final : public ProgramWriter {
   void corner(const ir::Action& a, const ir::Corner& c) override;
   void frame_use(const ir::Motion& m) override;
   void coordinate(const ir::Motion& m, const ir::CoordWord& w) override;
+  void polynomial(const ir::Motion& m, const ir::PolynomialWord& p);
   void center(const ir::Motion& m, const ir::CenterWord& w) override;
   void radius(const ir::Motion& m) override;
   void motion_extra(const ir::Motion& m, const ir::MotionExtra& e) override;

@@ -29,6 +29,9 @@ enum class NamedWord : std::uint8_t {
   fixed_point,
   probe,
   probe_to_end,
+  point_weight,
+  spline_degree,
+  interval,      ///< of a polynomial's parameter, between the knots of a B-spline
   orientation,   ///< of the tool under a transformation: kept
   timing,        ///< tolerances, overrides, accelerations: the nominal path is the same
   joint,         ///< how a machine reaches the programmed end
@@ -65,8 +68,10 @@ enum class Procedure : std::uint8_t {
   timing,          ///< dynamics, feed groups, single-block and display switches
   transformation,  ///< the programmed positions stay those of the tool; the frames in force are deselected (motion 9.1)
   coordination,    ///< other channels, interrupts, exchange of axes: no move of its own
-  preset,          ///< PRESETON: the present machine position gets another value
-  unsupported      ///< acts on the machine and is not carried
+  spline_axes,     ///< SPLINEPATH
+  polynomial_path,  ///< POLYPATH
+  preset,           ///< PRESETON: the present machine position gets another value
+  unsupported       ///< acts on the machine and is not carried
 };
 struct ProcedureRow {
   std::string_view name;

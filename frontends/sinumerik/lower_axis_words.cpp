@@ -348,7 +348,7 @@ bool StatementLowering::put_axis_words(Parts& parts, ir::Block& words) {
     words.motion.extra = std::make_shared<const ir::MotionExtra>(std::move(extra));
     if (c_.errors != before) return false;
   }
-  if (parts.coords.empty() && parts.computed.empty() && parts.centers.empty()) return true;
+  if (parts.coords.empty() && parts.computed.empty() && parts.centers.empty() && parts.polynomials.empty()) return true;
   for (const auto& a : words.actions) {
     if (!std::holds_alternative<ir::FrameOp>(a.data) && !std::holds_alternative<ir::PoleSet>(a.data) &&
         !std::holds_alternative<ir::Dwell>(a.data))
@@ -365,9 +365,10 @@ bool StatementLowering::put_axis_words(Parts& parts, ir::Block& words) {
     m.coords.push_back(std::move(c));
   }
   for (auto& c : parts.centers) m.centers.push_back(std::move(c));
-  if (!parts.computed.empty()) {
+  if (!parts.computed.empty() || !parts.polynomials.empty()) {
     ir::MotionExtra extra;
     if (m.extra) extra = *m.extra;
+    for (auto& p : parts.polynomials) extra.polynomials.push_back(std::move(p));
     for (auto& c : parts.computed) extra.computed.push_back(std::move(c));
     m.extra = std::make_shared<const ir::MotionExtra>(std::move(extra));
   }

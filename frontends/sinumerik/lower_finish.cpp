@@ -120,6 +120,18 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       extra_.probe_edge = std::move(value);
       extra_.probe_goes_on = row->use == NamedWord::probe_to_end;
       return;
+    case NamedWord::point_weight:
+      extra().has_weight = true;
+      extra_.weight = std::move(value);
+      return;
+    case NamedWord::spline_degree:
+      extra().has_degree = true;
+      extra_.degree = std::move(value);
+      return;
+    case NamedWord::interval:
+      extra().has_interval = true;
+      extra_.interval = std::move(value);
+      return;
     case NamedWord::rotation_in_plane:
       has_rpl_ = true;
       rpl_ = std::move(value);

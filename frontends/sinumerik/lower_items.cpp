@@ -177,6 +177,7 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
   const bool one_index = target.args.size() == 1;
   if (target.text == "R" || target.text[0] == '$' || c_.symbol(target.text) != nullptr)
     return assign(target, value, s.pos, parts);
+  if (target.text == "PO") return polynomial_item(s, parts);
   if (target.text == "G" && one_index) return indirect_g(s, parts);
   if (target.text == "SPOS" || target.text == "SPOSA" || target.text == "LIMS" || target.text == "S")
     return spindle_item(s, parts);
@@ -342,6 +343,8 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
           name + " acts on other channels, interrupts or axes: a run passes over it, and no other control gets it");
       return true;
     }
+    case Procedure::spline_axes: return spline_axes(args, pos, parts);
+    case Procedure::polynomial_path: return polynomial_path(args, pos, parts);
     case Procedure::preset: return preset(name, args, pos, parts);
     case Procedure::none:
     case Procedure::unsupported: break;
@@ -386,6 +389,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   // Without arguments it ends the swivelled plane; one that begins it is refused, so there is none (18.5).
   const bool bare = std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.kind == ExprKind::missing; });
   if (name == "CYCLE800" && bare) return without_effect(name, pos, parts);
+  if (name == "PO") return denominator(args, pos, parts);
   if (sinumerik::cycle(name) != nullptr) {
     ir::CyclePtr made = cycle(name, args, pos);
     if (!made) return false;

@@ -70,6 +70,10 @@ class StatementLowering {
   bool indirect_g(const syntax::Statement& s, Parts& parts);
   bool axis_item(const syntax::Statement& s, Parts& parts);
   bool probe_item(const syntax::Statement& s, Parts& parts);
+  bool polynomial_item(const syntax::Statement& s, Parts& parts);
+  bool denominator(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool spline_axes(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool polynomial_path(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool spindle_item(const syntax::Statement& s, Parts& parts);
   bool put_axis_words(Parts& parts, ir::Block& words);
   bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);

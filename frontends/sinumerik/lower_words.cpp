@@ -240,6 +240,9 @@ void WordLowering::words(const syntax::Block& block) {
 void WordLowering::letter(const syntax::Block& block, const Word& w, char address) {
   if (address == 'M') return m_word(block, w);
   if (address == 'T') return t_word(block, w);
+  if (const ir::AxisId named = c_.machine.axis(address);
+      named != ir::axis::none && w.extension < 0 && polynomial(block, w, named))
+    return;
   Attribute attribute = Attribute::none;
   ir::Value value = exprs_.value(block, w, attribute);
   const bool centre_letter = address == 'I' || address == 'J' || address == 'K';

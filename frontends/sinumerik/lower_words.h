@@ -69,6 +69,7 @@ class WordLowering {
   void f_word(const syntax::Word& w, ir::Value value);
   void named(const syntax::Block& block, const syntax::Word& w);
   void coordinate(ir::AxisId axis, const syntax::Word& w, ir::Value value, Attribute attribute);
+  bool polynomial(const syntax::Block& block, const syntax::Word& w, ir::AxisId axis);
   void center(ir::AxisId axis, const syntax::Word& w, ir::Value value, Attribute attribute);
   void spindle_position(const syntax::Word& w, ir::Value value, Attribute attribute);
   bool finish();

@@ -23,6 +23,7 @@ struct StatementLowering::Parts {
   bool probe_goes_on = false;
   std::string beside_text;  ///< what acts beside the path, as it stands
   std::string_view beside_feature;
+  std::vector<ir::PolynomialWord> polynomials;  ///< PO[..]
   bool has_count = false;
   ir::ExprPtr count;
   WordPos count_pos;

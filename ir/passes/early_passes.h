@@ -16,6 +16,8 @@ void restore_modals(Program& program, const LegaliseContext& context);
 void select_written_offsets(Program& program, const LegaliseContext& context);
 /// Points of a contour that follow from its angles, tangency and intersections, written out.
 void solve_contours(Program& program, const LegaliseContext& context);
+/// Splines and polynomials as straight steps within the tolerance of the source's profile.
+void write_out_curves(Program& program, const LegaliseContext& context);
 /// A tangent arc that is in force in the source is said in each block.
 void say_tangent_arcs(Program& program, const LegaliseContext& context);
 /// A tap with a compensating chuck as a straight move.

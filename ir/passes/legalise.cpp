@@ -22,6 +22,7 @@ constexpr std::array pipeline{
     Pass{"range_ends", passes::mark_range_ends, false},
     Pass{"saved_modals", passes::restore_modals, false},
     Pass{"contours", passes::solve_contours, false},
+    Pass{"curves", passes::write_out_curves, false},
     Pass{"said_tangents", passes::say_tangent_arcs, false},
     Pass{"floating_taps", passes::write_floating_taps, false},
     Pass{"block_feeds", passes::write_block_feeds, false},

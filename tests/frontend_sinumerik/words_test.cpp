@@ -210,7 +210,7 @@ TEST(SinumerikWords, WhatCanNotBeReadIsRefused) {
   EXPECT_EQ(read("G1 X10 I5\n").errors(), "SIN-003");
   EXPECT_EQ(read("G2 X1 CR=5 I2\n").errors(), "SIN-005");
   EXPECT_EQ(read("R1 X5\n").errors(), "SIN-003");
-  EXPECT_EQ(read("BSPLINE X1\n").warnings(), "SIN-008");
+  EXPECT_EQ(read("INVCW X1\n").warnings(), "SIN-008");
   EXPECT_EQ(read("G58\n").errors(), "SIN-004");
   EXPECT_EQ(read("M1.5\n").errors(), "SIN-017");
   auto r = read("N10 G88 X5 ;why\nG0 X1\n");
