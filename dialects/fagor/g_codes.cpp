@@ -100,7 +100,7 @@ constexpr std::array table = {
     refused(45, B, "6.18", "tangential control", "beside.coupling"),
     refused(46, B, "13", "the angular axis", "motion.transformation"),
     refused(47, M, "25.6", "the tool axis move", "motion.transformation"),
-    refused(48, M, "25.6", "the tool centre point transformation", "motion.transformation"),
+    refused(48, M, "25.6", "the tool centre point transformation", "beside.compensation"),
     GCode{49, M, Group::none, Use::inclined_plane, Setting::plane, 0, MotionKind::modal, true, "25.6",
           "the inclined plane", "motion.transformation"},
     own(50, B, Group::corner, Use::soft_corner, 0, false, "7.3"),

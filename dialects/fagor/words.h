@@ -59,7 +59,7 @@ inline constexpr std::array<StatementInfo, 41> statements = {{
     {"DW", "12.9", "screen", Carried::no_path, keeps},
     {"SK", "12.9", "soft keys", Carried::no, keeps},
     {"WKEY", "12.9", "waits for a key", Carried::no, "beside.data"},
-    {"WBUF", "12.9", "edited block", Carried::no, keeps},
+    {"WBUF", "12.9", "edited block", Carried::no, "beside.data"},
     {"SYSTEM", "12.9", "end of a user page", Carried::no, keeps},
     {"PI", "11.3", "constant"},
 }};

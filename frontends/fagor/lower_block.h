@@ -56,6 +56,7 @@ class BlockLowerer {
   void apply_offset(const GWord& g);
   void apply_frame(const GWord& g);
   void inclined_plane(const GWord& g);
+  [[nodiscard]] bool full_retract(int code) const;
   void apply_special(const GWord& g);
   void setting(const GWord& g, ir::Order order);
   void compensation(const GWord& g);

@@ -75,6 +75,14 @@ const Word* BlockLowerer::take_cycle_word(char c, const Word& depth) {
   return take(c);
 }
 
+/// G69 draws back to the reference plane behind every peck: without H, whatever J says, and with J1, whatever H says.
+bool BlockLowerer::full_retract(int code) const {
+  if (code != 69) return false;
+  const Word* h = letter('H');
+  const Word* j = letter('J');
+  return h == nullptr || (j != nullptr && j->expr < 0 && j->number == 1);
+}
+
 /// The word of the longitudinal axis is the reference plane, I the bottom (G83: one peck with its sign); K is the
 /// dwell.
 void BlockLowerer::hole_cycle(const GWord& g) {
@@ -87,8 +95,9 @@ void BlockLowerer::hole_cycle(const GWord& g) {
     state_.error("FAG-014", g.word->pos, the_function(*g.word) + " needs the depth I");
     return;
   }
+  const bool out_every_time = full_retract(code);
   for (const char c : letters.kept) {
-    if (!take_cycle_word(c, *depth)) continue;
+    if (!take_cycle_word(c, *depth) || (out_every_time && (c == 'H' || c == 'J'))) continue;
     keep(g, "cycle.hole", the_function(*g.word) + " with the word " + c + " is kept as text");
     return;
   }

@@ -167,6 +167,9 @@ TEST(FagorBlock, HoleCyclesOfTheMill) {  // 25.3, 28.6
       "from_reference -20 dwell_bottom 30 dwell_scale 0.01 pecks geometric first 5 degression .8 minimum 1 reapproach "
       "0.5 first_from_surface dwell 30 as \"G69\"");
   EXPECT_EQ(line("G69 Z2 I-20"), "opaque \"G69 Z2 I-20\" feature \"text.unread\" | FAG-014");
+  EXPECT_EQ(line("G69 Z2 I-20 B5 J3"), line("G69 Z2 I-20 B5"));     // without H: to the reference plane
+  EXPECT_EQ(line("G69 Z2 I-20 B5 H4 J1"), line("G69 Z2 I-20 B5"));  // every peck is a J-th one
+  EXPECT_EQ(line("G69 Z2 I-20 B5 H4 J2"), "opaque \"G69 Z2 I-20 B5 H4 J2\" feature \"cycle.hole\" | FAG-007");
   EXPECT_EQ(line("G69 Z2 I-20 B5 H4"), "opaque \"G69 Z2 I-20 B5 H4\" feature \"cycle.hole\" | FAG-007");
   EXPECT_EQ(line("G69 Z2 I-20 B0"), "opaque \"G69 Z2 I-20 B0\" feature \"text.unread\" | FAG-013");
   EXPECT_EQ(line("G84 X10 Z2 I-15 K20 F500 S500"),

@@ -72,7 +72,8 @@ std::string support(const facts::GCode& g) {
              reason(g.feature);
     case Use::no_path: return "kept as text: no effect on the path (FAG-008)";
     case Use::spindle_choice: return "spindles: carried; with axes " + reason(g.feature);
-    case Use::spindle_couple: return "spindles: kept as text (FAG-037); axes " + reason(g.feature);
+    case Use::spindle_couple:
+      return "spindles: kept as text (FAG-037)" + (g.code == 30 ? "" : "; axes " + reason("beside.coupling"));
     case Use::soft_corner:
     case Use::look_ahead: return "carried as G05 (FAG-008)";
     case Use::plane_axes: return "carried for XY, ZX, YZ; others " + reason("motion.transformation");
