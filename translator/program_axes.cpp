@@ -1,6 +1,7 @@
 #include "translator/program_axes.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "base/text.h"
@@ -26,28 +27,39 @@ bool axis_word(std::string_view run, std::string_view rest, const std::string& m
   return at != std::string_view::npos && (is_digit(rest[at]) || std::string_view("+-.=([").find(rest[at]) < 6);
 }
 
-/// The text may have a word of one of the letters. Comments are passed over, names of more letters too.
+/// The text may have a word of one of the letters. Comments are passed over, names of more letters too. Most bytes are
+/// passed over by one look into a table: large files are read at memory speed.
 bool mentions(std::string_view text, const Dialect& dialect, const std::string& missing) {
-  for (std::size_t i = 0; i < text.size();) {
+  std::array<bool, 256> stops{};
+  const auto stop_at = [&stops](char c) { stops[static_cast<unsigned char>(c)] = true; };
+  for (const char c : missing) {
+    stop_at(c);
+    stop_at(static_cast<char>(c + 32));
+  }
+  const bool by_code = std::any_of(dialect.axis_codes.begin(), dialect.axis_codes.end(),
+                                   [&](const auto& row) { return missing.find(row.second) != std::string::npos; });
+  if (by_code) {
+    stop_at('G');
+    stop_at('g');
+  }
+  stop_at(dialect.comment_open);
+  for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (!stops[static_cast<unsigned char>(c)]) continue;
     if (c == dialect.comment_open) {
-      const std::size_t close =
-          dialect.comment_close == 0 ? text.find_first_of("\r\n", i) : text.find(dialect.comment_close, i);
-      if (close == std::string_view::npos) return false;
-      i = close + 1;
-    } else if (is_letter(c)) {
-      std::size_t end = i;
-      while (end < text.size() && is_letter(text[end])) ++end;
-      const auto run = text.substr(i, end - i), rest = text.substr(end, 8);
-      if (axis_word(run, rest, missing)) return true;
-      int code = -1;
-      if (run == "G" || run == "g") std::from_chars(rest.data(), rest.data() + rest.size(), code);
-      for (const auto& [g, letter] : dialect.axis_codes) {
-        if (g == code && missing.find(letter) != std::string::npos) return true;
-      }
-      i = end;
-    } else {
-      ++i;
+      i = dialect.comment_close == 0 ? text.find_first_of("\r\n", i) : text.find(dialect.comment_close, i);
+      if (i == std::string_view::npos) return false;
+      continue;
+    }
+    if (i > 0 && is_letter(text[i - 1])) continue;
+    std::size_t end = i;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    const auto run = text.substr(i, end - i), rest = text.substr(end, 8);
+    if (axis_word(run, rest, missing)) return true;
+    int code = -1;
+    if (run == "G" || run == "g") std::from_chars(rest.data(), rest.data() + rest.size(), code);
+    for (const auto& [g, letter] : dialect.axis_codes) {
+      if (g == code && missing.find(letter) != std::string::npos) return true;
     }
   }
   return false;
