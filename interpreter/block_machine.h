@@ -207,7 +207,10 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] Frame slot_frame(ir::FrameSlot slot) const;
   bool rebuild_frame();
   bool use_frame(const Frame& f);
-  Frame offset_frame() const;
+  [[nodiscard]] Frame offset_frame() const;
+  [[nodiscard]] Frame settable_frame() const;
+  [[nodiscard]] Frame base_frame() const;
+  void load_base();
   void load_offset(std::int32_t row);
   [[nodiscard]] Frame programmable_frame() const;
 
@@ -318,6 +321,7 @@ class BlockMachine final : public SystemData {
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets_;
   std::map<std::int32_t, std::map<ir::AxisId, double>> fine_offsets_;  ///< added to those of the same row
   std::map<std::int32_t, Frame> offset_shapes_;  ///< turn, scale and mirror of a row; missing: none
+  std::map<std::int32_t, Frame> base_frames_;    ///< in force, outside of the settable frame; by row
   std::map<ir::AxisId, double> active_offset_;   ///< fine part included
   Frame active_shape_;
   Axes fine_shift_{};               ///< of the programmable frame; in the slot too

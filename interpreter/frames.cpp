@@ -5,6 +5,7 @@
 #include "base/saturate.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "ir/frame_rows.h"
 
 namespace cnctrans::interpreter {
 
@@ -18,7 +19,29 @@ double& diagonal(Frame& f, ir::AxisId a) {
 }
 }  // namespace
 
+/// Everything outside of what the program has put: base frames and the settable one.
 Frame BlockMachine::offset_frame() const {
+  return base_frames_.empty() ? settable_frame() : compose(base_frame(), settable_frame());
+}
+
+Frame BlockMachine::base_frame() const {
+  Frame f;
+  for (const auto& [row, part] : base_frames_) f = compose(f, part);
+  return f;
+}
+
+/// The stored base frames come into force.
+void BlockMachine::load_base() {
+  namespace rows = ir::frame_rows;
+  for (auto it = offset_shapes_.lower_bound(rows::stored_base);
+       it != offset_shapes_.end() && it->first < rows::active_base; ++it) {
+    Frame f = it->second;
+    for (const auto& [axis, v] : work_offsets_[it->first]) f.t[axis] += v;
+    base_frames_[it->first - rows::stored_base + rows::active_base] = f;
+  }
+}
+
+Frame BlockMachine::settable_frame() const {
   Axes t{};
   for (const auto& [axis, v] : active_offset_) t[axis] = v;
   Frame f = active_shape_;
@@ -49,6 +72,7 @@ bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
   const auto row = w.off ? 0 : saturate<std::int32_t>(std::round(value(w.index)));
   modal_.work_offset = row;
   load_offset(row);
+  load_base();
   return !failure_.set && rebuild_frame();
 }
 

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "ir/frame_rows.h"
 #include "machine/data_at_rest.h"
 
 namespace cnctrans::interpreter {
@@ -306,11 +307,19 @@ std::string BlockMachine::axis_name(ir::AxisId axis) const {
 bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> args, Frame& out) {
   switch (ref.datum) {
     case Datum::frame_programmed: out = programmable_frame(); return true;
-    case Datum::frame_active: out = offset_frame(); return true;
+    case Datum::frame_active: out = settable_frame(); return true;
     case Datum::frame_total: out = frame_; return true;
     case Datum::frame_settable: {
       const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
       out = Frame{};
+      if (row == ir::frame_rows::total_base) {
+        out = base_frame();
+        return true;
+      }
+      if (const auto it = base_frames_.find(row); it != base_frames_.end()) {
+        out = it->second;
+        return true;
+      }
       if (const auto it = offset_shapes_.find(row); it != offset_shapes_.end()) out = it->second;
       if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) {
         for (const auto& [axis, v] : it->second) out.t[axis] += v;
@@ -344,6 +353,12 @@ bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double>
       return rebuild_frame();
     case Datum::frame_settable: {
       const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
+      if (row >= ir::frame_rows::neutral)
+        return failure_.fail(code::no_datum, "the frame " + ref.text + " can only be read");
+      if (row >= ir::frame_rows::active_base) {
+        base_frames_[row] = f;
+        return rebuild_frame();
+      }
       table(work_offsets_[row]);
       fine_offsets_.erase(row);
       offset_shapes_[row] = f.linear_part();

@@ -281,6 +281,9 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
   if (kind != ir::MotionKind::rapid && kind != ir::MotionKind::linear) {
     return failure_.fail(code::not_carried, "only straight moves are carried out in machine coordinates");
   }
+  if (!base_frame().is_identity()) {  // some controls keep the base frames here, depending on the code
+    return failure_.fail(code::not_carried, "moves in machine coordinates under a base frame are not carried out");
+  }
   Axes machine = frame_.apply(p_);
   const double metric = policy_.machine_metric && modal_.units == ir::Units::inch ? 1 / 25.4 : 1;
   for (const auto& w : m.coords) {

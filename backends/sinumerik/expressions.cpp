@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/saturate.h"
+#include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
 
@@ -146,6 +147,12 @@ std::string Expressions::name(const ir::SystemRef& s) {
       return text + '[' + std::to_string(saturate<std::int32_t>(*n) + std::int64_t{1}) + ']';
     const auto* less = std::get_if<ir::Binary>(&s.args[0]->node);
     if (less != nullptr && literal(less->right) == 1.0) return text + '[' + index(less->left) + ']';
+  }
+  if (const auto* frame = own_name ? cnctrans::sinumerik::row_frame(s.text) : nullptr;
+      frame != nullptr && s.args.size() == 1) {
+    const auto row = literal(s.args[0]);
+    if (!frame->indexed || !row) return text;
+    return text + '[' + std::to_string(saturate<std::int32_t>(*row) - frame->row) + ']';
   }
   std::vector<std::string> indices;
   if (s.datum == ir::Datum::work_offset || s.datum == ir::Datum::work_offset_fine) {

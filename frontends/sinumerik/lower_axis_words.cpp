@@ -259,6 +259,8 @@ bool StatementLowering::spindle_item(const syntax::Statement& s, Parts& parts) {
   ir::Action a;
   a.pos = s.pos;
   a.text = c_.slice(s.pos);
+  if (c_.slice(target.args[0].pos) != target.args[0].text)  // a variable that a branch has chosen
+    a.text = c_.program.keep(target.text + '[' + target.args[0].text + "]=" + std::string(c_.slice(s.args[1].pos)));
   if (target.text == "LIMS") {
     a.data = ir::SpindleLimit{number, std::move(v), false};
   } else if (target.text == "S") {

@@ -56,6 +56,7 @@ class ExprLowering {
     ir::ExprPtr whole, axis, component;
   };
   std::optional<FrameName> frame_name(const syntax::Expr& e);
+  std::optional<FrameName> component(const syntax::Expr& e, std::size_t indices, FrameName out);
   /// The axis that an index names, or a variable of type AXIS; null after an error.
   ir::ExprPtr axis_operand(const syntax::Expr& e);
   /// An array that is named as a whole, to be handed over; nullopt when `e` names none.

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/variables.h"
 #include "frontends/sinumerik/lower_statements.h"
 
@@ -71,6 +73,25 @@ std::optional<ExprLowering::FrameName> ExprLowering::frame_name(const Expr& e) {
   std::size_t indices = 0;
   FrameName out;
   if (!e.text.empty() && e.text[0] == '$') {
+    if (const RowFrame* known = row_frame(e.text); known != nullptr) {
+      indices = known->indexed ? 1 : 0;
+      if (e.args.size() != indices && e.args.size() != indices + 2) return std::nullopt;
+      std::int32_t n = 0;
+      if (known->indexed) {
+        const Expr& index = e.args[0];
+        if (index.kind != ExprKind::number || index.number < 0 || index.number >= row_frames_each) {
+          c_.keep("SIN-008", index.pos, "the number of a base frame must be written as a number, 0 to 7, here");
+          return std::nullopt;
+        }
+        n = saturate<std::int32_t>(index.number);
+      }
+      ir::SystemRef ref;
+      ref.text = e.text;
+      ref.datum = ir::Datum::frame_settable;
+      ref.args.push_back(ir::number(known->row + n));
+      out.whole = make_expr(std::move(ref), ir::Type::frame, e.pos);
+      return component(e, indices, std::move(out));
+    }
     const SystemFrame* row = nullptr;
     for (const auto& f : system_frames) {
       if (f.name == e.text) row = &f;
@@ -99,6 +120,11 @@ std::optional<ExprLowering::FrameName> ExprLowering::frame_name(const Expr& e) {
     }
     out.whole = make_expr(std::move(ref), ir::Type::frame, e.pos);
   }
+  return component(e, indices, std::move(out));
+}
+
+/// With `[axis, component]` behind the indices of the frame.
+std::optional<ExprLowering::FrameName> ExprLowering::component(const Expr& e, std::size_t indices, FrameName out) {
   if (e.args.size() == indices) return out;
   out.component = component_number(e.args[indices + 1]);
   if (!out.component) return std::nullopt;
@@ -277,6 +303,7 @@ bool StatementLowering::offset_row(const ir::Expr& target, const ir::ExprPtr& va
   const auto& row = std::get<ir::SystemRef>(target.node);
   const auto* c = std::get_if<ir::Call>(&value->node);
   if (row.datum != ir::Datum::frame_settable || c == nullptr || c->function != ir::Function::frame_shift) return false;
+  if (row_frame(row.text) != nullptr) return false;
   for (std::size_t i = 0; i < c->args.size(); i += 2) {
     if (!std::holds_alternative<ir::AxisName>(c->args[i]->node)) return false;
   }
@@ -324,6 +351,13 @@ std::optional<bool> StatementLowering::assign_frame(const Expr& target, const Ex
   if (const auto* ref = std::get_if<ir::SystemRef>(&name->whole->node)) {
     if (ref->datum == ir::Datum::frame_total)
       return refuse("language.system_variable", pos, "$P_ACTFRAME can only be read");
+    if (const RowFrame* known = row_frame(ref->text); known != nullptr) {
+      if (known->row >= ir::frame_rows::neutral)
+        return refuse("language.system_variable", pos, ref->text + " is set by the control only");
+      if (c_.said.contains("$P_CHBFRMASK"))
+        return refuse("language.system_variable", pos, "base frames that a mask has chosen are not carried yet");
+      c_.said.emplace("$P_BFRAME");
+    }
     if (ref->datum == ir::Datum::frame_programmed && frame_statements(right, pos, actions)) return true;
     if (!name->component && offset_row(*name->whole, right, pos, assign)) return true;
     item.system = *ref;

@@ -64,7 +64,10 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   if (c_.errors != before) return false;
   const bool tool_data = target.text.rfind("$TC_", 0) == 0;
   const std::string_view beside_path = beside_datum(target.text);
-  const bool storage = target.text == "$AC_MARKER" || target.text == "$AC_PARAM" ||
+  // While every base frame is neutral, a mask changes nothing.
+  const bool mask = (target.text == "$P_CHBFRMASK" || target.text == "$P_NCBFRMASK") && !c_.said.contains("$P_BFRAME");
+  if (mask) c_.said.emplace("$P_CHBFRMASK");
+  const bool storage = mask || target.text == "$AC_MARKER" || target.text == "$AC_PARAM" ||
                        item.system.datum == ir::Datum::part_count || !beside_path.empty();
   if (tool_data && c_.first_time("$TC_"))
     c_.note("SIN-009", pos, "tool data are kept: they do not change the programmed path");
@@ -434,7 +437,7 @@ bool StatementLowering::sort_items(const Block& block, Parts& parts) {
 }
 
 bool StatementLowering::items(const Block& block, ir::LineInfo info) {
-  if (interrupt_routine(block, info) || return_move(block, info)) return true;
+  if (interrupt_routine(block, info) || return_move(block, info) || chosen_by_index(block, info)) return true;
   Parts parts;
   bool ok = sort_items(block, parts);
   ir::Block words;

@@ -66,6 +66,7 @@ class StatementLowering {
   bool master_spindle(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool axis_setting(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   static bool reads_like_axis(std::string_view name);
+  bool chosen_by_index(const syntax::Block& block, const ir::LineInfo& info);
   bool chosen_g(const syntax::Statement& s, Parts& parts);
   bool indirect_g(const syntax::Statement& s, Parts& parts);
   bool axis_item(const syntax::Statement& s, Parts& parts);

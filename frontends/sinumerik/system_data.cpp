@@ -56,6 +56,7 @@ ir::SystemRef ExprLowering::system(const Expr& e) {
       first = 1;
     }
     if (row.axis && ref.axis == ir::axis::none) ref.datum = ir::Datum::other;
+    if (e.text == "$AA_IBN" && c_.said.contains("$P_BFRAME")) ref.datum = ir::Datum::other;  // under a base frame
   }
   // $P_UIFR[row, axis, TR]: a value of the table of settable offsets
   const bool shift = e.args.size() == 3 && (e.args[2].text == "TR" || e.args[2].text == "FI");
