@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "interpreter/emitter.h"
 #include "interpreter/expressions.h"
 #include "interpreter/failure.h"
@@ -67,9 +68,8 @@ class BlockMachine final : public SystemData {
   void message(std::string text, const Span& where);
   /// Contours that several points fit were settled by the nearest one, here.
   [[nodiscard]] const std::vector<Span>& chosen_contours() const { return chosen_contours_; }
-  /// Where splines began, whose course between the points the makers' manuals leave open.
-  [[nodiscard]] const std::vector<Span>& curves_assumed() const { return curves_assumed_; }
-  [[nodiscard]] double curve_tolerance() const { return curve_tolerance_; }
+  /// The makers' manuals leave the way of splines between their points open: said once, at the first one.
+  void tell_curves(Diagnostics& diagnostics) const;
   /// The next spline block stands at its first point (a curve with a definition of its own); the curve ends.
   void begin_defined_curve() { curve_from_first_point_ = true; }
   bool end_defined_curve();

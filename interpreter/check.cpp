@@ -149,6 +149,7 @@ class Checker {
 
   void repeat(Flow& flow, std::uint32_t at, const ir::Repeat& r) {
     const auto& s = *flow.code[at].statement;
+    if (r.curve_use != ir::CurveUse::none && r.first.text.empty()) return;  // a curve that is not defined: see the run
     if (!r.has_program) {
       range(flow, s, r.first, r.last, r.search, r.order_free, at);
     } else if (auto* other = routines_.find(r.program, flow)) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/diagnostics.h"
+#include "base/text.h"
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
 
@@ -27,6 +29,17 @@ bool apart(const ir::curves::Point& a, const ir::curves::Point& b) {
 }
 
 }  // namespace
+
+void BlockMachine::tell_curves(Diagnostics& diagnostics) const {
+  if (curves_assumed_.empty()) return;
+  diagnostics.warning(
+      code::curve_assumed, curves_assumed_.front(),
+      "the way of a spline between its points is computed by the usual formulas and run in straight steps within " +
+          shortest(curve_tolerance_) +
+          " mm; the maker describes only its properties, and the control's own curve may differ between the points "
+          "(told once)",
+      "compare with the control before a part depends on it");
+}
 
 /// What has no meaning beside the points of a curve.
 bool BlockMachine::curve_allowed(const ir::Motion& m, bool spline) {
@@ -112,7 +125,6 @@ bool BlockMachine::spline_words(const ir::Motion& m, double& weight, double& int
 
 /// One more point of a spline.
 bool BlockMachine::spline_point(const ir::Motion& m, ir::MotionKind kind) {
-  if (m.explicit_code) curve_broken_ = false;
   if (curve_broken_) {
     return failure_.fail(code::curve_place,
                          "a move of another kind stands between the points of a spline: where the curve goes on is "

@@ -65,15 +65,7 @@ Result Runner::run() {
                          "several contours fit the data of these elements; the one nearest to its start was run",
                          "say which point is meant (E+ or E-)");
   }
-  if (!machine_.curves_assumed().empty()) {
-    diagnostics_.warning(code::curve_assumed, machine_.curves_assumed().front(),
-                         "the way of a spline between its points is computed by the usual formulas and run in straight "
-                         "steps within " +
-                             shortest(machine_.curve_tolerance()) +
-                             " mm; the maker describes only its properties, and the control's own curve may differ "
-                             "between the points (told once)",
-                         "compare with the control before a part depends on it");
-  }
+  machine_.tell_curves(diagnostics_);
   for (const auto& datum : machine_.assumed()) {
     diagnostics_.warning(code::data_at_rest, datum.where,
                          "the value of " + datum.name + " is known to the machine only; " + shortest(datum.value) +

@@ -207,6 +207,7 @@ class Builder {
 
   void repeat(const Repeat& r, const Ids& next) {
     Ids& out = flow_.successors[current_];
+    if (r.curve_use == CurveUse::define || r.curve_use == CurveUse::remove) return add_ids(out, next);
     continuation_[current_] = next;
     const bool known_range = !r.first.computed && !r.last.computed;
     if (!r.has_program && known_range) {

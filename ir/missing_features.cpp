@@ -39,7 +39,7 @@ constexpr std::array features{
                    "the profile of the machine names its axes"},
     MissingFeature{"motion.geometry", "profiles given by angles, tangency and intersections",
                    "the data of such a profile are solved by the control"},
-    MissingFeature{"motion.polynomial", "polynomials of orientation axes and of axes that a variable names",
+    MissingFeature{"motion.polynomial", "polynomials of axes that a variable names",
                    "polynomials of the axes of the machine are carried"},
     MissingFeature{"motion.probe", "probing moves and cycles", "executed as moves to the expected contact later"},
     MissingFeature{"motion.spline", "splines with tangents of their own, or whose points stand in another program",

@@ -257,6 +257,7 @@ void Writer::jump(const ir::Jump& j) {
 void Writer::repeat(const ir::Repeat& r) {
   if (r.first.computed || r.last.computed)
     return refuse(no_statement, {}, "a range of computed block numbers has no counterpart here");
+  if (r.curve_use != ir::CurveUse::none) return curve(r);
   std::string text = "G77 ";
   if (r.has_program) text += "H" + std::to_string(r.program.number) + ' ';
   text += number_target(r.first) + ' ' + number_target(r.last);
@@ -265,6 +266,15 @@ void Writer::repeat(const ir::Repeat& r) {
     if (!n || *n != 1) text += ' ' + word("S", n ? ir::Value(*n) : ir::Value(r.count), {});
   }
   add(text, Rank::tail);
+}
+
+/// G48 NU1 N10 N30, G49 NU1; G06 NU1 stands in the block before.
+void Writer::curve(const ir::Repeat& r) {
+  if (!same_dialect()) return refuse(no_statement, {}, "a curve with a number has no counterpart here");
+  const std::string number = " NU" + std::to_string(r.curve);
+  if (r.curve_use == ir::CurveUse::define)
+    add("G48" + number + ' ' + number_target(r.first) + ' ' + number_target(r.last), Rank::tail);
+  if (r.curve_use == ir::CurveUse::remove) add("G49" + number, Rank::tail);
 }
 
 void Writer::call(const ir::CallRoutine& c) {

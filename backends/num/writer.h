@@ -28,6 +28,7 @@ class Writer final : public ProgramWriter {
   void exit_loop() override;
   void jump(const ir::Jump& j) override;
   void repeat(const ir::Repeat& r) override;
+  void curve(const ir::Repeat& r);
   void call(const ir::CallRoutine& c) override;
   void return_from(const ir::Return& r) override;
   void end_program(const ir::End& e) override;

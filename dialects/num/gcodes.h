@@ -207,7 +207,6 @@ constexpr std::string_view missing_feature(const GCode& row) {
   switch (row.kind) {
     case GKind::turning_cycle: return row.code == 63 || row.code == 66 ? "cycle.turning" : "";
     case GKind::milling_cycle: return row.code == 45 ? "" : "cycle.milling";
-    case GKind::spline: return "motion.spline";
     case GKind::spatial_comp:
     case GKind::transform:
     case GKind::grinding_axis:

@@ -106,7 +106,9 @@ bool Lowering::interruption(const Flow& flow, ir::Statement& out) {
 }
 
 bool Lowering::flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out) {
-  const bool ok = flow.code->kind == GKind::jump ? jump(flow, test, out) : call(flow, out);
+  const bool ok = flow.code->kind == GKind::jump     ? jump(flow, test, out)
+                  : flow.code->kind == GKind::spline ? curve(flow, out)
+                                                     : call(flow, out);
   return ok && !report_.refused();
 }
 

@@ -230,6 +230,15 @@ void FileReader::split_call(ir::Statement flow) {
                            "put it into a block of its own");
     return opaque(span_, text_, "text.unread", false);
   }
+  const auto* curve = std::get_if<ir::Repeat>(&flow.node);
+  if (curve != nullptr && curve->curve_use == ir::CurveUse::run) {  // G06 NU1, its points run in its motion function
+    const WordPos code = flow_.word->pos, number = flow_.curve->pos;
+    before.has_motion = true;
+    before.motion.kind = ir::MotionKind::spline_cubic;
+    before.motion.explicit_code = true;
+    before.motion.code_pos = code;
+    before.motion.code_text = trim(text_.substr(code.column - 1, number.column + number.length - code.column));
+  }
   if (!before.empty()) put_node(std::move(before));
   ir::Statement s = with_line();
   s.node = std::move(flow.node);

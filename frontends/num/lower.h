@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -43,6 +44,7 @@ struct Flow {
   const syntax::Word* word = nullptr;
   const syntax::Word* program = nullptr;        ///< H
   const syntax::Word* repeat = nullptr;         ///< S of G77
+  const syntax::Word* curve = nullptr;          ///< NU of G06, G48, G49
   std::array<const syntax::Word*, 3> labels{};  ///< N words
   std::size_t label_count = 0;
   bool end = false;
@@ -71,6 +73,7 @@ class Lowering {
   /// null.
   bool flow_statement(const Flow& flow, const syntax::Statement* test, ir::Statement& out);
   /// The jump of a G10 block that was interrupted.
+  bool curve(const Flow& flow, ir::Statement& out);
   bool interruption(const Flow& flow, ir::Statement& out);
   /// Value of a word that is no axis word.
   ir::Value value(const syntax::Word& w);
@@ -210,10 +213,11 @@ class Lowering {
   ir::Block* out_ = nullptr;
   Flow* flow_ = nullptr;
   Marks marks_;
-  std::uint64_t present_ = 0;              ///< bit: an address of this slot was given (axes too)
-  std::uint64_t used_ = 0;                 ///< and means something
-  std::array<const Word*, 64> pending_{};  ///< by slot, valid where present_ and no axis
-  std::vector<Step> steps_;                ///< of out_->actions
+  std::uint64_t present_ = 0;                  ///< bit: an address of this slot was given (axes too)
+  std::uint64_t used_ = 0;                     ///< and means something
+  std::map<std::int32_t, ir::Repeat> curves_;  ///< defined so far in the text
+  std::array<const Word*, 64> pending_{};      ///< by slot, valid where present_ and no axis
+  std::vector<Step> steps_;                    ///< of out_->actions
 };
 
 /// Ranges of G77 whose last block is missing end with the greatest smaller number (num.missing_range_end).

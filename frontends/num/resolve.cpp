@@ -127,6 +127,10 @@ void Lowering::resolve_values() {
     flow_->program = use(letter('H'));
     flow_->repeat = use(letter('S'));
   }
+  if (flow_->code != nullptr && flow_->code->kind == facts::GKind::spline) {
+    flow_->program = use(letter('H'));
+    flow_->curve = use(nu);
+  }
   if (const Word* w = use(letter('F'))) act(*w, Step::value, ir::SetFeed{value(*w), false});
   if (has(letter('S')) && flow_->repeat == nullptr && (used_ & bit(letter('S'))) == 0) {
     const Word* w = use(letter('S'));

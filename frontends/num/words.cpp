@@ -297,6 +297,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::scale_on: return scale(w, row.kind == GKind::scale_on);
     case GKind::call:
     case GKind::jump:
+    case GKind::spline:
       if (flow_->code != nullptr) return unknown(w, "a second jump or call in the block");
       flow_->code = &row;
       flow_->word = &w;
@@ -317,7 +318,6 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::milling_cycle:
       if (facts::missing_feature(row).empty()) return mark(marks_.cycle);
       return missing(facts::missing_feature(row));
-    case GKind::spline:
     case GKind::spatial_comp:
     case GKind::transform:
     case GKind::grinding_axis:

@@ -93,8 +93,14 @@ bool StatementLowering::polynomial_item(const syntax::Statement& s, Parts& parts
   if (!common) {
     const Expr& index = target.args[0];
     for (const char* angle : {"PHI", "PSI", "THT", "XH", "YH", "ZH"}) {
-      if (index.text == angle)
-        return refuse("motion.polynomial", s.pos, "the polynomial of an orientation is not carried yet");
+      if (index.text != angle) continue;
+      ir::Action a;  // as A3= and its like: positions are those of the tip
+      a.data = ir::OpaqueWord{c_.slice(s.pos)};
+      a.pos = s.pos;
+      a.text = c_.slice(s.pos);
+      parts.actions.push_back(std::move(a));
+      c_.note("SIN-009", s.pos, "the orientation of the tool is kept as text; positions are those of its tip");
+      return true;
     }
     const ir::ExprPtr axis = exprs_.is_undefined(index) ? nullptr : exprs_.axis_operand(index);
     const auto* literal = axis ? std::get_if<ir::AxisName>(&axis->node) : nullptr;

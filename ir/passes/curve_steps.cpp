@@ -152,6 +152,7 @@ bool CurveSteps::collect(const std::vector<Statement*>& list, Facts& now, const 
       in.weights[0] = weight;
       continue;
     }
+    if (taken_.empty() && at_first_point_ && !first_said) return no("the tool does not stand at its first point");
     in.points.push_back(t.at);
     in.beside.push_back(beside);
     in.weights.push_back(weight);

@@ -23,6 +23,8 @@ class CurveSteps {
   /// facts before them, `following`: see direction_of, `degree`: said before the first point. False with a sentence.
   bool spline(const std::vector<Statement*>& list, MotionKind kind, Facts now, const curves::Point& following,
               const std::optional<Value>& degree, Body& out, std::string& why);
+  /// Whether later splines must begin where their first block stands.
+  void begins_at_first_point(bool must) { at_first_point_ = must; }
   /// The same of one block with polynomials.
   bool polynomial(Statement& s, const Block& b, const Facts& before, std::optional<OnOff> on, Body& out,
                   std::string& why);
@@ -47,7 +49,7 @@ class CurveSteps {
   const LegaliseContext& context_;
   double tolerance_ = 0.001;
   std::vector<AxisId> group_;  ///< axes of splines
-  bool several_groups_ = false, unequal_ = false;
+  bool several_groups_ = false, unequal_ = false, at_first_point_ = false;
   std::vector<Taken> taken_;
   std::optional<SplineEnd> last_end_;
   Point last_;  ///< where the steps put out last end

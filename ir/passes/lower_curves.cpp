@@ -1,6 +1,7 @@
 // Splines and polynomials as straight steps, for targets without them: every point must be a number here. The steps are
 // those that a run of the source takes (ir/curve).
 #include <algorithm>
+#include <set>
 
 #include "ir/labels.h"
 #include "ir/passes/blocks.h"
@@ -25,10 +26,29 @@ class CurvePass {
     uses_ = label_uses(program_, r);
     routine_ = &r;
     original_ = r;
+    find_points(r);
     walk(r.body);
   }
 
  private:
+  /// The blocks that curves with a number name.
+  void find_points(const Routine& r) {
+    points_.clear();
+    const LabelTable labels(r);
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* repeat = std::get_if<Repeat>(&s.node);
+      if (repeat == nullptr || repeat->curve_use == CurveUse::none || repeat->first.text.empty()) return;
+      const auto range = labels.range(*repeat, labels.order(s.id));
+      if (!range) return;
+      bool inside = false;
+      for_each_statement(r.body, [&](const Statement& x) {
+        inside = inside || x.id == range->first.statement;
+        if (inside) points_.insert(x.id);
+        if (x.id == range->second.statement) inside = false;
+      });
+    });
+  }
+
   [[nodiscard]] bool native(MotionKind k) const { return context_.target.motions.count(k) != 0; }
 
   void walk(Body& body) {
@@ -44,11 +64,26 @@ class CurvePass {
       });
       if (nested) begun = false;
       if (auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->curve_use != CurveUse::none) {
+        begun = false;
         numbered(std::move(s), out);
         ++i;
         continue;
       }
       auto* b = std::get_if<Block>(&s.node);
+      if (points_.count(s.id) != 0) {  // a point of a curve with a number: what runs it has its own copy
+        out.push_back(std::move(s));
+        ++i;
+        continue;
+      }
+      const auto* next = i + 1 < body.size() ? std::get_if<Repeat>(&body[i + 1].node) : nullptr;
+      if (b != nullptr && next != nullptr && next->curve_use == CurveUse::run && body[i + 1].line.joined) {
+        b->motion.clear();  // G06
+        b->has_motion = false;
+        settle(s);
+        out.push_back(std::move(s));
+        ++i;
+        continue;
+      }
       const auto kind = b != nullptr ? motion_in(*b, facts_.before(s)) : std::nullopt;
       if (b == nullptr || !kind || (is_curve(*kind) && native(*kind))) {
         out.push_back(std::move(s));
@@ -216,7 +251,10 @@ class CurvePass {
     }
     if (why.empty()) {
       Body made_out;
-      if (steps_.spline(list, MotionKind::spline_cubic, now, {}, {}, made_out, why)) {
+      steps_.begins_at_first_point(true);
+      const bool done = steps_.spline(list, MotionKind::spline_cubic, now, {}, {}, made_out, why);
+      steps_.begins_at_first_point(false);
+      if (done) {
         s.node = Block{};
         settle(s);
         out.push_back(std::move(s));
@@ -233,7 +271,8 @@ class CurvePass {
   const FactsOf& facts_;
   LabelUses uses_;
   Routine* routine_ = nullptr;
-  Routine original_;  ///< before its statements are taken apart
+  std::set<std::uint32_t> points_;  ///< ids of blocks in the range of a numbered curve
+  Routine original_;                ///< before its statements are taken apart
   CurveSteps steps_;
   std::optional<Value> degree_;  ///< said with the code of a spline
 };

@@ -332,7 +332,7 @@ TEST(NumLower, SeveralProgramsInAFile) {  // 2.5, 3
 TEST(NumLower, WhatIsNotCarriedIsRefusedAndKept) {
   for (const auto& [text, code] : std::vector<std::pair<std::string, std::string>>{{"G151 EA0", "NUM-003"},
                                                                                    {"G501", "NUM-002"},
-                                                                                   {"G6 NU1", "NUM-004"},
+                                                                                   {"G6", "NUM-004"},
                                                                                    {"G45 X1 Y1 Z-5 EX3 P1", "NUM-027"},
                                                                                    {"G21", "NUM-002"},
                                                                                    {"G1 X5 R-", "NUM-005 NUM-028"},

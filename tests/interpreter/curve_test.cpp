@@ -50,6 +50,29 @@ TEST(Curve, TheSplineEndsWithTheProgramOrWithAnotherCode) {
                           "linear X35 Y3.75", "linear X40 Y5", "linear X45 Y3.75", "linear X50 Y0"));
 }
 
+TEST(Curve, ItsCodeAloneBeginsAnotherCurve) {
+  EXPECT_THAT(
+      lines_of("block spline_b coded X 10\nblock linear once X 12\nblock spline_b coded\nblock modal X 20", coarse()),
+      ElementsAre("linear X10", "linear X12", "linear X20"));
+}
+
+TEST(Curve, CurvesWithANumber) {
+  const std::string points =
+      "jump N90\nN10 block modal X 0 Y 0\nblock modal X 10 Y 10\nN20 block modal X 20 Y 0\nN90 label\n";
+  const std::string define = "repeat N10 N20 curve_use define curve 1\n";
+  const std::string run = "block spline_b coded\n& repeat N10 N20 curve_use run curve 1\n";
+  const auto steps = lines_of(define + run + "block rapid coded X 0\n" + run + points, coarse());
+  EXPECT_THAT(steps, ElementsAre("linear X5 Y3.75", "linear X10 Y5", "linear X15 Y3.75", "linear X20 Y0", "rapid X0",
+                                 "linear X5 Y3.75", "linear X10 Y5", "linear X15 Y3.75", "linear X20 Y0"));
+  EXPECT_THAT(lines_of(run + points, coarse()), ElementsAre("end error RUN-047"));
+  EXPECT_THAT(lines_of(define + "repeat N10 N20 curve_use remove curve 1\n" + run + points, coarse()),
+              ElementsAre("end error RUN-047"));
+  // Not where it begins; and its motion function does not go on behind it.
+  EXPECT_THAT(lines_of(define + "block rapid coded X 5\n" + run + points, coarse()),
+              ElementsAre("rapid X5", "end error RUN-046"));
+  EXPECT_EQ(lines_of(define + run + "block modal X 30\n" + points, coarse()).back(), "end error RUN-046");
+}
+
 TEST(Curve, IncrementsInchesAndFramesActOnThePoints) {
   EXPECT_THAT(lines_of("block distance incremental, spline_b coded X 10 Y 10\nblock modal X 10 Y -10", coarse()),
               ElementsAre("linear X5 Y3.75", "linear X10 Y5", "linear X15 Y3.75", "linear X20 Y0"));
