@@ -122,13 +122,14 @@ void BlockLowerer::give_up(const GWord& g) {
 }
 
 /// The end of something that is not carried out, or a transformation that leaves the programmed path as it is: G46 S1
-/// says how the slides follow, G46 alone and G45 alone ends its own.
+/// says how the slides follow, G46 alone and G45 alone end theirs, G15 alone makes the spindle the C axis, whose words
+/// are degrees until a plane with it is chosen (G16).
 bool BlockLowerer::ends_nothing(const GWord& g) {
   if (g.row->code == 46) {
     const Word* s = letter('S');
     return coord_count_ == 0 && (!s || (s->expr < 0 && (s->number == 0 || s->number == 1)));
   }
-  return g.row->code == 45 && in_->words.size() == 1;
+  return (g.row->code == 45 || g.row->code == 15) && in_->words.size() == 1;
 }
 
 /// The whole block stays as text; a run stops there.

@@ -68,7 +68,9 @@ std::string what(const facts::GCode& g) {
 std::string support(const facts::GCode& g) {
   switch (g.use) {
     case Use::refused:
-      return (g.code == 46 ? "S0 and S1 kept as text: no effect on the programmed point (FAG-008); S2 " : "") +
+      return (g.code == 15 ? "alone kept as text: C in degrees (FAG-008); with R " : "") +
+             std::string(g.code == 46 ? "S0 and S1 kept as text: no effect on the programmed point (FAG-008); S2 "
+                                      : "") +
              reason(g.feature);
     case Use::no_path: return "kept as text: no effect on the path (FAG-008)";
     case Use::spindle_choice: return "spindles: carried; with axes " + reason(g.feature);
