@@ -25,6 +25,10 @@ struct Facts {
   bool cycle_active = false, cycle_active_known = true;
   /// The active cycle is known to be a hole along the normal of the plane: it leaves the tool over the hole.
   bool cycle_is_hole = false;
+  /// Statement that defined the active cycle, or changed its words last; 0: none is active, or nothing is known.
+  std::uint32_t cycle_from = 0;
+  /// cycle_from where the ways that lead here come with different cycles, or one of them without.
+  static constexpr std::uint32_t several_cycles = ~std::uint32_t{0};
   /// Routine that a modal call in force runs after motions: its index + 1; 0: no modal call; -1: unknown.
   std::int32_t modal_call = 0;
 

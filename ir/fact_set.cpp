@@ -11,7 +11,7 @@ FactSet differing(const Facts& a, const Facts& b) {
   set[feed_bit] = a.feed != b.feed;
   set[spindle_bit] = a.spindle != b.spindle;
   set[cycle_bit] = a.cycle_active != b.cycle_active || a.cycle_active_known != b.cycle_active_known ||
-                   a.cycle_is_hole != b.cycle_is_hole;
+                   a.cycle_is_hole != b.cycle_is_hole || a.cycle_from != b.cycle_from;
   set[modal_call_bit] = a.modal_call != b.modal_call;
   return set;
 }
@@ -31,6 +31,7 @@ void take(Facts& facts, const Facts& from, const FactSet& set) {
     facts.cycle_active = from.cycle_active;
     facts.cycle_active_known = from.cycle_active_known;
     facts.cycle_is_hole = from.cycle_is_hole;
+    facts.cycle_from = from.cycle_from;
   }
   if (set[modal_call_bit]) facts.modal_call = from.modal_call;
 }
@@ -48,6 +49,7 @@ std::array<Facts, 4> probes(const CyclesUsed& cycles) {
     f.spindle = 7777.125 + n;
     f.cycle_active = cycles.any && n < 3;
     f.cycle_is_hole = f.cycle_active && !cycles.other_than_holes;
+    f.cycle_from = f.cycle_active ? Facts::several_cycles - 1 - n : 0;
   }
   return all;
 }

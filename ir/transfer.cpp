@@ -23,7 +23,8 @@ MotionKind left_in_force(MotionKind k) {
 
 class Transfer {
  public:
-  explicit Transfer(Facts& facts, std::uint32_t framed = ~0U) : f_(facts), framed_(framed) {}
+  explicit Transfer(Facts& facts, std::uint32_t framed = ~0U, std::uint32_t id = 0)
+      : f_(facts), framed_(framed), id_(id) {}
 
   void block(const Block& b) {
     for (const auto& a : b.actions) {
@@ -99,10 +100,12 @@ class Transfer {
     if (!x.modal) return;
     f_.cycle_active = f_.cycle_active_known = true;
     f_.cycle_is_hole = plain_hole;
+    f_.cycle_from = id_;
   }
   void operator()(const CycleCancel&) {
     f_.cycle_active = f_.cycle_is_hole = false;
     f_.cycle_active_known = true;
+    f_.cycle_from = 0;
   }
   void operator()(const OpaqueWord& x) {
     const bool contour = x.word == contour::mark::secant || x.word == contour::mark::tangent ||
@@ -258,7 +261,7 @@ class Transfer {
   }
 
   Facts& f_;
-  std::uint32_t framed_;
+  std::uint32_t framed_, id_;
   std::optional<double> left_at_;  ///< height after the hole of this block
   bool stays_ = false;             ///< the hole of this block ends where it began
   const NamedCycle* machining_ = nullptr;
@@ -301,7 +304,7 @@ void apply(const Statement& statement, Facts& facts) {
 
 void detail::apply(const Statement& statement, Facts& facts, std::uint32_t framed) {
   if (const auto* b = std::get_if<Block>(&statement.node)) {
-    Transfer(facts, framed).block(*b);
+    Transfer(facts, framed, statement.id).block(*b);
     if (facts.modal_call != 0 && b->has_motion && b->motion.moves()) facts.forget();
   } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
     assign(*a, facts);
@@ -317,6 +320,7 @@ void detail::apply(const Statement& statement, Facts& facts, std::uint32_t frame
     facts.cycle_active = !m->off && m->cycle != nullptr;
     facts.cycle_active_known = true;
     facts.cycle_is_hole = !m->off && hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
+    facts.cycle_from = facts.cycle_active ? statement.id : 0;
     facts.modal_call = m->off || m->cycle ? 0 : -1;
   }
 }
@@ -331,12 +335,14 @@ bool narrow(std::optional<T>& a, const std::optional<T>& b) {
 }
 
 bool narrow_cycle(Facts& a, const Facts& b) {
-  if (!a.cycle_active_known) return false;
+  const bool other = a.cycle_from != b.cycle_from && a.cycle_from != Facts::several_cycles;
+  if (other) a.cycle_from = Facts::several_cycles;
+  if (!a.cycle_active_known) return other;
   if (!b.cycle_active_known || a.cycle_active != b.cycle_active) {
     a.cycle_active_known = a.cycle_active = a.cycle_is_hole = false;
     return true;
   }
-  if (!a.cycle_is_hole || b.cycle_is_hole) return false;
+  if (!a.cycle_is_hole || b.cycle_is_hole) return other;
   a.cycle_is_hole = false;
   return true;
 }

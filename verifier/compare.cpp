@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "base/transliterate.h"
 #include "verifier/normalise.h"
 #include "verifier/tool_names.h"
 
@@ -38,7 +39,7 @@ bool close_relative(double a, double b, double tolerance) {
 /// Letters and digits in capitals: what must survive of a message on a control with a smaller character set.
 std::string message_core(std::string_view text) {
   std::string core;
-  for (const char c : to_upper_ascii(text)) {
+  for (const char c : to_upper_ascii(to_ascii(text, nullptr))) {
     if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) core += c;
   }
   return core;

@@ -6,12 +6,9 @@
 
 #include "backends/common/style.h"
 #include "base/diagnostics.h"
+#include "base/transliterate.h"
 
 namespace cnctrans::backends {
-
-/// Letters with marks become ASCII letters (umlauts with a following E), other characters beyond ASCII become '?'.
-/// `text` is UTF-8 or Windows-1252. `lossy` (may be null) is set when a '?' was written.
-std::string to_ascii(std::string_view text, bool* lossy);
 
 /// The text between the comment marks. `own`: the text comes from the target's own language and is left as it is.
 std::string comment_text(std::string_view text, const CommentStyle& style, bool own, bool* lossy);

@@ -6,6 +6,7 @@
 #include "backends/fagor/writer.h"
 #include "base/text.h"
 #include "dialects/fagor/cycles.h"
+#include "dialects/fagor/limits.h"
 #include "dialects/fagor/patterns.h"
 
 namespace cnctrans::backends::fagor {
@@ -151,6 +152,8 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
     case ir::RotaryDirection::shortest:
       return refuse(no_word, w.pos, "a rotary move the shortest way has no counterpart here");
   }
+  if (value->literal() && !(std::fabs(value->number) <= dialects::fagor::max_coordinate_mm))
+    return refuse(no_word, w.pos, "the coordinate is beyond 99999.9999, which is all that the control takes");
   add(word(axis_name(w.axis), *value, w.pos), Rank::coordinate, w.pos);
 }
 

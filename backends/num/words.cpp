@@ -221,6 +221,8 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
                     "say in the target profile that the axis does not roll over (num.rotary_modulo)");
     }
   }
+  if (w.value.literal() && !(std::fabs(w.value.number) <= facts::linear_max))
+    return refuse(no_word, w.pos, "the coordinate is beyond what the control takes");
   std::string text = word(axis_name(w.axis), w.value, w.pos);
   if (w.mode != ir::WordMode::modal) {
     const auto wanted = w.mode == ir::WordMode::absolute ? ir::Distance::absolute : ir::Distance::incremental;

@@ -347,17 +347,19 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   std::string attribute = rotary_attribute(w);
   const bool by_sign = !attribute.empty() && w.direction == ir::RotaryDirection::by_sign;
   const bool incremental = w.mode == ir::WordMode::incremental;
+  const auto* spec = profile().axis(w.axis);
+  const bool plain_radius = w.scale == ir::WordScale::radius && (spec == nullptr || !spec->diameter);
   if (attribute.empty() && w.mode != ir::WordMode::modal) {
     const auto wanted = code_value(incremental ? ir::Distance::incremental : ir::Distance::absolute);
-    const bool said = w.scale == ir::WordScale::modal && !same_dialect() && setting(ir::Setting::distance) == wanted;
-    if (!said) attribute = incremental ? "IC" : "AC";
+    const bool own = (w.scale == ir::WordScale::modal || plain_radius) && !same_dialect();
+    if (!own || setting(ir::Setting::distance) != wanted) attribute = incremental ? "IC" : "AC";
   }
-  if (w.scale != ir::WordScale::modal) {
+  if (w.scale != ir::WordScale::modal && !plain_radius) {
     if (w.mode == ir::WordMode::modal) {
       return refuse("TRN-202", w.pos,
                     "a word that is radius or diameter by itself must also say whether it is absolute here");
     }
-    attribute = w.scale == ir::WordScale::diameter ? (incremental ? "DIC" : "DAC") : (incremental ? "RIC" : "RAC");
+    attribute = std::string(w.scale == ir::WordScale::diameter ? "D" : "R") + (incremental ? "IC" : "AC");
   }
   if (attribute.empty()) return add(word(name, w.value, w.pos), Rank::coordinate, w.pos);
   ir::Value value = w.value;

@@ -42,8 +42,16 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
     return;
   }
   const auto polar = [&] {
-    if (attribute == Attribute::ic) extra().polar_mode = ir::WordMode::incremental;
-    if (attribute == Attribute::ac) extra().polar_mode = ir::WordMode::absolute;
+    const auto mode = attribute == Attribute::ic   ? ir::WordMode::incremental
+                      : attribute == Attribute::ac ? ir::WordMode::absolute
+                                                   : ir::WordMode::modal;
+    const bool second = extra_.has_polar_radius && extra_.has_polar_angle;
+    if (second && extra().polar_mode != mode) {  // each has its own: one absolute, one incremental
+      failed_ = true;
+      c_.error("SIN-049", w.pos, "AP and RP of one block must be both absolute or both increments to be carried",
+               "give both words the same AC() or IC()");
+    }
+    extra().polar_mode = mode;
   };
   const auto corner = [&](ir::CornerKind kind, bool modal) {
     if (corner_ >= 0 || (value.literal() && value.number < 0)) {

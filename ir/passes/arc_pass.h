@@ -308,7 +308,7 @@ class ArcPass {
   bool convert_centers(Arc& arc, CenterMode from, CenterMode to) {
     const bool was_relative = is_relative(from, arc.distance), relative = is_relative(to, arc.distance);
     std::vector<CenterWord> words = arc.b.motion.centers;
-    if (!relative || to == CenterMode::follows_distance) complete(arc, words, from, was_relative);
+    if ((!relative || to == CenterMode::follows_distance) && !complete(arc, words, from, was_relative)) return false;
     for (auto& w : words) {
       w.mode = to;
       if (was_relative == relative) continue;
@@ -326,17 +326,23 @@ class ArcPass {
     return true;
   }
 
-  /// Adds the centre word that stands for an offset of zero.
-  static void complete(const Arc& arc, std::vector<CenterWord>& words, CenterMode from, bool was_relative) {
-    if (!was_relative) return;
+  /// Adds the centre word that stands for an offset of zero: said absolutely, the start. False: that is not known.
+  bool complete(const Arc& arc, std::vector<CenterWord>& words, CenterMode from, bool was_relative) const {
     for (std::size_t i = 0; i < 2; ++i) {
       if (std::any_of(words.begin(), words.end(), [&](const CenterWord& w) { return w.axis == arc.axis[i]; })) continue;
       CenterWord w;
       w.axis = arc.axis[i];
       w.mode = from;
       w.scale = WordScale::radius;
+      if (!was_relative) {
+        const auto start = start_of(arc, w.axis);
+        if (!start) return false;
+        w.value = *start;
+        w.value.text = {};
+      }
       words.insert(i == 0 ? words.begin() : words.end(), w);
     }
+    return true;
   }
 
   /// Both end words where the target wants them.

@@ -45,6 +45,7 @@ class CyclePass {
         sense_(program) {
     if (routine.kind != RoutineKind::main) sense_.forget();
     by_call_ = context.target.modal_cycle_by_call;
+    look_for_definitions();
   }
 
   void run() {
@@ -56,16 +57,19 @@ class CyclePass {
     Body out;
     walk(editor_.routine.body, out);
     editor_.routine.body = std::move(out);
+    report_unsure();
   }
   [[nodiscard]] const std::set<std::uint32_t>& profiles() const { return turning_.profile_blocks(); }
 
  private:
   struct Active {
+    std::uint32_t from = 0;  ///< the statement that defined it or changed its words last
     CyclePtr source;
     CyclePtr native;  ///< null: written out
     CycleTrigger trigger = CycleTrigger::plane_axis_word;
     bool single = false;           ///< not every way to a point leads through the first one: each gets its own run
     bool on_target = false;        ///< the target's own cycle is in force
+    bool was_on_target = false;    ///< it has been
     bool deferred = false;         ///< the first point on the target defines it
     std::uint32_t defined_in = 0;  ///< the statement of that point
     TapNeeds needs;
@@ -77,14 +81,35 @@ class CyclePass {
   void walk(Body& body, Body& out) {
     out.reserve(body.size());
     for (auto& s : body) {
-      each_body(s, [this](Body& inner) {
-        Body nested;
-        walk(inner, nested);
-        inner = std::move(nested);
-      });
+      bodies(s);
       one(std::move(s), out);
     }
   }
+  void bodies(Statement& s);
+  void walk_inside(Body& inner) {
+    Body nested;
+    walk(inner, nested);
+    inner = std::move(nested);
+  }
+
+  // --- the cycle of the text and those of the ways (cycle_ways.cpp) ---------------------------------------------
+
+  void look_for_definitions();
+  /// The active cycle of the text is the one in force on every way to a statement with these facts.
+  [[nodiscard]] bool sure(const Facts& facts) const;
+  /// By the text none is active, and on some way to the block one of this routine is.
+  [[nodiscard]] bool cycle_by_another_way(const Block& b, const Facts& facts) const;
+  void refuse_other_ways(Statement& s) const;
+  /// The target's cycle is off until the next point of the text, and control goes elsewhere before.
+  void leave_while_off(const Statement& s) const;
+  /// A called subprogram changes the retract plane of the cycle.
+  void callee_sets_plane(const CallRoutine& call, const Statement& s) const;
+  [[nodiscard]] bool off_between() const {
+    return active_ && active_->native && !by_call_ && active_->was_on_target && !active_->on_target &&
+           !active_->maybe_on_target && !active_->single;
+  }
+  /// Points of a cycle by call that depend on the way are right as long as the target has every cycle.
+  void report_unsure() const;
 
   /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle.
   void join(const Statement& s) {
@@ -134,6 +159,7 @@ class CyclePass {
   }
   void lower(Statement&& s, Body& out) {
     check_words(s);
+    leave_while_off(s);
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
       if (m->off && active_) return cancel_statement(std::move(s), out);
       if (m->off && !by_call_ && !context_.target.modal_call && facts_.before(s).modal_call == 0) {
@@ -154,6 +180,7 @@ class CyclePass {
       if (!m->off && m->cycle) return modal_call(std::move(s), out);
     }
     if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
+    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) callee_sets_plane(*call, s);
     if (auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_ && call_with_cycle(*call, s.line)) {
       out.push_back(std::move(s));
       return;
@@ -285,7 +312,9 @@ class CyclePass {
   void modal_call(Statement&& s, Body& out) {
     const ModalCall m = std::get<ModalCall>(s.node);
     active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
+    active_->from = s.id;
     active_->deferred = true;
+    lacking_ = lacking_ || !active_->native;
     if (by_call_ && active_->native) {
       std::get<ModalCall>(s.node).cycle = active_->native;
       active_->on_target = true;
@@ -315,6 +344,11 @@ class CyclePass {
       point(std::move(s), std::move(pieces), out);
       return;
     }
+    if (!cancelled && cycle_by_another_way(b, facts_.before(s))) {
+      refuse_other_ways(s);
+      out.push_back(std::move(s));
+      return;
+    }
     if (b.empty() && !pieces.empty()) {
       pieces.back().line = s.line;
       out.push_back(std::move(pieces.back()));
@@ -337,13 +371,19 @@ class CyclePass {
       out.push_back(std::move(s));
       return;
     }
+    if (active_ && !sure(facts)) {
+      refuse_other_ways(s);
+      out.push_back(std::move(s));
+      return;
+    }
     Body pieces;
     const LineInfo like = s.line;
     const bool on = active_ && active_->on_target;
+    if (active_) follow_retract_plane(b, facts);
     if (on) pieces.push_back(off_statement(like, by_call_));
     const std::size_t main = pieces.size();
     pieces.push_back(std::move(s));
-    if (on && by_call_)
+    if (on && by_call_ && active_->native)
       pieces.push_back(on_statement(like, active_->native));
     else if (on)
       active_->on_target = false;  // the next point defines it again
@@ -422,6 +462,10 @@ class CyclePass {
   bool by_call_ = false;
   bool surely_active_ = false;  ///< a copy for one cycle that does not touch it
   bool written_out_ = false;
+  bool lacking_ = false;                 ///< the target lacks a cycle that later points run
+  std::set<std::uint32_t> definitions_;  ///< statements of this routine
+  bool enters_unsure_ = false;           ///< the callers do not agree on a cycle
+  std::vector<Span> unsure_;             ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
   std::optional<Active> ran_;  ///< what the block at hand runs by its definition

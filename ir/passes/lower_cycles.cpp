@@ -30,6 +30,15 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     out.push_back(std::move(s));
     return;
   }
+  const bool wrap = by_call_ && active_->native && !hole_here && was_on && disturbs_call(b);
+  if ((hole_here || changed || wrap) && !sure(facts)) {
+    if (!by_call_ || !active_->native || changed || wrap) {
+      refuse_other_ways(s);
+      out.push_back(std::move(s));
+      return;
+    }
+    unsure_.push_back(s.line.span);
+  }
   if (changed && !active_->native && was_on) {
     active_->on_target = false;
     pieces.push_back(off_statement(like, by_call_));
@@ -49,7 +58,6 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (by_call_) {
     if (hole_here) position_kind(b, context_);
-    const bool wrap = !hole_here && disturbs_call(b) && active_->on_target;
     if (wrap) pieces.push_back(off_statement(like, true));
     const std::size_t main = pieces.size();
     pieces.push_back(std::move(s));
@@ -88,7 +96,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   if (as_is) {
     feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
-    active_->on_target = true;
+    active_->on_target = active_->was_on_target = true;
     active_->defined_in = s.id;
     return put(out, std::move(pieces), std::move(s));
   }
@@ -133,6 +141,7 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
   if (form && !by_call_ && !stands_right(std::get<HoleCycle>((*form)->node), height)) form.reset();
   active_->native = form ? *form : nullptr;
+  lacking_ = lacking_ || !active_->native;
   return was_native;
 }
 
@@ -300,7 +309,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     return pattern(std::move(s), d, std::move(pieces), out);
   if (const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
       hole != nullptr && hole->keeps_initial &&
-      !(active_ && std::holds_alternative<HoleCycle>(active_->source->node))) {
+      !(active_ && sure(facts) && std::holds_alternative<HoleCycle>(active_->source->node))) {
     refuse(s, program_, context_, "TRN-330",
            "the words of a cycle are changed, and which cycle is in force can't be seen here", "write the cycle again");
     out.push_back(std::move(s));
@@ -315,6 +324,8 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     return write_out_machining(std::move(s), cycle, std::move(pieces), out);
   }
   Active a = define(d.cycle, d.trigger, b, facts);
+  a.from = s.id;
+  lacking_ = lacking_ || (d.modal && !a.native);
   if (d.here) ran_ = a;
   const auto w = tool_axis(d.cycle, b, facts);
   const bool point_here = w && has_plane_word(b, *w);
@@ -386,7 +397,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
       return;
     }
     if (d.modal) {
-      a.on_target = true;
+      a.on_target = a.was_on_target = true;
       active_ = a;
     }
     put(out, std::move(pieces), std::move(s));

@@ -75,6 +75,7 @@ class ModalCalls {
   void one(Statement&& s, Body& out) {
     auto* m = std::get_if<ModalCall>(&s.node);
     if (m != nullptr && !m->cycle) return definition(std::move(s), out);
+    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
     auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr || (!active_ && !on_target_)) {
       out.push_back(std::move(s));
@@ -115,6 +116,22 @@ class ModalCalls {
     out.push_back(made(like, *on_target_));
     wrapped_in_ = &out;
     wrapped_size_ = out.size();
+  }
+  /// The moves of a called subprogram run the modal one as well, and nothing is written there.
+  void inside(const CallRoutine& call, const Statement& s) const {
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    bool moves = !callee;
+    if (callee) {
+      for_each_statement(program_.routines[*callee].body, [&moves](const Statement& inner) {
+        const auto* b = std::get_if<Block>(&inner.node);
+        moves = moves || (b != nullptr && b->has_motion) || std::holds_alternative<CallRoutine>(inner.node);
+      });
+    }
+    if (!moves) return;
+    context_.diagnostics.error("TRN-381", s.line.span,
+                               "the moves of this subprogram would run the modal one too, which the target calls only "
+                               "where it is written",
+                               "end the modal call before this one");
   }
   /// The subprogram runs at each point of a pattern.
   void points(Statement&& s, const NamedCycle& pattern, Body& out) {

@@ -146,7 +146,8 @@ class Writer {
   static double tidy(double x) { return std::round(x * 1e9) / 1e9; }
 
   void coordinate(Motion& m, AxisId axis, double to, double from, bool by, bool always) const {
-    if (!always && std::abs(to - from) < 1e-9) return;  // false: not known
+    if (std::isnan(to)) return;  // where the tool stands is not known, and it stays there
+    if (!always && std::abs(to - from) < 1e-9) return;
     CoordWord c;
     c.axis = axis;
     c.mode = by ? WordMode::incremental : WordMode::absolute;

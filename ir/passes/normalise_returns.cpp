@@ -56,6 +56,8 @@ class EndInSub {
     const bool sub = routine.kind == RoutineKind::sub;
     Editor editor(program_, routine, context_);
     std::optional<LabelRef> end_label;
+    if (sub && enders_.count(r) != 0 && called_again(r)) end_label = editor.fresh_label();
+    const std::optional<LabelRef> head_test = end_label;
     rewrite_body(routine.body, [&](Statement&& s, Body& out) {
       if (sub && ends_all(s)) {
         Body pieces;
@@ -65,6 +67,7 @@ class EndInSub {
         editor.put_group(out, std::move(pieces), 1);
         return;
       }
+      if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && !m->off && !m->cycle) modal(*m, s);
       const auto* c = std::get_if<CallRoutine>(&s.node);
       const auto callee = c != nullptr && !c->computed ? calls_.index_of(c->routine) : std::nullopt;
       const LineInfo like = s.line;
@@ -74,6 +77,9 @@ class EndInSub {
       out.push_back(make_jump(like, *end_label, binary(BinaryOp::ne, variable(flag_), number(0))));
     });
     if (!end_label) return;
+    if (head_test)
+      routine.body.insert(below_head(routine.body),
+                          make_jump(LineInfo{}, *head_test, binary(BinaryOp::ne, variable(flag_), number(0))));
     // Where the flag leads: the last End of the main program, the last Return of a subprogram.
     auto& body = routine.body;
     const auto last = std::find_if(body.rbegin(), body.rend(), [&](const Statement& s) {
@@ -91,6 +97,22 @@ class EndInSub {
       last->line.joined = false;
       body.insert(last.base() - 1, make_label(last->line, *end_label, program_));
     }
+  }
+
+  /// Some call runs the routine several times: it must do nothing once the program has ended.
+  [[nodiscard]] bool called_again(std::size_t r) const {
+    return std::any_of(calls_.sites().begin(), calls_.sites().end(), [r](const CallSite& site) {
+      const auto* c = site.callee == r ? std::get_if<CallRoutine>(&site.statement->node) : nullptr;
+      return c != nullptr && c->count && constant_value(c->count) != 1.0;
+    });
+  }
+  /// The moves behind a modal call would go on.
+  void modal(const ModalCall& m, const Statement& s) const {
+    const auto callee = m.call.computed ? std::nullopt : calls_.index_of(m.call.routine);
+    if (!callee || enders_.count(*callee) == 0) return;
+    context_.diagnostics.error("TRN-380", s.line.span,
+                               "the program can end inside of this modal subprogram, where the target only returns",
+                               "call it by a block of its own behind each move");
   }
 
   Program& program_;

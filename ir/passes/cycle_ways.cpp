@@ -1,0 +1,102 @@
+// A cycle is followed in the order of the text; control comes by other ways as well. Where they bring another cycle,
+// the text does not say which one a point runs.
+#include "ir/passes/cycle_pass.h"
+
+namespace cnctrans::ir::passes {
+
+void CyclePass::look_for_definitions() {
+  const Statement* first = nullptr;
+  for_each_statement(editor_.routine.body, [&](const Statement& s) {
+    if (first == nullptr) first = &s;
+    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) definitions_.insert(s.id);
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      if (d != nullptr && d->modal) definitions_.insert(s.id);
+    }
+  });
+  enters_unsure_ = first != nullptr && facts_.before(*first).cycle_from == Facts::several_cycles;
+}
+
+bool CyclePass::sure(const Facts& facts) const {
+  return surely_active_ || !facts.reachable || !facts.cycle_active_known || facts.cycle_from == active_->from;
+}
+
+bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
+  if (!facts.reachable || !b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
+  if (facts.cycle_from == Facts::several_cycles) return !enters_unsure_ && !definitions_.empty();
+  return facts.cycle_active && definitions_.count(facts.cycle_from) != 0;
+}
+
+void CyclePass::refuse_other_ways(Statement& s) const {
+  refuse(s, program_, context_, "TRN-331",
+         "which cycle is active here depends on the path that leads here, and the target needs to know it",
+         "define the cycle again before this block, or cancel it on every path");
+}
+
+void CyclePass::leave_while_off(const Statement& s) const {
+  const bool leaves = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
+                      std::holds_alternative<Repeat>(s.node) || std::holds_alternative<CallRoutine>(s.node);
+  if (!leaves || !off_between()) return;
+  context_.diagnostics.error(
+      "TRN-331", s.line.span,
+      "the cycle of the target is off here until the next point defines it again, and control may go elsewhere before",
+      "put what changes the cycle into the block of its next point");
+}
+
+void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) const {
+  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  if (!by_call_ || !active_->native || hole == nullptr || hole->retract.given) return;
+  const auto callee = callee_of(call);
+  if (!callee) return;
+  bool sets = false;
+  for_each_statement(program_.routines[*callee].body, [&sets](const Statement& inner) {
+    const auto* b = std::get_if<Block>(&inner.node);
+    sets = sets || (b != nullptr && sets_retract_plane(*b));
+  });
+  if (!sets) return;
+  context_.diagnostics.error(
+      "TRN-331", s.line.span,
+      "the subprogram changes the plane to which the active cycle retracts, and the target's cycle names that plane",
+      "cancel the cycle before the call, or change the plane where the cycle is defined");
+}
+
+void CyclePass::report_unsure() const {
+  if (!lacking_) return;
+  for (const Span& where : unsure_) {
+    context_.diagnostics.error(
+        "TRN-331", where,
+        "which cycle is active here depends on the path that leads here, and the target lacks one of them",
+        "define the cycle again before this block");
+  }
+}
+
+/// Both branches begin with what is active before them; behind them holds what both say.
+void CyclePass::bodies(Statement& s) {
+  auto* i = std::get_if<If>(&s.node);
+  const auto before = active_;
+  if (i == nullptr) {
+    each_body(s, [this](Body& inner) { walk_inside(inner); });
+    // The next pass of a loop begins as the first one did.
+    if (before && before->on_target && active_ && active_->from == before->from && off_between()) {
+      context_.diagnostics.error("TRN-331", s.line.span,
+                                 "the cycle of the target is off at the end of this loop and on at its beginning",
+                                 "put what changes the cycle into the block of its next point");
+    }
+    return;
+  }
+  walk_inside(i->then_body);
+  const auto then = active_;
+  active_ = before;
+  walk_inside(i->else_body);
+  if (!active_) active_ = then;
+  if (!then || !active_ || then->from != active_->from) return;
+  const bool either = then->on_target || active_->on_target || then->maybe_on_target || active_->maybe_on_target;
+  active_->on_target = active_->on_target && then->on_target;
+  active_->was_on_target = active_->was_on_target || then->was_on_target;
+  active_->maybe_on_target = either && !active_->on_target;
+  if (active_->height != then->height) active_->height.reset();
+}
+
+}  // namespace cnctrans::ir::passes
