@@ -286,6 +286,18 @@ bool CurveSteps::put_steps(Statement&& s, const Facts& before, const std::vector
     }
   }
   std::erase_if(b.actions, curve_setting);
+  // Many increments would add up what each is rounded by.
+  const bool increments = setting_in<Distance>(b, before, Setting::distance) == Distance::incremental;
+  const auto distance = [](Distance d) {
+    return action(ModalSet{Setting::distance, static_cast<std::uint8_t>(d), true, FeedMemory::shared});
+  };
+  if (increments && words.size() > 1 && !context_.target.distance_per_word) {
+    std::erase_if(b.actions, [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::distance;
+    });
+    b.actions.insert(b.actions.begin(), distance(Distance::absolute));
+  }
   Motion line;
   line.kind = MotionKind::linear;
   line.explicit_code = true;
@@ -304,6 +316,8 @@ bool CurveSteps::put_steps(Statement&& s, const Facts& before, const std::vector
   }
   auto& end = std::get<Block>(out.back().node);
   for (auto& a : later) end.actions.push_back(std::move(a));
+  if (increments && words.size() > 1 && !context_.target.distance_per_word)
+    out.push_back(make_block(like, distance(Distance::incremental)));
   return true;
 }
 
