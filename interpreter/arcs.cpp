@@ -1,5 +1,6 @@
 // Arcs of a block: centre, sense, turns.
 #include <cmath>
+#include <string>
 
 #include "base/saturate.h"
 #include "base/text.h"
@@ -45,7 +46,12 @@ bool BlockMachine::arc_centre(const ir::Motion& m, Move& move) {
   Vec c = at(move.from, plane);
   for (const auto& w : m.centers) {
     if (w.axis != plane.u && w.axis != plane.v) {
-      return failure_.fail(code::arc_undefined, "a centre coordinate does not lie in the plane of the arc");
+      constexpr const char* names[] = {"XY", "ZX", "YZ"};
+      std::string text = "a centre coordinate does not lie in the plane of the arc, ";
+      text += names[static_cast<std::size_t>(move.plane)];
+      if (move.plane == profile_.power_on.plane)
+        text += "; if the machine is switched on in another plane, give it (--machine), or select the plane first";
+      return failure_.fail(code::arc_undefined, text);
     }
     const bool absolute = w.mode == ir::CenterMode::absolute ||
                           (w.mode == ir::CenterMode::follows_distance && modal_.distance == ir::Distance::absolute);

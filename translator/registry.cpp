@@ -48,7 +48,7 @@ const std::vector<Dialect>& dialects() {
        "L",
        ';',
        0,
-       {{}, {"DIAMON"}, {96}, {"LIMS"}},
+       {{}, {"DIAMON", "DIAMONA"}, {96}, {"LIMS"}},
        {},
        frontends::sinumerik::make_frontend(),
        backends::sinumerik::make_backend()},

@@ -1,6 +1,7 @@
 #include "dialects/sinumerik/addresses.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "dialects/sinumerik/beside.h"
@@ -247,6 +248,15 @@ Attribute attribute(std::string_view name) {
     if (r.name == name) return r.attribute;
   }
   return Attribute::none;
+}
+
+Attribute attribute(double number) {
+  using enum Attribute;
+  constexpr std::array by_number{none, ac, ic, dc, acp, acn, unsupported, unsupported, dac, dic, rac, ric};
+  for (std::size_t i = 0; i < by_number.size(); ++i) {
+    if (static_cast<double>(i) == number) return by_number[i];
+  }
+  return unsupported;
 }
 
 std::span<const ProcedureRow> procedures() {

@@ -53,6 +53,8 @@ bool is_timing_of_axis(std::string_view capitals);
 enum class Attribute : std::uint8_t { none, ac, ic, dc, acp, acn, dac, dic, rac, ric, unsupported };
 /// Capitals; `none` when the function is no position attribute.
 Attribute attribute(std::string_view name);
+/// By its number in GP(position, number); `unsupported` for the others.
+Attribute attribute(double number);
 
 /// What a predefined procedure (`NAME(...)` or `NAME`) is to a translation.
 enum class Procedure : std::uint8_t {

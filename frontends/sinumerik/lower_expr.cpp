@@ -450,6 +450,14 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
       out = Attribute::none;
       return value_of(e.args[0], out);
     }
+    if (e.text == "GP" && e.args.size() == 2 && e.args[1].kind == ExprKind::number) {  // the attribute by its number
+      const Attribute chosen = attribute(e.args[1].number);
+      if (chosen != Attribute::unsupported) {
+        const ir::Value v = value_of(e.args[0], out);
+        out = chosen;
+        return v;
+      }
+    }
     if (out == Attribute::unsupported || e.text.empty()) {
       c_.keep("SIN-008", e.pos,
               "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
