@@ -36,7 +36,13 @@ bool StatementLowering::without_effect(const std::string& name, WordPos pos, Par
   o.text = c_.slice(pos);
   o.feature = "language.statement";
   o.harmless = true;
-  c_.note("SIN-009", pos, name + " is kept as text: it does not change the programmed path");
+  std::string text = name + " is kept as text: it does not change the programmed path";
+  if (name == "FGROUP") {
+    text +=
+        "; in splines and polynomials under SPATH other axes follow the length of the way of X, Y and Z, whatever it "
+        "names";
+  }
+  c_.note("SIN-009", pos, std::move(text));
   parts.calls.emplace_back(std::move(o));
   return true;
 }
