@@ -295,8 +295,8 @@ bool b_spline(const SplinePoints& in, SplineCurve& out, std::string& error) {
                 static_cast<double>(k);
     if (i == n) to = u;
     BlockSpan span{{from}};
-    for (const double x : knots) {
-      if (x > span.breaks.back() && x < to) span.breaks.push_back(x);
+    for (auto x = std::upper_bound(knots.begin(), knots.end(), from); x != knots.end() && *x < to; ++x) {
+      if (*x > span.breaks.back()) span.breaks.push_back(*x);
     }
     span.breaks.push_back(to);
     out.blocks.push_back(std::move(span));
@@ -310,8 +310,9 @@ bool b_spline(const SplinePoints& in, SplineCurve& out, std::string& error) {
 Point b_spline_point(const std::vector<Point>& control, const std::vector<double>& weights,
                      const std::vector<double>& knots, int degree, double u) {
   const auto k = static_cast<std::size_t>(degree);
-  std::size_t span = k;
-  while (span + 1 < control.size() && knots[span + 1] <= u) ++span;
+  const auto last = knots.begin() + static_cast<std::ptrdiff_t>(control.size());
+  const auto above = std::upper_bound(knots.begin() + static_cast<std::ptrdiff_t>(k) + 1, last, u);
+  const auto span = static_cast<std::size_t>(above - knots.begin()) - 1;
   // De Boor's scheme with the weight as one more coordinate.
   std::vector<Point> d;
   for (std::size_t i = span - k; i <= span; ++i) {
