@@ -366,13 +366,13 @@ void spline_steps(const SplinePoints& in, const SplineCurve& curve, std::size_t 
   const auto& breaks = curve.blocks[block].breaks;
   const double from = breaks.front(), to = breaks.back();
   const bool has_beside = !in.beside.empty() && !in.beside.front().empty();
-  Curve at = curve.at;
+  Curve at = [&curve](double u) { return curve.at(u); };
   std::shared_ptr<LengthRun> run;
   if (has_beside) {
     const Point& b0 = in.beside[block];
     const Point& b1 = in.beside[block + 1];
     const bool moves = length(minus(b1, b0)) > same;
-    if (moves && in.beside_by == PathReference::arc_length) run = std::make_shared<LengthRun>(curve.at, breaks);
+    if (moves && in.beside_by == PathReference::arc_length) run = std::make_shared<LengthRun>(at, breaks);
     if (run && run->whole() <= same) run.reset();
     at = [&curve, b0, b1, from, to, run](double u) {
       Point p = curve.at(u);
