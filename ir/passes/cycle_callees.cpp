@@ -90,11 +90,19 @@ std::optional<std::size_t> CyclePass::callee_of(const CallRoutine& call) const {
   return std::nullopt;
 }
 
-bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where) {
+bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const Facts& facts) {
   const bool stays_active = by_call_ && active_->native;
   const auto callee = stays_active ? std::nullopt : callee_of(call);
   if (!callee || !std::holds_alternative<HoleCycle>(active_->source->node)) return false;
   if (!moves_anywhere(program_.routines[*callee].body)) return false;
+  const bool unknown = facts.reachable && !facts.cycle_active_known && !surely_active_;
+  if (unknown || !sure(facts)) {
+    context_.diagnostics.error("TRN-331", where.span,
+                               "which cycle is active at this call depends on the path that leads here, and the "
+                               "subprogram has its points",
+                               "define the cycle again before the call");
+    return true;
+  }
   bool own = false;
   each_word(active_->source, [&](const ExprPtr& e) {
     map_expr(e, [&](const ExprPtr& n) {

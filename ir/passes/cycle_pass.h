@@ -99,6 +99,8 @@ class CyclePass {
   [[nodiscard]] bool sure(const Facts& facts) const;
   /// By the text none is active, and on some way to the block one of this routine is.
   [[nodiscard]] bool cycle_by_another_way(const Block& b, const Facts& facts) const;
+  /// The block is a point in the words of the target too, whichever of its own cycles is in force.
+  [[nodiscard]] bool bare_point(const Block& b, const Facts& facts) const;
   void refuse_other_ways(Statement& s) const;
   /// The target's cycle is off until the next point of the text, and control goes elsewhere before.
   void leave_while_off(const Statement& s) const;
@@ -181,7 +183,8 @@ class CyclePass {
     }
     if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
     if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) callee_sets_plane(*call, s);
-    if (auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_ && call_with_cycle(*call, s.line)) {
+    if (auto* call = std::get_if<CallRoutine>(&s.node);
+        call != nullptr && active_ && call_with_cycle(*call, s.line, facts_.before(s))) {
       out.push_back(std::move(s));
       return;
     }
@@ -345,6 +348,11 @@ class CyclePass {
       return;
     }
     if (!cancelled && cycle_by_another_way(b, facts_.before(s))) {
+      if (bare_point(b, facts_.before(s))) {
+        unsure_.push_back(s.line.span);
+        if (by_call_) position_kind(b, context_);
+        return put(out, std::move(pieces), std::move(s));
+      }
       refuse_other_ways(s);
       out.push_back(std::move(s));
       return;
@@ -431,7 +439,7 @@ class CyclePass {
   [[nodiscard]] std::optional<std::size_t> callee_of(const CallRoutine& call) const;
   /// The points lie in the called routine, and the target's cycle needs to be defined or written out there: the call
   /// goes to a copy of it for this cycle. False: the call stays as it is.
-  bool call_with_cycle(CallRoutine& call, const LineInfo& where);
+  bool call_with_cycle(CallRoutine& call, const LineInfo& where, const Facts& facts);
   void check_words(const Statement& s);
 
   /// A point on a target that defines the cycle in the block of its first point.
@@ -464,6 +472,7 @@ class CyclePass {
   bool written_out_ = false;
   bool lacking_ = false;                 ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;  ///< statements of this routine
+  bool has_modal_calls_ = false;         ///< of cycles
   bool enters_unsure_ = false;           ///< the callers do not agree on a cycle
   std::vector<Span> unsure_;             ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;

@@ -8,7 +8,10 @@ void CyclePass::look_for_definitions() {
   const Statement* first = nullptr;
   for_each_statement(editor_.routine.body, [&](const Statement& s) {
     if (first == nullptr) first = &s;
-    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) definitions_.insert(s.id);
+    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) {
+      definitions_.insert(s.id);
+      has_modal_calls_ = true;
+    }
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
@@ -27,6 +30,15 @@ bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
   if (!facts.reachable || !b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
   if (facts.cycle_from == Facts::several_cycles) return !enters_unsure_ && !definitions_.empty();
   return facts.cycle_active && definitions_.count(facts.cycle_from) != 0;
+}
+
+bool CyclePass::bare_point(const Block& b, const Facts& facts) const {
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  if (!plane || (has_modal_calls_ && !by_call_)) return false;
+  const AxisId w = plane_axes(*plane).w;
+  if (!has_plane_word(b, w) || moves_along(b, w) || !b.motion.centers.empty() || b.motion.radius_given) return false;
+  const bool rapid = context_.target_machine.option("cycle.positioning") == "rapid";
+  return !rapid || way_to_hole(b, facts, context_) == MotionKind::rapid;
 }
 
 void CyclePass::refuse_other_ways(Statement& s) const {

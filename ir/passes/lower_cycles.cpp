@@ -32,7 +32,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   }
   const bool wrap = by_call_ && active_->native && !hole_here && was_on && disturbs_call(b);
   if ((hole_here || changed || wrap) && !sure(facts)) {
-    if (!by_call_ || !active_->native || changed || wrap) {
+    if (!follows || changed || wrap) {
       refuse_other_ways(s);
       out.push_back(std::move(s));
       return;
@@ -89,6 +89,11 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     // A code that does not stay is said: without it the writer would put the one that stays in force.
     if (target_rapid && (b.motion.keeps_modal || facts.motion == MotionKind::rapid)) by_itself(b);
     return put(out, std::move(pieces), std::move(s));
+  }
+  if (!sure(facts)) {  // each of the cycles would have to be written here
+    refuse_other_ways(s);
+    out.push_back(std::move(s));
+    return;
   }
   const bool maybe_on = active_->maybe_on_target && !active_->on_target;
   if (maybe_on) pieces.push_back(off_statement(like, false));  // else the way to the point would run it
@@ -347,6 +352,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     native.trigger = CycleTrigger::plane_axis_word;
     if (!d.here) {  // the next point runs it
       if (old_on) pieces.push_back(off_statement(s.line, false));
+      a.was_on_target = true;
       active_ = a;
       put(out, std::move(pieces), std::move(s));
       return;

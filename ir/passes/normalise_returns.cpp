@@ -24,6 +24,10 @@ class EndInSub {
   void run() {
     find_enders();
     if (enders_.empty()) return;
+    for (const auto& site : calls_.sites()) {  // the statements move when the bodies are rewritten
+      const auto* c = site.callee ? std::get_if<CallRoutine>(&site.statement->node) : nullptr;
+      if (c != nullptr && c->count && constant_value(c->count) != 1.0) called_again_.insert(*site.callee);
+    }
     flag_ = VarRef{frame_space(program_), "END@program", nullptr, {}};
     for (std::size_t r = 0; r < program_.routines.size(); ++r) rewrite(r);
     for (auto& r : program_.routines) {
@@ -56,7 +60,7 @@ class EndInSub {
     const bool sub = routine.kind == RoutineKind::sub;
     Editor editor(program_, routine, context_);
     std::optional<LabelRef> end_label;
-    if (sub && enders_.count(r) != 0 && called_again(r)) end_label = editor.fresh_label();
+    if (sub && enders_.count(r) != 0 && called_again_.count(r) != 0) end_label = editor.fresh_label();
     const std::optional<LabelRef> head_test = end_label;
     rewrite_body(routine.body, [&](Statement&& s, Body& out) {
       if (sub && ends_all(s)) {
@@ -99,13 +103,6 @@ class EndInSub {
     }
   }
 
-  /// Some call runs the routine several times: it must do nothing once the program has ended.
-  [[nodiscard]] bool called_again(std::size_t r) const {
-    return std::any_of(calls_.sites().begin(), calls_.sites().end(), [r](const CallSite& site) {
-      const auto* c = site.callee == r ? std::get_if<CallRoutine>(&site.statement->node) : nullptr;
-      return c != nullptr && c->count && constant_value(c->count) != 1.0;
-    });
-  }
   /// The moves behind a modal call would go on.
   void modal(const ModalCall& m, const Statement& s) const {
     const auto callee = m.call.computed ? std::nullopt : calls_.index_of(m.call.routine);
@@ -119,6 +116,8 @@ class EndInSub {
   const LegaliseContext& context_;
   CallGraph calls_;
   std::set<std::size_t> enders_;
+  /// Some call runs the routine several times: it must do nothing once the program has ended.
+  std::set<std::size_t> called_again_;
   VarRef flag_;
 };
 
