@@ -7,6 +7,7 @@
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
 #include "frontends/common/word_scanner.h"
+#include "frontends/num/cycle_changes.h"
 #include "frontends/num/lines.h"
 
 namespace cnctrans::frontends::num {
@@ -97,7 +98,9 @@ class NumFrontend : public Frontend {
   ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                    ReadStats* stats) const override {
     ReadStats own;
-    return FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
+    ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
+    judge_cycle_changes(program, options.profile->power_on, diagnostics);
+    return program;
   }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                                      std::string_view file_name) const override {
