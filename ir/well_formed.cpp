@@ -227,6 +227,7 @@ void Checker::found(const LabelRef& label, Search search, std::uint32_t from, bo
 }
 
 void Checker::range(const Repeat& r, std::uint32_t from) {
+  if (r.curve_use != CurveUse::none && r.first.text.empty()) return;  // a curve that nothing defines: the run says so
   if (r.first.computed || r.last.computed) return;
   if (r.last.text.empty()) return found(r.first, r.search, from, false);
   if (labels_->range(r, labels_->order(from))) return;
