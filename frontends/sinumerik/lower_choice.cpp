@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/row_parts.h"
 
 namespace cnctrans::sinumerik {
 
@@ -63,8 +64,20 @@ bool StatementLowering::chosen_by_index(const Block& block, const ir::LineInfo& 
       choice(ExprKind::name, a.name, 0, make_expr(ir::AxisName{a.id}, ir::Type::axis, found->pos));
     }
   }
-  c_.interrupt_lasting();
   const auto at = static_cast<std::size_t>(found - block.statements.begin());
+  {  // a block of which something else is not carried stays whole
+    Block first = block;
+    first.statements[at].args[0].args[0] = choices.front();
+    Parts parts;
+    ir::Block words;
+    const bool read = sort_items(first, parts);
+    const bool has_words = !parts.words.words.empty() || !parts.indirect.empty();
+    if (!read || (has_words && !words_.lower(parts.words, parts.indirect, words)) || !put_axis_words(parts, words)) {
+      add_opaque(block, info, feature_, false);
+      return true;
+    }
+  }
+  c_.interrupt_lasting();
   ir::LineInfo outer = info;
   ir::LineInfo plain;
   plain.span = info.span;
