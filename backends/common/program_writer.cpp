@@ -8,12 +8,21 @@
 namespace cnctrans::backends {
 namespace {
 
-bool has_one_shots(const ir::Program& program) {
+/// A cycle before which the writer may put a rapid to its retract plane.
+bool wants_approach(const ir::Action& a) {
+  const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+  const auto* hole = d != nullptr && d->cycle ? std::get_if<ir::HoleCycle>(&d->cycle->node) : nullptr;
+  return hole != nullptr && hole->retract.given;
+}
+
+bool has_one_shots(const ir::Program& program, bool approaches) {
   bool found = false;
   for (const ir::Routine& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
       found = found || (b != nullptr && b->has_motion && !b->motion.keeps_modal);
+      found =
+          found || (approaches && b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), wants_approach));
     });
   }
   return found;
@@ -54,7 +63,7 @@ ProgramWriter::ProgramWriter(const ir::Program& program, const WriteOptions& opt
       diagnostics_(diagnostics),
       same_dialect_(program.dialect == style.dialect),
       labels_(program),
-      tracker_(has_one_shots(program)) {
+      tracker_(has_one_shots(program, style.approaches_cycles && program.dialect != style.dialect)) {
   if (&program_ == &numbered_) ir::number_statements(numbered_);
 }
 

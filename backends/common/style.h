@@ -54,6 +54,7 @@ struct CommentStyle {
 };
 
 struct Style {
+  bool approaches_cycles = false;  ///< the writer may put a rapid to the retract plane before a hole cycle
   std::string_view dialect = {};
   CommentStyle comment = {};
   std::span<const ModalCode> modal_codes = {};

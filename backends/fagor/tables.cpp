@@ -101,6 +101,7 @@ Style make_style(bool lathe, bool inch, bool foreign) {
   s.dialect = dialect_name;
   s.comment.open = ";";
   s.comment.trim = true;
+  s.approaches_cycles = !lathe;
   s.comment.ascii = true;
   s.modal_codes = words(lathe).modal;
   s.motion_codes = words(lathe).motions;

@@ -62,7 +62,10 @@ void declare_at_top(Routine& routine, Type type, SpaceId space, const std::vecto
   Declare d;
   d.type = type;
   d.space = space;
-  for (const auto& n : names) d.items.push_back({n, {}, {}});
+  for (const auto& n : names) {  // what two calls keep over themselves has one name
+    const bool said = std::any_of(d.items.begin(), d.items.end(), [&n](const auto& item) { return item.name == n; });
+    if (!said) d.items.push_back({n, {}, {}});
+  }
   Statement s;
   s.node = std::move(d);
   routine.body.insert(below_head(routine.body), std::move(s));
