@@ -6,6 +6,7 @@
 #include "ir/cycles/machining.h"
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
+#include "ir/missing_features.h"
 #include "ir/opaque_words.h"
 
 namespace cnctrans::ir {
@@ -309,7 +310,9 @@ void detail::apply(const Statement& statement, Facts& facts, std::uint32_t frame
   } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
     assign(*a, facts);
   } else if (const auto* o = std::get_if<Opaque>(&statement.node)) {
-    if (!o->harmless && !o->feature.empty()) facts.forget();  // without a feature: refused, see passes::refuse
+    const auto* feature = o->harmless ? nullptr : find_missing_feature(o->feature);
+    const bool beside = feature != nullptr && feature->beside_path;
+    if (!o->harmless && !o->feature.empty() && !beside) facts.forget();  // without a feature: see passes::refuse
   } else if (std::holds_alternative<CallRoutine>(statement.node)) {
     facts.forget();
   } else if (const auto* r = std::get_if<Repeat>(&statement.node)) {

@@ -52,6 +52,8 @@ bool StatementLowering::beside_word(const Word& w, Parts& parts) {
   const BesideRow* row = nullptr;
   if (w.has_value && w.extension < 0) {
     row = beside(w.address, BesideForm::address);
+    const bool none = row != nullptr && row->feature == "beside.compensation" && w.expr < 0 && w.number == 0;
+    if (none) return false;  // no allowance: OFFN=0
   } else if (!w.has_value) {
     row = beside(w.address, BesideForm::code);
     if (row == nullptr) row = beside(w.address, BesideForm::procedure);

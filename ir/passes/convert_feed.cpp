@@ -41,7 +41,7 @@ class FeedPass {
       b->actions.insert(b->actions.begin(), action(SetFeed{Value{*value}, false}));
       return;
     }
-    context_.diagnostics.warning(
+    context_.diagnostics.error(
         "TRN-158", s.line.span,
         mode == static_cast<std::uint8_t>(FeedMode::inverse_time)
             ? "inverse time without F in this block: the source goes on with a feed that is not known here, the "
