@@ -27,7 +27,8 @@ bool CyclePass::sure(const Facts& facts) const {
 }
 
 bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
-  if (!facts.reachable || !b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
+  const bool moves = b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
+  if (!facts.reachable || (!moves && !(by_call_ && disturbs_call(b)))) return false;
   if (facts.cycle_from == Facts::several_cycles) return !enters_unsure_ && !definitions_.empty();
   return facts.cycle_active && definitions_.count(facts.cycle_from) != 0;
 }
