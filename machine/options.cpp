@@ -53,6 +53,8 @@ constexpr std::array specs{
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
+    OptionSpec{"tool.offset", "row|edge", "row",
+               "what a D number names: a row of one table for all tools, or an edge of the tool in force"},
     OptionSpec{"tool.radius_data", "text", "",
                "names of machine data with the radius of the tool in use, separated by |; #T and #D stand for the "
                "numbers of the tool and of its offset or edge"},
@@ -77,7 +79,8 @@ constexpr std::array specs{
     OptionSpec{"num.peck_law", "degressive|constant", "degressive", "pecks of a deep hole with first and last size"},
     OptionSpec{"num.range_order", "number|position", "number", "how the two ends of a block range are put in order"},
     OptionSpec{"num.structured", "no|yes", "yes", "structured statements are written for the 10xx and later"},
-    OptionSpec{"num.default_gear", "text", "M41", "gear word written when the source has none"},
+    OptionSpec{"num.default_gear", "text", "M41",
+               "gear word written when the source has none; empty: the machine has no gear ranges"},
     OptionSpec{"sinumerik.tool_change", "immediate|m6", "m6", "T changes at once, or selects for M6 (MD22550)"},
     OptionSpec{"sinumerik.default_edge", "number", "0",
                "D that a tool change selects when none is written after its T (MD20270); 0: none"},

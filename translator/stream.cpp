@@ -88,7 +88,9 @@ class StreamTranslation {
     }
     writer_->end(out_);
     if (!flush()) return fail();
-    for (const Diagnostics* stage : {&reading_, &passing_, &writing_}) result_.diagnostics.append(*stage);
+    result_.diagnostics.append(reading_);
+    for (const Diagnostics& pass : passing_) result_.diagnostics.append(pass);
+    result_.diagnostics.append(writing_);
   }
 
  private:
@@ -219,20 +221,31 @@ class StreamTranslation {
     ir::Program program = frame();
     program.routines.front().body = std::move(head_);
     ir::number_statements(program);
-    const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, passing_};
-    if (!run_local_passes(program, context)) return give_up();
+    if (!run_passes(ir::head_passes(), program, source_, true)) return give_up();
+    const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, passing_.back()};
     ir::run_pass("safe_start", program, context);
     ir::run_pass("tidy", program, context);
-    if (passing_.has_errors() || passing_.warning_count() != 0) return give_up();
+    if (passing_.back().has_errors() || passing_.back().warning_count() != 0) return give_up();
     writer_->begin(program, out_);
     return emit_all(program);
   }
 
-  static bool run_local_passes(ir::Program& program, const ir::LegaliseContext& context) {
-    for (const std::string_view pass : ir::block_local_passes()) {
-      if (!ir::run_pass(pass, program, context)) return false;
+  /// Each pass speaks in its place among the others. What it says once a program may be a warning; what it says of one
+  /// block behind the head needs the whole program.
+  bool run_passes(const std::vector<std::string_view>& names, ir::Program& program, const machine::Profile& source,
+                  bool head) {
+    for (const std::string_view pass : names) {
+      const bool once = pass == ir::gear_pass || pass == ir::offset_pass;
+      Diagnostics said;
+      if (!ir::run_pass(pass, program, {legal_, source, target_, {options_.cycles}, said})) return false;
+      if (!once && (head ? said.warning_count() != 0 : !said.empty())) return false;
+      passing_[pass_index(pass)].append(said);
     }
     return true;
+  }
+  static std::size_t pass_index(std::string_view name) {
+    const auto names = ir::head_passes();
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   }
 
   bool emit(const ir::Statement& s) { return writer_->write(s, out_, writing_) || give_up(); }
@@ -268,10 +281,8 @@ class StreamTranslation {
     program.routines.front().body = {statement_};
     ir::number_statements(program);
     const machine::Profile source = watch_.source_for(block);
-    Diagnostics said;  // one block's report can't be put in its place among those of the other passes
-    const ir::LegaliseContext context{legal_, source, target_, {options_.cycles}, said};
-    if (!run_local_passes(program, context) || !said.empty()) return give_up();
-    ir::run_pass("tidy", program, context);
+    if (!run_passes(watch_.passes_for(block), program, source, false)) return give_up();
+    ir::run_pass("tidy", program, {legal_, source, target_, {options_.cycles}, passing_.back()});
     watch_.follow(block);
     return emit_all(program);
   }
@@ -300,7 +311,8 @@ class StreamTranslation {
   const ir::Capabilities& legal_;
   ir::StreamWatch watch_;
   // What each stage says comes in the order of the stages, as from the whole-program path.
-  Diagnostics reading_, passing_, writing_;
+  Diagnostics reading_, writing_;
+  std::vector<Diagnostics> passing_{ir::head_passes().size() + 1};  ///< of each of these, and of those behind them
   ir::Statement statement_;
   FileId file_ = 0;
   std::optional<LineShapes> shapes_;  ///< from the end of the head on, when reader and writer allow it

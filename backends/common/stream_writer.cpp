@@ -252,6 +252,15 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
     w.address = table_.spindle_states[i];
     plain = r->number == 1;
     m_code_fits = order_fits(a, m_codes_[i], moves);
+  } else if (const auto* g = std::get_if<ir::SpindleGear>(&a.data)) {
+    plain = g->number == 1 && !g->automatic && g->gear >= 1 && g->gear <= 4;
+    if (plain) {
+      m_code_fits = order_fits(a, index_of(40 + g->gear), moves);
+      w.address = "M";
+      w.number = 40 + g->gear;
+      w.text = {};
+      w.has_number = true;
+    }
   } else if (const auto* t = std::get_if<ir::ToolSelect>(&a.data)) {
     plain = t->name.empty() && (!t->changes || table_.select_changes_too) && valued(table_.tool, t->number, Rank::tool);
   } else if (const auto* d = std::get_if<ir::ToolOffset>(&a.data)) {

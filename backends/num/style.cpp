@@ -116,6 +116,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.frames[ir::FrameSlot::preset] = {ir::FrameCombine::preset};
   c.work_offset_rows = 1;
   c.feed_override_switch = true;
+  c.gear_needed = true;  // reference 7: none is in force at power-on
   c.skip_levels = 1;
   c.message_length = facts::message_length;
   c.block_length = facts::block_length;

@@ -1,6 +1,5 @@
-// Tools (equivalences 15): change at T or at M6, tool length compensation that must be switched, gear ranges.
+// Tools (equivalences 15): change at T or at M6, tool length compensation that must be switched.
 #include <algorithm>
-#include <charconv>
 
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
@@ -233,31 +232,6 @@ class LengthCompensation {
   bool source_switches_ = false, add_ = false, drop_ = false;
 };
 
-/// A gear range where the target asks for one and the source has none.
-void add_gear(Program& program, const LegaliseContext& context) {
-  if (!context.target.gear_needed || program_has<SpindleGear>(program)) return;
-  const std::string word = context.target_machine.option(context.target_machine.dialect + ".default_gear");
-  if (word.size() < 2) return;
-  std::int32_t code = 0;
-  std::from_chars(word.data() + 1, word.data() + word.size(), code);
-  const auto* m = context.target_machine.m_code(code);
-  if (m == nullptr || m->meaning != machine::MMeaning::gear) return;
-  for (auto& r : program.routines) {
-    for_each_statement(r.body, [m](Statement& s) {
-      auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (std::size_t i = 0; i < b->actions.size(); ++i) {
-        const auto* run = std::get_if<SpindleRun>(&b->actions[i].data);
-        if (run == nullptr || run->state == SpindleState::off) continue;
-        const auto number = run->number;
-        b->actions.insert(b->actions.begin() + static_cast<std::ptrdiff_t>(i),
-                          action(SpindleGear{number, m->argument, false}, m->order));
-        return;
-      }
-    });
-  }
-}
-
 }  // namespace
 
 void convert_tools(Program& program, const LegaliseContext& context) {
@@ -271,7 +245,6 @@ void convert_tools(Program& program, const LegaliseContext& context) {
     });
   }
   LengthCompensation(program, context).run();
-  add_gear(program, context);
 }
 
 }  // namespace cnctrans::ir::passes

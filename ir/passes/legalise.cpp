@@ -4,6 +4,7 @@
 
 #include "ir/passes/early_passes.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/stream_watch.h"
 
 namespace cnctrans::ir {
 
@@ -55,6 +56,8 @@ constexpr std::array pipeline{
     Pass{"expressions", passes::lower_expressions, false},
     Pass{"tool_names", passes::number_tools, false},
     Pass{"tools", passes::convert_tools, true},
+    Pass{gear_pass, passes::choose_gears, false},
+    Pass{offset_pass, passes::check_offset_tables, false},
     Pass{"compensation", passes::check_compensation, true},
     Pass{"feed", passes::convert_feed, false},
     Pass{"order", passes::split_blocks, true},
@@ -100,6 +103,14 @@ std::vector<std::string_view> block_local_passes() {
   std::vector<std::string_view> names;
   for (const auto& pass : pipeline) {
     if (pass.block_local) names.push_back(pass.name);
+  }
+  return names;
+}
+
+std::vector<std::string_view> head_passes() {
+  std::vector<std::string_view> names;
+  for (const auto& pass : pipeline) {
+    if (pass.block_local || pass.name == gear_pass || pass.name == offset_pass) names.push_back(pass.name);
   }
   return names;
 }

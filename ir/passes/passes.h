@@ -23,13 +23,15 @@ void convert_arcs(Program& program, const LegaliseContext& context);        ///<
 void convert_distance(Program& program, const LegaliseContext& context);    ///< absolute and incremental words
 void convert_units(Program& program, const LegaliseContext& context);
 void convert_diameters(Program& program, const LegaliseContext& context);
-void lower_conditions(Program& program, const LegaliseContext& context);    ///< AND, OR, NOT, tolerance
-void lower_expressions(Program& program, const LegaliseContext& context);   ///< operators and functions
-void convert_tools(Program& program, const LegaliseContext& context);       ///< tool change, length compensation, gear
-void check_compensation(Program& program, const LegaliseContext& context);  ///< rapid moves under compensation
-void convert_feed(Program& program, const LegaliseContext& context);        ///< F after a change of feed mode
-void split_blocks(Program& program, const LegaliseContext& context);        ///< order of actions inside a block
-void convert_dwells(Program& program, const LegaliseContext& context);      ///< dwells, exact stop, path mode
+void lower_conditions(Program& program, const LegaliseContext& context);   ///< AND, OR, NOT, tolerance
+void lower_expressions(Program& program, const LegaliseContext& context);  ///< operators and functions
+void convert_tools(Program& program, const LegaliseContext& context);      ///< tool change, length compensation
+void choose_gears(Program& program, const LegaliseContext& context);       ///< a gear range where the target needs one
+void check_offset_tables(Program& program, const LegaliseContext& context);  ///< what a D number names
+void check_compensation(Program& program, const LegaliseContext& context);   ///< rapid moves under compensation
+void convert_feed(Program& program, const LegaliseContext& context);         ///< F after a change of feed mode
+void split_blocks(Program& program, const LegaliseContext& context);         ///< order of actions inside a block
+void convert_dwells(Program& program, const LegaliseContext& context);       ///< dwells, exact stop, path mode
 void check_skips(Program& program, const LegaliseContext& context);
 void convert_messages(Program& program, const LegaliseContext& context);
 void resolve_labels(Program& program, const LegaliseContext& context);  ///< searches, duplicates, names, limits

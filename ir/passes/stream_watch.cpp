@@ -45,7 +45,9 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       places_(std::max(0, std::min(target.word_decimals, target.word_decimals_inch))),
       at_once_(passes::changes_on_select(target_machine)),
       keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")),
-      rapid_differs_(source.option("comp.rapid") != target_machine.option("comp.rapid")) {
+      rapid_differs_(source.option("comp.rapid") != target_machine.option("comp.rapid")),
+      needs_gear_(target.gear_needed && source.dialect != target.dialect),
+      tables_differ_(passes::offset_tables_differ(source, target_machine)) {
   const bool source_on = source.power_on.length_comp == OnOff::on;
   const bool target_on = target_machine.power_on.length_comp == OnOff::on;
   adds_length_ = target.length_comp_switch && source_on && !target_on;
@@ -118,7 +120,7 @@ bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const 
     return s == Setting::feed_mode || s == Setting::units || s == Setting::path_mode || s == Setting::diameter ||
            (s == Setting::length_comp && adds_length_);
   }
-  if (std::holds_alternative<SpindleRun>(a.data)) return target_.gear_needed;
+  if (const auto* g = std::get_if<SpindleGear>(&a.data); g != nullptr && g->automatic) return needs_gear_;
   if (const auto* t = std::get_if<ToolSelect>(&a.data); t != nullptr && !t->name.empty()) return true;  // gets a number
   if (const auto* t = std::get_if<ToolSelect>(&a.data)) return at_once_ && !t->changes && !has<ToolChange>(block);
   if (std::holds_alternative<ToolChange>(a.data)) {
@@ -163,6 +165,28 @@ bool StreamWatch::needs_whole(const Block& block) const {
   });
 }
 
+/// The first start of the spindle without a gear range.
+bool StreamWatch::gear_is_new(const Block& block) const {
+  if (!needs_gear_ || gear_said_ || has<SpindleGear>(block)) return false;
+  return std::any_of(block.actions.begin(), block.actions.end(), [](const Action& a) {
+    const auto* run = std::get_if<SpindleRun>(&a.data);
+    return run != nullptr && run->state != SpindleState::off;
+  });
+}
+
+/// A D number of another table, the first one.
+bool StreamWatch::offset_is_new(const Block& block) const {
+  if (!tables_differ_ || offset_said_) return false;
+  passes::OffsetNumbers numbers = offset_numbers_;
+  for (const auto& a : block.actions) {
+    if (const auto* t = std::get_if<ToolSelect>(&a.data)) numbers.follow(*t);
+  }
+  return std::any_of(block.actions.begin(), block.actions.end(), [&numbers](const Action& a) {
+    const auto* o = std::get_if<ToolOffset>(&a.data);
+    return o != nullptr && numbers.differs(*o);
+  });
+}
+
 /// The block is the one that convert_tools switches length compensation on in.
 bool StreamWatch::takes_length(const Block& block) const {
   const bool wanted = length_wanted_ || has<ToolChange>(block) || has<ToolSelect>(block);
@@ -179,9 +203,18 @@ bool StreamWatch::rapid_under_compensation(const Block& block) const {
 
 StreamWatch::Verdict StreamWatch::look(const Block& block) const {
   if (needs_whole(block)) return Verdict::whole;
+  if (gear_is_new(block) || offset_is_new(block)) return Verdict::local;
   if (adds_length_ && takes_length(block)) return Verdict::local;
   if (rapid_differs_ && rapid_under_compensation(block)) return Verdict::local;
   return plain_legal(block, target_, &target_machine_) ? Verdict::plain : Verdict::local;
+}
+
+std::vector<std::string_view> StreamWatch::passes_for(const Block& block) const {
+  const bool gear = gear_is_new(block), offset = offset_is_new(block);
+  std::vector<std::string_view> names = head_passes();
+  std::erase_if(
+      names, [&](std::string_view name) { return (name == gear_pass && !gear) || (name == offset_pass && !offset); });
+  return names;
 }
 
 void StreamWatch::follow(const Block& block) {
@@ -192,7 +225,12 @@ void StreamWatch::follow(const Block& block) {
       length_wanted_ = true;
     }
   }
+  offset_said_ = offset_said_ || offset_is_new(block);
   for (const auto& a : block.actions) {
+    const auto* run = std::get_if<SpindleRun>(&a.data);
+    gear_said_ = gear_said_ || std::holds_alternative<SpindleGear>(a.data) ||
+                 (run != nullptr && run->state != SpindleState::off);
+    if (const auto* t = std::get_if<ToolSelect>(&a.data)) offset_numbers_.follow(*t);
     if (const auto* set = std::get_if<ModalSet>(&a.data)) {
       state_.set(set->setting, set->value);
       length_switched_ = length_switched_ || set->setting == Setting::length_comp;
@@ -209,7 +247,8 @@ void StreamWatch::follow(const Block& block) {
 std::uint64_t StreamWatch::key() const {
   std::uint64_t key = static_cast<std::uint64_t>(state_.motion);
   for (std::size_t s = 0; s < setting_count; ++s) key = key << 2U | state_.get(static_cast<Setting>(s));
-  for (const bool flag : {long_word_, offset_changed_, length_wanted_, length_switched_})
+  for (const bool flag : {long_word_, offset_changed_, length_wanted_, length_switched_, gear_said_, offset_said_,
+                          offset_numbers_.differs(ToolOffset{Value{1.0}})})
     key = key << 1U | (flag ? 1U : 0U);
   return key;
 }

@@ -3,8 +3,14 @@
 #pragma once
 
 #include "ir/passes/legalise.h"
+#include "ir/passes/offset_tables.h"
 
 namespace cnctrans::ir {
+
+/// The passes for the head of a stream, in order: those of one block, and those that do something once a program.
+std::vector<std::string_view> head_passes();
+/// Those that do something once a program.
+inline constexpr std::string_view gear_pass = "gears", offset_pass = "offset_tables";
 
 class StreamWatch {
  public:
@@ -25,6 +31,8 @@ class StreamWatch {
 
   /// A block behind the head. Does not follow it.
   [[nodiscard]] Verdict look(const Block& block) const;
+  /// The passes for a program of this block alone, in order.
+  [[nodiscard]] std::vector<std::string_view> passes_for(const Block& block) const;
   /// The block is done: what it changes holds for those that follow.
   void follow(const Block& block);
   /// The source machine in the state before the block, for a program of this block alone.
@@ -41,6 +49,8 @@ class StreamWatch {
   [[nodiscard]] bool rapid_under_compensation(const Block& block) const;
   [[nodiscard]] bool cuts_without_feed(const Block& block) const;
   [[nodiscard]] bool takes_length(const Block& block) const;
+  [[nodiscard]] bool gear_is_new(const Block& block) const;
+  [[nodiscard]] bool offset_is_new(const Block& block) const;
   [[nodiscard]] bool too_long(const Value& value) const;
   void follow_head(const Block& block);
 
@@ -48,12 +58,17 @@ class StreamWatch {
   const machine::Profile& source_;
   const machine::Profile& target_machine_;
   ModalState state_;
-  int places_;              ///< of the target's coordinates, in the unit that has fewer
-  bool at_once_;            ///< the target changes tools at T
-  bool keeps_differ_;       ///< a change of the offsets keeps another point on the target
-  bool rapid_differs_;      ///< a rapid move under radius compensation is compensated on one machine only
-  bool adds_length_;        ///< the target wants length compensation switched on, the source has it always
-  bool never_on_;           ///< the source switches it, the target has it always
+  int places_;                ///< of the target's coordinates, in the unit that has fewer
+  bool at_once_;              ///< the target changes tools at T
+  bool keeps_differ_;         ///< a change of the offsets keeps another point on the target
+  bool rapid_differs_;        ///< a rapid move under radius compensation is compensated on one machine only
+  bool adds_length_;          ///< the target wants length compensation switched on, the source has it always
+  bool never_on_;             ///< the source switches it, the target has it always
+  bool needs_gear_;           ///< the target wants a gear range before the spindle starts
+  bool tables_differ_;        ///< D numbers name other rows of the tool data on the target
+  bool gear_said_ = false;    ///< a range, or the start of the spindle that gets one
+  bool offset_said_ = false;  ///< a D number that has been warned of
+  passes::OffsetNumbers offset_numbers_{};
   bool head_done_ = false;  ///< from here on the head's
   bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;
   bool long_word_ = false;        ///< a coordinate so far has more places than the target writes

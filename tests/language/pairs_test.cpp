@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 const std::string root = CNCTRANS_SOURCE_DIR "/tests/pairs/";
 constexpr const char* mark = "PAIR STARTS HERE";
 
-/// The frame around a snippet: a header and a full safe start, so that nothing is inserted, and a mark. Definitions of
-/// variables at the start of a snippet stand between the title and the safe start.
+/// The frame around a snippet: a header, a full safe start and a gear range, so that nothing is inserted, and a mark.
+/// Definitions of variables at the start of a snippet stand between the title and the safe start.
 struct Frame {
   std::string extension, title, open, close;
 };
@@ -27,14 +27,15 @@ Frame frame(const std::string& dialect, bool lathe) {
   const std::string m = mark;
   if (dialect == "fagor") {
     return {lathe ? "pit" : "pim", "%PAIR ,MX,\n",
-            std::string(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97" : "G17 G40 G05 G71 G90 G94") + "\n;" + m + "\n",
+            std::string(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97" : "G17 G40 G05 G71 G90 G94") + " M41\n;" + m + "\n",
             "M30\n"};
   }
   if (dialect == "num")
     return {"xpi", "%100 (PAIR)\n",
-            std::string(lathe ? "G18 G40 G71 G90 G95 G97" : "G17 G40 G71 G80 G90 G94") + "\n(" + m + ")\n", "M02\n"};
+            std::string(lathe ? "G18 G40 G71 G90 G95 G97" : "G17 G40 G71 G80 G90 G94") + " M41\n(" + m + ")\n",
+            "M02\n"};
   return {"mpf", "; PAIR\n",
-          std::string(lathe ? "G18 G40 G64 G710 G90 G95 DIAMON" : "G17 G40 G64 G710 G90 G94") + "\n; " + m + "\n",
+          std::string(lathe ? "G18 G40 G64 G710 G90 G95 DIAMON" : "G17 G40 G64 G710 G90 G94") + " M41\n; " + m + "\n",
           "M30\n"};
 }
 
