@@ -7,6 +7,7 @@
 #include "interpreter/run_codes.h"
 #include "ir/cycles/machining.h"
 #include "ir/cycles/profile_blocks.h"
+#include "machine/turning_tool.h"
 
 namespace cnctrans::interpreter {
 
@@ -62,12 +63,7 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   if (!machining_numbers(c, numbers)) return false;
   ir::cycles::TurnContext context;
   context.start = {p_[ir::axis::x], p_[ir::axis::z]};
-  const auto tool = std::find_if(profile_.tools.begin(), profile_.tools.end(),
-                                 [this](const auto& t) { return t.number == tool_in_spindle_; });
-  if (tool != profile_.tools.end()) {
-    context.nose_width = tool->nose_width;
-    if (tool->length != tool->length_x) context.longer_in_x = tool->length_x > tool->length;
-  }
+  machine::tell_tool(profile_, tool_in_spindle_, context);
   std::optional<ir::cycles::TurnProfile> contour;
   if (ir::cycles::has_profile(c)) {
     contour = machining_profile(c, numbers);

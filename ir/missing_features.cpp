@@ -26,7 +26,7 @@ constexpr std::array features{
         "pockets, slots, faces, spigots and milled threads are carried; contours of milling cycles are not read yet"},
     MissingFeature{"cycle.pattern", "free lists of hole positions", "lines, circles and grids are carried"},
     MissingFeature{"cycle.turning",
-                   "turning cycles whose moves are not described (undercuts, grooves by two edges, contour grooves)",
+                   "turning cycles whose moves are not described (undercuts, parting, contour grooves)",
                    "read and kept; their sequence is not in the references"},
     MissingFeature{"language.files", "file operations", "no output file model yet"},
     MissingFeature{"language.macro", "macros of the machine builder called by a code", "their text is on the machine"},

@@ -23,6 +23,10 @@ constexpr std::array specs{
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
     OptionSpec{"cycle.rotary_triggers", "no|yes", "no", "a rotary axis word alone runs the modal hole cycle too"},
+    OptionSpec{"cycle.face_groove_left", "unknown|larger_x|smaller_x", "unknown",
+               "where the left start of a shaped groove in the face lies; unknown: such grooves are refused"},
+    OptionSpec{"cycle.groove_edge", "minus|plus", "minus",
+               "which corner of its insert is the programmed point of a grooving tool whose nose is not 1 to 4"},
     OptionSpec{"frame.change_keeps", "machine|programmed", "machine",
                "what an incremental word adds to after a frame change: the present point seen in the new frame, or the "
                "coordinate programmed last (the difference of the frames is travelled)"},

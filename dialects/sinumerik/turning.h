@@ -19,6 +19,13 @@ struct TurningCycle {
 
 // clang-format off
 inline constexpr std::array turning_cycles = {
+    TurningCycle{"CYCLE93", "groove.shaped",
+                 {{{"SPD", "x"}, {"SPL", "z"}, {"WIDG", "width"}, {"DIAG", "depth"}, {"STA1", "slope_angle"},
+                   {"ANG1", "flank_1"}, {"ANG2", "flank_2"}, {"RCO1", "outer_1"}, {"RCO2", "outer_2"},
+                   {"RCI1", "inner_1"}, {"RCI2", "inner_2"}, {"FAL1", "stock_base"}, {"FAL2", "stock_flank"},
+                   {"IDEP", "step"}, {"DTB", "base_dwell"}, {"VARI", "variant"}, {"VRT", "withdrawal"},
+                   {"DN", "second_edge"}}},
+                 "SPD,SPL,WIDG,DIAG,IDEP,VARI"},
     TurningCycle{"CYCLE95", "stock.contour",
                  {{{"MID", "step"}, {"FALZ", "stock_z"}, {"FALX", "stock_x"}, {"FAL", "stock"}, {"FF1", "rough_feed"},
                    {"FF2", "groove_feed"}, {"FF3", "finish_feed"}, {"VARI", "variant"}, {"DT", "chip_dwell"},

@@ -83,6 +83,18 @@ constexpr std::array parameters = {
     Parameter{"entry_angle", Quantity::plain},
     Parameter{"limit_x", Quantity::cross},
     Parameter{"limit_z", Quantity::along},
+    Parameter{"width", Quantity::length},
+    Parameter{"slope_angle", Quantity::plain},
+    Parameter{"flank_1", Quantity::plain},
+    Parameter{"flank_2", Quantity::plain},
+    Parameter{"outer_1", Quantity::length},
+    Parameter{"outer_2", Quantity::length},
+    Parameter{"inner_1", Quantity::length},
+    Parameter{"inner_2", Quantity::length},
+    Parameter{"stock_base", Quantity::length},
+    Parameter{"stock_flank", Quantity::length},
+    Parameter{"base_dwell", Quantity::plain},
+    Parameter{"second_edge", Quantity::plain},
 };
 
 using Kind = MachiningKind;
@@ -107,6 +119,7 @@ constexpr std::array cycles = {
     MachiningCycle{"thread.chased", Kind::thread, false, false, false},
     MachiningCycle{"stock.contour", Kind::profile, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.blank", Kind::profile, false, false, false},
+    MachiningCycle{"groove.shaped", Kind::shaped, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.groove", Kind::profile, false, false, false},
     MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
@@ -174,7 +187,7 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
     }
     face = it != numbers.end() ? it->second != 0 : !*context.longer_in_x;
   }
-  if (cycle.name == "stock.contour") {
+  if (cycle.name == "stock.contour" || cycle.name == "groove.shaped") {
     const auto it = numbers.find("variant");
     face = it != numbers.end() && std::fmod(std::abs(it->second), 2) == 0;
   } else if (cycle.name == "stock.blank" || cycle.name == "stock.groove") {
@@ -194,6 +207,7 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
                                              : detail::thread(roles, error);
       break;
     case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;
+    case Kind::shaped: done = detail::shaped_groove(roles, context, face, error); break;
     case Kind::profile:
       done = cycle.name == "stock.contour"  ? detail::contour_stock(roles, context, face, error)
              : cycle.name == "stock.blank"  ? detail::blank_stock(roles, context, face, error)

@@ -41,7 +41,8 @@ enum class MachiningKind : std::uint8_t {
   copy,      ///< against a profile of blocks, passes parallel to the profile
   drill,     ///< on the axis: drilling in pecks, or tapping when the peck is 0
   thread,
-  groove,
+  groove,      ///< plunges of equal distance
+  shaped,      ///< a groove or relief whose shape the words of the cycle give
   live_drill,  ///< with a driven tool
   live_key
 };
@@ -109,6 +110,10 @@ using TurnNumbers = std::map<std::string_view, double>;
 struct TurnContext {
   TurnPoint start;                       ///< of the tool when the cycle is called
   double nose_width = 0;                 ///< of the tool; 0: not known
+  double nose_radius = 0;                ///< of the tool
+  int edge = 0;                          ///< quadrant in which the tip lies (1: +Z +X, 2: -Z +X, 3: -Z -X, 4: +Z -X)
+  bool edge_at_plus = false;             ///< of a grooving tool, where the quadrant is not known
+  std::optional<bool> left_is_larger;    ///< the left start of a groove in the face lies at the larger X
   std::optional<bool> longer_in_x;       ///< the tool is longer along X than along Z; nullopt: not known
   const TurnProfile* profile = nullptr;  ///< of the cycles that have one
 };

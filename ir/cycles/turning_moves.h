@@ -105,6 +105,7 @@ void pecks(Roles& r, const Hole& hole, bool per_minute);
 bool straight_or_arc(bool arc, Roles& r, std::string* error);
 bool thread(Roles& r, std::string* error);
 bool groove(Roles& r, double nose_width, std::string* error);
+bool shaped_groove(Roles& r, const TurnContext& context, bool face, std::string* error);
 bool axial_drill(Roles& r, std::string* error);
 bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, std::string* error);
 /// By the contour alone, and by the contour within a blank.

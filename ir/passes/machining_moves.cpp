@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "ir/cycles/profile_blocks.h"
 #include "ir/passes/blocks.h"
+#include "machine/turning_tool.h"
 
 namespace cnctrans::ir::passes {
 
@@ -193,7 +194,8 @@ class Writer {
       if (!feed(m, b, error)) return false;
     }
     const bool whole = m.step == TurnStep::arc;
-    const auto same = [](double to, double from) { return std::abs(to - from) <= 1e-9; };  // false: not known
+    // A place that is not known is not gone to; one from which the way is not known is written.
+    const auto same = [](double to, double from) { return std::isnan(to) || std::abs(to - from) <= 1e-9; };
     if (whole || !same(m.to.x, at.x)) coordinate(motion, axis::x, m.to.x);
     if (whole || !same(m.to.z, at.z)) coordinate(motion, axis::z, m.to.z);
     if (whole) {
@@ -463,13 +465,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   cycles::TurnContext context;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   context.start = {x.value_or(unknown) * unit, z.value_or(unknown) * unit};
-  context.nose_width = nose_width(site.state);
-  const auto& tools = context_.source_machine.tools;
-  const auto tool =
-      std::find_if(tools.begin(), tools.end(), [&](const auto& t) { return t.number == site.state.tool; });
-  if (tool != tools.end()) {
-    if (tool->length != tool->length_x) context.longer_in_x = tool->length_x > tool->length;
-  }
+  machine::tell_tool(context_.source_machine, site.state.tool, context);
   if (cycles::has_profile(named)) {
     if (!site.profile) return *error = site.fault, std::nullopt;
     context.profile = &*site.profile;
