@@ -212,6 +212,15 @@ void ProgramWriter::next_line() {
   first_of_source_line_ = false;
 }
 
+void ProgramWriter::label_line() {
+  if (!line_open_ || !first_of_source_line_ || !line_.empty() || info_->labels.empty()) return;
+  const ir::LineInfo* info = info_;
+  finish_line();
+  info_ = info;
+  line_open_ = true;
+  first_of_source_line_ = false;
+}
+
 void ProgramWriter::finish_line() {
   if (!line_open_) return;
   line_open_ = false;

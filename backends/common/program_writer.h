@@ -122,6 +122,9 @@ class ProgramWriter {
   /// The rest goes to a further line of the target (same skip mark; no number, labels or comments). Nothing happens
   /// while the line has no pieces.
   void next_line();
+  /// Number, labels and remarks of the source line on a line of their own; what follows stands on the next one. Without
+  /// a label: nothing.
+  void label_line();
   void finish_line();
   Line& line() { return line_; }
   void add(std::string text, Rank rank, WordPos pos = {}) { line_.add(std::move(text), rank, pos); }

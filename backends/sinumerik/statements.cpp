@@ -68,35 +68,51 @@ bool Writer::condition(const ir::ExprPtr& e, std::string& text) {
 
 // ---- structures ----------------------------------------------------------------------------------------------------
 
+/// A label may not stand in a block with a control structure (reference-language 7.1).
+void Writer::open_structure() {
+  next_line();
+  if (!same_dialect()) label_line();
+}
+
+void Writer::close_structure(const ir::LineInfo& info, const std::string& keyword) {
+  if (same_dialect() || info.labels.empty()) return keyword_line(info, keyword);
+  const bool past = keyword == "ENDIF";  // the label of a closing line leads past an IF, and to the head of a loop
+  if (past) keyword_line(ir::LineInfo{}, keyword);
+  begin_line(info);
+  label_line();
+  if (!past) add(keyword, Rank::head);
+  finish_line();
+}
+
 void Writer::if_else(const ir::If& i) {
   std::string text;
   if (!condition(i.condition, text)) return refuse_structure({});
-  next_line();
+  open_structure();
   add("IF " + text, Rank::head);
   nested(i.then_body);
   if (i.has_else || !i.else_body.empty()) {
-    keyword_line(i.else_line, "ELSE");
+    close_structure(i.else_line, "ELSE");
     nested(i.else_body);
   }
-  keyword_line(i.end_line, "ENDIF");
+  close_structure(i.end_line, "ENDIF");
 }
 
 void Writer::while_loop(const ir::While& w) {
   std::string text;
   if (!condition(w.condition, text)) return refuse_structure({});
-  next_line();
+  open_structure();
   add("WHILE " + text, Rank::head);
   nested(w.body);
-  keyword_line(w.end_line, "ENDWHILE");
+  close_structure(w.end_line, "ENDWHILE");
 }
 
 void Writer::until_loop(const ir::Until& u) {
   std::string text;
   if (!condition(u.condition, text)) return refuse_structure({});
-  next_line();
+  open_structure();
   add("REPEAT", Rank::head);
   nested(u.body);
-  keyword_line(u.end_line, "UNTIL " + text);
+  close_structure(u.end_line, "UNTIL " + text);
 }
 
 void Writer::for_loop(const ir::For& f) {
@@ -108,17 +124,17 @@ void Writer::for_loop(const ir::For& f) {
   text += expressions_.assigned(f.from, ir::Type::integer);
   text += " TO " + expressions_.assigned(f.to, ir::Type::integer);
   if (refused_problem()) return refuse_structure({});
-  next_line();
+  open_structure();
   add(std::move(text), Rank::head);
   nested(f.body);
-  keyword_line(f.end_line, "ENDFOR");
+  close_structure(f.end_line, "ENDFOR");
 }
 
 void Writer::endless_loop(const ir::Loop& l) {
-  next_line();
+  open_structure();
   add("LOOP", Rank::head);
   nested(l.body);
-  keyword_line(l.end_line, "ENDLOOP");
+  close_structure(l.end_line, "ENDLOOP");
 }
 
 /// In the control's own language the text is written where it stood.

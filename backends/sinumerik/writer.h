@@ -81,6 +81,8 @@ class Writer final : public ProgramWriter {
   std::string main_name();
   [[nodiscard]] std::string sub_name(const ir::RoutineName& name) const;
   void externs(const ir::Routine& r);
+  void open_structure();
+  void close_structure(const ir::LineInfo& info, const std::string& keyword);
   std::string proc_line(const ir::Routine& r, const std::string& name);
 
   /// Some thread of the program starts at an angle of its own: SF= stays in force here, so each thread has to say its.

@@ -1,5 +1,6 @@
 // Jumps, structured statements, repeated parts.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/text.h"
@@ -128,6 +129,18 @@ bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
   return flow(block, std::move(info));
 }
 
+namespace {
+
+/// Opens, divides or closes a control structure; IF .. GOTOF is a jump.
+bool is_structure(const Statement& s) {
+  static constexpr std::array<std::string_view, 10> words{"ELSE",   "ENDIF", "LOOP",     "ENDLOOP", "FOR",
+                                                          "ENDFOR", "WHILE", "ENDWHILE", "UNTIL",   "IF"};
+  if (s.keyword == "REPEAT") return s.args.empty();
+  return std::find(words.begin(), words.end(), s.keyword) != words.end() && (s.keyword != "IF" || s.children.empty());
+}
+
+}  // namespace
+
 bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
   c_.interrupt_lasting();
   bool ok = true;
@@ -136,6 +149,10 @@ bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
     if (s.keyword != "DEF" && s.keyword != "PROC" && s.keyword != "EXTERN" && s.keyword != "DEFINE" &&
         s.keyword != "REDEF" && s.keyword != "RIGHTS") {
       executable_seen_ = true;
+    }
+    if (!block.labels.empty() && is_structure(s)) {
+      c_.warning("SIN-060", s.pos, "a label may not stand in a block with a control structure; the control stops here",
+                 "put the label into a block of its own before this one");
     }
     if (statement(s, block, info) && c_.errors == before) continue;
     ok = false;

@@ -5,6 +5,7 @@
 #include "ir/passes/call_graph.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/flow_states.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
@@ -18,14 +19,45 @@ bool words_run(const machine::Profile& machine) {
   return machine.option("call.modal_words") == "yes";
 }
 
+bool defines(const Routine& r) {
+  bool found = false;
+  for_each_statement(r.body,
+                     [&found](const Statement& s) { found = found || std::holds_alternative<ModalCall>(s.node); });
+  return found;
+}
+
+/// A domain of FlowStates: the statement that switched the modal call in force on.
+struct InForce {
+  using State = std::uint32_t;                                 ///< its id; 0: none is in force
+  static constexpr std::uint32_t several = ~std::uint32_t{0};  ///< the ways that lead here bring different ones
+
+  [[nodiscard]] static State start(const Routine& /*unused*/, bool /*unused*/) { return 0; }
+  static void transfer(const Statement& s, State& state) {
+    if (const auto* m = std::get_if<ModalCall>(&s.node)) state = m->off || m->cycle ? 0 : s.id;
+  }
+  [[nodiscard]] static bool touches(const Routine& r) { return defines(r); }
+  static void unknown(State& /*state*/) {}  // what is not at hand is taken to leave the caller's modal call alone
+  static bool join(State& a, const State& b) {
+    if (a == b || a == several) return false;
+    a = several;
+    return true;
+  }
+};
+
 class ModalCalls {
  public:
   ModalCalls(Program& program, const LegaliseContext& context, const CallGraph& calls, const FactsOf& facts)
-      : program_(program), context_(context), calls_(calls), facts_(facts), reads_first_(program, calls, false) {
+      : program_(program),
+        context_(context),
+        calls_(calls),
+        facts_(facts),
+        in_force_(program, InForce{}),
+        reads_first_(program, calls, false) {
     for (const auto& r : program.routines) {
       for_each_statement(r.body, [this](const Statement& s) {
         const auto* m = std::get_if<ModalCall>(&s.node);
         by_calls_ = by_calls_ || (m != nullptr && m->cycle != nullptr);
+        some_written_out_ = some_written_out_ || (m != nullptr && !m->off && !m->cycle && !stays_modal(*m));
       });
     }
   }
@@ -33,6 +65,9 @@ class ModalCalls {
   void run(Routine& routine) {
     active_.reset();
     on_target_.reset();
+    from_ = 0;
+    const auto* entry = routine.body.empty() || defines(routine) ? nullptr : in_force_.before(routine.body.front());
+    brought_ = entry == nullptr ? 0 : *entry;
     Editor editor(program_, routine, context_);
     editor_ = &editor;
     uses_ = label_uses(program_, routine);
@@ -52,6 +87,17 @@ class ModalCalls {
   bool is_target(const Statement& s) const {
     const auto labels = labels_on(s.line);
     return std::any_of(labels.begin(), labels.end(), [this](const LabelRef& l) { return uses_.is_target(l); });
+  }
+  /// The modal call that the text has in force here is not the one that every path brings, and that matters.
+  bool by_another_way(const Statement& s, const Block& b) const {
+    const auto* state = in_force_.before(s);
+    if (state == nullptr || *state == from_ || (from_ == 0 && *state == brought_)) return false;
+    if (runs(b, facts_.before(s), words_run(context_.source_machine)) || pattern_in(b)) return some_written_out_;
+    return runs(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
+  }
+  /// The target's own modal call takes its place.
+  bool stays_modal(const ModalCall& m) const {
+    return context_.target.modal_call && !shared_too(m.call) && (m.here || context_.target.modal_call_here == m.here);
   }
   /// The last statement switched the target's call on again, and nothing has run since: it is taken back.
   bool take_back_on(const Statement& next, Body& out) {
@@ -77,6 +123,14 @@ class ModalCalls {
     if (m != nullptr && !m->cycle) return definition(std::move(s), out);
     if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
     auto* b = std::get_if<Block>(&s.node);
+    if (b != nullptr && by_another_way(s, *b)) {
+      refuse(
+          s, program_, context_, "TRN-393",
+          "which subprogram is modal here depends on the path that leads here, and its calls would stand in the text",
+          "call the subprogram where it is to run, or end the modal call on every path");
+      out.push_back(std::move(s));
+      return;
+    }
     if (b == nullptr || (!active_ && !on_target_)) {
       out.push_back(std::move(s));
       return;
@@ -221,6 +275,7 @@ class ModalCalls {
 
   void definition(Statement&& s, Body& out) {
     ModalCall m = std::get<ModalCall>(s.node);
+    from_ = m.off ? 0 : s.id;
     if (m.off) {
       if (!active_) {
         on_target_.reset();
@@ -243,7 +298,8 @@ class ModalCalls {
       return;
     }
     // Another subprogram may still be modal on the target: the motions of this run would run it.
-    const bool ends_other = m.here && context_.target.modal_call && on_target_;
+    const auto* before = in_force_.before(s);
+    const bool ends_other = m.here && context_.target.modal_call && (on_target_ || (before != nullptr && *before != 0));
     if (ends_other) {
       Statement off = made(like, off_call());
       move_head(s.line, off.line);
@@ -292,6 +348,7 @@ class ModalCalls {
   const LegaliseContext& context_;
   const CallGraph& calls_;
   const FactsOf& facts_;
+  const FlowStates<InForce> in_force_;
   ReadFirst reads_first_;
   Editor* editor_ = nullptr;
   LabelUses uses_;
@@ -299,7 +356,10 @@ class ModalCalls {
   std::optional<ModalCall> on_target_;  ///< the target's own one is in force
   const Body* wrapped_in_ = nullptr;    ///< where the target's call was last switched on again
   std::size_t wrapped_size_ = 0;
-  bool by_calls_ = false;  ///< the program has cycles that are modal by call
+  bool by_calls_ = false;          ///< the program has cycles that are modal by call
+  bool some_written_out_ = false;  ///< some modal call becomes calls behind each block
+  std::uint32_t brought_ = 0;      ///< what the callers of this routine have in force, which has none of its own
+  std::uint32_t from_ = 0;         ///< id of the definition that the text has in force; 0: none
   int loops_ = 0;
 };
 

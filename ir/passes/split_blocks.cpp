@@ -15,6 +15,11 @@ bool is_after(Order o) {
   return o == Order::after;
 }
 
+/// What acts before the motion can't stand behind this in the same block: a dwell takes the place of the motion.
+bool waits(const Action& a, Order o) {
+  return is_after(o) || std::holds_alternative<Dwell>(a.data);
+}
+
 bool is_tool_word(const Action& a) {
   return std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
          std::holds_alternative<ToolOffset>(a.data);
@@ -155,7 +160,7 @@ class Splitter {
       if (makes_event(a)) {
         const Order theirs = target_order(a, editor_.context.target_machine);
         if (reached_after && !is_after(theirs)) cut();
-        reached_after = reached_after || is_after(theirs);
+        reached_after = reached_after || waits(a, theirs);
         a.order = theirs;
       } else if (reached_after && std::holds_alternative<ToolSelect>(a.data)) {
         cut();
@@ -185,7 +190,7 @@ bool needs_split(const Block& block, const Program& program, const LegaliseConte
     const bool theirs = is_after(target_order(a, context.target_machine));
     if (moving && theirs != is_after(a.order)) return true;
     if (!moving && reached_after && !theirs) return true;
-    reached_after = reached_after || theirs;
+    reached_after = reached_after || theirs || std::holds_alternative<Dwell>(a.data);
   }
   return alone && others > 1;
 }
