@@ -312,11 +312,10 @@ bool Runner::set_parameter(const Bound& b) {
                                                " where the parameter is a " + (to_text ? "text" : "number"));
   }
   if (to_text) {
-    Variables::assign(p, b.text);
-  } else {
-    Variables::assign(p, b.value);
+    variables_.store(p, b.text);
+    return true;
   }
-  return true;
+  return variables_.store(p, b.value);
 }
 
 // --- returns ---------------------------------------------------------------------------------------------------
@@ -342,6 +341,12 @@ void Runner::leave(bool returned) {
     if (hand_over(arguments)) at_ = a.entry;
     return;
   }
+  go_to(close_call());
+}
+
+/// The call is left for good; where its caller goes on.
+std::uint32_t Runner::close_call() {
+  auto& a = calls_.back();
   variables_.leave(a.locals, static_cast<std::uint32_t>(calls_.size() - 1));
   if (a.modal && a.opened_level) modal_.left_behind = variables_.level();
   if (a.opened_level) variables_.pop_level();
@@ -350,7 +355,37 @@ void Runner::leave(bool returned) {
   const auto back = a.return_to;
   calls_.pop_back();
   enter_top();
-  go_to(back);
+  return back;
+}
+
+/// A return with values goes on elsewhere: at a label of the caller (none: behind the call), there or behind its block,
+/// so many calls up.
+void Runner::give_back(const ir::Return& r) {
+  if (r.values.empty()) return leave(true);
+  std::int64_t behind = 0, levels = 1;
+  const auto target = evaluator_.text(evaluator_.id_of(r.values[0]));
+  if (r.values.size() > 1 && !whole_number(r.values[1], 0, behind)) return;
+  if (r.values.size() > 2 && !whole_number(r.values[2], 1, levels)) return;
+  if (failure_.set) return;
+  if (levels < 1 || static_cast<std::size_t>(levels) >= calls_.size()) {
+    failure_.fail(code::bad_count, "a return over " + std::to_string(levels) + " levels of calls, and " +
+                                       std::to_string(calls_.size() - 1) + " are open");
+    return;
+  }
+  repeats_.resize(calls_[calls_.size() - static_cast<std::size_t>(levels)].repeats);
+  std::uint32_t back = 0;
+  for (std::int64_t i = 0; i < levels; ++i) back = close_call();
+  if (target.empty()) return go_to(back);
+  std::string key;
+  if (!computed_label(r.values[0], key)) return;
+  const auto* place = flow_->find(key, ir::Search::forward_then_backward, back - 1);
+  if (place == nullptr) {
+    failure_.fail(code::label_missing, "there is no block labelled " + label_text(key) + " in program " +
+                                           routine_text(flow_->routine->name));
+    return;
+  }
+  at_ = behind > 0 ? place->end : place->begin;
+  left_behind();
 }
 
 void Runner::end_program(const ir::End& e) {

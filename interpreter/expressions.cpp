@@ -229,13 +229,11 @@ bool Evaluator::assign(const Place& p, ExprId value) {
   if (to_text) {
     auto t = text(value);
     if (failure_.set) return false;
-    Variables::assign(p, std::move(t));
+    variables_.store(p, std::move(t));
     return true;
   }
   const double x = number(value);
-  if (failure_.set) return false;
-  Variables::assign(p, x);
-  return true;
+  return !failure_.set && variables_.store(p, x);
 }
 
 std::span<const double> Evaluator::arguments(const ir::SystemRef& ref) {

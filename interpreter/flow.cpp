@@ -265,12 +265,13 @@ class Builder {
 };
 
 void collect_locals(const ir::Program& program, const ir::Routine& routine, Flow& flow) {
-  const auto add = [&flow](const std::string& name, ir::Type type) {
+  const auto add = [&flow](const std::string& name, ir::Type type, std::string_view spelt = {}) {
     if (name.empty() || flow.names.locals.contains(name)) return;
     flow.names.locals[name] = {static_cast<std::uint32_t>(flow.locals.size()), type == ir::Type::string};
     auto& v = flow.locals.emplace_back();
     v.name = name;
     v.declared = true;
+    if (!spelt.empty()) v.limits = ir::declared_limits(spelt);
     v.shape(type, {});
   };
   const auto is_routine = [&program](ir::SpaceId id) {
@@ -278,7 +279,7 @@ void collect_locals(const ir::Program& program, const ir::Routine& routine, Flow
            (program.spaces[id].named() && program.spaces[id].scope == ir::Scope::routine);
   };
   for (const auto& p : routine.parameters) {
-    if (!p.variable.name.empty() && is_routine(p.variable.space)) add(p.variable.name, p.type);
+    if (!p.variable.name.empty() && is_routine(p.variable.space)) add(p.variable.name, p.type, p.type_text);
   }
   ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
     const auto* d = std::get_if<ir::Declare>(&s.node);

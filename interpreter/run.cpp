@@ -72,6 +72,11 @@ Result Runner::run() {
                              " was taken, as of a machine at rest",
                          datum.hint);
   }
+  for (const auto& cut : variables_.cuts()) {
+    diagnostics_.warning(code::text_cut, cut.where,
+                         "the text is cut: " + cut.name + " takes " + std::to_string(cut.length) + " characters",
+                         "define it longer");
+  }
   switch (state_) {
     case State::event_limit: return finish(EndReason::event_limit, last_);
     case State::step_limit: return finish(EndReason::step_limit, last_);
@@ -243,7 +248,7 @@ void Runner::step(Instruction& in) {
     case Op::repeat: repeat(std::get<ir::Repeat>(in.statement->node)); return;
     case Op::call: call(std::get<ir::CallRoutine>(in.statement->node)); return;
     case Op::modal_call: modal_call(std::get<ir::ModalCall>(in.statement->node)); return;
-    case Op::give_back: leave(true); return;
+    case Op::give_back: give_back(std::get<ir::Return>(in.statement->node)); return;
     case Op::end: end_program(std::get<ir::End>(in.statement->node)); return;
     case Op::message:
       message(std::get<ir::Message>(in.statement->node), in.statement->line.span);

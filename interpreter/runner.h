@@ -109,7 +109,9 @@ class Runner {
              std::int64_t count);
   bool hand_over(const std::vector<Bound>& arguments);
   bool set_parameter(const Bound& b);
+  void give_back(const ir::Return& r);
   void leave(bool returned);
+  std::uint32_t close_call();
   void end_program(const ir::End& e);
 
   const ir::Program& program_;

@@ -271,7 +271,9 @@ void Runner::declare_one(const ir::Declare& d, const ir::Declare::Item& item) {
     count *= static_cast<std::size_t>(n);
   }
   v->declared = true;
+  v->limits = ir::declared_limits(d.type_text);
   v->shape(d.type, std::move(dimensions));
+  if (const double start = v->limits.start(); start != 0) v->number.assign(v->number.size(), start);
   Place p;
   p.named = v;
   for (std::size_t i = 0; i < count && !item.initial.empty(); ++i) {

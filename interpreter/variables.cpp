@@ -182,6 +182,36 @@ void Variables::assign(const Place& p, std::string value) {
   p.named->set[p.index] = 1;
 }
 
+bool Variables::store(const Place& p, double value) {
+  if (p.named != nullptr && !p.named->is_text()) {
+    constexpr double lowest = -2147483648.0, highest = 2147483647.0;
+    const double kept = stored(p.named->type, value);
+    const auto& limits = p.named->limits;
+    const bool whole = p.named->type == ir::Type::integer;
+    if ((whole && (kept < lowest || kept > highest)) || kept < limits.low || kept > limits.high) {
+      const std::string low = shortest(whole ? std::max(limits.low, lowest) : limits.low);
+      const std::string high = shortest(whole ? std::min(limits.high, highest) : limits.high);
+      const std::string takes = std::isinf(limits.low) && !whole    ? "at most " + high
+                                : std::isinf(limits.high) && !whole ? "at least " + low
+                                                                    : low + " to " + high;
+      return failure_.fail(code::value_limits, p.named->name + " takes " + takes + "; its new value would be " +
+                                                   cnctrans::rounded(kept, 10));
+    }
+  }
+  assign(p, value);
+  return true;
+}
+
+void Variables::store(const Place& p, std::string value) {
+  const std::size_t length = p.named->limits.length;
+  if (value.size() > length) {
+    value.resize(length);
+    const auto same = [&](const Cut& c) { return c.name == p.named->name; };
+    if (std::none_of(cuts_.begin(), cuts_.end(), same)) cuts_.push_back({failure_.where, p.named->name, length});
+  }
+  assign(p, std::move(value));
+}
+
 void Variables::push_level() {
   std::unique_ptr<Level> level;
   if (spare_.empty()) {

@@ -14,6 +14,7 @@
 
 #include "interpreter/failure.h"
 #include "interpreter/frame.h"
+#include "ir/declared_limits.h"
 #include "ir/program.h"
 
 namespace cnctrans::interpreter {
@@ -55,6 +56,7 @@ struct NamedVariable {
   std::vector<std::string> text;
   std::vector<Frame> frame;
   std::vector<std::uint8_t> set;
+  ir::DeclaredLimits limits;
   bool declared = false;
 
   void shape(ir::Type t, std::vector<std::uint32_t> dims);
@@ -111,6 +113,17 @@ class Variables {
   [[nodiscard]] static const std::string& text(const Place& p);
   static void assign(const Place& p, double value);
   static void assign(const Place& p, std::string value);
+  /// As assign(), within what the variable takes: a number outside is a failure, a text is cut to the length of the
+  /// variable.
+  bool store(const Place& p, double value);
+  void store(const Place& p, std::string value);
+  /// Texts that were cut.
+  struct Cut {
+    Span where;  ///< the first time
+    std::string name;
+    std::size_t length = 0;
+  };
+  [[nodiscard]] const std::vector<Cut>& cuts() const { return cuts_; }
 
   void push_level();
   void pop_level();
@@ -130,6 +143,7 @@ class Variables {
   std::deque<NamedVariable> globals_;
   std::map<std::string, NamedVariable*, std::less<>> global_names_;
   std::vector<Preset> presets_;
+  std::vector<Cut> cuts_;
   std::uint32_t level_size_ = 0;
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::unique_ptr<Level>> spare_;

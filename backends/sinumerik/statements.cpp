@@ -297,7 +297,8 @@ void Writer::modal_call(const ir::ModalCall& c) {
 }
 
 void Writer::return_from(const ir::Return& r) {
-  if (!r.values.empty()) return refuse("TRN-201", {}, "a return with values has no counterpart here");
+  if (!r.values.empty() && !same_dialect())
+    return refuse("TRN-201", {}, "a return with values has no counterpart here");
   add(same_dialect() && !r.text.empty() ? std::string(r.text) : "M17", Rank::tail);
 }
 
@@ -368,9 +369,10 @@ void Writer::declare(const ir::Declare& d) {
       text += (k == 0 ? "[" : ",") + expressions_.print(item.dimensions[k]);
     }
     if (!item.dimensions.empty()) text += ']';
-    if (item.initial.size() == 1 && item.dimensions.empty()) {
+    const bool by_limits = own_type && item.initial.size() == 1 && item.initial[0]->pos.column == 0;
+    if (item.initial.size() == 1 && item.dimensions.empty() && !by_limits) {
       text += '=' + expressions_.assigned(item.initial[0], d.type);
-    } else if (!item.initial.empty()) {
+    } else if (!item.initial.empty() && !by_limits) {
       text += "=SET(";
       for (std::size_t k = 0; k < item.initial.size(); ++k) {
         text += (k == 0 ? "" : ",") + expressions_.assigned(item.initial[k], d.type);

@@ -1,5 +1,6 @@
 #include "frontends/sinumerik/context.h"
 
+#include "base/saturate.h"
 #include "base/text.h"
 
 namespace cnctrans::sinumerik {
@@ -14,6 +15,7 @@ MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p) {
     if (m.code >= 0 && m.code < m_limit) m_codes[static_cast<std::size_t>(m.code)] = &m;
   }
   tool_word_changes = p.option("sinumerik.tool_change", "m6") == "immediate";
+  r_count = saturate<std::int32_t>(parse_decimal(p.option("sinumerik.r_count", "100")).value_or(100));
   default_edge = parse_decimal(p.option("sinumerik.default_edge", "0")).value_or(0);
   undefined_names_are_global = p.option("sinumerik.undefined_names", "error") == "global";
 }
@@ -29,6 +31,14 @@ ir::AxisId MachineFacts::axis(std::string_view name) const {
     if (a.name == name) return a.id;
   }
   return ir::axis::none;
+}
+
+void FileContext::beyond_r_parameters(WordPos pos) {
+  if (!first_time("R parameters")) return;
+  warning("SIN-050", pos,
+          "the machine " + machine.profile->name + " has the parameters R0 to R" + std::to_string(machine.r_count - 1) +
+              " only",
+          "set the option sinumerik.r_count of the machine profile (MD28050)");
 }
 
 void FileContext::error(std::string_view code, WordPos pos, std::string message, std::string hint) {

@@ -26,6 +26,7 @@ struct MachineFacts {
   std::array<const machine::MCode*, m_limit> m_codes{};  ///< null: no meaning known
   bool tool_word_changes = false;                        ///< T carries out the change (MD22550 = 0)
   bool undefined_names_are_global = false;               ///< undeclared names are global user variables
+  std::int32_t r_count = 0;                              ///< parameters from R0 on
   double default_edge = 0;                               ///< D that a tool change selects; 0: none
 
   [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis
@@ -110,6 +111,8 @@ struct FileContext {
   /// A construct of the language that is read but not carried: the block stays as text, a run or a translation that
   /// comes there is refused. A warning here.
   void keep(std::string_view code, WordPos pos, std::string message, std::string hint = {});
+  /// The machine has fewer R parameters: warned about once a file.
+  void beyond_r_parameters(WordPos pos);
   /// True the first time this is asked for a name of the file.
   [[nodiscard]] bool first_time(std::string_view name) { return said.emplace(name).second; }
 

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "dialects/sinumerik/cycles.h"
 #include "frontends/sinumerik/lower_statements.h"
+#include "ir/declared_limits.h"
 
 namespace cnctrans::sinumerik {
 
@@ -139,6 +140,10 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
     constexpr std::uint32_t keyword_length = 3;
     const std::uint32_t from = s.pos.column + keyword_length;
     if (first->pos.column > from) out.type_text = trim(c_.slice(WordPos{from, first->pos.column - from}));
+    const double start = ir::declared_limits(out.type_text).start();
+    for (auto& item : out.items) {  // the value next to zero that the limits allow
+      if (start != 0 && item.initial.empty() && item.dimensions.empty()) item.initial.push_back(ir::number(start));
+    }
   }
   emit(info, std::move(out));
   return true;
@@ -289,6 +294,27 @@ bool StatementLowering::text_call(const Statement& s, ir::LineInfo& info) {
     if (!call.count) return false;
   }
   emit(info, std::move(call));
+  return true;
+}
+
+/// RET("LABEL",1,2): goes on at a block of the program so many levels up, or behind it (8.3). The restart of an ISO
+/// program is not carried.
+bool StatementLowering::return_target(const std::vector<Expr>& args, WordPos pos, ir::Return& out) {
+  if (args.empty()) return true;
+  const auto given = [&](std::size_t i) { return i < args.size() && args[i].kind != ExprKind::missing; };
+  if (args.size() > 4 || (given(3) && !(args[3].kind == ExprKind::number && args[3].number == 0)))
+    return refuse("language.statement", pos, "RET with a restart of the main program is not carried yet");
+  ir::ExprPtr target = given(0) ? exprs_.lower(args[0]) : ir::string_literal({});
+  if (!target) return false;
+  if (target->type != ir::Type::string) {
+    c_.error("SIN-012", args[0].pos, "RET() takes the target as a text: a label or a block number");
+    return false;
+  }
+  out.values.push_back(std::move(target));
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+    out.values.push_back(given(i) ? exprs_.lower_as(args[i], ir::Type::integer) : ir::number(i == 1 ? 0 : 1));
+    if (!out.values.back()) return false;
+  }
   return true;
 }
 

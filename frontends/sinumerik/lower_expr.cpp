@@ -152,6 +152,8 @@ ir::VarRef ExprLowering::r_parameter(const Expr& index, bool& ok) {
       c_.error("SIN-017", index.pos, "there is no R parameter with this number",
                "R0 to R" + std::to_string(r_parameter_max));
       ok = false;
+    } else if (n->value >= c_.machine.r_count) {
+      c_.beyond_r_parameters(index.pos);
     }
     ir::Number plain = *n;
     plain.text.clear();  // R01 is R1

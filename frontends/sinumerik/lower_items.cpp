@@ -318,8 +318,9 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
       return true;
     }
     case Procedure::repeat_return: {
-      if (!args.empty()) return refuse("language.statement", pos, "RET with a target or levels is not carried yet");
-      parts.calls.emplace_back(ir::Return{{}, c_.slice(pos)});
+      ir::Return back{{}, c_.slice(pos)};
+      if (!return_target(args, pos, back)) return false;
+      parts.calls.emplace_back(std::move(back));
       return true;
     }
     case Procedure::program_start: {

@@ -88,6 +88,7 @@ class StatementLowering {
   bool alarm(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   void message_parts(const syntax::Expr& e, std::vector<ir::ExprPtr>& out);
   bool call_arguments(const std::string& name, const std::vector<syntax::Expr>& args, ir::CallRoutine& call);
+  bool return_target(const std::vector<syntax::Expr>& args, WordPos pos, ir::Return& out);
   bool refuse(std::string_view feature, WordPos pos, std::string message, std::string hint = {});
 
   // beside the programmed path (lower_beside.cpp): true when it is, and put into `parts` or added

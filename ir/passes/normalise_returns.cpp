@@ -155,7 +155,8 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
   if (have.empty()) set_label(body.back().line, end, program);
   std::size_t left = count + (last_is_return ? 0 : 1);
   for_each_statement(body, [&](Statement& s) {
-    if (!std::holds_alternative<Return>(s.node) || --left == 0) return;
+    const auto* r = std::get_if<Return>(&s.node);
+    if (r == nullptr || --left == 0 || !r->values.empty()) return;  // one that goes on elsewhere is refused by writers
     Jump j;
     j.target = end;
     s.node = std::move(j);
