@@ -21,6 +21,7 @@
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
+#include "ir/cycles/mill_contour.h"
 #include "ir/cycles/milling.h"
 #include "ir/cycles/pattern.h"
 #include "ir/geometry.h"
@@ -86,6 +87,8 @@ class BlockMachine final : public SystemData {
   }
   /// Without frames, tool and cycles, ready to read the blocks of a profile.
   void stand_for_contour(const ir::ModalState& state, std::optional<ir::cycles::TurnPoint> from);
+  /// The same in the plane in force; where the tool stands is not known.
+  void stand_for_mill_contour(const ir::ModalState& state);
 
   bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) override;
   bool write(const ir::SystemRef& ref, std::span<const double> args, double value) override;
@@ -290,6 +293,7 @@ class BlockMachine final : public SystemData {
 
   // cycles (cycles.cpp)
   bool run_cycle();
+  bool read_mill_contours(const ir::HoleCycle& hole);
   bool run_milling();
   bool milling_move(const ir::cycles::MillMove& m, double speed);
   /// Of the tool in use, mm; 0: not known.
@@ -367,6 +371,7 @@ class BlockMachine final : public SystemData {
 
   std::optional<ir::cycles::HoleNumbers> hole_;
   ir::cycles::MillNumbers mill_;  ///< with a hole of kind `mill`
+  std::vector<ir::cycles::MillContour> mill_contours_;
   ir::AxisId hole_axis_ = ir::axis::z;
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;

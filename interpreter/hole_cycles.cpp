@@ -51,6 +51,7 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
     if (!mill && !failure_.set) return failure_.fail(code::bad_cycle, error);
     if (!mill) return false;
     mill_ = std::move(*mill);
+    if (!read_mill_contours(*hole)) return false;
   }
   if (out) return true;
   return failure_.fail(code::bad_cycle, error);

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "interpreter/block_machine.h"
+#include "interpreter/profile_contour.h"
 #include "interpreter/run_codes.h"
 
 namespace cnctrans::interpreter {
@@ -50,6 +51,21 @@ double BlockMachine::tool_radius() {
   return tool == profile_.tools.end() ? 0 : tool->radius;
 }
 
+bool BlockMachine::read_mill_contours(const ir::HoleCycle& hole) {
+  mill_contours_.clear();
+  for (const auto& named : ir::cycles::contours_named(hole)) {
+    std::string error;
+    if (program_ == nullptr)
+      return failure_.fail(code::needs_whole_program, "a cycle with a contour needs the whole program");
+    const auto blocks = ir::cycles::profile_blocks(*program_, *routine_, named, &error);
+    if (blocks.empty()) return failure_.fail(code::bad_cycle, error);
+    auto contour = mill_contour_of(profile_, modal_, blocks, values_, &error);
+    if (!contour) return failure_.fail(code::bad_cycle, error);
+    mill_contours_.push_back(*std::move(contour));
+  }
+  return true;
+}
+
 bool BlockMachine::run_milling() {
   const auto plane = ir::plane_axes(modal_.plane);
   if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
@@ -63,7 +79,13 @@ bool BlockMachine::run_milling() {
   context.tool_radius = tool_radius();
   context.spindle_ccw = spindles_[1].state == ir::SpindleState::ccw;
   context.plane = modal_.retract_plane;
-  if (context.tool_radius <= 0) {
+  context.contours = &mill_contours_;
+  const auto need = ir::cycles::needs_radius(mill_);
+  if (context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::lead)
+    assume("TOOL_RADIUS", 0,
+           "the way onto the contour and off it is counted from the tool's edge: give the radius in the profile's "
+           "\"tools\" or by --set TOOL_RADIUS=5");
+  if (context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::moves) {
     return failure_.fail(code::bad_cycle,
                          "the passes of a milling cycle depend on the radius of the tool, which is not known: give it "
                          "in the profile's \"tools\" or by --set TOOL_RADIUS=5");
@@ -85,6 +107,12 @@ bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
     auto& spindle = spindles_[1];
     spindle.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.step == MillStep::speed ? m.amount : speed;
     if (spindle.state != ir::SpindleState::off) emit_spindle(1);
+    return true;
+  }
+  if (m.step == MillStep::comp_left || m.step == MillStep::comp_right || m.step == MillStep::comp_off) {
+    set_comp(m.step == MillStep::comp_off    ? ir::CompSide::off
+             : m.step == MillStep::comp_left ? ir::CompSide::left
+                                             : ir::CompSide::right);
     return true;
   }
   const auto plane = ir::plane_axes(modal_.plane);

@@ -9,6 +9,7 @@ namespace cnctrans::interpreter {
 namespace {
 
 constexpr std::uint64_t most_elements = 100'000;
+constexpr double nowhere = 1e9;  ///< mm: a coordinate that no block has given yet
 
 /// Moves become elements.
 class ElementSink final : public TraceSink {
@@ -18,7 +19,8 @@ class ElementSink final : public TraceSink {
       if (e.kind == EventKind::thread || e.kind == EventKind::probe) strange = true;
       return;
     }
-    const ir::cycles::TurnPoint to{e.to.value[ir::axis::x], e.to.value[ir::axis::z]};
+    const auto place = [&e](ir::AxisId a) { return e.to.value[a] > nowhere / 2 ? 0 : e.to.value[a]; };
+    const ir::cycles::TurnPoint to{place(ir::axis::x), place(ir::axis::z)};
     if (e.kind != EventKind::rapid && begun) {
       auto& list = blank ? out.blank : out.part;
       list.push_back({at, to, e.kind == EventKind::arc, !e.cw, {e.center_v, e.center_u}});
@@ -30,6 +32,39 @@ class ElementSink final : public TraceSink {
   ir::cycles::TurnProfile out;
   ir::cycles::TurnPoint at;
   bool begun = false, blank = false, strange = false;
+};
+
+/// The same in any plane; the way to the first point belongs to no contour.
+class MillSink final : public TraceSink {
+ public:
+  explicit MillSink(ir::Plane plane) : plane_(plane) {}
+  void on_event(const Event& e) override {
+    const bool rapid = e.kind == EventKind::rapid;
+    if (!rapid && e.kind != EventKind::linear && e.kind != EventKind::arc) {
+      if (e.kind == EventKind::thread || e.kind == EventKind::probe) strange = true;
+      return;
+    }
+    const auto axes = ir::plane_axes(plane_);
+    const double u = e.to.value[axes.u], v = e.to.value[axes.v];
+    const bool arc = e.kind == EventKind::arc;
+    if (!begun) {
+      strange = strange || arc;
+      open = open || u > nowhere / 2 || v > nowhere / 2;
+    } else if (arc || std::hypot(u - u_, v - v_) > 1e-9) {
+      strange = strange || rapid || (arc && (e.plane != plane_ || e.turns != 0));
+      out.elements.push_back({u_, v_, u, v, arc, !e.cw, e.center_u, e.center_v});
+    }
+    u_ = u;
+    v_ = v;
+    begun = true;
+  }
+  ir::cycles::MillContour out;
+  bool begun = false, strange = false;
+  bool open = false;  ///< a coordinate of the first point is missing
+
+ private:
+  ir::Plane plane_;
+  double u_ = 0, v_ = 0;
 };
 
 /// The block without what is no geometry.
@@ -60,9 +95,42 @@ void BlockMachine::stand_for_contour(const ir::ModalState& state, std::optional<
   hole_.reset();
   base_pending_ = 0;
   p_.fill(0);
+  // The move to the first point is seen wherever that lies.
+  if (!from) path_event_.to.value[ir::axis::x] = path_event_.to.value[ir::axis::z] = nowhere;
   if (!from) return;
   p_[ir::axis::x] = from->x;
   p_[ir::axis::z] = from->z;
+}
+
+void BlockMachine::stand_for_mill_contour(const ir::ModalState& state) {
+  const auto plane = ir::plane_axes(state.plane);
+  stand_for_contour(state, std::nullopt);
+  modal_.plane = state.plane;
+  p_[plane.u] = p_[plane.v] = nowhere;
+  path_event_.to.value[plane.u] = path_event_.to.value[plane.v] = nowhere;
+}
+
+std::optional<ir::cycles::MillContour> mill_contour_of(const machine::Profile& machine, const ir::ModalState& modal,
+                                                       const std::vector<const ir::Statement*>& blocks,
+                                                       ValueSource* values, std::string* error) {
+  MillSink sink(modal.plane);
+  Emitter emitter(sink, most_elements);
+  Failure failure;
+  BlockMachine reader(machine, emitter, failure, values);
+  reader.stand_for_mill_contour(modal);
+  for (const auto* s : blocks) {
+    const auto b = geometry_of(std::get<ir::Block>(s->node));
+    if (b.has_motion && b.motion.frame != ir::FrameUse::normal)
+      return *error = "a machine position in the contour is not carried out", std::nullopt;
+    if (!reader.block(b, s->line.span)) break;
+  }
+  if (!failure.set) reader.finish();
+  if (failure.set) return *error = "its contour can't be read: " + failure.text, std::nullopt;
+  if (sink.open) return *error = "the first block of the contour names both axes of the plane", std::nullopt;
+  if (sink.strange) return *error = "its contour holds a motion that is no line or arc in the plane", std::nullopt;
+  if (emitter.limit_reached()) return *error = "its contour is too long", std::nullopt;
+  if (sink.out.elements.empty()) return *error = "its contour has no elements", std::nullopt;
+  return std::move(sink.out);
 }
 
 std::optional<ir::cycles::TurnProfile> contour_of(const machine::Profile& machine, const ContourStart& start,

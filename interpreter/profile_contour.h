@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interpreter/expressions.h"
+#include "ir/cycles/mill_contour.h"
 #include "ir/cycles/profile_blocks.h"
 #include "ir/statement.h"
 #include "machine/profile.h"
@@ -18,5 +19,10 @@ using ir::cycles::ContourStart;
 std::optional<ir::cycles::TurnProfile> contour_of(const machine::Profile& machine, const ContourStart& start,
                                                   const std::vector<const ir::Statement*>& blocks, ValueSource* values,
                                                   std::string* error);
+
+/// The same for a milling cycle, in the plane that `modal` names; the first block says where the contour begins.
+std::optional<ir::cycles::MillContour> mill_contour_of(const machine::Profile& machine, const ir::ModalState& modal,
+                                                       const std::vector<const ir::Statement*>& blocks,
+                                                       ValueSource* values, std::string* error);
 
 }  // namespace cnctrans::interpreter

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "interpreter/run_codes.h"
 #include "interpreter/runner.h"
-#include "ir/cycles/profile_blocks.h"
+#include "ir/cycles/mill_contour.h"
 
 namespace cnctrans::interpreter {
 
@@ -34,10 +34,10 @@ void Runner::block(Instruction& in) {
   const Flow* home = flow_;
   for (const auto& a : b.actions) {  // a cycle whose profile is a program of its own
     const auto* d = std::get_if<ir::CycleDefine>(&a.data);
-    const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
-    const auto profile = named != nullptr ? ir::cycles::profile_routine(*named) : std::nullopt;
-    const Flow* other = profile ? routines_.find(*profile, *flow_) : nullptr;
-    if (other != nullptr) home = other;
+    if (d == nullptr || !d->cycle) continue;
+    for (const auto& profile : ir::cycles::contour_routines(*d->cycle)) {
+      if (const Flow* other = routines_.find(profile, *flow_)) home = other;
+    }
   }
   machine_.belongs_to(home->program, home->routine);
   machine_.single_points = modal_.active && in_modal_ == 0;

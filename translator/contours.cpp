@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "interpreter/profile_contour.h"
+#include "ir/cycles/mill_contour.h"
 #include "ir/cycles/profile_blocks.h"
+#include "ir/passes/blocks.h"
 #include "ir/passes/head_constants.h"
 #include "ir/passes/machining_moves.h"
 
@@ -76,6 +78,36 @@ void read_one(ir::NamedCycle& cycle, const ir::Program& program, const ir::Routi
   if (!values.empty()) cycle.words.emplace_back("contour_values", ir::Value(ir::string_literal(values)));
 }
 
+/// A milling cycle with contours; null: none.
+const ir::HoleCycle* milling_along(const ir::Action& a) {
+  const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+  const auto* hole = d != nullptr && d->cycle ? std::get_if<ir::HoleCycle>(&d->cycle->node) : nullptr;
+  return hole != nullptr && !ir::cycles::contours_named(*hole).empty() ? hole : nullptr;
+}
+
+void read_mill(ir::HoleCycle& cycle, const ir::Program& program, const ir::Routine& routine, const ir::Statement& s,
+               const ir::Facts& facts, const machine::Profile& machine, const HeadConstants& constants) {
+  const auto& b = std::get<ir::Block>(s.node);
+  auto modes = ir::passes::modes_at(b, facts, machine.power_on);
+  const auto plane = ir::passes::setting_in<ir::Plane>(b, facts, ir::Setting::plane);
+  if (!modes || !plane)
+    return ir::cycles::put_contour_fault(cycle, "the modes in force are known only when the program runs");
+  modes->plane = *plane;
+  std::vector<ir::cycles::MillContour> contours;
+  for (const auto& named : ir::cycles::contours_named(cycle)) {
+    std::string error;
+    Folded folded(named, constants, routine, s);
+    const auto blocks = ir::cycles::profile_blocks(program, routine, named, &error);
+    if (blocks.empty()) return ir::cycles::put_contour_fault(cycle, error);
+    auto contour = interpreter::mill_contour_of(machine, *modes, folded.with(blocks), nullptr, &error);
+    if (!contour) return ir::cycles::put_contour_fault(cycle, error);
+    contours.push_back(*std::move(contour));
+    if (!folded.used.empty())
+      cycle.mill.words.emplace_back("contour_values", ir::Value(ir::string_literal(ir::passes::listed(folded.used))));
+  }
+  ir::cycles::put_contours(cycle, contours);
+}
+
 }  // namespace
 
 void read_contours(ir::Program& program, const machine::Profile& source_machine) {
@@ -84,7 +116,7 @@ void read_contours(ir::Program& program, const machine::Profile& source_machine)
     ir::for_each_statement(r.body, [&any](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
       for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i)
-        any = any || profiled(b->actions[i]) != nullptr;
+        any = any || profiled(b->actions[i]) != nullptr || milling_along(b->actions[i]) != nullptr;
     });
   }
   if (!any) return;
@@ -96,6 +128,12 @@ void read_contours(ir::Program& program, const machine::Profile& source_machine)
       auto* b = std::get_if<ir::Block>(&s.node);
       if (b == nullptr) return;
       for (auto& a : b->actions) {
+        if (const auto* hole = milling_along(a)) {
+          ir::HoleCycle copy = *hole;
+          read_mill(copy, program, r, s, table.before(s.id), source_machine, constants);
+          std::get<ir::CycleDefine>(a.data).cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(copy)});
+          continue;
+        }
         const auto* named = profiled(a);
         if (named == nullptr) continue;
         ir::NamedCycle copy = *named;

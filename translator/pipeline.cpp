@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/text.h"
-#include "ir/cycles/profile_blocks.h"
+#include "ir/cycles/mill_contour.h"
 #include "ir/text.h"
 #include "translator/contours.h"
 #include "translator/encode.h"
@@ -30,9 +30,8 @@ void collect_calls(const ir::Program& program, std::vector<ir::RoutineName>& out
       } else if (const auto* b = std::get_if<ir::Block>(&s.node)) {
         for (const auto& a : b->actions) {
           const auto* d = std::get_if<ir::CycleDefine>(&a.data);
-          const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
-          if (auto profile = named != nullptr ? ir::cycles::profile_routine(*named) : std::nullopt)
-            out.push_back(*std::move(profile));
+          if (d == nullptr || !d->cycle) continue;
+          for (auto& profile : ir::cycles::contour_routines(*d->cycle)) out.push_back(std::move(profile));
         }
       }
     });

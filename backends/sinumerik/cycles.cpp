@@ -12,6 +12,7 @@
 #include "dialects/sinumerik/milling.h"
 #include "dialects/sinumerik/turning.h"
 #include "ir/cycles/hole.h"
+#include "ir/cycles/mill_contour.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {
@@ -238,7 +239,9 @@ std::string_view mill(const HoleCycle& c, Arguments& args) {
   for (const auto& row : dialect::milling_cycles) {
     if (row.shape != c.mill.shape) continue;
     Arguments words = args;
-    std::size_t found = 0;
+    auto found = static_cast<std::size_t>(std::count_if(
+        c.mill.words.begin(), c.mill.words.end(), [](const auto& w) { return ir::cycles::is_contour_word(w.first); }));
+    if (found > 0) words[std::string(dialect::mill_contour_parameter)] = Value(0);  // its text comes with the call
     for (const auto& [own, word] : row.parameters) {
       for (const auto& [name, value] : c.mill.words) {
         if (own.empty() || name != word) continue;
@@ -360,6 +363,8 @@ std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(c
     if (turning != nullptr) contour = contour_text(*named);
   } else {
     name = arguments(std::get<HoleCycle>(cycle.node), args);
+    const auto contours = ir::cycles::contours_named(std::get<HoleCycle>(cycle.node));
+    if (!contours.empty()) contour = contour_text(contours.front());
   }
   const dialect::CycleRow* row = dialect::cycle(name);
   if (row == nullptr) return {};

@@ -14,6 +14,9 @@ inline constexpr std::string_view unread_milling_modes = "UMODE,FS,ZFS,GMODE,DMO
 inline constexpr std::string_view spigot_option = "sinumerik.spigot_size";
 inline constexpr std::string_view spigot_radius = "radius", spigot_diameter = "diameter";
 
+/// The parameter that names a contour: a subprogram, or two labels with a colon between them.
+inline constexpr std::string_view mill_contour_parameter = "KNAME";
+
 struct MillingCycle {
   std::string_view name;                                                     ///< "POCKET3"
   std::string_view shape;                                                    ///< row of ir/cycles/milling
@@ -63,6 +66,11 @@ inline constexpr std::array milling_cycles = {
                    {"MIDA", "step"}, {"FDP", "overrun"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
                    {"VARI", "variant"}, {"FDP1", "overrun_across"}}},
                  "PA,PO,LENG,WID,MID,VARI", "11,12,21,22,31,32,41,42", ""},
+    MillingCycle{"CYCLE72", "path",
+                 {{{"MID", "infeed"}, {"FAL", "wall_stock"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
+                   {"FFD", "plunge_feed"}, {"VARI", "variant"}, {"RL", "side"}, {"AS1", "approach"},
+                   {"LP1", "approach_length"}, {"FF3", "link_feed"}, {"AS2", "leave"}, {"LP2", "leave_length"}}},
+                 "KNAME,VARI,RL,AS1,LP1,AS2,LP2", "1,2,11,12,101,102,111,112,201,202,211,212,301,302,311,312", ""},
     MillingCycle{"POCKET1", "pocket.rect",
                  {{{"LENG", "length"}, {"WID", "width"}, {"CRAD", "corner"}, {"CPA", "u"}, {"CPO", "v"},
                    {"STA1", "angle"}, {"FFD", "plunge_feed"}, {"FFP1", "mill_feed"}, {"MID", "infeed"},

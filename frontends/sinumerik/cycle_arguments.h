@@ -1,6 +1,7 @@
 // What drilling and milling cycles have in common: arguments by name, planes and depth (reference-language 18).
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -38,6 +39,8 @@ ir::Level level(ir::Value value, ir::LevelBase base);
 ir::Value absolute_value(const ir::Value& v);
 /// Safety plane and depth. They lie below the retract plane, as they should, unless numbers say otherwise.
 void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
+/// A contour as a cycle names it: a subprogram, or two labels with a colon between them.
+void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words);
 /// Shape and words of a milling cycle (18.3); false: an error has been reported.
 bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
 

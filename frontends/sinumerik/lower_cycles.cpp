@@ -306,7 +306,12 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   for (const Expr& e : args) {
     Attribute attribute = Attribute::none;
     given.push_back(e.kind != ExprKind::missing);
-    values.push_back(given.back() ? exprs_.value_of(e, attribute) : ir::Value(0));
+    const bool names = e.kind == ExprKind::string && row.family == CycleFamily::milling &&
+                       static_cast<int>(values.size()) == parameter_index(row, mill_contour_parameter);
+    if (names)
+      values.emplace_back(ir::string_literal(e.text));
+    else
+      values.push_back(given.back() ? exprs_.value_of(e, attribute) : ir::Value(0));
     if (attribute != Attribute::none)
       c_.error("SIN-012", e.pos, "AC() and IC() have no meaning in the call of a cycle");
   }

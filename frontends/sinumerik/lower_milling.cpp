@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/saturate.h"
+#include "base/text.h"
 #include "frontends/sinumerik/cycle_arguments.h"
 
 namespace cnctrans::sinumerik {
@@ -109,6 +110,16 @@ bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle&
   if (!good || !variant(cycle, a, c, pos) || !modes(a, hole, c, pos)) return false;
   hole.kind = ir::HoleKind::mill;
   hole.mill.shape = std::string(cycle.shape);
+  if (a.given(mill_contour_parameter)) {
+    const ir::Value name = a.get(mill_contour_parameter);
+    const auto* text = name.expr ? std::get_if<ir::String>(&name.expr->node) : nullptr;
+    if (text == nullptr || trim(text->text).empty()) {
+      c.error("SIN-021", pos,
+              "the contour of " + std::string(cycle.name) + " is a fixed name, or two labels with a colon");
+      return false;
+    }
+    contour_words(std::string(trim(text->text)), hole.mill.words);
+  }
   for (const auto& [own, word] : cycle.parameters) {
     if (!own.empty() && a.given(own)) hole.mill.words.emplace_back(std::string(word), a.get(own));
   }

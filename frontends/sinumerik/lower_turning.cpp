@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/turning.h"
+#include "frontends/sinumerik/cycle_arguments.h"
 #include "frontends/sinumerik/lower_statements.h"
 
 namespace cnctrans::sinumerik {
@@ -24,17 +25,17 @@ ir::Value label_value(std::string_view text) {
   return ir::Value(ir::string_literal(name));
 }
 
-void contour(const std::string& text, ir::NamedCycle& out) {
+}  // namespace
+
+void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words) {
   const auto colon = text.find(':');
   if (colon == std::string::npos) {
-    out.words.emplace_back("routine", ir::Value(ir::string_literal(to_upper_ascii(text))));
+    words.emplace_back("routine", ir::Value(ir::string_literal(to_upper_ascii(text))));
     return;
   }
-  out.words.emplace_back("first_label", label_value(trim(std::string_view(text).substr(0, colon))));
-  out.words.emplace_back("last_label", label_value(trim(std::string_view(text).substr(colon + 1))));
+  words.emplace_back("first_label", label_value(trim(std::string_view(text).substr(0, colon))));
+  words.emplace_back("last_label", label_value(trim(std::string_view(text).substr(colon + 1))));
 }
-
-}  // namespace
 
 ir::CyclePtr StatementLowering::turning(const std::string& name, const std::vector<Expr>& args, WordPos pos) {
   const CycleRow& row = *sinumerik::cycle(name);
@@ -58,7 +59,7 @@ ir::CyclePtr StatementLowering::turning(const std::string& name, const std::vect
     if (e->kind != ExprKind::string || trim(e->text).empty())
       c_.error("SIN-021", e->pos, "the contour of " + name + " is a fixed name, or two labels with a colon");
     else
-      contour(e->text, out);
+      contour_words(e->text, out.words);
   }
   for (const auto& [own, neutral] : cycle.parameters) {
     const Expr* e = own.empty() ? nullptr : at(own);

@@ -61,7 +61,13 @@ class MillPath {
   void rapid_to(double w);
   void plunge(double w);  ///< at the feed into the material
   void mill(double p, double q);
+  void mill_to(double p, double q, double w);  ///< at the feed of milling
+  /// In the open, at a feed of its own; 0: that of milling.
+  void link(double p, double q, double w, double feed);
+  /// Radius compensation from the next move on: 1 left, -1 right, 0 off.
+  void compensate(int side);
   void mill_arc(double p, double q, double cp, double cq, bool ccw);
+  void mill_arc_to(double p, double q, double w, double cp, double cq, bool ccw);
   /// The same with infeed at the plunge feed.
   void plunge_to(double p, double q, double w);
   void plunge_circle(double cp, double cq, double w, bool ccw);
@@ -98,5 +104,6 @@ bool ring_slots(MillPath& path, std::string* error);
 bool face(MillPath& path, std::string* error);
 bool boss(MillPath& path, bool circle, std::string* error);
 bool milled_thread(MillPath& path, std::string* error);
+bool contour_path(MillPath& path, const std::vector<MillContour>* contours, std::string* error);
 
 }  // namespace cnctrans::ir::cycles::detail

@@ -176,10 +176,33 @@ void MillPath::plunge_to(double p, double q, double w) {
   const auto [u, v] = to_plane(p, q);
   put(MillStep::feed, u, v, w, true);
 }
+void MillPath::mill_to(double p, double q, double w) {
+  const auto [u, v] = to_plane(p, q);
+  put(MillStep::feed, u, v, w, false);
+}
+void MillPath::link(double p, double q, double w, double feed) {
+  const auto before = moves_.size();
+  mill_to(p, q, w);
+  if (feed <= 0 || moves_.size() == before) return;
+  moves_.back().has_feed = true;
+  moves_.back().feed = feed;
+  moves_.back().feed_factor = 1;
+}
+void MillPath::compensate(int side) {
+  MillMove m;
+  m.step = side == 0 ? MillStep::comp_off : side > 0 ? MillStep::comp_left : MillStep::comp_right;
+  m.u = u_;
+  m.v = v_;
+  m.w = w_;
+  moves_.push_back(m);
+}
 void MillPath::mill_arc(double p, double q, double cp, double cq, bool ccw) {
+  mill_arc_to(p, q, w_, cp, cq, ccw);
+}
+void MillPath::mill_arc_to(double p, double q, double w, double cp, double cq, bool ccw) {
   const auto [u, v] = to_plane(p, q);
   const auto [cu, cv] = to_plane(cp, cq);
-  put(MillStep::arc, u, v, w_, false);
+  put(MillStep::arc, u, v, w, false);
   moves_.back().cu = cu;
   moves_.back().cv = cv;
   moves_.back().ccw = ccw;

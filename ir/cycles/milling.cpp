@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ir/cycles/mill_contour.h"
 #include "ir/cycles/mill_moves.h"
 
 namespace cnctrans::ir::cycles {
@@ -55,6 +56,13 @@ constexpr std::array parameters = {
     MillParameter{"core", length, "the smaller diameter of a thread"},
     MillParameter{"pitch", length, "of a thread"},
     MillParameter{"external", plain, "1: the thread lies outside"},
+    MillParameter{"side", plain, "of the contour: 40 the tool goes on it, 41 left, 42 right"},
+    MillParameter{"approach", plain, "units 1 line, 2 quadrant, 3 semicircle; tens 1: in space"},
+    MillParameter{"approach_length", length,
+                  "of the line from the tool's edge; radius of the way of the tool's middle"},
+    MillParameter{"leave", plain, "as approach"},
+    MillParameter{"leave_length", length, "as approach_length"},
+    MillParameter{"link_feed", feed, "between the end of the contour and its start; left out: mill_feed"},
     MillParameter{"overrun", length, "of a face pass beyond the part, along the pass"},
     MillParameter{"overrun_across", length, "of the last face pass beyond the part, across"},
 };
@@ -93,6 +101,11 @@ constexpr std::array shapes = {
               "u,v,radius,diameter,infeed,wall_stock,floor_stock,mill_feed,plunge_feed,sense,variant,blank_radius,"
               "blank_diameter",
               "circular spigot"},
+    MillShape{
+        "path", MillKind::path,
+        "infeed,wall_stock,floor_stock,mill_feed,plunge_feed,variant,side,approach,approach_length,link_feed,leave,"
+        "leave_length",
+        "path along a contour"},
     MillShape{"thread.mill", MillKind::thread, "u,v,diameter,core,pitch,mill_feed,sense,external",
               "thread milled on a helix"},
 };
@@ -137,6 +150,12 @@ bool has_sense(const MillNumbers& mill) {
   return mill.shape != nullptr && in_list(mill.shape->parameters, "sense");
 }
 
+RadiusNeed needs_radius(const MillNumbers& mill) {
+  if (mill.shape == nullptr || mill.shape->kind != MillKind::path) return RadiusNeed::moves;
+  const auto side = mill.words.find("side");
+  return side != mill.words.end() && side->second == 40 ? RadiusNeed::none : RadiusNeed::lead;
+}
+
 std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& units, const Evaluate& evaluate,
                                    std::string* error) {
   error->clear();
@@ -147,6 +166,7 @@ std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& unit
     return std::nullopt;
   }
   for (const auto& [word, v] : words.words) {
+    if (is_contour_word(word)) continue;
     const auto* p = find_mill_parameter(word);
     if (p == nullptr || !in_list(out.shape->parameters, word)) {
       *error = "the milling cycle " + words.shape + " has no parameter " + word;
@@ -164,7 +184,7 @@ std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& unit
 std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleNumbers& levels,
                                             const MillContext& context, std::string* error) {
   error->clear();
-  if (context.tool_radius <= 0) {
+  if (context.tool_radius <= 0 && needs_radius(mill) == RadiusNeed::moves) {
     *error = "a milling cycle needs the radius of the tool";
     return std::nullopt;
   }
@@ -180,6 +200,7 @@ std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleN
     case MillKind::round_boss: done = detail::boss(path, mill.shape->kind == MillKind::round_boss, error); break;
     case MillKind::thread: done = detail::milled_thread(path, error); break;
     case MillKind::face: done = detail::face(path, error); break;
+    case MillKind::path: done = detail::contour_path(path, context.contours, error); break;
   }
   if (done && path.too_many()) {
     *error = "the cycle has too many passes";

@@ -13,6 +13,8 @@
 
 namespace cnctrans::ir::cycles {
 
+struct MillContour;
+
 /// What a parameter is counted in.
 enum class MillQuantity : std::uint8_t {
   place_u,  ///< coordinate of the plane's first axis in the work frame
@@ -30,7 +32,18 @@ std::span<const MillParameter> mill_parameters();
 /// nullptr: milling cycles have none of this name.
 const MillParameter* find_mill_parameter(std::string_view name);
 
-enum class MillKind : std::uint8_t { rectangle, circle, slot, long_hole, ring_slot, face, boss, round_boss, thread };
+enum class MillKind : std::uint8_t {
+  rectangle,
+  circle,
+  slot,
+  long_hole,
+  ring_slot,
+  face,
+  boss,
+  round_boss,
+  thread,
+  path
+};
 struct MillShape {
   std::string_view name;  ///< `MillWords::shape`
   MillKind kind;
@@ -57,12 +70,23 @@ std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& unit
 /// Which way round the tool goes follows from `sense` (the shape has walls).
 bool has_sense(const MillNumbers& mill);
 
+/// How much the moves depend on the radius of the tool.
+enum class RadiusNeed : std::uint8_t {
+  none,
+  lead,  ///< the way onto the contour and off it: without one it is counted from the tool's middle
+  moves
+};
+RadiusNeed needs_radius(const MillNumbers& mill);
+
 enum class MillStep : std::uint8_t {
   rapid,
   feed,
   arc,
-  speed,         ///< `amount` rev/min from here on
-  restore_speed  ///< the speed before the cycle
+  speed,          ///< `amount` rev/min from here on
+  restore_speed,  ///< the speed before the cycle
+  comp_left,      ///< radius compensation from the next move on
+  comp_right,
+  comp_off
 };
 struct MillMove {
   MillStep step = MillStep::rapid;
@@ -76,9 +100,10 @@ struct MillMove {
 };
 struct MillContext {
   double u = 0, v = 0, w = 0;  ///< of the tool when the cycle runs, mm in the work frame; NaN: not known
-  double tool_radius = 0;      ///< mm, greater than 0
+  double tool_radius = 0;      ///< mm, greater than 0 where needs_radius() says so
   bool spindle_ccw = false;    ///< climb milling goes the other way round
   RetractPlane plane = RetractPlane::initial;
+  const std::vector<MillContour>* contours = nullptr;  ///< of the shapes that have some
 };
 /// The moves of one machining; nullopt with a sentence in `error` when it makes no sense (tool too large, no size,
 /// nothing to take away) or is not carried. Moves to where the tool already stands are not listed.

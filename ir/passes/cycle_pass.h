@@ -59,7 +59,11 @@ class CyclePass {
     editor_.routine.body = std::move(out);
     report_unsure();
   }
-  [[nodiscard]] const std::set<std::uint32_t>& profiles() const { return turning_.profile_blocks(); }
+  [[nodiscard]] std::set<std::uint32_t> profiles() const {
+    auto all = turning_.profile_blocks();
+    all.insert(milling_.contour_blocks().begin(), milling_.contour_blocks().end());
+    return all;
+  }
 
  private:
   struct Active {

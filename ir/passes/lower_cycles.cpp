@@ -487,7 +487,7 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
   for (auto& r : program.routines) {
     CyclePass pass(program, r, context, facts, callees);
     pass.run();
-    profiles.insert(pass.profiles().begin(), pass.profiles().end());
+    profiles.merge(pass.profiles());
   }
   add_callees(program, callees);
   retire_profiles(program, profiles, facts);

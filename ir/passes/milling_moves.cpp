@@ -7,6 +7,7 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "ir/cycles/mill_contour.h"
 #include "ir/passes/blocks.h"
 
 namespace cnctrans::ir::passes {
@@ -98,7 +99,20 @@ class Writer {
       blocks.push_back(make_block(line_, action(SetSpindle{1, Value{n}})));
       return true;
     }
+    if (m.step == MillStep::comp_left || m.step == MillStep::comp_right || m.step == MillStep::comp_off) {
+      side_ = m.step == MillStep::comp_off    ? CompSide::off
+              : m.step == MillStep::comp_left ? CompSide::left
+                                              : CompSide::right;
+      return true;
+    }
     Block b;
+    if (side_) {
+      ModalSet set;
+      set.setting = Setting::comp;
+      set.value = static_cast<std::uint8_t>(*side_);
+      b.actions.push_back(action(set));
+      side_.reset();
+    }
     b.has_motion = true;
     Motion& motion = b.motion;
     motion.explicit_code = true;
@@ -169,6 +183,7 @@ class Writer {
   std::optional<double> feed_;
   bool changed_ = false;
   double last_feed_ = 0;
+  std::optional<CompSide> side_;  ///< of the next move
 };
 
 }  // namespace
@@ -176,6 +191,7 @@ class Writer {
 MillCycles::MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
     : context_(context) {
   if (!has_milling(program)) return;
+  find_contours(program, routine);
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [this](const Statement& s) {
       const auto* assign = std::get_if<Assign>(&s.node);
@@ -235,7 +251,23 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
   });
 }
 
-std::optional<double> MillCycles::radius(const Site& site, double length_unit, std::string* error) const {
+void MillCycles::find_contours(const Program& program, const Routine& routine) {
+  for_each_statement(routine.body, [&](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+      const auto* d = std::get_if<CycleDefine>(&b->actions[i].data);
+      const auto* hole = d != nullptr && d->cycle ? std::get_if<HoleCycle>(&d->cycle->node) : nullptr;
+      if (hole == nullptr) continue;
+      std::string error;
+      for (const auto& named : cycles::contours_named(*hole)) {
+        for (const auto* block : cycles::profile_blocks(program, routine, named, &error))
+          contour_blocks_.insert(block->id);
+      }
+    }
+  });
+}
+
+std::optional<double> MillCycles::radius(const Site& site, double length_unit, std::string* error, bool* none) const {
   const auto& machine = context_.source_machine;
   std::string list = machine.option("tool.radius_data");
   list += list.empty() ? "TOOL_RADIUS" : "|TOOL_RADIUS";
@@ -271,6 +303,7 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
         std::find_if(machine.tools.begin(), machine.tools.end(), [&](const auto& t) { return t.number == *site.tool; });
     if (tool != machine.tools.end() && tool->radius > 0) return tool->radius;
   }
+  *none = true;
   return *error = "its passes depend on the radius of the tool, which the source's machine profile does not give",
          std::nullopt;
 }
@@ -310,10 +343,24 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   if (std::isnan(numbers->reference + numbers->surface + numbers->bottom + leaves) || by_plane)
     return *error = "the height of the tool before it, or its retract plane, is not known here", std::nullopt;
   cycles::MillContext context;
-  const auto r = radius(it->second, unit, error);
-  if (!r) return std::nullopt;
-  context.tool_radius = *r;
-  const bool own_place = words->words.contains("u") && words->words.contains("v");
+  bool leads_by_middle = false;
+  if (cycles::needs_radius(*words) != cycles::RadiusNeed::none) {
+    bool none = false;
+    const auto r = radius(it->second, unit, error, &none);
+    const bool lead = none && cycles::needs_radius(*words) == cycles::RadiusNeed::lead;
+    if (!r && !lead) return std::nullopt;
+    if (lead) error->clear();
+    leads_by_middle = lead;
+    context.tool_radius = r.value_or(0);
+  }
+  std::vector<cycles::MillContour> contours;
+  if (!cycles::contours_named(c).empty()) {
+    auto read = cycles::contours_in(c, error);
+    if (!read) return std::nullopt;
+    contours = *std::move(read);
+    context.contours = &contours;
+  }
+  const bool own_place = !contours.empty() || (words->words.contains("u") && words->words.contains("v"));
   auto u = place_after(b, facts, axes.u), v = place_after(b, facts, axes.v);
   if (!b.has_motion && end_ && end_->after == it->second.before) {
     u = end_->u / unit;
@@ -345,6 +392,14 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     if (!writer.add(m, facts.spindle, error)) return std::nullopt;
   }
   if (!no_feed_ && !writer.finish(error)) return std::nullopt;
+  if (leads_by_middle) {
+    context_.diagnostics.warning(
+        "TRN-420", s.line.span,
+        "the way onto the contour and off it is counted from the tool's middle, not from its edge: the source's "
+        "machine "
+        "profile does not give the radius of the tool",
+        "give the radius in the profile's \"tools\"; the tool plunges nearer to the contour by its radius");
+  }
   if (!incremental) end_ = End{writer.u, writer.v, it->second.after};
   return Explosion{std::move(writer.blocks), writer.w};
 }

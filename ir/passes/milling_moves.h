@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "ir/cycles/milling.h"
@@ -22,6 +23,8 @@ class MillCycles {
                                                    const Facts& facts, std::optional<double> height,
                                                    std::optional<double> defined_at, std::optional<SpindleState> sense,
                                                    std::string* error) const;
+  /// Ids of the blocks that the contours of cycles which have been read stand in.
+  [[nodiscard]] const std::set<std::uint32_t>& contour_blocks() const { return contour_blocks_; }
 
  private:
   struct Site {
@@ -33,12 +36,16 @@ class MillCycles {
     double u = 0, v = 0;
     std::uint64_t after = 0;
   };
-  [[nodiscard]] std::optional<double> radius(const Site& site, double length_unit, std::string* error) const;
+  /// `none`: nobody gives one.
+  [[nodiscard]] std::optional<double> radius(const Site& site, double length_unit, std::string* error,
+                                             bool* none) const;
 
   const LegaliseContext& context_;
   bool radius_written_ = false;  ///< by the program, under any name
   bool no_feed_ = true;          ///< the program has no F of its own
   mutable std::optional<End> end_;
+  void find_contours(const Program& program, const Routine& routine);
+  std::set<std::uint32_t> contour_blocks_;
   std::map<std::uint32_t, Site> sites_;                   ///< by id of the block
   std::map<std::string, std::optional<double>> written_;  ///< data the program writes; nullopt: not one fixed number
 };
