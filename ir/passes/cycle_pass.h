@@ -101,6 +101,8 @@ class CyclePass {
   void look_for_definitions();
   /// The active cycle of the text is the one in force on every way to a statement with these facts.
   [[nodiscard]] bool sure(const Facts& facts) const;
+  /// A cycle of the target may be in force before a statement with these facts.
+  [[nodiscard]] bool old_may_run(const Facts& facts) const;
   /// By the text none is active, and on some way to the block one of this routine is.
   [[nodiscard]] bool cycle_by_another_way(const Block& b, const Facts& facts) const;
   /// The block is a point in the words of the target too, whichever of its own cycles is in force.
@@ -109,6 +111,8 @@ class CyclePass {
   /// The target's cycle is off until the next point of the text, and control goes elsewhere before.
   void leave_while_off(const Statement& s) const;
   /// A called subprogram changes the retract plane of the cycle.
+  /// Where the hole goes back to by G98 or G99, which differ by the way: refused. True: done.
+  [[nodiscard]] bool refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& out) const;
   void callee_sets_plane(const CallRoutine& call, const Statement& s) const;
   [[nodiscard]] bool off_between() const {
     return active_ && active_->native && !by_call_ && active_->was_on_target && !active_->on_target &&
@@ -136,6 +140,9 @@ class CyclePass {
   void one(Statement&& s, Body& out) {
     join(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
+    const auto names = labels_on(s.line);
+    const bool entered = std::any_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); });
+    if (entered) sense_.forget();
     const bool harmless = ToolHeight::keeps(s);
     const std::size_t first = out.size();
     ran_.reset();
@@ -148,9 +155,7 @@ class CyclePass {
     std::optional<double> initial;
     if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
-    const auto names = labels_on(seen.line);
-    const bool entered = std::any_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); });
-    sense_.follow(seen, (b != nullptr || harmless) && !entered && seen.line.skip_mask == 0);
+    sense_.follow(seen, b != nullptr || harmless);
   }
   /// A modal call whose cycle the target defines at the first point, and a branch comes before that point.
   void branch_before_first_point(const Statement& s) {
@@ -278,19 +283,8 @@ class CyclePass {
            "go to the holes in rapid, or set F to pitch times speed before the cycle");
     return true;
   }
-  /// A new F or S at a point would give the tap another pitch on one of the two controls only.
-  void check_tap(const Statement& s) {
-    const auto* b = std::get_if<Block>(&s.node);
-    if (!active_ || !active_->native || !active_->needs.bound || b == nullptr) return;
-    for (const auto& a : b->actions) {
-      if (!std::holds_alternative<SetFeed>(a.data) && !std::holds_alternative<SetSpindle>(a.data)) continue;
-      context_.diagnostics.error(
-          "TRN-330", s.line.span,
-          "a new feed or speed while a tap is active: its pitch would follow on one control only",
-          "end the cycle before the change and define it again");
-      return;
-    }
-  }
+  /// A new F, S or sense at a point would give the tap another pitch or end on one of the two controls only.
+  void check_tap(const Statement& s) const;
 
   void cancel_statement(Statement&& s, Body& out) {
     const bool on = active_->on_target || active_->maybe_on_target;
@@ -318,6 +312,7 @@ class CyclePass {
   /// `MCALL CYCLE..`: the cycle runs at later points.
   void modal_call(Statement&& s, Body& out) {
     const ModalCall m = std::get<ModalCall>(s.node);
+    const bool ends_old = old_may_run(facts_.before(s));
     active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
     active_->from = s.id;
     active_->deferred = true;
@@ -328,7 +323,14 @@ class CyclePass {
       out.push_back(std::move(s));
       return;
     }
-    // The target defines and runs in one: each point gets its own.
+    // The target defines and runs in one: each point gets its own. The way there must not run the cycle before.
+    if (ends_old) {
+      const LineInfo like = std::move(s.line);
+      s = off_statement(like, by_call_);
+      s.line = like;
+      out.push_back(std::move(s));
+      return;
+    }
     leave_line(std::move(s), out);
   }
 
@@ -477,6 +479,7 @@ class CyclePass {
   bool lacking_ = false;                 ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;  ///< statements of this routine
   bool has_modal_calls_ = false;         ///< of cycles
+  bool plane_words_ = false;             ///< the program has G98 or G99
   bool enters_unsure_ = false;           ///< the callers do not agree on a cycle
   std::vector<Span> unsure_;             ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;

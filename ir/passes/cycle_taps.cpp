@@ -158,6 +158,7 @@ void SpindleSense::follow(const Statement& s, bool straight) {
     const auto* run = std::get_if<SpindleRun>(&a.data);
     if (run != nullptr && run->number == 1)
       state_ = run->state == SpindleState::ccw ? SpindleState::ccw : SpindleState::cw;
+    if (run != nullptr && s.line.skip_mask != 0) state_.reset();
   }
 }
 

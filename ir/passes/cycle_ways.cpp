@@ -19,7 +19,53 @@ void CyclePass::look_for_definitions() {
       if (d != nullptr && d->modal) definitions_.insert(s.id);
     }
   });
+  for (const auto& r : program_.routines) {
+    for_each_statement(r.body, [this](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      plane_words_ = plane_words_ || (b != nullptr && sets_retract_plane(*b));
+    });
+  }
   enters_unsure_ = first != nullptr && facts_.before(*first).cycle_from == Facts::several_cycles;
+}
+
+bool CyclePass::old_may_run(const Facts& facts) const {
+  if (active_ && sure(facts)) return active_->on_target || active_->maybe_on_target;
+  return facts.reachable && (facts.cycle_active || !facts.cycle_active_known);
+}
+
+bool CyclePass::refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& out) const {
+  const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+  const auto* b = std::get_if<Block>(&s.node);
+  if (hole == nullptr || b == nullptr || hole->retract.given || !plane_words_ || context_.target.retract_plane_switch)
+    return false;
+  const Facts& facts = facts_.before(s);
+  if (!facts.reachable || setting_in<RetractPlane>(*b, facts, Setting::retract_plane)) return false;
+  refuse(s, program_, context_, "TRN-331",
+         "the plane to which this hole retracts depends on the path that leads here, and the target's cycle names it",
+         "say the plane in the block that defines the cycle");
+  out.push_back(std::move(s));
+  return true;
+}
+
+void CyclePass::check_tap(const Statement& s) const {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (!active_ || !active_->native || b == nullptr) return;
+  const auto* own = std::get_if<HoleCycle>(&active_->source->node);
+  const auto* theirs = std::get_if<HoleCycle>(&active_->native->node);
+  const bool tap = own != nullptr && (own->kind == HoleKind::tap || own->kind == HoleKind::tap_floating);
+  const bool sense = tap && theirs != nullptr && own->spindle_after != theirs->spindle_after;
+  for (const auto& a : b->actions) {
+    const bool feed = std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+    const auto* run = std::get_if<SpindleRun>(&a.data);
+    const bool turns = run != nullptr && run->number == 1 && run->state != SpindleState::off;
+    if (!(feed && active_->needs.bound) && !(turns && sense)) continue;
+    context_.diagnostics.error(
+        "TRN-330", s.line.span,
+        feed ? "a new feed or speed while a tap is active: its pitch would follow on one control only"
+             : "a new sense of the spindle while a tap is active: it would turn on in that sense on one control only",
+        "end the cycle before the change and define it again");
+    return;
+  }
 }
 
 bool CyclePass::sure(const Facts& facts) const {
@@ -90,7 +136,10 @@ void CyclePass::bodies(Statement& s) {
   auto* i = std::get_if<If>(&s.node);
   const auto before = active_;
   if (i == nullptr) {
-    each_body(s, [this](Body& inner) { walk_inside(inner); });
+    each_body(s, [this](Body& inner) {
+      sense_.forget();  // the next pass may begin with another sense
+      walk_inside(inner);
+    });
     // The next pass of a loop begins as the first one did.
     if (before && before->on_target && active_ && active_->from == before->from && off_between()) {
       context_.diagnostics.error("TRN-331", s.line.span,
@@ -99,9 +148,11 @@ void CyclePass::bodies(Statement& s) {
     }
     return;
   }
+  const SpindleSense sense = sense_;
   walk_inside(i->then_body);
   const auto then = active_;
   active_ = before;
+  sense_ = sense;
   walk_inside(i->else_body);
   if (!active_) active_ = then;
   if (!then || !active_ || then->from != active_->from) return;

@@ -19,6 +19,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool was_on = active_->on_target;
   const bool changed = follow_retract_plane(b, facts);
   const bool hole_here = triggers(b, facts);
+  if (hole_here && refuse_unknown_plane(s, active_->source, out)) return;
   const LineInfo like = s.line;
   // A modal cycle of the target is in force on the same ways as the source's; one that each point gets is not.
   const bool follows =
@@ -204,28 +205,6 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
-/// A single run whose retract plane is not the height it starts from: the target's cycle would go there first. It
-/// returns to the reference plane instead, and the rest is a move of its own. The place to go to; empty: as it is.
-std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active& a) const {
-  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
-  if (hole == nullptr || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
-      hole->reference.base != LevelBase::absolute || equal(hole->retract.value, hole->reference.value))
-    return std::nullopt;
-  if (!hole->retract.value.literal() || a.height == hole->retract.value.number) return std::nullopt;
-  HoleCycle low = *hole;
-  low.retract = low.reference;
-  for (const bool approach : {low.approach_by_retract, !low.approach_by_retract}) {
-    low.approach_by_retract = approach;
-    auto made = std::make_shared<Cycle>();
-    made->node = low;
-    if (!context_.target.native_cycle(*made)) continue;
-    const Value to = hole->retract.value;
-    cycle = std::move(made);
-    return to;
-  }
-  return std::nullopt;
-}
-
 void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
   refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + why,
          "give the cycle's words and the place before it as numbers");
@@ -321,6 +300,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     return;
   }
   const auto old_on = active_ && active_->on_target;
+  const bool old_may = old_may_run(facts);
   const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
   if (named != nullptr && !d.modal && d.here && cycles::find_machining(named->name) != nullptr && !active_ &&
       !native_form(d.cycle, b, facts, context_)) {
@@ -328,6 +308,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     const NamedCycle cycle = *named;
     return write_out_machining(std::move(s), cycle, std::move(pieces), out);
   }
+  if (refuse_unknown_plane(s, d.cycle, out)) return;
   Active a = define(d.cycle, d.trigger, b, facts);
   a.from = s.id;
   lacking_ = lacking_ || (d.modal && !a.native);
@@ -336,7 +317,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
   const bool point_here = w && has_plane_word(b, *w);
   if (d.here) hold_back(b, a.native != nullptr);
   if (!a.native) {
-    if (old_on) pieces.push_back(off_statement(s.line, by_call_));
+    if (old_may) pieces.push_back(off_statement(s.line, by_call_));
     written_out_ = true;
     active_ = a;
     if (d.here)
@@ -351,7 +332,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     native.cycle = a.native;
     native.trigger = CycleTrigger::plane_axis_word;
     if (!d.here) {  // the next point runs it
-      if (old_on) pieces.push_back(off_statement(s.line, false));
+      if (old_may) pieces.push_back(off_statement(s.line, false));
       a.was_on_target = true;
       active_ = a;
       put(out, std::move(pieces), std::move(s));
@@ -364,7 +345,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
         out.push_back(std::move(s));
         return;
       }
-      if (old_on) pieces.push_back(off_statement(s.line, false));
+      if (old_may) pieces.push_back(off_statement(s.line, false));
       const LineInfo like = s.line;
       const std::size_t main = pieces.size();
       pieces.push_back(std::move(s));
@@ -412,6 +393,8 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
   const bool on = old_on || !(facts.cycle_active_known && !facts.cycle_active);
   // The words of this block must not run the old cycle once more.
   if (on && d.modal && (disturbs_call(b) || !b.actions.empty()) && runs_old(b, point_here, d.here))
+    pieces.push_back(off_statement(s.line, true));
+  else if (on && old_may && d.modal && d.here && !point_here)  // the run of its own would run it at each move
     pieces.push_back(off_statement(s.line, true));
   define_by_call(std::move(s), d, std::move(a), point_here, std::move(pieces), out);
 }

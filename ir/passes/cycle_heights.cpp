@@ -1,0 +1,28 @@
+// The height from which a cycle starts, where the controls go another way to its planes.
+#include "ir/passes/cycle_pass.h"
+
+namespace cnctrans::ir::passes {
+
+/// A single run whose retract plane is not the height it starts from: the target's cycle would go there first. It
+/// returns to the reference plane instead, and the rest is a move of its own. The place to go to; empty: as it is.
+std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active& a) const {
+  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+  if (hole == nullptr || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
+      hole->reference.base != LevelBase::absolute || equal(hole->retract.value, hole->reference.value))
+    return std::nullopt;
+  if (!hole->retract.value.literal() || a.height == hole->retract.value.number) return std::nullopt;
+  HoleCycle low = *hole;
+  low.retract = low.reference;
+  for (const bool approach : {low.approach_by_retract, !low.approach_by_retract}) {
+    low.approach_by_retract = approach;
+    auto made = std::make_shared<Cycle>();
+    made->node = low;
+    if (!context_.target.native_cycle(*made)) continue;
+    const Value to = hole->retract.value;
+    cycle = std::move(made);
+    return to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace cnctrans::ir::passes
