@@ -89,6 +89,7 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   if (a.numbering == "none") out.numbering = backends::Numbering::none;
   if (a.numbering == "renumber") out.numbering = backends::Numbering::renumber;
   if (a.cycles == "explode") out.cycles = ir::CycleWriting::explode;
+  if (a.cycles == "similar") out.cycles = ir::CycleWriting::similar;
   out.raise_structure = a.structure == "raise";
   if (a.encoding == "utf-8") out.encoding = Encoding::utf8;
   if (a.encoding == "windows-1252") out.encoding = Encoding::windows1252;

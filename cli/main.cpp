@@ -58,8 +58,9 @@ void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--numbering", a.numbering, "block numbers of the output: keep, none or renumber")
       ->check(CLI::IsMember({"keep", "none", "renumber"}));
   app.add_option("--number-step", a.number_step, "step of renumbered blocks")->check(CLI::Range(1, 1000));
-  app.add_option("--cycles", a.cycles, "native canned cycles where exact, or explode all")
-      ->check(CLI::IsMember({"native", "explode"}));
+  app.add_option("--cycles", a.cycles,
+                 "native canned cycles where exact, similar ones that leave the same part, or explode all")
+      ->check(CLI::IsMember({"native", "similar", "explode"}));
   app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
       ->check(CLI::IsMember({"keep", "raise"}));
   app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");

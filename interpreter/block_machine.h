@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "interpreter/cycle_runs.h"
 #include "interpreter/emitter.h"
 #include "interpreter/expressions.h"
 #include "interpreter/failure.h"
@@ -85,6 +86,8 @@ class BlockMachine final : public SystemData {
     program_ = program;
     routine_ = routine;
   }
+  /// From now on the cycles of a lathe that are carried out are added there.
+  void keep_cycles(std::vector<CycleRun>* runs) { cycle_runs_ = runs; }
   /// Without frames, tool and cycles, ready to read the blocks of a profile.
   void stand_for_contour(const ir::ModalState& state, std::optional<ir::cycles::TurnPoint> from);
   /// The same in the plane in force; where the tool stands is not known.
@@ -280,6 +283,9 @@ class BlockMachine final : public SystemData {
 
   // machining cycles (machining_cycles.cpp)
   bool run_machining(const ir::NamedCycle& c);
+  bool machining_moves(const ir::cycles::MachiningCycle& cycle, const std::vector<ir::cycles::TurnMove>& moves,
+                       bool taps);
+  void keep_contours(const ir::cycles::LeftContours& left, CycleRun& run) const;
   bool machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNumbers& out);
   bool machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense);
   bool machining_path(const ir::cycles::TurnMove& m);
@@ -307,6 +313,7 @@ class BlockMachine final : public SystemData {
 
   const machine::Profile& profile_;
   Emitter& emitter_;
+  std::vector<CycleRun>* cycle_runs_ = nullptr;
   Failure& failure_;
   ValueSource* values_;
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "interpreter/cycle_runs.h"
 #include "interpreter/trace.h"
 #include "ir/program.h"
 #include "machine/profile.h"
@@ -28,6 +29,8 @@ struct Options {
   std::function<const ir::Program*(const ir::RoutineName&)> library;
   /// The error that reading gave for one of these lines; null: none. A statement there is not carried out.
   std::function<const Diagnostic*(FileId file, std::uint32_t first_line, std::uint32_t last_line)> fault;
+  /// Gets the cycles of a lathe that are carried out, in order; null: nobody asks.
+  std::vector<CycleRun>* cycles = nullptr;
 };
 
 struct Result {

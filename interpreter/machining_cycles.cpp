@@ -71,25 +71,80 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
     context.profile = &*contour;
   }
   std::string error;
+  ir::cycles::LeftContours left;
+  if (cycle_runs_ != nullptr) context.left = &left;
   const auto moves = ir::cycles::expand(*cycle, numbers, context, &error);
   if (!moves) {
     const bool missing = error.ends_with("not carried out yet") || error.ends_with("is not carried out");
     return failure_.fail(missing ? code::not_carried : code::bad_cycle, error);
   }
-  auto& spindle = spindles_[1];
   const bool taps = cycle->kind == ir::cycles::MachiningKind::drill && numbers["peck"] == 0;
+  CycleRun run;
+  run.family = ir::cycles::family_of(c.name);
+  run.first = emitter_.seen();
+  if (!machining_moves(*cycle, *moves, taps)) return false;
+  if (cycle_runs_ == nullptr || run.family.empty()) return true;
+  run.last = emitter_.seen();
+  keep_contours(left, run);
+  cycle_runs_->push_back(std::move(run));
+  return true;
+}
+
+bool BlockMachine::machining_moves(const ir::cycles::MachiningCycle& cycle,
+                                   const std::vector<ir::cycles::TurnMove>& moves, bool taps) {
+  auto& spindle = spindles_[1];
   if (taps && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
   const auto sense = spindle.state;
-  for (const auto& m : *moves) {
+  for (const auto& m : moves) {
     if (!machining_move(m, sense)) return false;
   }
-  if (cycle->ends_modes) {
+  if (cycle.ends_modes) {
     modal_.motion = ir::MotionKind::rapid;
     // The feed of the last pass stays in force.
-    const auto last = std::find_if(moves->rbegin(), moves->rend(), [](const auto& m) { return m.has_feed; });
-    if (last != moves->rend()) feed_[static_cast<std::size_t>(modal_.feed_mode)] = last->feed;
+    const auto last = std::find_if(moves.rbegin(), moves.rend(), [](const auto& m) { return m.has_feed; });
+    if (last != moves.rend()) feed_[static_cast<std::size_t>(modal_.feed_mode)] = last->feed;
   }
   return true;
+}
+
+/// What a cycle leaves, in the coordinates of the machine: arcs as chords that are less than 0.001 mm off.
+void BlockMachine::keep_contours(const ir::cycles::LeftContours& left, CycleRun& run) const {
+  constexpr double off = 5e-4;
+  const auto map = [this](ir::cycles::TurnPoint t) {
+    Axes p = p_;
+    p[ir::axis::x] = t.x;
+    p[ir::axis::z] = t.z;
+    p = frame_.apply(p);
+    return CyclePoint{p[ir::axis::x], p[ir::axis::z]};
+  };
+  const auto points = [&](const std::vector<ir::cycles::ProfileElement>& elements, std::vector<CyclePoint>& out) {
+    for (const auto& e : elements) {
+      if (out.empty()) out.push_back(map(e.from));
+      if (e.arc) {
+        const double r = std::hypot(e.from.x - e.centre.x, e.from.z - e.centre.z);
+        const double start = std::atan2(e.from.x - e.centre.x, e.from.z - e.centre.z);
+        double sweep = std::atan2(e.to.x - e.centre.x, e.to.z - e.centre.z) - start;
+        constexpr double full = 6.283185307179586;
+        if (e.ccw && sweep < 0) sweep += full;
+        if (!e.ccw && sweep > 0) sweep -= full;
+        const double step = r > off ? 2 * std::acos(1 - off / r) : full;
+        const double n = std::min(std::ceil(std::abs(sweep) / step), 1e5);
+        for (double k = 1; k < n; ++k) {
+          const double a = start + sweep * k / n;
+          out.push_back(map({e.centre.x + r * std::sin(a), e.centre.z + r * std::cos(a)}));
+        }
+      }
+      out.push_back(map(e.to));
+    }
+  };
+  points(left.rough, run.rough);
+  points(left.finish, run.finish);
+  run.face = left.face;
+  const CyclePoint zero = map({0, 0}), x = map({1, 0}), z = map({0, 1});
+  const auto near = [](double a, double b) { return std::abs(a - b) < 1e-9; };
+  run.comparable =
+      near(x.z, zero.z) && near(z.x, zero.x) && near(std::abs(x.x - zero.x), 1) && near(std::abs(z.z - zero.z), 1);
+  run.out = left.out * (left.face ? z.z - zero.z : x.x - zero.x);
 }
 
 bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense) {

@@ -32,6 +32,7 @@ Runner::Runner(const ir::Program& program, const machine::Profile& profile, cons
       machine_(profile, emitter_, failure_, &evaluator_),
       routines_(program, options, &variables_) {
   evaluator_.set_system(&machine_);
+  machine_.keep_cycles(options.cycles);
   local_levels_ = static_cast<std::size_t>(parse_decimal(profile.option("calls.local_levels")).value_or(0));
 }
 

@@ -238,7 +238,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   // In its own language for its own machine a program is legal as it stands.
   const std::string& source_name = options.machine.empty() ? source_profile->name : options.machine;
   const std::string& named_target = options.target_machine.empty() ? target_profile->name : options.target_machine;
-  const bool as_it_stands = from == to && source_name == named_target && options.cycles == ir::CycleWriting::native &&
+  const bool as_it_stands = from == to && source_name == named_target && options.cycles != ir::CycleWriting::explode &&
                             !options.raise_structure;
   if (!as_it_stands) end_main(work, result.diagnostics);
   if (from != to) read_contours(work, *source_profile);

@@ -21,6 +21,7 @@ Replayed replay(const Side& side, interpreter::Options options) {
   options.library = [&side](const ir::RoutineName& name) { return side.loader.find(name); };
   options.fault = [&side](FileId f, std::uint32_t from, std::uint32_t to) { return side.loader.fault(f, from, to); };
   interpreter::TraceRecorder recorder;
+  options.cycles = &r.cycles;
   machine::Profile profile = side.profile;
   machine::forget_data_at_rest(profile);
   r.result = interpreter::run(side.program, profile, options, recorder, r.diagnostics);
@@ -33,6 +34,8 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
   verifier::Options options;
   options.source_start = verifier::start_of(from.profile);
   options.target_start = verifier::start_of(to.profile);
+  options.source_cycles = &source.cycles;
+  options.target_cycles = &target.cycles;
   verifier::Verdict verdict = verifier::compare(source.events, target.events, options);
   const bool source_ended = source.result.reason == EndReason::program_end;
   const bool target_ended = target.result.reason == EndReason::program_end;
@@ -110,6 +113,7 @@ class Prover {
     sum.events += v.events;
     sum.moves += v.moves;
     sum.unfed_moves += v.unfed_moves;
+    sum.similar_cycles += v.similar_cycles;
     sum.max_length = std::max(sum.max_length, v.max_length);
     if (v.status == verifier::Status::within_tolerance) sum.status = v.status;
   }

@@ -35,6 +35,7 @@ struct ProofOptions {
 /// One run with its trace.
 struct Replayed {
   std::vector<interpreter::Event> events;
+  std::vector<interpreter::CycleRun> cycles;
   interpreter::Result result;
   Diagnostics diagnostics;
 };

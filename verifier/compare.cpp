@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "base/transliterate.h"
+#include "verifier/cycle_pairs.h"
 #include "verifier/normalise.h"
 #include "verifier/tool_names.h"
 
@@ -77,27 +78,41 @@ class Comparison {
         options_(options),
         verdict_(verdict),
         from_a_(options.source_start),
-        from_b_(options.target_start) {}
+        from_b_(options.target_start),
+        cycles_(a_, b_, first_a_, first_b_, options) {}
 
   void run() {
-    while (i_ < a_.size() && j_ < b_.size()) {
-      if (!step()) return;
-    }
-    while (i_ < a_.size() && negligible(*a_[i_], from_a_)) take_a();
-    while (j_ < b_.size() && negligible(*b_[j_], from_b_)) take_b();
-    if (i_ < a_.size()) {
-      differ(fmt::format("the translation ends too early: {} of the source has no counterpart",
-                         interpreter::name(a_[i_]->kind)),
-             i_, b_.size());
-    } else if (j_ < b_.size()) {
-      differ(fmt::format("the translation does more: {} has no counterpart in the source",
-                         interpreter::name(b_[j_]->kind)),
-             a_.size(), j_);
+    while (walk()) {
     }
   }
 
  private:
+  /// Side by side to the end or to a difference; true: that was one of a cycle, and the comparison goes on behind it.
+  bool walk() {
+    while (i_ < a_.size() && j_ < b_.size()) {
+      if (!step()) return false;
+    }
+    while (i_ < a_.size() && negligible(*a_[i_], from_a_)) take_a();
+    while (j_ < b_.size() && negligible(*b_[j_], from_b_)) take_b();
+    if (i_ < a_.size()) {
+      return differ(fmt::format("the translation ends too early: {} of the source has no counterpart",
+                                interpreter::name(a_[i_]->kind)),
+                    i_, b_.size());
+    }
+    if (j_ < b_.size()) {
+      return differ(fmt::format("the translation does more: {} has no counterpart in the source",
+                                interpreter::name(b_[j_]->kind)),
+                    a_.size(), j_);
+    }
+    return false;
+  }
+
   bool step() {
+    if (const auto* run = cycles_.begins(i_); run != nullptr && run != cycle_) {
+      cycle_ = run;
+      before_cycle_ = {i_, j_, from_a_, from_b_};
+      verdict_before_ = verdict_;
+    }
     const Event& a = *a_[i_];
     const Event& b = *b_[j_];
     if (a.kind != b.kind) {
@@ -194,7 +209,30 @@ class Comparison {
     return true;
   }
 
+  /// Cycles whose moves differ are compared by what they leave; true: that is the same, both stand behind them.
+  bool similar_cycles(std::string& what) {
+    if (cycle_ == nullptr || !cycles_.about(*cycle_, before_cycle_, {i_, j_, {}, {}})) return false;
+    std::string why;
+    Verdict verdict = verdict_before_;
+    const auto behind = cycles_.skip(*cycle_, before_cycle_, verdict.max_length, why);
+    if (!why.empty()) what = why;
+    if (!behind) return false;
+    verdict.events += std::max(behind->i - before_cycle_.i, behind->j - before_cycle_.j);
+    ++verdict.similar_cycles;
+    verdict_ = verdict;
+    i_ = behind->i;
+    j_ = behind->j;
+    from_a_ = behind->from_a;
+    from_b_ = behind->from_b;
+    part_.reset();
+    cycle_ = nullptr;
+    return true;
+  }
+
   bool differ(std::string what, std::size_t i, std::size_t j) {
+    const std::string plain = what;
+    if (similar_cycles(what)) return true;
+    if (what != plain) part_.reset();
     if (part_ && !ends_agree(from_a_, from_b_)) {  // the rest of a longer move did not come: that move differs
       i = part_->first;
       j = part_->second;
@@ -399,7 +437,11 @@ class Comparison {
   Verdict& verdict_;
   std::size_t i_ = 0, j_ = 0;
   Position from_a_, from_b_;
-  double rpm_ = 0;                                           ///< 0: not known, or it changes with the diameter
+  double rpm_ = 0;  ///< 0: not known, or it changes with the diameter
+  CyclePairs cycles_;
+  const interpreter::CycleRun* cycle_ = nullptr;  ///< of the source: the last one that has begun
+  PairPlace before_cycle_;
+  Verdict verdict_before_;
   std::optional<std::pair<std::size_t, std::size_t>> part_;  ///< events of a split move and of the whole one
 };
 
@@ -417,7 +459,7 @@ Verdict compare(const std::vector<Event>& source, const std::vector<Event>& targ
   };
   if (!moved(source) || !moved(target)) {
     verdict.status = Status::nothing_to_compare;
-  } else if (verdict.max_length > exact) {
+  } else if (verdict.max_length > exact || verdict.similar_cycles > 0) {
     verdict.status = Status::within_tolerance;
   }
   return verdict;

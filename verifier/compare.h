@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/source.h"
+#include "interpreter/cycle_runs.h"
 #include "interpreter/trace.h"
 #include "machine/profile.h"
 
@@ -19,6 +20,7 @@ struct Tolerances {
   double feed_relative = 1e-3;
   double seconds = 0.0051;  ///< a dwell unit of 0.01 s rounds by 0.005
   double speed_relative = 1e-3;
+  double contour = 0.004;  ///< contours that two similar cycles leave
 };
 
 struct Options {
@@ -28,6 +30,9 @@ struct Options {
   bool offset_numbers = false;
   /// Where the machines stand before the first event; no axis known: the first move has no length to judge by.
   interpreter::Position source_start{}, target_start{};
+  /// Cycles that the two runs carried out: where their moves differ they are compared by what they leave. Null: none.
+  const std::vector<interpreter::CycleRun>* source_cycles = nullptr;
+  const std::vector<interpreter::CycleRun>* target_cycles = nullptr;
 };
 /// The position of a machine before a program.
 interpreter::Position start_of(const machine::Profile& machine);
@@ -73,8 +78,9 @@ struct Verdict {
   Status status = Status::nothing_to_compare;
   std::uint64_t events = 0;  ///< compared after normalisation
   std::uint64_t moves = 0;
-  double max_length = 0;          ///< mm
-  std::uint64_t unfed_moves = 0;  ///< at a feed that the source never gives, where the translation has one
+  double max_length = 0;             ///< mm
+  std::uint64_t similar_cycles = 0;  ///< compared by the part they leave, not by their passes
+  std::uint64_t unfed_moves = 0;     ///< at a feed that the source never gives, where the translation has one
   Difference difference;
   std::string reason;  ///< with not_replayable
   std::string inputs;  ///< what the replay that failed was started with, as options of the command line; empty: nothing

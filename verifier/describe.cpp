@@ -28,6 +28,20 @@ std::string without_feed(const Verdict& v) {
 constexpr std::array<std::string_view, 5> status_names{"verified", "verified within tolerance", "differs",
                                                        "nothing to compare", "not replayable"};
 
+/// How far the traces are from each other.
+std::string apart(const Verdict& v) {
+  const auto most = rounded(v.max_length, 6);
+  return v.similar_cycles > 0 && std::string_view(most) == "0" ? "all equal" : fmt::format("within {} mm", most);
+}
+
+/// Cycles whose passes differ.
+std::string by_contour(const Verdict& v) {
+  if (v.similar_cycles == 0) return {};
+  return fmt::format("; {} compared by the part {}, not pass by pass",
+                     v.similar_cycles == 1 ? "1 cycle" : fmt::format("{} cycles", v.similar_cycles),
+                     v.similar_cycles == 1 ? "it leaves" : "they leave");
+}
+
 /// The part of the source that the proof does not speak of; empty: none.
 std::string not_replayed(const Coverage& c, const FileTable& files) {
   if (c.missed.empty()) return {};
@@ -76,7 +90,7 @@ std::string describe(const Verdict& v, const FileTable& source_files, const File
       return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + without_feed(v) +
              not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
     case Status::within_tolerance:
-      return fmt::format("verified: {} events, {} moves, within {} mm", v.events, v.moves, rounded(v.max_length, 6)) +
+      return fmt::format("verified: {} events, {} moves, {}", v.events, v.moves, apart(v)) + by_contour(v) +
              without_feed(v) + not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
     case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
     case Status::not_replayable: return "not verified" + started_with(v) + ": " + v.reason;

@@ -175,6 +175,17 @@ const MachiningCycle* find_machining(std::string_view name) {
   return find(cycles, name);
 }
 
+std::string_view family_of(std::string_view cycle) {
+  const auto* row = find_machining(cycle);
+  if (row == nullptr) return {};
+  switch (row->kind) {
+    case Kind::profile: return cycle == "stock.groove" ? std::string_view{} : "stock";
+    case Kind::copy: return "stock";
+    case Kind::thread: return cycle == "thread.chain" ? std::string_view{} : "thread";
+    default: return {};
+  }
+}
+
 std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const TurnNumbers& numbers,
                                             const TurnContext& context, std::string* error) {
   error->clear();

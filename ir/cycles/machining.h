@@ -59,6 +59,8 @@ struct MachiningCycle {
   bool ends_modes;  ///< rapid and absolute mode are in force afterwards
   CycleEnd ends = CycleEnd::at_call;
 };
+/// The family of cycles that machine the same part by other passes ("stock", "thread"); empty: it belongs to none.
+std::string_view family_of(std::string_view cycle);
 /// The cycle of a node; nullptr when the name is no machining cycle.
 const MachiningCycle* find_machining(std::string_view name);
 
@@ -107,6 +109,13 @@ struct TurnMove {
 };
 /// Parameters in mm (radius), degrees, seconds, by name; what the source left out is not there.
 using TurnNumbers = std::map<std::string_view, double>;
+/// What a cycle of stock removal leaves: the contour that its roughing comes down to, allowance included, and the one
+/// that it finishes. In mm of the work frame; empty: it does not.
+struct LeftContours {
+  std::vector<ProfileElement> rough, finish;
+  bool face = false;  ///< passes along X
+  double out = 1;     ///< sense of X (with `face`: of Z) that leads away from the part
+};
 struct TurnContext {
   TurnPoint start;                       ///< of the tool when the cycle is called
   double nose_width = 0;                 ///< of the tool; 0: not known
@@ -116,6 +125,7 @@ struct TurnContext {
   std::optional<bool> left_is_larger;    ///< the left start of a groove in the face lies at the larger X
   std::optional<bool> longer_in_x;       ///< the tool is longer along X than along Z; nullopt: not known
   const TurnProfile* profile = nullptr;  ///< of the cycles that have one
+  LeftContours* left = nullptr;          ///< wanted; stays empty for other cycles
 };
 /// The moves; nullopt and a sentence in `error` when the cycle makes no sense from this place or is not carried out.
 std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const TurnNumbers& numbers,

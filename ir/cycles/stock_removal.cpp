@@ -217,6 +217,25 @@ class Remover {
   bool withdraws_ = false;
 };
 
+std::vector<ProfileElement> elements_of(const Chain& chain, const Orientation& o) {
+  const auto plain = [&o](RolePoint n) {
+    const RolePoint r = o.role(n);
+    return o.face ? TurnPoint{r.q, r.p} : TurnPoint{r.p, r.q};
+  };
+  std::vector<ProfileElement> out;
+  for (const auto& x : chain) out.push_back({plain(x.a), plain(x.b), x.arc, o.sense(x.ccw), plain(x.c)});
+  return out;
+}
+
+/// Tells what the cycle leaves, to who asked for it.
+void leave(const TurnContext& context, const Orientation& o, const Chain* rough, const Chain* finish) {
+  if (context.left == nullptr) return;
+  context.left->face = o.face;
+  context.left->out = o.sp;
+  if (rough != nullptr) context.left->rough = elements_of(*rough, o);
+  if (finish != nullptr) context.left->finish = elements_of(*finish, o);
+}
+
 /// The allowance: by axis, or constant along the profile when only the one of X is given.
 std::optional<Chain> with_allowance(const Chain& part, const Roles& r, bool face, double more, std::string* error) {
   const double x = std::abs(r.number("stock_x")), z = std::abs(r.number("stock_z"));
@@ -291,12 +310,17 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
   const Chain part = back ? reversed(programmed) : programmed;
   if (!goes_on(part)) return *error = "a profile that turns back along the pass is not carried out", false;
   Remover work(r, *o);
+  const bool finishes = r.number("finish_feed") > 0;
   if (copy) {
+    const auto last = with_allowance(part, r, face, 0, error);
+    if (!last) return false;
+    leave(context, *o, &*last, finishes ? &part : nullptr);
     if (!copies(r, work, part, face, error)) return false;
   } else {
     const auto rough = with_allowance(part, r, face, 0, error);
     if (!rough) return false;
     const Chain target = split(*rough);
+    leave(context, *o, &target, finishes ? &part : nullptr);
     double nearest = target.front().a.q;
     for (const auto& x : target) nearest = std::max({nearest, x.a.q, x.b.q});
     if (work.start().q < nearest - tiny || work.start().p < highest(target) - tiny)
@@ -315,7 +339,7 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
       work.home();
     }
   }
-  if (const double f = r.number("finish_feed"); f > 0) work.finish(part, f);
+  if (finishes) work.finish(part, r.number("finish_feed"));
   return true;
 }
 
@@ -348,6 +372,7 @@ bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string*
   const auto even = offset(*part, std::abs(r.number("stock")), error);
   if (!even) return false;
   const Chain target = split(shifted(*even, face ? stock_z : stock_x, face ? stock_x : stock_z));
+  leave(context, o, roughs ? &target : nullptr, finishes ? &*part : nullptr);
   Remover::Style style;
   style.rounds = variant / 100 != 2;
   if (r.number("withdrawal") != 0) style.lift = std::abs(r.number("withdrawal"));
@@ -408,6 +433,7 @@ bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* e
   const Chain target = shifted(*part, o.sp * (face ? z : x), o.sq * (face ? x : z)), blank = chain_of(lines, o);
   std::vector<Valley> left;  // those are for other cycles
   const Chain outline = bridged(target, left);
+  leave(context, o, &outline, nullptr);
   Remover work(r, o);
   const double top = highest(blank), bottom = outline.front().a.p;
   if (work.start().p < top - tiny)

@@ -49,6 +49,12 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
     calls.push_back(single_run(s.line, std::make_shared<const Cycle>(Cycle{form->cycle})));
     return put_moves(std::move(s), std::move(calls), std::move(pieces), out);
   }
+  std::string not_similar;
+  if (auto form = turning_.similar(cycle, s, b, facts_, &not_similar))
+    return put_similar(std::move(s), std::move(*form), std::move(pieces), out);
+  if (!not_similar.empty())
+    context_.diagnostics.note("TRN-416", s.line.span,
+                              "the target's own cycle would not leave the same part: " + not_similar);
   std::string error;
   auto moves = turning_.write_out(cycle, s, b, facts_.before(s), &error);
   const bool loops = !moves;
@@ -81,6 +87,26 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
         "translate again when these lines change");
   }
   put_moves(std::move(s), std::move(*moves), std::move(pieces), out);
+}
+
+/// The target's own cycle in the place of one that makes other passes: the same part, place and state behind it.
+void CyclePass::put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out) {
+  Body calls;
+  const LineInfo like = s.line;
+  if (form.before.x) calls.push_back(rapid_to(like, form.before));
+  calls.push_back(single_run(like, std::make_shared<const Cycle>(Cycle{form.cycle})));
+  if (form.after.x) {
+    calls.push_back(rapid_to(like, form.after));
+    std::get<Block>(calls.back().node).motion.keeps_modal = form.rapid_stays;
+  }
+  if (form.feed) calls.push_back(make_block(like, action(SetFeed{*form.feed, false})));
+  if (form.use) uses_of_profiles_.push_back(*form.use);
+  context_.diagnostics.warning("TRN-415", like.span,
+                               "the target's own cycle takes the place of this one: the same contour, depth and "
+                               "allowance by other passes: " +
+                                   form.differs,
+                               "check the way of the tool; --cycles=native writes the moves out instead");
+  put_moves(std::move(s), std::move(calls), std::move(pieces), out);
 }
 
 /// What a cycle has become, in the place of its block.

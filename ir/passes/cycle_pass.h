@@ -65,6 +65,9 @@ class CyclePass {
     return all;
   }
 
+  /// Profiles that cycles of the target read.
+  [[nodiscard]] const std::vector<ProfileUse>& uses_of_profiles() const { return uses_of_profiles_; }
+
  private:
   struct Active {
     std::uint32_t from = 0;  ///< the statement that defined it or changed its words last
@@ -460,6 +463,7 @@ class CyclePass {
 
   void write_out(Statement&& s, Body&& pieces, Body& out);
   void write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out);
+  void put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out);
   void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
   void no_moves(Statement&& s, const std::string& why, Body& out);
   Program& program_;
@@ -470,6 +474,7 @@ class CyclePass {
   LabelUses uses_;
   TurnCycles turning_;
   MillCycles milling_;
+  std::vector<ProfileUse> uses_of_profiles_;
   std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
   ToolHeight height_;
   SpindleSense sense_;

@@ -15,7 +15,11 @@
 
 namespace cnctrans::ir {
 
-enum class CycleWriting : std::uint8_t { native, explode };
+enum class CycleWriting : std::uint8_t {
+  native,   ///< the target's own where it makes the same moves, else the moves
+  explode,  ///< the moves
+  similar   ///< also the target's own that leaves the same part by other passes
+};
 struct LegaliseOptions {
   CycleWriting cycles = CycleWriting::native;
   bool raise_structure = false;  ///< jumps become structures where that is provably the same

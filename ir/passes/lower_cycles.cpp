@@ -462,18 +462,22 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
 void lower_cycles(Program& program, const LegaliseContext& context) {
   if (!uses_cycles(program)) return;
   if (program.dialect == context.target.dialect && !program.dialect.empty() &&
-      context.options.cycles == CycleWriting::native)
+      context.options.cycles != CycleWriting::explode)
     return;
   const FactsOf facts(program, context);
   std::set<std::uint32_t> profiles;
+  std::vector<ProfileUse> uses;
   CycleCallees callees;
   for (auto& r : program.routines) {
     CyclePass pass(program, r, context, facts, callees);
     pass.run();
     profiles.merge(pass.profiles());
+    uses.insert(uses.end(), pass.uses_of_profiles().begin(), pass.uses_of_profiles().end());
   }
   add_callees(program, callees);
+  keep_used(program, uses, profiles);
   retire_profiles(program, profiles, facts);
+  label_profiles(program, uses);
 }
 
 }  // namespace cnctrans::ir::passes

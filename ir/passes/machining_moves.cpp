@@ -395,7 +395,7 @@ void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, co
 }
 
 TurnCycles::TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
-    : context_(context), routine_(routine), constants_(program) {
+    : context_(context), program_(program), routine_(routine), constants_(program) {
   const LabelUses uses = label_uses(program, routine);
   TurnState state;
   const auto sense = only_sense(program);
@@ -426,9 +426,7 @@ TurnCycles::TurnCycles(const Program& program, const Routine& routine, const Leg
     if (!cycles::has_profile(*named)) return;
     site.profile = cycles::contour_in(*named, &site.fault);
     if (!site.profile) return;
-    std::string error;
-    for (const auto* block : cycles::profile_blocks(program, routine, *named, &error))
-      profile_blocks_.insert(block->id);
+    keep_profile(program, routine, *named, site);
   });
 }
 

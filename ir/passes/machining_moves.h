@@ -9,6 +9,7 @@
 #include "ir/cycles/machining.h"
 #include "ir/passes/head_constants.h"
 #include "ir/passes/lower_cycles.h"
+#include "ir/passes/similar_cycles.h"
 #include "ir/passes/turning_forms.h"
 
 namespace cnctrans::ir::passes {
@@ -43,6 +44,10 @@ class TurnCycles {
   /// A cycle of the target with the same moves: the comparison of both expansions, or a rule, says so.
   [[nodiscard]] std::optional<TurnForm> native(const NamedCycle& cycle, const Statement& s, const Block& b,
                                                const Facts& facts) const;
+  /// A cycle of the target that leaves the same part by other passes, when the options ask for it; nullopt with a
+  /// sentence: none. `ways` tells of each block of a profile whether something runs it.
+  [[nodiscard]] std::optional<SimilarForm> similar(const NamedCycle& cycle, const Statement& s, const Block& b,
+                                                   const FactsOf& facts, std::string* why) const;
   /// Ids of the blocks that the profiles of written out cycles stand in.
   [[nodiscard]] const std::set<std::uint32_t>& profile_blocks() const { return profile_blocks_; }
 
@@ -50,11 +55,19 @@ class TurnCycles {
   struct Site {
     TurnState state;
     std::optional<cycles::TurnProfile> profile;
-    std::string fault;  ///< why there is no profile
+    std::string fault;   ///< why there is no profile
+    Body blocks;         ///< those of the profile
+    bool apart = false;  ///< they stand in a row, outside of every structure
   };
+  /// Takes a copy of the profile's blocks.
+  void keep_profile(const Program& program, const Routine& routine, const NamedCycle& named, Site& site);
+  /// The blocks as the target's cycle is to read them; nullopt with a sentence: it can't.
+  [[nodiscard]] std::optional<ProfileUse> use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
+                                                 std::string* why) const;
   /// Width of the tool in mm; 0: not known.
   [[nodiscard]] double nose_width(const TurnState& state) const;
   const LegaliseContext& context_;
+  const Program& program_;
   const Routine& routine_;
   HeadConstants constants_;
   std::map<std::uint32_t, Site> sites_;  ///< by id

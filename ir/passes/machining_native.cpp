@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.h"
+#include "ir/cycles/profile_blocks.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/machining_moves.h"
 
@@ -81,6 +83,151 @@ std::optional<TurnForm> TurnCycles::native(const NamedCycle& named, const Statem
     if (form.proved) return std::move(form);
   }
   return std::nullopt;
+}
+
+void TurnCycles::keep_profile(const Program& program, const Routine& routine, const NamedCycle& named, Site& site) {
+  std::string error;
+  const auto blocks = cycles::profile_blocks(program, routine, named, &error);
+  for (const auto* block : blocks) {
+    profile_blocks_.insert(block->id);
+    site.blocks.push_back(*block);
+  }
+  if (blocks.empty()) return;
+  for (const auto& r : program.routines) {
+    const auto in = [&r](const Statement* s) {
+      return std::any_of(r.body.begin(), r.body.end(), [s](const Statement& t) { return &t == s; });
+    };
+    site.apart = site.apart || std::all_of(blocks.begin(), blocks.end(), in);
+  }
+}
+
+namespace {
+
+/// A block that says nothing but an element of a profile.
+bool plain_element(const Block& b) {
+  const bool kind = b.motion.kind == MotionKind::modal || b.motion.kind == MotionKind::linear ||
+                    b.motion.kind == MotionKind::arc_cw || b.motion.kind == MotionKind::arc_ccw;
+  const bool actions = std::all_of(b.actions.begin(), b.actions.end(),
+                                   [](const Action& a) { return std::holds_alternative<Corner>(a.data); });
+  return b.empty() || (b.has_motion && kind && b.motion.frame == FrameUse::normal && !b.motion.extra && actions &&
+                       b.repeat_given == 0);
+}
+
+std::string label_of_use(const Program& program, const std::string& prefix, const NamedCycle& named,
+                         std::string_view word) {
+  for (const auto& [w, v] : named.words) {
+    if (w != word) continue;
+    const auto n = known(v);
+    std::string text = n ? prefix + shortest(*n) : std::string();
+    bool taken = text.empty();
+    for (const auto& r : program.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        for (const auto& l : labels_on(s.line)) taken = taken || (!l.is_number && l.text == text);
+      });
+    }
+    return taken ? std::string() : text;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
+                                             std::string* why) const {
+  ProfileUse use;
+  *why = "its profile stands where the target's cycle can't read it";
+  if (!site.apart || !context_.target.identifier_labels || site.blocks.size() < 2) return std::nullopt;
+  use.first = site.blocks.front().id;
+  use.last = site.blocks.back().id;
+  bool run = false;
+  for (const auto& s : site.blocks) {
+    const auto& b = std::get<Block>(s.node);
+    run = run || facts.before(s).reachable;
+    if (s.line.skip_mask != 0 || !plain_element(b)) {
+      *why = "a block of its profile says more than an element of it";
+      return std::nullopt;
+    }
+  }
+  use.first_label = label_of_use(program_, context_.target.label_prefix, named, "first_label");
+  use.last_label = label_of_use(program_, context_.target.label_prefix, named, "last_label");
+  for (const auto& [w, v] : named.words) {
+    if (w == "x" || w == "z") (w == "x" ? use.x : use.z) = v;
+  }
+  if (use.x) use.x->text = {};
+  if (use.z) use.z->text = {};
+  if (run && use.x) {
+    *why = "the program also runs through the blocks of its profile, and the point where it begins is not among them";
+    return std::nullopt;
+  }
+  if (use.first_label.empty() || use.last_label.empty() || use.first_label == use.last_label) return std::nullopt;
+  why->clear();
+  return use;
+}
+
+std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const Statement& s, const Block& b,
+                                               const FactsOf& all, std::string* why) const {
+  why->clear();
+  const auto it = sites_.find(s.id);
+  const auto family = cycles::family_of(named.name);
+  if (context_.options.cycles != CycleWriting::similar || it == sites_.end() || family.empty()) return std::nullopt;
+  if (!context_.target.native_cycle) return std::nullopt;
+  const Facts& facts = all.before(s);
+  const auto m = modes_at(b, facts, context_.source_machine.power_on);
+  // The words of a cycle keep their numbers: both controls have to count them the same way.
+  const bool counted = m && m->units == Units::metric && m->diameter != DiameterMode::absolute_only &&
+                       m->distance == Distance::absolute &&
+                       (context_.target.diameter_switch || context_.target.fixed_diameter == m->diameter);
+  if (!counted) return *why = "units, diameters or absolute and incremental are not the same there", std::nullopt;
+  const Site& site = it->second;
+  const double k = m->diameter == DiameterMode::radius ? 1 : 2;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto fold = [&](const Value& v) { return constants_.fold(v, routine_, s, nullptr); };
+  SimilarSource source{named,
+                       *m,
+                       {site.state.x, site.state.z},
+                       {unknown, unknown},
+                       nose_width(site.state),
+                       {},
+                       {},
+                       site.profile ? &*site.profile : nullptr,
+                       context_.target,
+                       fold};
+  if (const auto x = facts.position[axis::x]) source.start.x = Value(*x * k);
+  if (const auto z = facts.position[axis::z]) source.start.z = Value(*z);
+  const auto place = [&](const std::optional<Value>& v, double by) {
+    const auto n = v ? known(fold(*v)) : std::nullopt;
+    return n ? *n / by : unknown;
+  };
+  source.at = {place(source.start.x, k), place(source.start.z, 1)};
+  for (auto* v : {&source.start.x, &source.start.z}) {
+    if (*v && (*v)->literal()) (*v)->text = {};
+  }
+  source.feed = facts.feed ? std::optional(Value(*facts.feed)) : std::nullopt;
+  for (const auto& a : b.actions) {
+    if (const auto* f = std::get_if<SetFeed>(&a.data); f != nullptr && a.order != Order::after) source.feed = f->value;
+  }
+  if (source.feed) source.feed->text = {};
+  std::optional<SimilarForm> form;
+  if (family == "stock") {
+    if (!site.profile) return *why = site.fault, std::nullopt;
+    form = similar_stock(source, why);
+    if (!form) return std::nullopt;
+    form->use = use_of(named, site, all, why);
+    if (!form->use) return std::nullopt;
+    for (auto& [w, v] : form->cycle.words) {
+      if (w == "first_label") v = Value(string_literal(form->use->first_label));
+      if (w == "last_label") v = Value(string_literal(form->use->last_label));
+    }
+  } else if (family == "thread") {
+    form = similar_thread(source, why);
+    if (!form) return std::nullopt;
+  }
+  const auto* own = cycles::find_machining(named.name);
+  const auto* other = form ? cycles::find_machining(form->cycle.name) : nullptr;
+  const bool comp_off = own->ends_comp || setting_in<CompSide>(b, facts, Setting::comp) == CompSide::off;
+  if (form && other->ends_comp && !comp_off)
+    return *why = "radius compensation may be on, and would be off behind it", std::nullopt;
+  return form;
 }
 
 std::optional<Body> TurnCycles::write_out_computed(const NamedCycle& named, const Statement& s, const Block& b,

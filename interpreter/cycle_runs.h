@@ -1,0 +1,26 @@
+// The cycles of a lathe that a run has carried out, beside its trace: for who compares two of them by what they leave.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace cnctrans::interpreter {
+
+/// A point in the plane of X (radius) and Z, mm of the machine.
+struct CyclePoint {
+  double x = 0, z = 0;
+};
+/// One run of a cycle that belongs to a family (ir/cycles/machining.h).
+struct CycleRun {
+  std::string_view family;
+  std::uint64_t first = 0, last = 0;  ///< its events: from `first` up to, not including, `last`
+  /// Of stock removal: the contours that it comes down to, as points less than 0.001 mm from the arcs between them;
+  /// empty: it has none.
+  std::vector<CyclePoint> rough, finish;
+  bool face = false;        ///< passes along X
+  double out = 1;           ///< sense of X (with `face`: of Z) that leads away from the part
+  bool comparable = false;  ///< the frame keeps the two axes: what stands above is right
+};
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,65 @@
+// Lathe cycles as a cycle of the target that leaves the same part by other passes (equivalences 25.2, 25.5).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ir/cycles/machining.h"
+#include "ir/passes/capabilities.h"
+#include "ir/passes/turning_forms.h"
+#include "ir/program.h"
+
+namespace cnctrans::ir::passes {
+
+/// The blocks of a profile that a cycle of the target reads where they stand: from the statement `first` to `last`.
+struct ProfileUse {
+  std::uint32_t first = 0, last = 0;  ///< ids
+  std::string first_label, last_label;
+  std::optional<Value> x, z;  ///< where the profile begins, when no block of it says so: a block for it comes first
+  bool operator==(const ProfileUse& o) const {
+    const auto same = [](const std::optional<Value>& a, const std::optional<Value>& b) {
+      return a.has_value() == b.has_value() && (!a || equal(*a, *b));
+    };
+    return first == o.first && last == o.last && same(x, o.x) && same(z, o.z);
+  }
+};
+
+/// The target's cycle, and what makes everything behind it as behind the source's.
+struct SimilarForm {
+  NamedCycle cycle;
+  TurnStart before;               ///< a rapid move there comes first; empty: none
+  TurnStart after;                ///< a rapid move there follows; empty: none
+  bool rapid_stays = false;       ///< that one is in force afterwards
+  std::optional<Value> feed;      ///< in force afterwards; nullopt: the one of before
+  std::optional<ProfileUse> use;  ///< labels go to its words first_label and last_label
+  std::string differs;            ///< for people: what is not the same
+};
+
+/// A cycle of the source with what is known around it.
+struct SimilarSource {
+  const NamedCycle& named;
+  ModalState modes;
+  TurnStart start;       ///< words that say where the tool stands
+  cycles::TurnPoint at;  ///< the same in mm (x radius); NaN: not known
+  double nose_width = 0;
+  std::optional<bool> longer_in_x;
+  std::optional<Value> feed;  ///< in force before it
+  const cycles::TurnProfile* profile = nullptr;
+  const Capabilities& target;
+  std::function<Value(const Value&)> fold;  ///< with the numbers that the head of the program gives to variables
+};
+
+/// Cycles of the target that leave the same part; empty with a sentence: none.
+std::optional<SimilarForm> similar_stock(const SimilarSource& source, std::string* why);
+std::optional<SimilarForm> similar_thread(const SimilarSource& source, std::string* why);
+
+/// Takes the blocks of those profiles out of `blocks`.
+void keep_used(const Program& program, const std::vector<ProfileUse>& uses, std::set<std::uint32_t>& blocks);
+/// Puts the labels of profiles that the target's cycles read, and their first points, into the program.
+void label_profiles(Program& program, const std::vector<ProfileUse>& uses);
+
+}  // namespace cnctrans::ir::passes

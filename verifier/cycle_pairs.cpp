@@ -1,0 +1,98 @@
+#include "verifier/cycle_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "verifier/normalise.h"
+
+namespace cnctrans::verifier {
+
+using interpreter::CycleRun;
+using interpreter::Event;
+using interpreter::EventKind;
+using interpreter::Position;
+
+namespace {
+
+constexpr std::size_t most_moves_around = 4;  ///< rapid moves that lead to the translation's cycle, or away from it
+
+bool together(const Position& a, const Position& b, double by) {
+  const std::uint32_t axes = a.known & b.known;
+  for (std::size_t k = 0; k < a.value.size(); ++k) {
+    if ((axes >> k & 1U) != 0 && std::fabs(a.value[k] - b.value[k]) > by) return false;
+  }
+  return true;
+}
+
+std::string comp_after(const std::vector<const Event*>& events) {
+  std::string state;
+  for (const Event* e : events) {
+    if (e->kind == EventKind::comp) state = e->state;
+  }
+  return state;
+}
+
+}  // namespace
+
+const CycleRun* CyclePairs::run_at(std::size_t at, bool source) const {
+  const auto* runs = source ? options_.source_cycles : options_.target_cycles;
+  const auto& events = source ? a_ : b_;
+  if (runs == nullptr || at >= events.size()) return nullptr;
+  const std::size_t n = number(events[at], source);
+  const auto it = std::upper_bound(runs->begin(), runs->end(), n,
+                                   [](std::size_t value, const CycleRun& run) { return value < run.last; });
+  return it != runs->end() && it->first <= n ? &*it : nullptr;
+}
+
+const CycleRun* CyclePairs::begins(std::size_t i) const {
+  const auto* run = run_at(i, true);
+  return run != nullptr && (i == 0 || run_at(i - 1, true) != run) ? run : nullptr;
+}
+
+bool CyclePairs::about(const CycleRun& run, const PairPlace& start, const PairPlace& now) const {
+  if (now.i < a_.size() && now.i > 0 && number(a_[now.i - 1], true) >= run.last) {
+    // The source has left its cycle: the translation may still be in its own, which began where the source's did.
+    const auto* other = run_at(now.j, false);
+    return other != nullptr && now.j > start.j && run_at(now.j - 1, false) == other;
+  }
+  return true;
+}
+
+std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& start, double& max_length,
+                                          std::string& what) const {
+  PairPlace at = start;
+  CyclePasses source{&run, start.from_a, {}}, target{nullptr, start.from_b, {}};
+  const auto rapid = [this](std::size_t j) { return j < b_.size() && b_[j]->kind == EventKind::rapid; };
+  // The way to the translation's cycle.
+  std::size_t first = at.j;
+  while (run_at(first, false) == nullptr && rapid(first) && first - at.j < most_moves_around) ++first;
+  target.run = run_at(first, false);
+  if (target.run == nullptr) return std::nullopt;
+  if (first > 0 && run_at(first - 1, false) == target.run) return std::nullopt;  // in the middle of it
+  const auto take = [](const Event* e, CyclePasses& side, Position& from, std::size_t& k) {
+    side.events.push_back(e);
+    if (is_motion(e->kind)) from = e->to;
+    ++k;
+  };
+  while (at.i < a_.size() && number(a_[at.i], true) < run.last) take(a_[at.i], source, at.from_a, at.i);
+  while (at.j < b_.size() && (at.j < first || number(b_[at.j], false) < target.run->last))
+    take(b_[at.j], target, at.from_b, at.j);
+  const double by = options_.tolerances.length;
+  for (std::size_t k = 0; k < most_moves_around && !together(at.from_a, at.from_b, by); ++k) {
+    if (!rapid(at.j) || run_at(at.j, false) != nullptr) break;
+    take(b_[at.j], target, at.from_b, at.j);
+  }
+  what = similar_difference(source, target, options_.tolerances, max_length);
+  if (!what.empty()) return std::nullopt;
+  if (!together(at.from_a, at.from_b, by)) {
+    what = "the tool stands elsewhere behind the cycle";
+    return std::nullopt;
+  }
+  if (comp_after(source.events) != comp_after(target.events)) {
+    what = "radius compensation differs behind the cycle";
+    return std::nullopt;
+  }
+  return at;
+}
+
+}  // namespace cnctrans::verifier

@@ -1,0 +1,389 @@
+#include "verifier/similar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "base/text.h"
+#include "verifier/similar_thread.h"
+
+namespace cnctrans::verifier {
+
+using interpreter::CyclePoint;
+using interpreter::CycleRun;
+using interpreter::Event;
+using interpreter::EventKind;
+
+namespace {
+
+constexpr double step = 0.05;  ///< between the points at which a path is looked at, mm
+constexpr std::size_t cells = 4000;
+
+/// By role: `p` leads away from the part, the tool comes from plus q.
+struct Point {
+  double p = 0, q = 0;
+};
+using Line = std::vector<Point>;
+
+struct Frame {
+  bool face = false;
+  double out = 1, back = 1;
+  [[nodiscard]] Point of(double x, double z) const { return {out * (face ? z : x), back * (face ? x : z)}; }
+  [[nodiscard]] Line of(const std::vector<CyclePoint>& points) const {
+    Line line;
+    for (const auto& c : points) line.push_back(of(c.x, c.z));
+    return line;
+  }
+};
+
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.p - b.p, a.q - b.q);
+}
+double distance_to(const Line& line, const Point& t) {
+  double best = distance(line.front(), t);
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Point &a = line[i - 1], &b = line[i];
+    const double dp = b.p - a.p, dq = b.q - a.q, whole = dp * dp + dq * dq;
+    const double k = whole > 0 ? std::clamp(((t.p - a.p) * dp + (t.q - a.q) * dq) / whole, 0.0, 1.0) : 0;
+    best = std::min(best, distance({a.p + k * dp, a.q + k * dq}, t));
+  }
+  return best;
+}
+/// The greatest distance of a point of `a` from `b`, looked at every `step`.
+double farthest(const Line& a, const Line& b) {
+  double most = distance_to(b, a.front());
+  for (std::size_t i = 1; i < a.size(); ++i) {
+    const double parts = std::max(1.0, std::ceil(distance(a[i - 1], a[i]) / step));
+    for (double k = 1; k <= parts; ++k) {
+      const Point t{a[i - 1].p + (a[i].p - a[i - 1].p) * k / parts, a[i - 1].q + (a[i].q - a[i - 1].q) * k / parts};
+      most = std::max(most, distance_to(b, t));
+    }
+  }
+  return most;
+}
+/// The lowest point of the line within `room` of q; nullopt: it is not there.
+std::optional<double> height(const Line& line, double q, double room) {
+  std::optional<double> low;
+  const auto take = [&low](double p) { low = low ? std::min(*low, p) : p; };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Point &a = line[i - 1], &b = line[i];
+    const double from = std::max(std::min(a.q, b.q), q - room), to = std::min(std::max(a.q, b.q), q + room);
+    if (from > to) continue;
+    const double way = b.q - a.q;
+    for (const double at : {from, to}) {
+      if (std::fabs(way) < 1e-9) {
+        take(std::min(a.p, b.p));
+      } else {
+        take(a.p + (b.p - a.p) * (at - a.q) / way);
+      }
+    }
+  }
+  return low;
+}
+
+/// A move as points close to each other, by role.
+struct Move {
+  const Event* event = nullptr;
+  Line points;
+  bool comp = false;  ///< with radius compensation: the finishing pass
+};
+
+Line points_of(const Frame& f, const CyclePoint& from, const Event& e) {
+  const double x = e.to.value[ir::axis::x], z = e.to.value[ir::axis::z];
+  Line out{f.of(from.x, from.z)};
+  if (e.kind == EventKind::arc) {
+    const double r = std::hypot(from.x - e.center_v, from.z - e.center_u);
+    const double start = std::atan2(from.x - e.center_v, from.z - e.center_u);
+    double sweep = std::atan2(x - e.center_v, z - e.center_u) - start;
+    constexpr double full = 6.283185307179586;
+    if (!e.cw && sweep <= 0) sweep += full;
+    if (e.cw && sweep >= 0) sweep -= full;
+    const double parts = std::clamp(std::ceil(r * std::fabs(sweep) / step), 8.0, 1e5);
+    for (double k = 1; k < parts; ++k) {
+      const double a = start + sweep * k / parts;
+      out.push_back(f.of(e.center_v + r * std::sin(a), e.center_u + r * std::cos(a)));
+    }
+    out.push_back(f.of(x, z));
+    return out;
+  }
+  const double way = std::hypot(x - from.x, z - from.z), parts = std::clamp(std::ceil(way / step), 1.0, 1e5);
+  for (double k = 1; k <= parts; ++k)
+    out.push_back(f.of(from.x + (x - from.x) * k / parts, from.z + (z - from.z) * k / parts));
+  return out;
+}
+
+std::vector<Move> moves_of(const Frame& f, const CyclePasses& side) {
+  std::vector<Move> out;
+  CyclePoint at{side.start.value[ir::axis::x], side.start.value[ir::axis::z]};
+  bool comp = false;
+  for (const Event* e : side.events) {
+    if (e->kind == EventKind::comp) comp = e->state != "off";
+    if (e->kind != EventKind::rapid && e->kind != EventKind::linear && e->kind != EventKind::arc) continue;
+    out.push_back({e, points_of(f, at, *e), comp});
+    at = {e->to.value[ir::axis::x], e->to.value[ir::axis::z]};
+  }
+  return out;
+}
+
+bool cuts(const Event& e) {
+  return e.kind == EventKind::linear || e.kind == EventKind::arc;
+}
+
+/// The material over the contour, as columns along q: how high each still stands.
+class Columns {
+ public:
+  Columns(double from, double to) : from_(from), width_((to - from) / double(cells)), height_(cells + 1, none) {}
+  static constexpr double none = -std::numeric_limits<double>::infinity();
+
+  /// The tool passes: `up`, the highest that it comes; else what it leaves.
+  void pass(const Line& points, bool up) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Point &a = points[i - 1], &b = points[i];
+      const double way = b.q - a.q, low = (std::min(a.q, b.q) - from_) / width_, high = low + std::fabs(way) / width_;
+      const bool upright = std::fabs(way) < 1e-9;
+      const double first = upright ? std::round(low) : std::ceil(low - 1e-6);
+      const double last = upright ? first : std::floor(high + 1e-6);
+      for (double n = std::max(first, 0.0); n <= std::min(last, double(cells)); ++n) {
+        const auto k = static_cast<std::size_t>(n);
+        const double at = from_ + width_ * n;
+        const double part = std::fabs(way) < 1e-9 ? -1 : std::clamp((at - a.q) / way, 0.0, 1.0);
+        const double p = part < 0 ? (up ? std::max(a.p, b.p) : std::min(a.p, b.p)) : a.p + (b.p - a.p) * part;
+        height_[k] = up ? std::max(height_[k], p) : std::min(height_[k], p);
+      }
+    }
+  }
+  /// The lowest, or the highest, of the columns around q.
+  [[nodiscard]] double around(double q, bool lowest) const {
+    const std::size_t k = index(q);
+    double best = height_[k];
+    constexpr std::size_t by = 2;
+    for (std::size_t i = k < by ? 0 : k - by; i <= std::min(k + by, cells); ++i)
+      best = lowest ? std::min(best, height_[i]) : std::max(best, height_[i]);
+    return best;
+  }
+  [[nodiscard]] bool inside(double q) const { return q >= from_ && q <= from_ + width_ * double(cells); }
+  [[nodiscard]] double place(std::size_t k) const { return from_ + width_ * double(k); }
+  [[nodiscard]] double at(std::size_t k) const { return height_[k]; }
+
+ private:
+  [[nodiscard]] std::size_t index(double q) const {
+    return static_cast<std::size_t>(std::clamp(std::round((q - from_) / width_), 0.0, double(cells)));
+  }
+  double from_, width_;
+  std::vector<double> height_;
+};
+
+class Stock {
+ public:
+  Stock(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances)
+      : a_(source), b_(target), t_(tolerances) {}
+  double apart = 0;
+
+  std::string difference() {
+    const CycleRun &a = *a_.run, &b = *b_.run;
+    if (!a.comparable || !b.comparable) return "the frame of a cycle turns or scales its axes";
+    if (a.face != b.face || a.out != b.out) return "the passes of the two cycles come from different sides";
+    if (a.rough.empty() != b.rough.empty() || a.finish.empty() != b.finish.empty())
+      return fmt::format("the cycle {} there, {} here", work(a), work(b));
+    if (a.rough.empty() && a.finish.empty()) return "the contour of a cycle is not known";
+    const auto& contour = a.rough.empty() ? a.finish : a.rough;
+    frame_ = {a.face, a.out, 1};
+    const Line plain = frame_.of(contour);
+    const Point low = plain.front().p <= plain.back().p ? plain.front() : plain.back();
+    const Point high = plain.front().p <= plain.back().p ? plain.back() : plain.front();
+    if (low.q < high.q) frame_.back = -1;
+    for (const bool finish : {false, true}) {
+      const std::string what = contours(finish);
+      if (!what.empty()) return what;
+    }
+    const auto there = moves_of(frame_, a_), here = moves_of(frame_, b_);
+    std::string what = feeds(there, here);
+    if (what.empty()) what = below(there, "source");
+    if (what.empty()) what = below(here, "translation");
+    if (what.empty()) what = material(there, here);
+    return what;
+  }
+
+ private:
+  static std::string work(const CycleRun& run) {
+    if (!run.rough.empty()) return run.finish.empty() ? "only roughs" : "roughs and finishes";
+    return run.finish.empty() ? "does nothing" : "only finishes";
+  }
+  [[nodiscard]] Line contour(const CycleRun& run, bool finish) const {
+    return frame_.of(finish ? run.finish : run.rough);
+  }
+
+  std::string contours(bool finish) {
+    const Line a = contour(*a_.run, finish), b = contour(*b_.run, finish);
+    if (a.empty()) return {};
+    const double far = std::max(farthest(a, b), farthest(b, a));
+    if (far > t_.contour)
+      return fmt::format("the contours that the two cycles {} are {} mm apart", finish ? "finish" : "leave",
+                         rounded(far, 4));
+    apart = std::max(apart, far);
+    return {};
+  }
+
+  std::string feeds(const std::vector<Move>& there, const std::vector<Move>& here) const {
+    for (const bool finishing : {false, true}) {
+      for (const auto& m : here) {
+        if (!cuts(*m.event) || m.comp != finishing) continue;
+        const bool known = std::any_of(there.begin(), there.end(), [&](const Move& o) {
+          return cuts(*o.event) && o.comp == finishing && o.event->feed_mode == m.event->feed_mode &&
+                 std::fabs(o.event->feed - m.event->feed) <= t_.feed_relative * std::max(1.0, o.event->feed);
+        });
+        if (!known)
+          return fmt::format("a pass of the translation's cycle has the feed {} ({}), none of the source's has",
+                             shortest(m.event->feed), ir::name(m.event->feed_mode));
+      }
+    }
+    return {};
+  }
+
+  /// No pass, and no rapid move, under the contour that is to stay.
+  std::string below(const std::vector<Move>& moves, std::string_view side) const {
+    const CycleRun& run = *a_.run;  // the contours agree
+    const Line rough = contour(run, false), finish = contour(run, true);
+    bool finished = rough.empty();
+    for (const auto& m : moves) {
+      finished = finished || (m.comp && !finish.empty());
+      const Line& bound = (cuts(*m.event) ? (m.comp || rough.empty()) : finished) && !finish.empty() ? finish : rough;
+      double end = bound.front().q;
+      for (const auto& p : bound) end = std::min(end, p.q);
+      for (const auto& p : m.points) {
+        const auto floor = height(bound, p.q, t_.contour);
+        const bool beyond = p.q < end - t_.contour && p.p < highest(bound) + t_.contour;
+        if (!beyond && (!floor || p.p >= *floor - t_.contour)) continue;
+        return fmt::format("a {} of the cycle in the {} goes {} the contour, at {}", interpreter::name(m.event->kind),
+                           side, beyond ? "beyond the end of" : "below", said(p));
+      }
+    }
+    return {};
+  }
+  static double highest(const Line& line) {
+    double p = line.front().p;
+    for (const auto& t : line) p = std::max(p, t.p);
+    return p;
+  }
+  [[nodiscard]] std::string said(const Point& t) const {
+    const double u = frame_.out * t.p, v = frame_.back * t.q;
+    return fmt::format("X{} Z{}", rounded(frame_.face ? v : u, 3), rounded(frame_.face ? u : v, 3));
+  }
+
+  /// What the source's passes cut is taken for the blank: the translation may leave no more of it, and may not move
+  /// through it in rapid.
+  std::string material(const std::vector<Move>& there, const std::vector<Move>& here) const {
+    const Line bound = contour(*a_.run, a_.run->rough.empty());
+    double from = bound.front().q, to = from;
+    for (const auto& p : bound) {
+      from = std::min(from, p.q);
+      to = std::max(to, p.q);
+    }
+    if (to - from < 1e-6) return {};
+    Columns blank(from, to);
+    for (const auto& m : there) {
+      if (cuts(*m.event)) blank.pass(clipped(m.points, from, to), true);
+    }
+    Columns left = blank, mine = blank;
+    std::string what;
+    for (const bool finishing : {false, true}) {
+      for (const auto& m : there) {
+        if (cuts(*m.event) && m.comp == finishing) left.pass(clipped(m.points, from, to), false);
+      }
+      for (const auto& m : here) {
+        if (!cuts(*m.event)) {
+          if (!finishing && what.empty()) what = dives(m, mine);
+        } else if (m.comp == finishing) {
+          mine.pass(clipped(m.points, from, to), false);
+        }
+      }
+      if (what.empty()) what = more(mine, left);
+    }
+    return what;
+  }
+  /// Through what still stands, in rapid.
+  std::string dives(const Move& m, const Columns& mine) const {
+    for (const auto& p : m.points) {
+      if (mine.inside(p.q) && p.p < mine.around(p.q, true) - 2 * t_.contour)
+        return "a rapid move of the translation's cycle goes through material that is not cut yet, at " + said(p);
+    }
+    return {};
+  }
+  std::string more(const Columns& mine, const Columns& left) const {
+    for (std::size_t k = 0; k <= cells; ++k) {
+      if (left.at(k) == Columns::none) continue;
+      const double q = left.place(k);
+      if (mine.at(k) > left.around(q, false) + 2 * t_.contour)
+        return "the translation's cycle leaves more than the source's, at " + said({mine.at(k), q});
+    }
+    return {};
+  }
+  /// The part of a move over the contour.
+  static Line clipped(const Line& points, double from, double to) {
+    Line out;
+    const auto cut = [](const Point& a, const Point& b, double q) {
+      return Point{a.p + (b.p - a.p) * (q - a.q) / (b.q - a.q), q};
+    };
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      Point a = points[i - 1], b = points[i];
+      if (std::max(a.q, b.q) < from || std::min(a.q, b.q) > to) continue;
+      const Point whole_a = a, whole_b = b;
+      for (Point* end : {&a, &b}) {
+        if (end->q < from) *end = cut(whole_a, whole_b, from);
+        if (end->q > to) *end = cut(whole_a, whole_b, to);
+      }
+      if (out.empty()) out.push_back(a);
+      out.push_back(b);
+    }
+    return out;
+  }
+
+  const CyclePasses &a_, &b_;
+  const Tolerances& t_;
+  Frame frame_;
+};
+
+/// Other things than moves that a cycle does must be the same.
+std::string beside_the_moves(const CyclePasses& a, const CyclePasses& b) {
+  const auto of = [](const CyclePasses& side) {
+    std::multiset<std::string> found;
+    for (const Event* e : side.events) {
+      if (e->kind == EventKind::dwell) found.insert("a dwell of " + shortest(e->amount));
+      if (e->kind == EventKind::comp && e->state != "off") found.insert("compensation " + e->state);
+      const bool other = e->kind != EventKind::comp && e->kind != EventKind::dwell && e->kind != EventKind::rapid &&
+                         !cuts(*e) && e->kind != EventKind::thread;
+      if (other) found.insert(std::string(interpreter::name(e->kind)) + " " + e->state);
+    }
+    return found;
+  };
+  const auto there = of(a), here = of(b);
+  if (there == here) return {};
+  for (const auto& what : there) {
+    if (here.count(what) < there.count(what)) return "the translation's cycle lacks " + what;
+  }
+  for (const auto& what : here) {
+    if (there.count(what) < here.count(what)) return "the translation's cycle has " + what + " besides";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string similar_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances,
+                               double& max_length) {
+  if (source.run->family != target.run->family) return "the cycles are of different kinds";
+  const std::string what = beside_the_moves(source, target);
+  if (!what.empty()) return what;
+  if (source.run->family == "thread") return thread_difference(source, target, tolerances, max_length);
+  if (source.run->family != "stock") return "cycles of this kind are compared move by move";
+  Stock stock(source, target, tolerances);
+  std::string found = stock.difference();
+  max_length = std::max(max_length, stock.apart);
+  return found;
+}
+
+}  // namespace cnctrans::verifier
