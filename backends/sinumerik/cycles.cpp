@@ -13,6 +13,7 @@
 #include "dialects/sinumerik/turning.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/mill_contour.h"
+#include "ir/cycles/milling.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {
@@ -234,23 +235,47 @@ std::string_view bore(const HoleCycle& c, Arguments& args) {
   }
 }
 
+/// The words of a milling cycle under the names of the row's parameters; false: some have none.
+bool mill_words(const HoleCycle& c, const dialect::MillingCycle& row, std::string_view call, Arguments& words) {
+  const auto parameter = [&row](std::string_view name) -> std::string_view {
+    for (const auto& [own, word] : row.parameters) {
+      if (!own.empty() && name == word) return own;
+    }
+    return {};
+  };
+  Arguments kept;
+  for (const auto& [name, value] : c.mill.words) {
+    if (ir::cycles::is_contour_word(name)) {
+      words[std::string(dialect::mill_contour_parameter)] = Value(0);  // its text comes with the call
+    } else if (ir::cycles::is_kept_word(name)) {
+      kept[name.substr(ir::cycles::kept_word.size())] = value;
+    } else if (const auto own = parameter(name); !own.empty()) {
+      words[std::string(own)] = value;
+    } else if (name == "step_factor" && !parameter("step").empty()) {  // AMODE, which is kept, says so
+      words[std::string(parameter("step"))] = ir::scale(value, 100);
+    } else {
+      return false;
+    }
+  }
+  for (const auto& [own, value] : kept) words[own] = value;
+  const bool percent =
+      words.count("AMODE") != 0 && words["AMODE"].literal() && static_cast<long>(words["AMODE"].number) / 10 % 10 == 1;
+  const auto has = [&c](std::string_view name) {
+    return std::any_of(c.mill.words.begin(), c.mill.words.end(), [name](const auto& w) { return w.first == name; });
+  };
+  if (has("step_factor") != (percent && !has("step"))) return false;
+  return std::all_of(words.begin(), words.end(), [call](const auto& w) {
+    return dialect::parameter_index(call, w.first) >= 0 || w.first == "DPR";
+  });
+}
+
 /// A milling cycle with a parameter for every word; planes and depth are there already.
 std::string_view mill(const HoleCycle& c, Arguments& args) {
   for (const auto& row : dialect::milling_cycles) {
     if (row.shape != c.mill.shape) continue;
     Arguments words = args;
-    auto found = static_cast<std::size_t>(std::count_if(
-        c.mill.words.begin(), c.mill.words.end(), [](const auto& w) { return ir::cycles::is_contour_word(w.first); }));
-    if (found > 0) words[std::string(dialect::mill_contour_parameter)] = Value(0);  // its text comes with the call
-    for (const auto& [own, word] : row.parameters) {
-      for (const auto& [name, value] : c.mill.words) {
-        if (own.empty() || name != word) continue;
-        words[std::string(own)] = value;
-        ++found;
-      }
-    }
     const auto* call = dialect::cycle(row.name);
-    bool all = found == c.mill.words.size();
+    bool all = mill_words(c, row, call->parameters, words);
     for (std::string_view rest = row.needs; !rest.empty();) {
       const auto comma = std::min(rest.find(','), rest.size());
       all = all && words.count(rest.substr(0, comma)) != 0;
@@ -259,7 +284,7 @@ std::string_view mill(const HoleCycle& c, Arguments& args) {
     if (!all) continue;
     if (words.count("DPR") != 0 && dialect::parameter_index(*call, "DPR") < 0) {  // DP as an increment
       words["DP"] = words["DPR"];
-      words["AMODE"] = Value(1);
+      if (words.count("AMODE") == 0) words["AMODE"] = Value(1);
       words.erase("DPR");
     }
     args = std::move(words);
@@ -275,8 +300,9 @@ std::string_view arguments(const HoleCycle& c, Arguments& args) {
   if ((c.has_feed || c.has_feed_out) && !reams) return {};
   if (c.reference_may_be_below || c.approach_by_retract || c.keeps_initial) return {};
   const bool pecking = c.kind == HoleKind::peck_full || c.kind == HoleKind::peck_break;
-  if (c.axis != ir::axis::none && (!(pecking || taps) || c.axis > ir::axis::z)) return {};
-  if (c.axis != ir::axis::none) args["AXN"] = Value(c.axis + 1);
+  const bool named = pecking || taps || (c.kind == HoleKind::mill && c.axis != ir::axis::none);
+  if (c.axis != ir::axis::none && (!named || c.axis > ir::axis::z)) return {};
+  if (c.axis != ir::axis::none && c.kind != HoleKind::mill) args["AXN"] = Value(c.axis + 1);  // milling: by its DMODE
   if (!c.retract.given || c.retract.base != LevelBase::absolute) return {};
   args["RTP"] = c.retract.value;
   if (!planes(c, args) || !bottom(c, args)) return {};

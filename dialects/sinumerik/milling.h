@@ -7,8 +7,11 @@
 
 namespace cnctrans::sinumerik {
 
-/// Trailing parameters of the newer signatures that are carried as 0 only.
-inline constexpr std::string_view unread_milling_modes = "UMODE,FS,ZFS,GMODE,DMODE";
+/// Trailing parameters of the newer signatures that change nothing in the machinings that are carried: size and depth
+/// of a chamfer, and how the cycle was entered. They are kept, and written again.
+inline constexpr std::string_view kept_milling_modes = "FS,ZFS,GMODE,DMODE,AMODE,LIM";
+/// The step in the plane, which AMODE may count in hundredths of the tool's diameter.
+inline constexpr std::string_view step_parameter = "MIDA";
 
 /// What the size of a round spigot and of its blank is: the tables differ.
 inline constexpr std::string_view spigot_option = "sinumerik.spigot_size";
@@ -48,7 +51,7 @@ inline constexpr std::array milling_cycles = {
                    {"FFP1", "mill_feed"}, {"MID", "infeed"}, {"CDIR", "sense"}, {"FAL", "wall_stock"},
                    {"VARI", "operation"}, {"MIDF", "finish_infeed"}, {"FFP2", "finish_feed"}, {"SSF", "finish_speed"},
                    {"FALD", "floor_stock"}}},
-                 "NUM,LENG,WID,CPA,CPO,RAD,STA1", "0,1,2", "STA2"},
+                 "NUM,LENG,WID,CPA,CPO,RAD,STA1", "0,1,2", "STA2,DP1"},
     MillingCycle{"SLOT2", "slot.ring",
                  {{{"NUM", "count"}, {"AFSL", "opening"}, {"WID", "width"}, {"CPA", "u"}, {"CPO", "v"},
                    {"RAD", "radius"}, {"STA1", "angle"}, {"INDA", "angle_step"}, {"FFD", "plunge_feed"},
@@ -66,6 +69,10 @@ inline constexpr std::array milling_cycles = {
                    {"MIDA", "step"}, {"FDP", "overrun"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
                    {"VARI", "variant"}, {"FDP1", "overrun_across"}}},
                  "PA,PO,LENG,WID,MID,VARI", "11,12,21,22,31,32,41,42", ""},
+    MillingCycle{"CYCLE61", "face",
+                 {{{"PA", "u"}, {"PO", "v"}, {"LENG", "length"}, {"WID", "width"}, {"MID", "infeed"}, {"MIDA", "step"},
+                   {"FALD", "floor_stock"}, {"FFP1", "mill_feed"}, {"VARI", "variant"}}},
+                 "PA,PO,LENG,WID,MID,VARI", "11,12,21,22,31,32,41,42", "LIM"},
     MillingCycle{"CYCLE72", "path",
                  {{{"MID", "infeed"}, {"FAL", "wall_stock"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
                    {"FFD", "plunge_feed"}, {"VARI", "variant"}, {"RL", "side"}, {"AS1", "approach"},

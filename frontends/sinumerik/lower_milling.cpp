@@ -1,10 +1,13 @@
 // Planes of drilling and milling cycles, words of milling cycles (reference-language 18.1, 18.3).
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "base/saturate.h"
 #include "base/text.h"
 #include "frontends/sinumerik/cycle_arguments.h"
+#include "ir/cycles/milling.h"
 
 namespace cnctrans::sinumerik {
 
@@ -60,29 +63,73 @@ void each_name(std::string_view list, Each each) {
   }
 }
 
-/// The modes behind the newer signatures: only those that mean the same as none, and the sense of the depth.
-bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
-  bool good = true;
-  each_name(unread_milling_modes, [&](std::string_view mode) {
-    if (!a.says(mode)) return;
-    c.error("SIN-021", pos, "this value of " + std::string(mode) + " is not carried yet: 0 is");
-    good = false;
-  });
-  if (!good || !a.says("AMODE")) return good;
-  const ir::Value mode = a.get("AMODE");
-  const int depth = mode.literal() ? saturate<int>(mode.number) % 10 : -1;
-  if (depth < 0 || depth > 2 || mode.number >= 10) {
-    c.error("SIN-021", pos, "this AMODE is not carried yet: 0, 1 and 2 are");
-    return false;
+/// A number made of digits; nullopt: it is none, or an expression.
+std::optional<long> digits_of(const ir::Value& v) {
+  if (!v.literal() || v.number < 0 || v.number > 999999 || v.number != std::floor(v.number)) return std::nullopt;
+  return saturate<long>(v.number);
+}
+long digit(long number, int place) {
+  for (; place > 0; --place) number /= 10;
+  return number % 10;
+}
+
+/// Digits of `mode` from the units on are at most those of `most`; what lies beyond is 0.
+bool within(const Arguments& a, std::string_view mode, std::string_view most, FileContext& c, WordPos pos) {
+  const auto n = digits_of(a.get(mode));
+  bool good = n.has_value();
+  for (int place = 0; good && place < 6; ++place) {
+    const long limit = static_cast<std::size_t>(place) < most.size() ? most[static_cast<std::size_t>(place)] - '0' : 0;
+    good = digit(*n, place) <= limit;
   }
-  if (depth == 1 && hole.bottom.base == ir::LevelBase::absolute)
+  if (!good) c.error("SIN-021", pos, "this value of " + std::string(mode) + " is not carried yet");
+  return good;
+}
+
+void keep(std::string_view own, const ir::Value& v, ir::HoleCycle& hole) {
+  hole.mill.words.emplace_back(std::string(ir::cycles::kept_word) + std::string(own), v);
+}
+
+/// The modes behind the newer signatures: the plane, the sense of the depth, the unit of the step; the others as far as
+/// they change nothing.
+bool modes(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  const bool step = std::any_of(cycle.parameters.begin(), cycle.parameters.end(),
+                                [](const auto& p) { return p.first == step_parameter; });
+  const bool chamfers = a.says("FS") || a.says("ZFS");  // the third digit of AMODE is that of ZFS
+  if (a.says("UMODE") && !within(a, "UMODE", "", c, pos)) return false;
+  if (a.says("GMODE") && !within(a, "GMODE", "00111", c, pos)) return false;
+  if (a.says("DMODE") && !within(a, "DMODE", "399999", c, pos)) return false;
+  if (a.says("AMODE") && !within(a, "AMODE", chamfers ? (step ? "211" : "201") : step ? "21" : "2", c, pos))
+    return false;
+  if (a.says("GMODE"))
+    c.warning("SIN-021", pos,
+              "this value of GMODE is taken as the whole machining, dimensioned from the middle of the shape");
+  const auto mode = digits_of(a.get("AMODE")).value_or(0), plane = digits_of(a.get("DMODE")).value_or(0) % 10;
+  constexpr ir::AxisId normals[] = {ir::axis::none, ir::axis::z, ir::axis::y, ir::axis::x};
+  hole.axis = normals[plane];
+  if (mode % 10 == 1 && hole.bottom.base == ir::LevelBase::absolute)
     hole.bottom = level(ir::negate(absolute_value(a.get("DP"))), ir::LevelBase::from_surface);
+  each_name(kept_milling_modes, [&](std::string_view own) {
+    if (a.given(own)) keep(own, a.get(own), hole);
+  });
   return true;
 }
 
-/// What the variant says besides roughing and finishing is carried as far as the expansion has it.
-bool variant(const MillingCycle& cycle, const Arguments& a, FileContext& c, WordPos pos) {
+/// The word of the IR and its value. A step in hundredths of the tool's diameter is a factor.
+std::pair<std::string_view, ir::Value> word_of(std::string_view own, std::string_view word, const Arguments& a) {
+  const bool percent = own == step_parameter && digit(digits_of(a.get("AMODE")).value_or(0), 1) == 1;
+  if (percent && a.says(own)) return {"step_factor", ir::scale(a.get(own), 0.01)};
+  return {word, a.get(own)};
+}
+
+/// Thousands of VARI: the way from one slot to the next. A single slot has none, and the digit is only kept.
+ir::Value single_slot(const Arguments& a) {
   const ir::Value v = a.get("VARI");
+  const auto n = digits_of(v);
+  return n && a.given("NUM") && a.get("NUM").is(1) && *n / 1000 == 1 ? ir::Value(static_cast<double>(*n % 1000)) : v;
+}
+
+/// What the variant says besides roughing and finishing is carried as far as the expansion has it.
+bool variant(const MillingCycle& cycle, const ir::Value& v, FileContext& c, WordPos pos) {
   if (cycle.variants.empty() || !v.literal()) return true;
   const std::string text = std::to_string(saturate<int>(v.number));
   bool found = false;
@@ -107,7 +154,8 @@ bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle&
     c.error("SIN-021", pos, std::string(cycle.name) + " with " + std::string(own) + " is not carried yet");
     good = false;
   });
-  if (!good || !variant(cycle, a, c, pos) || !modes(a, hole, c, pos)) return false;
+  const ir::Value vari = single_slot(a);
+  if (!good || !variant(cycle, vari, c, pos) || !modes(cycle, a, hole, c, pos)) return false;
   hole.kind = ir::HoleKind::mill;
   hole.mill.shape = std::string(cycle.shape);
   if (a.given(mill_contour_parameter)) {
@@ -121,8 +169,12 @@ bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle&
     contour_words(std::string(trim(text->text)), hole.mill.words);
   }
   for (const auto& [own, word] : cycle.parameters) {
-    if (!own.empty() && a.given(own)) hole.mill.words.emplace_back(std::string(word), a.get(own));
+    if (own.empty() || !a.given(own)) continue;
+    auto [name, value] = word_of(own, word, a);
+    hole.mill.words.emplace_back(std::string(name), own == "VARI" ? vari : value);
   }
+  if (a.given("VARI") && !(vari.literal() && a.get("VARI").is(vari.number)) && vari.literal())
+    keep("VARI", a.get("VARI"), hole);
   return true;
 }
 

@@ -166,7 +166,7 @@ std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& unit
     return std::nullopt;
   }
   for (const auto& [word, v] : words.words) {
-    if (is_contour_word(word)) continue;
+    if (is_contour_word(word) || is_kept_word(word)) continue;
     const auto* p = find_mill_parameter(word);
     if (p == nullptr || !in_list(out.shape->parameters, word)) {
       *error = "the milling cycle " + words.shape + " has no parameter " + word;

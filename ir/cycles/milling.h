@@ -67,6 +67,12 @@ struct MillNumbers {
 std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& units, const Evaluate& evaluate,
                                    std::string* error);
 
+/// A word that a control's own cycle is written with and that changes no move ("kept.DMODE").
+inline constexpr std::string_view kept_word = "kept.";
+inline bool is_kept_word(std::string_view word) {
+  return word.starts_with(kept_word);
+}
+
 /// Which way round the tool goes follows from `sense` (the shape has walls).
 bool has_sense(const MillNumbers& mill);
 
