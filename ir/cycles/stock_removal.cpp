@@ -405,6 +405,27 @@ bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string*
   return true;
 }
 
+/// The blank lies below the part (a bore): on which side of the profile the area between both is. `lines`: the blank,
+/// closed toward the ends of the profile.
+static bool below_part(const std::vector<ProfileElement>& part, const std::vector<ProfileElement>& lines,
+                       const Orientation& o) {
+  std::vector<RolePoint> way;
+  for (const auto& e : part) way.push_back(o.in(e.from));
+  way.push_back(o.in(part.back().to));
+  const double run = way.back().q - way.front().q;
+  const std::size_t edge = way.size();
+  for (std::size_t k = 1; k < lines.size(); ++k) way.push_back(o.in(lines[k].from));
+  const RolePoint last = o.in(part.back().to), first = o.in(lines.front().from);
+  if (std::hypot(last.p - first.p, last.q - first.q) > tiny)
+    std::reverse(way.begin() + static_cast<std::ptrdiff_t>(edge), way.end());
+  double area = 0;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const RolePoint a = way[k], b = way[(k + 1) % way.size()];
+    area += a.q * b.p - b.q * a.p;
+  }
+  return area * run < -tiny;
+}
+
 bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* error) {
   const double step = std::abs(r.number(face ? "axial_step" : "step"));
   if (step < tiny) return *error = "the pass of the cycle is not greater than zero", false;
@@ -425,8 +446,7 @@ bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* e
     std::swap(head, tail);
   lines.insert(lines.begin(), {tail, points.front(), false, false, {}});
   lines.push_back({points.back(), head, false, false, {}});
-  const Chain raw = split(chain_of(context.profile->part, o)), stock = chain_of(lines, o);
-  o.sp = highest(stock) < highest(raw) - tiny && lowest(stock) < lowest(raw) - tiny ? -1 : 1;
+  o.sp = below_part(context.profile->part, lines, o) ? -1 : 1;
   const auto part = oriented(context.profile, o, error);
   if (!part) return false;
   const double x = r.number("stock_x"), z = r.number("stock_z");  // signed along the axes
