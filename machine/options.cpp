@@ -22,6 +22,10 @@ constexpr std::array specs{
                "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
+    OptionSpec{
+        "cycle.relief_edge", "usual|refused", "usual",
+        "an undercut whose side follows from a tool of which the profile gives no nose 1 to 4: outside (DIN 76 C "
+        "and D inside) with the shoulder toward -Z, or refused"},
     OptionSpec{"cycle.rotary_triggers", "no|yes", "no", "a rotary axis word alone runs the modal hole cycle too"},
     OptionSpec{"cycle.face_groove_left", "unknown|larger_x|smaller_x", "unknown",
                "where the left start of a shaped groove in the face lies; unknown: such grooves are refused"},

@@ -6,6 +6,7 @@ namespace cnctrans::machine {
 
 void tell_tool(const Profile& profile, std::optional<std::int32_t> number, ir::cycles::TurnContext& out) {
   out.edge_at_plus = profile.option("cycle.groove_edge") == "plus";
+  out.usual_relief = profile.option("cycle.relief_edge") != "refused";
   const std::string left = profile.option("cycle.face_groove_left");
   if (left == "larger_x" || left == "smaller_x") out.left_is_larger = left == "larger_x";
   const auto& tools = profile.tools;

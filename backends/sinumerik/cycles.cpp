@@ -399,7 +399,9 @@ std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(c
     const int at = dialect::parameter_index(*row, word);
     if (at < 0) continue;
     if (texts.size() <= static_cast<std::size_t>(at)) texts.resize(static_cast<std::size_t>(at) + 1);
-    texts[static_cast<std::size_t>(at)] = print(value);
+    const bool letter = word == dialect::form_parameter && value.literal();
+    texts[static_cast<std::size_t>(at)] =
+        letter ? std::string{'"', static_cast<char>(saturate<int>(value.number)), '"'} : print(value);
   }
   if (!contour.empty()) {
     texts.resize(std::max<std::size_t>(texts.size(), 1));

@@ -7,6 +7,8 @@
 
 namespace cnctrans::sinumerik {
 
+/// The parameter that is a fixed letter, and what a call may write there.
+inline constexpr std::string_view form_parameter = "FORM";
 /// The parameter that names a contour: a subprogram, or two labels with a colon between them.
 inline constexpr std::string_view contour_parameter = "NPP";
 
@@ -26,6 +28,17 @@ inline constexpr std::array turning_cycles = {
                    {"IDEP", "step"}, {"DTB", "base_dwell"}, {"VARI", "variant"}, {"VRT", "withdrawal"},
                    {"DN", "second_edge"}}},
                  "SPD,SPL,WIDG,DIAG,IDEP,VARI"},
+    TurningCycle{"CYCLE94", "relief.shoulder",
+                 {{{"SPD", "x"}, {"SPL", "z"}, {"FORM", "form"}, {"VARI", "quadrant"}}}, "SPD,SPL,FORM"},
+    TurningCycle{"CYCLE96", "relief.thread",
+                 {{{"DIATH", "nominal"}, {"SPL", "z"}, {"FORM", "form"}, {"VARI", "quadrant"}}}, "DIATH,SPL,FORM"},
+    TurningCycle{"CYCLE940", "relief.placed",
+                 {{{"SPD", "nominal"}, {"SPL", "z"}, {"FORM", "form"}, {"LAGE", "position"}, {"SDIS", "clearance"},
+                   {"FFP", "finish_feed"}, {"VARI", "variant"}, {"EPD", "spare_1"}, {"EPL", "spare_2"},
+                   {"R1", "spare_3"}, {"R2", "spare_4"}, {"STA", "spare_5"}, {"VRT", "spare_6"}, {"MID", "spare_7"},
+                   {"FAL", "spare_8"}, {"FALX", "spare_9"}, {"FALZ", "spare_10"}, {"PITI", "spare_11"},
+                   {"PTAB", "spare_12"}, {"PTABA", "spare_13"}, {"DMODE", "display"}, {"AMODE", "spare_14"}}},
+                 "SPD,SPL,FORM,LAGE"},
     TurningCycle{"CYCLE95", "stock.contour",
                  {{{"MID", "step"}, {"FALZ", "stock_z"}, {"FALX", "stock_x"}, {"FAL", "stock"}, {"FF1", "rough_feed"},
                    {"FF2", "groove_feed"}, {"FF3", "finish_feed"}, {"VARI", "variant"}, {"DT", "chip_dwell"},

@@ -64,11 +64,31 @@ ir::CyclePtr StatementLowering::turning(const std::string& name, const std::vect
   for (const auto& [own, neutral] : cycle.parameters) {
     const Expr* e = own.empty() ? nullptr : at(own);
     if (e == nullptr) continue;
+    if (own == form_parameter || e->kind == ExprKind::string) {
+      const std::string text = e->kind == ExprKind::string ? std::string(e->text) : std::string();
+      if (own == form_parameter && (text.size() != 1 || text[0] < 'A' || text[0] > 'Z'))
+        c_.error("SIN-021", e->pos, "the form of " + name + " is one fixed capital letter");
+      else if (own == form_parameter)
+        out.words.emplace_back(std::string(neutral), ir::Value(static_cast<double>(text[0])));
+      else if (text.empty())
+        out.words.emplace_back(std::string(neutral), ir::Value(ir::string_literal(text)));
+      else
+        c_.error("SIN-021", e->pos, name + " with " + std::string(own) + " is not carried yet");
+      continue;
+    }
     Attribute attribute = Attribute::none;
     out.words.emplace_back(std::string(neutral), exprs_.value_of(*e, attribute));
     if (attribute != Attribute::none)
       c_.error("SIN-012", e->pos, "AC() and IC() have no meaning in the call of a cycle");
   }
+  const Expr* side = at("VARI");
+  const bool by_tool = parameter_index(row, form_parameter) >= 0 && parameter_index(row, "LAGE") < 0 &&
+                       (side == nullptr || (side->kind == ExprKind::number && side->number == 0));
+  const auto& tools = c_.machine.profile->tools;
+  if (by_tool && std::none_of(tools.begin(), tools.end(), [](const auto& t) { return t.nose >= 1 && t.nose <= 4; }))
+    c_.warning("SIN-021", pos,
+               "the side of the undercut follows from the edge of the tool, and no tool of the machine has one "
+               "(\"nose\"): it is taken outside (forms C and D inside), the shoulder toward -Z");
   if (c_.errors != before) return nullptr;
   auto made = std::make_shared<ir::Cycle>();
   made->node = std::move(out);

@@ -22,6 +22,15 @@ constexpr std::array coarse = {
     Nominal{24, 3},    Nominal{27, 3},   Nominal{30, 3.5}, Nominal{33, 3.5}, Nominal{36, 4},   Nominal{39, 4},
     Nominal{42, 4.5},  Nominal{45, 4.5}, Nominal{48, 5},   Nominal{52, 5},   Nominal{56, 5.5}, Nominal{60, 5.5}};
 
+}  // namespace
+
+double coarse_pitch(double size) {
+  const auto row = std::find_if(coarse.begin(), coarse.end(), [size](const Nominal& n) { return n.size == size; });
+  return row == coarse.end() ? 0 : row->pitch;
+}
+
+namespace {
+
 bool pitch_of(const Roles& r, double& pitch, std::string* error) {
   pitch = std::abs(r.number("pitch"));
   const double size = r.number("size");
@@ -29,11 +38,11 @@ bool pitch_of(const Roles& r, double& pitch, std::string* error) {
     if (pitch < tiny) return *error = "the thread has no pitch", false;
     return true;
   }
-  const auto row = std::find_if(coarse.begin(), coarse.end(), [size](const Nominal& n) { return n.size == size; });
-  if (row == coarse.end()) return *error = "the thread has a size without a coarse pitch", false;
-  if (pitch > tiny && std::abs(pitch - row->pitch) > tiny)
+  const double usual = coarse_pitch(size);
+  if (usual == 0) return *error = "the thread has a size without a coarse pitch", false;
+  if (pitch > tiny && std::abs(pitch - usual) > tiny)
     return *error = "the pitch of the thread is not that of its size", false;
-  pitch = row->pitch;
+  pitch = usual;
   return true;
 }
 

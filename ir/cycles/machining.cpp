@@ -95,6 +95,26 @@ constexpr std::array parameters = {
     Parameter{"stock_flank", Quantity::length},
     Parameter{"base_dwell", Quantity::plain},
     Parameter{"second_edge", Quantity::plain},
+    Parameter{"form", Quantity::plain},
+    Parameter{"quadrant", Quantity::plain},
+    Parameter{"position", Quantity::plain},
+    Parameter{"nominal", Quantity::length},
+    Parameter{"display", Quantity::plain},
+    // Words of newer signatures: carried, and only 0 is carried out.
+    Parameter{"spare_1", Quantity::plain},
+    Parameter{"spare_2", Quantity::plain},
+    Parameter{"spare_3", Quantity::plain},
+    Parameter{"spare_4", Quantity::plain},
+    Parameter{"spare_5", Quantity::plain},
+    Parameter{"spare_6", Quantity::plain},
+    Parameter{"spare_7", Quantity::plain},
+    Parameter{"spare_8", Quantity::plain},
+    Parameter{"spare_9", Quantity::plain},
+    Parameter{"spare_10", Quantity::plain},
+    Parameter{"spare_11", Quantity::plain},
+    Parameter{"spare_12", Quantity::plain},
+    Parameter{"spare_13", Quantity::plain},
+    Parameter{"spare_14", Quantity::plain},
 };
 
 using Kind = MachiningKind;
@@ -120,6 +140,9 @@ constexpr std::array cycles = {
     MachiningCycle{"stock.contour", Kind::profile, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.blank", Kind::profile, false, false, false},
     MachiningCycle{"groove.shaped", Kind::shaped, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"relief.shoulder", Kind::shaped, false, true, false, CycleEnd::elsewhere},
+    MachiningCycle{"relief.thread", Kind::shaped, false, true, false, CycleEnd::elsewhere},
+    MachiningCycle{"relief.placed", Kind::shaped, false, true, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.groove", Kind::profile, false, false, false},
     MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
@@ -204,6 +227,15 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
   } else if (cycle.name == "stock.blank" || cycle.name == "stock.groove") {
     face = numbers.contains("axial_step");
   }
+  for (const auto& [name, value] : numbers) {
+    if (!name.starts_with("spare_") || value == 0) continue;
+    *error = "parameters of the cycle's newer signature other than 0 are not carried out";
+    return std::nullopt;
+  }
+  if (const auto it = numbers.find("display"); it != numbers.end() && it->second != 0 && it->second != 2) {
+    *error = "a cycle of the lathe in another plane than that of Z and X is not carried out";
+    return std::nullopt;
+  }
   const MachiningCycle turned{cycle.name, cycle.kind, face, cycle.ends_comp, cycle.ends_modes};
   detail::Roles roles(turned, numbers, context);
   bool done = false;
@@ -218,7 +250,10 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
                                              : detail::thread(roles, error);
       break;
     case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;
-    case Kind::shaped: done = detail::shaped_groove(roles, context, face, error); break;
+    case Kind::shaped:
+      done = cycle.name == "groove.shaped" ? detail::shaped_groove(roles, context, face, error)
+                                           : detail::relief(roles, context, error);
+      break;
     case Kind::profile:
       done = cycle.name == "stock.contour"  ? detail::contour_stock(roles, context, face, error)
              : cycle.name == "stock.blank"  ? detail::blank_stock(roles, context, face, error)

@@ -122,6 +122,7 @@ struct TurnContext {
   double nose_radius = 0;                ///< of the tool
   int edge = 0;                          ///< quadrant in which the tip lies (1: +Z +X, 2: -Z +X, 3: -Z -X, 4: +Z -X)
   bool edge_at_plus = false;             ///< of a grooving tool, where the quadrant is not known
+  bool usual_relief = true;              ///< an undercut of an unknown edge lies outside, its shoulder toward -Z
   std::optional<bool> left_is_larger;    ///< the left start of a groove in the face lies at the larger X
   std::optional<bool> longer_in_x;       ///< the tool is longer along X than along Z; nullopt: not known
   const TurnProfile* profile = nullptr;  ///< of the cycles that have one
