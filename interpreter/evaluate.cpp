@@ -51,7 +51,7 @@ double Evaluator::number(ExprId id) {
     }
     case Kind::frame_part: return frame_part(*static_cast<const ir::Call*>(n.what));
     case Kind::system: {
-      std::array<double, 8> args{};
+      std::array<double, 20> args{};
       const std::size_t count = std::min<std::size_t>(n.b, args.size());
       const auto& ref = *static_cast<const ir::SystemRef*>(n.what);
       bool named = false;  // an index that is a name: the machine's own

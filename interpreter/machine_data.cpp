@@ -5,6 +5,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/block_machine.h"
+#include "interpreter/measured_frame.h"
 #include "interpreter/run_codes.h"
 #include "ir/frame_rows.h"
 #include "machine/data_at_rest.h"
@@ -14,6 +15,8 @@ namespace cnctrans::interpreter {
 namespace {
 
 using ir::Datum;
+
+constexpr std::size_t measured_count = 19;  ///< a row of measured points: its number and their coordinates
 
 std::string datum_key(const ir::SystemRef& ref, std::span<const double> args) {
   std::string key = ref.text;
@@ -196,6 +199,10 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       if (!has_axis) return false;
       out = programmable_frame().apply(p_)[ref.axis] / axis_[ref.axis].scale_absolute;
       return true;
+    case Datum::frame_settable:
+      if (args.size() != measured_count || args[0] != ir::frame_rows::measured) return false;
+      out = measured_frame(args.subspan<1, measured_count - 1>()).quality;
+      return true;
     case Datum::probe_state: out = 0; return true;  // no probe is modelled: it is never touched
     case Datum::axis_feed:
       if (!has_axis) return false;
@@ -312,6 +319,11 @@ bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> 
     case Datum::frame_settable: {
       const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
       out = Frame{};
+      if (row == ir::frame_rows::measured && args.size() == measured_count) {
+        out = measured_frame(args.subspan<1, measured_count - 1>()).frame;
+        for (std::size_t a = 0; a < 3; ++a) out.t[a] *= unit();
+        return true;
+      }
       if (row == ir::frame_rows::total_base) {
         out = base_frame();
         return true;

@@ -16,5 +16,8 @@ inline constexpr std::int32_t active_base = 1100;
 inline constexpr std::int32_t neutral = 1200;
 /// All base frames in force, one behind the other; it can only be read.
 inline constexpr std::int32_t total_base = 1300;
+/// Behind the row stand 18 values: three ideal and three measured points. The frame takes the ones to the others; read
+/// as a number the row is what is left between them (motion reference 8).
+inline constexpr std::int32_t measured = 1400;
 
 }  // namespace cnctrans::ir::frame_rows

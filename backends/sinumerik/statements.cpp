@@ -3,6 +3,7 @@
 #include "backends/sinumerik/writer.h"
 #include "base/saturate.h"
 #include "base/text.h"
+#include "dialects/sinumerik/computed.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -17,12 +18,14 @@ bool Writer::refused_problem(WordPos pos) {
 
 /// A list of values or a frame that stands for several assignments, as it was written; empty: there is none.
 std::string Writer::list_text(const ir::Assign& a) const {
-  if (!same_dialect() || a.items.size() < 2) return {};
+  if (!same_dialect() || a.items.empty()) return {};
   for (const ir::Assign::Item& item : a.items) {
     if (item.pos.column != a.items.front().pos.column) return {};
   }
   const std::string text = source_word(a.items.front().pos);
   const std::string upper = to_upper_ascii(text);
+  if (cnctrans::sinumerik::is_computed_text(upper)) return text;
+  if (a.items.size() < 2) return {};
   const ir::Assign::Item& first = a.items.front();
   const std::string name = first.to_system             ? to_upper_ascii(first.system.text)
                            : first.target.name.empty() ? std::string("R")

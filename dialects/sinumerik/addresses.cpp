@@ -156,7 +156,6 @@ constexpr ProcedureRow procedure_rows[] = {
     {"DISABLE", Procedure::coordination},
     {"ENABLE", Procedure::coordination},
     {"CLRINT", Procedure::coordination},
-    {"DELDL", Procedure::unsupported},
     {"ORIRESET", Procedure::coordination},
 };
 
@@ -169,25 +168,25 @@ constexpr std::string_view keywords[] = {
     "CHAN",   "TRUE",    "FALSE",   "SET",      "REP",     "SAVE",     "PREPRO",  "ACTBLOCNO", "NO_AXIS", "SYNR",
     "SYNW",   "SYNRW",   "INIPO",   "INIRE",    "INICF",   "PRLOC",    "PHU",     "LLI",       "ULI",     "APR",
     "APW",    "APX",     "APRP",    "APRB",     "APWP",    "APWB",     "POS",     "POSA",      "POSP",    "FA",
-    "FL",     "AX",      "IP",      "PO",       "MEASA",   "MEAWA"};
+    "FL",     "FPO",     "AX",      "IP",       "PO",      "MEASA",    "MEAWA"};
 
 /// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
 /// of these is never a variable.
 constexpr std::string_view predefined[] = {
-    "ADDFRAME",   "AXTOSPI",  "BLSYNC",    "CALCPOSI",  "CHECKSUM",   "CHKDM",    "CHKDNO",     "CTAB",
-    "CTABEXISTS", "CTABFNO",  "CTABFPOL",  "CTABFSEG",  "CTABID",     "CTABINV",  "CTABISLOCK", "CTABMEMTYP",
-    "CTABMPOL",   "CTABMSEG", "CTABNO",    "CTABNOMEM", "CTABPERIOD", "CTABPOL",  "CTABPOLID",  "CTABSEG",
-    "CTABSEGID",  "CTABSEV",  "CTABSSV",   "CTABTEP",   "CTABTEV",    "CTABTMAX", "CTABTMIN",   "CTABTSP",
-    "CTABTSV",    "DELDTG",   "DIACYCOFA", "DIAMCHAN",  "DIAMCHANA",  "FOCOF",    "FOCON",      "FPO",
-    "FTOC",       "GETACTT",  "GETACTTD",  "GETDNO",    "GETTCOR",    "GETTENV",  "ICYCOF",     "ICYCON",
-    "ISVAR",      "LENTOAX",  "MEAFRAME",  "MEASURE",   "MOV",        "OMA1",     "OMA2",       "OMA3",
-    "OMA4",       "OMA5",     "POSRANGE",  "RDISABLE",  "SETTCOR",    "SIRELAY",  "SIRELIN",    "SIRELOUT",
-    "SIRELTIME",  "SPI",      "STRINGIS",  "SYNFCT",    "TOOLENV",    "WALCS"};
+    "ADDFRAME", "BLSYNC",     "CALCPOSI",   "CHECKSUM",  "CHKDM",     "CHKDNO",    "CTABFNO",   "CTABFPOL", "CTABFSEG",
+    "CTABID",   "CTABISLOCK", "CTABMEMTYP", "CTABMPOL",  "CTABMSEG",  "CTABNO",    "CTABNOMEM", "CTABPOL",  "CTABPOLID",
+    "CTABSEG",  "CTABSEGID",  "DELDTG",     "DIACYCOFA", "DIAMCHAN",  "DIAMCHANA", "FOCOF",     "FOCON",    "FTOC",
+    "GETACTT",  "GETACTTD",   "GETDNO",     "GETTCOR",   "GETTENV",   "ICYCOF",    "ICYCON",    "ISVAR",    "LENTOAX",
+    "MEASURE",  "MOV",        "OMA1",       "OMA2",      "OMA3",      "OMA4",      "OMA5",      "POSRANGE", "RDISABLE",
+    "SETTCOR",  "SIRELAY",    "SIRELIN",    "SIRELOUT",  "SIRELTIME", "STRINGIS",  "SYNFCT",    "TOOLENV",  "WALCS"};
 
 /// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
 /// them.
-constexpr std::string_view carried_functions[] = {"AXNAME", "AXSTRING", "CFINE",  "CMIRROR",  "CROT",   "CROTS",
-                                                  "CRPL",   "CSCALE",   "CTRANS", "INVFRAME", "ISAXIS", "MODAXVAL"};
+constexpr std::string_view carried_functions[] = {
+    "AXNAME",  "AXSTRING", "AXTOSPI",  "CALCDAT", "CFINE",      "CMIRROR",  "CROT",
+    "CROTS",   "CRPL",     "CSCALE",   "CTAB",    "CTABEXISTS", "CTABINV",  "CTABPERIOD",
+    "CTABSEV", "CTABSSV",  "CTABTEP",  "CTABTEV", "CTABTMAX",   "CTABTMIN", "CTABTSP",
+    "CTABTSV", "CTRANS",   "INVFRAME", "ISAXIS",  "MEAFRAME",   "MODAXVAL", "SPI"};
 
 char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;

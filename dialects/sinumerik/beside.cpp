@@ -39,6 +39,7 @@ constexpr BesideRow rows[] = {
     {"CUT3DFF", "beside.compensation", code},
     {"CUT3DFS", "beside.compensation", code},
     {"CUTMOD", "beside.compensation", address},
+    {"DELDL", "beside.compensation", procedure | code},
     {"DELETE", "beside.data", procedure, true},
     {"DELT", "beside.tool_management", procedure, true},
     {"DELTOOLENV", "beside.tool_management", procedure, true},

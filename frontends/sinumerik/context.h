@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "dialects/sinumerik/variables.h"
@@ -77,6 +79,14 @@ class LastingWord {
   bool missed_ = false;
 };
 
+/// A curve table as the program defines it: straight lines between points (motion reference 15.2).
+struct CurveTable {
+  ir::AxisId follower = ir::axis::none, leader = ir::axis::none;
+  std::vector<std::pair<double, double>> points{};  ///< leader, follower; as programmed
+  std::int32_t period = 0;                          ///< 0: none, 1: of the leader, 2: of both
+  bool known = true;                                ///< its blocks tell all of it
+};
+
 struct FileContext {
   const MachineFacts& machine;
   FileId file;
@@ -104,6 +114,10 @@ struct FileContext {
     corner_feed.interrupt();
   }
 
+  std::map<std::int32_t, CurveTable> tables{};          ///< CTABDEF, by number
+  CurveTable* table = nullptr;                          ///< the one being defined
+  std::vector<ir::Assign::Item>* given_back = nullptr;  ///< where functions put the values of their VAR arguments
+
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
 
   /// All that is the matter with the line is that something is not carried: it is read and kept as text.
@@ -125,6 +139,32 @@ struct FileContext {
   void note(std::string_view code, WordPos pos, std::string message, std::string hint = {});
   /// The text of a place of the line.
   [[nodiscard]] std::string_view slice(WordPos pos) const;
+};
+
+/// While it stands, functions may give values back in their arguments: they are assigned before what the statement
+/// does.
+class GivenBack {
+ public:
+  GivenBack(FileContext& context, ir::Assign& out, WordPos pos)
+      : context_(context), out_(out), pos_(pos), at_(out.items.size()) {
+    context_.given_back = &items_;
+  }
+  GivenBack(const GivenBack&) = delete;
+  GivenBack& operator=(const GivenBack&) = delete;
+  ~GivenBack() {
+    context_.given_back = nullptr;
+    for (auto& item : items_) {
+      item.pos = pos_;
+    }
+    out_.items.insert(out_.items.begin() + static_cast<std::ptrdiff_t>(at_), items_.begin(), items_.end());
+  }
+
+ private:
+  FileContext& context_;
+  ir::Assign& out_;
+  WordPos pos_;
+  std::vector<ir::Assign::Item> items_;
+  std::size_t at_;
 };
 
 }  // namespace cnctrans::sinumerik

@@ -272,6 +272,29 @@ bool StatementLowering::spindle_item(const syntax::Statement& s, Parts& parts) {
   return true;
 }
 
+/// POS[SPI(2)]=90: the spindle is positioned as SPOS[2]=90 does it (9.6); FA[SPI(2)] says how fast.
+bool StatementLowering::spindle_axis(const syntax::Statement& s, Parts& parts) {
+  syntax::Statement own = s;
+  Expr& target = own.args[0];
+  if (target.text == "FA") {
+    ir::Action a;
+    a.pos = s.pos;
+    a.text = c_.slice(s.pos);
+    a.data = ir::OpaqueWord{a.text};
+    a.order = ir::Order::with;
+    parts.actions.push_back(std::move(a));
+    c_.note("SIN-009", s.pos, "FA[SPI()] is kept as text: it says how fast the spindle is positioned");
+    return true;
+  }
+  if (target.text == "IP") return refuse("block.word", s.pos, "IP[] of a spindle is not carried");
+  target.text = target.text == "POSA" ? "SPOSA" : "SPOS";
+  const Expr number = target.args[0].args[0];
+  target.args[0] = number;
+  if (!spindle_item(own, parts)) return false;
+  parts.actions.back().text = c_.slice(s.pos);
+  return true;
+}
+
 bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   const Expr& target = s.args[0];
   if (target.args.size() != 1) {
@@ -281,8 +304,9 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   const Expr& index = target.args[0];
   const std::uint32_t before = c_.errors;
   const std::string& word = target.text;
-  if (exprs_.is_undefined(index) || (index.kind == ExprKind::call && index.text == "SPI"))
-    return refuse(index.kind == ExprKind::call ? "block.word" : "machine.axis", s.pos,
+  if (index.kind == ExprKind::call && index.text == "SPI" && index.args.size() == 1) return spindle_axis(s, parts);
+  if (exprs_.is_undefined(index))
+    return refuse("machine.axis", s.pos,
                   word + "[" + std::string(c_.slice(index.pos)) + "]: this axis is not one of the machine " +
                       c_.machine.profile->name);
   const ir::ExprPtr axis = exprs_.axis_operand(index);

@@ -68,6 +68,9 @@ bool StatementLowering::beside_statement(const Statement& s, Parts& parts) {
     const BesideRow* row = beside(s.text, BesideForm::procedure);
     if (row == nullptr || c_.symbol(s.text) != nullptr) return false;
     if (row->gives_back && !gives_unknown(s.args)) return false;
+    if (s.text == "CTABDEL") {  // which of them are left is not followed
+      for (auto& [number, table] : c_.tables) table.known = false;
+    }
     put_beside(row->feature, s.pos, parts);
     return true;
   }
@@ -163,6 +166,7 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
     tell_beside(block.statements.front().pos,
                 "what stands up to " + std::string(definition_->end) + " defines and moves nothing; it",
                 definition_->feature);
+    table_block(block, name);
     add_opaque(block, info, definition_->feature, false);
     return true;
   }
@@ -171,6 +175,7 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
     return false;
   }
   const bool ends = name == definition_->end;
+  table_block(block, name);
   const bool known = !ends || !one || gives_unknown(block.statements.front().args);
   add_opaque(block, info, known ? definition_->feature : std::string_view("language.statement"), false);
   if (ends) definition_ = nullptr;

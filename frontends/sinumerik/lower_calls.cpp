@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "dialects/sinumerik/cycles.h"
 #include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/row_parts.h"
 #include "ir/declared_limits.h"
 
 namespace cnctrans::sinumerik {
@@ -353,6 +354,45 @@ bool StatementLowering::modal_call(const Statement& s, ir::LineInfo& info) {
   }
   emit(info, std::move(out));
   return true;
+}
+
+// --- messages ---------------------------------------------------------------------------------------------------
+
+void StatementLowering::message_parts(const Expr& e, std::vector<ir::ExprPtr>& out) {
+  if (e.kind == ExprKind::binary && e.text == "<<") {
+    message_parts(e.args[0], out);
+    message_parts(e.args[1], out);
+    return;
+  }
+  if (e.kind == ExprKind::unary && e.text == "<<") return message_parts(e.args[0], out);
+  if (auto part = exprs_.lower(e)) out.push_back(std::move(part));
+}
+
+bool StatementLowering::message(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  ir::Message m;
+  const std::uint32_t before = c_.errors;
+  if (args.empty() || args[0].kind == ExprKind::missing) {
+    m.kind = ir::MessageKind::clear;
+  } else {
+    message_parts(args[0], m.parts);
+  }
+  if (args.size() > 1) c_.note("SIN-009", pos, "MSG shows its text; the second argument only says when");
+  parts.calls.emplace_back(std::move(m));
+  return c_.errors == before;
+}
+
+bool StatementLowering::alarm(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
+  ir::Message m;
+  m.kind = ir::MessageKind::error;
+  const std::uint32_t before = c_.errors;
+  if (args.empty()) {
+    c_.error("SIN-012", pos, "SETAL() needs the number of the alarm");
+    return false;
+  }
+  m.number = exprs_.lower_as(args[0], ir::Type::integer);
+  if (args.size() > 1) message_parts(args[1], m.parts);
+  parts.calls.emplace_back(std::move(m));
+  return c_.errors == before;
 }
 
 }  // namespace cnctrans::sinumerik

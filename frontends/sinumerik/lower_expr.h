@@ -2,6 +2,7 @@
 // rounding when a real is put into an INT, strings made of numbers by `<<`.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <utility>
 
@@ -62,9 +63,15 @@ class ExprLowering {
   /// An array that is named as a whole, to be handed over; nullopt when `e` names none.
   std::optional<ir::VarRef> whole_array(const syntax::Expr& e, ir::Type& type);
 
+  /// The element of an array that `array` names.
+  ir::ExprPtr element(const syntax::Expr& array, std::initializer_list<int> indices);
+
  private:
   ir::ExprPtr frame_function(const syntax::Expr& e);
   ir::ExprPtr axis_function(const syntax::Expr& e, bool& known);
+  ir::ExprPtr table_function(const syntax::Expr& e);
+  bool give_back(const syntax::Expr& e, std::size_t index, ir::ExprPtr value);
+  ir::ExprPtr measured_frame(const syntax::Expr& e);
   ir::ExprPtr active_g_function(const syntax::Expr& e);
   ir::ExprPtr character_of(const syntax::Expr& e);
   ir::ExprPtr named(const syntax::Expr& e);

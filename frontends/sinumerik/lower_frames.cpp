@@ -179,6 +179,7 @@ ir::ExprPtr ExprLowering::frame(const Expr& e) {
     return make_expr(ir::Call{ir::Function::frame_chain, {std::move(outer), std::move(inner)}}, ir::Type::frame, e.pos);
   }
   if (e.kind == ExprKind::call) {
+    if (e.text == "MEAFRAME") return measured_frame(e);
     bool known = e.text == "CRPL";
     for (const auto& row : frame_functions) known = known || row.name == e.text;
     if (known) return frame_function(e);
@@ -343,6 +344,7 @@ std::optional<bool> StatementLowering::assign_frame(const Expr& target, const Ex
     with.args = {name->whole, name->axis, name->component, std::move(number)};
     right = make_expr(std::move(with), ir::Type::frame, pos);
   } else {
+    GivenBack given(c_, assign, pos);
     right = exprs_.frame(value);
     if (!right) return false;
   }

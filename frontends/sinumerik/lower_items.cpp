@@ -164,9 +164,20 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
   ir::Type type = ir::Type::real;
   auto ref = exprs_.variable(target, type);
   if (!ref) return false;
+  if (value.text == "DELDL") {  // sum offsets act beside the path; 0: done
+    tell_beside(pos, std::string(c_.slice(pos)), "beside.compensation");
+    ir::Assign::Item done;
+    done.target = std::move(*ref);
+    done.value = ir::number(0);
+    done.pos = pos;
+    parts.assign.items.push_back(std::move(done));
+    return true;
+  }
   if (list) return assign_list(*ref, type, value, c_.symbol(target.text), pos, parts.assign);
+  if (value.kind == ExprKind::call && value.text == "CALCDAT") return circle_data(*ref, value, pos, parts.assign);
   ir::Assign::Item item;
   item.target = std::move(*ref);
+  GivenBack given(c_, parts.assign, pos);
   item.value = symbol != nullptr && symbol->character ? exprs_.lower_character(value) : exprs_.lower_as(value, type);
   item.pos = pos;
   if (!item.value) return false;
@@ -267,43 +278,6 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
 
 // --- calls ------------------------------------------------------------------------------------------------------
 
-void StatementLowering::message_parts(const Expr& e, std::vector<ir::ExprPtr>& out) {
-  if (e.kind == ExprKind::binary && e.text == "<<") {
-    message_parts(e.args[0], out);
-    message_parts(e.args[1], out);
-    return;
-  }
-  if (e.kind == ExprKind::unary && e.text == "<<") return message_parts(e.args[0], out);
-  if (auto part = exprs_.lower(e)) out.push_back(std::move(part));
-}
-
-bool StatementLowering::message(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
-  ir::Message m;
-  const std::uint32_t before = c_.errors;
-  if (args.empty() || args[0].kind == ExprKind::missing) {
-    m.kind = ir::MessageKind::clear;
-  } else {
-    message_parts(args[0], m.parts);
-  }
-  if (args.size() > 1) c_.note("SIN-009", pos, "MSG shows its text; the second argument only says when");
-  parts.calls.emplace_back(std::move(m));
-  return c_.errors == before;
-}
-
-bool StatementLowering::alarm(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
-  ir::Message m;
-  m.kind = ir::MessageKind::error;
-  const std::uint32_t before = c_.errors;
-  if (args.empty()) {
-    c_.error("SIN-012", pos, "SETAL() needs the number of the alarm");
-    return false;
-  }
-  m.number = exprs_.lower_as(args[0], ir::Type::integer);
-  if (args.size() > 1) message_parts(args[1], m.parts);
-  parts.calls.emplace_back(std::move(m));
-  return c_.errors == before;
-}
-
 bool StatementLowering::predefined(Procedure use, const std::string& name, const std::vector<Expr>& args, WordPos pos,
                                    Parts& parts) {
   switch (use) {
@@ -390,9 +364,11 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
 
 bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   if (const Procedure use = procedure(name); use != Procedure::none) return predefined(use, name, args, pos, parts);
-  // Without arguments it ends the swivelled plane; one that begins it is refused, so there is none (18.5).
+  // Without arguments, or with the data record "0", it ends the swivelled plane; one that begins it is refused, so
+  // there is none (18.5).
   const bool bare = std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.kind == ExprKind::missing; });
-  if (name == "CYCLE800" && bare) return without_effect(name, pos, parts);
+  const bool ends = bare || (args.size() > 1 && args[1].kind == ExprKind::string && args[1].text == "0");
+  if (name == "CYCLE800" && ends) return without_effect(name, pos, parts);
   if (name == "PO") return denominator(args, pos, parts);
   if (sinumerik::cycle(name) != nullptr) {
     ir::CyclePtr made = cycle(name, args, pos);

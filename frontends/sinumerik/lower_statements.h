@@ -55,6 +55,9 @@ class StatementLowering {
                    ir::Assign& out);
   bool assign_character(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, ir::Assign& out);
   static ir::ExprPtr zero_of(ir::Type type);
+  // what the reader computes (lower_computed.cpp)
+  bool circle_data(const ir::VarRef& target, const syntax::Expr& call, WordPos pos, ir::Assign& out);
+  void table_block(const syntax::Block& block, std::string_view name);
   // frames (lower_frames.cpp); nullopt: the target is no frame
   std::optional<bool> assign_frame(const syntax::Expr& target, const syntax::Expr& value, WordPos pos,
                                    ir::Assign& assign, std::vector<ir::Action>& actions);
@@ -76,6 +79,7 @@ class StatementLowering {
   bool spline_axes(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool polynomial_path(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool spindle_item(const syntax::Statement& s, Parts& parts);
+  bool spindle_axis(const syntax::Statement& s, Parts& parts);
   bool put_axis_words(Parts& parts, ir::Block& words);
   bool assign_undefined(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);

@@ -243,6 +243,7 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   if (const ir::AxisId named = c_.machine.axis(address);
       named != ir::axis::none && w.extension < 0 && polynomial(block, w, named))
     return;
+  if (address == 'F' && w.is_expression && feed_polynomial(block.exprs[static_cast<std::size_t>(w.expr)], w)) return;
   Attribute attribute = Attribute::none;
   ir::Value value = exprs_.value(block, w, attribute);
   const bool centre_letter = address == 'I' || address == 'J' || address == 'K';
@@ -386,6 +387,18 @@ void WordLowering::f_word(const Word& w, ir::Value value) {
     return;
   }
   push(ir::SetFeed{std::move(value), false}, Rank::feed, ir::Order::before, w.pos);
+}
+
+/// F=FPO(end,quadratic,cubic): the feed goes to its end value within the block (motion reference 14.2).
+bool WordLowering::feed_polynomial(const syntax::Expr& e, const Word& w) {
+  if (e.kind != syntax::ExprKind::call || e.text != "FPO" || e.args.empty()) return false;
+  Attribute attribute = Attribute::none;
+  const std::uint32_t before = c_.errors;
+  ir::Value end = exprs_.value_of(e.args[0], attribute);
+  if (c_.errors != before) return true;
+  push(ir::SetFeed{std::move(end), false}, Rank::feed, ir::Order::before, w.pos);
+  c_.warning("SIN-051", w.pos, "the feed changes along this block; the whole of it is taken with the feed at its end");
+  return true;
 }
 
 void WordLowering::s_word(const Word& w, ir::Value value) {

@@ -66,6 +66,7 @@ class WordLowering {
   void machine_meaning(const machine::MCode& m, std::uint8_t spindle, const syntax::Word& w);
   void t_word(const syntax::Block& block, const syntax::Word& w);
   void s_word(const syntax::Word& w, ir::Value value);
+  bool feed_polynomial(const syntax::Expr& e, const syntax::Word& w);
   void f_word(const syntax::Word& w, ir::Value value);
   void named(const syntax::Block& block, const syntax::Word& w);
   void coordinate(ir::AxisId axis, const syntax::Word& w, ir::Value value, Attribute attribute);

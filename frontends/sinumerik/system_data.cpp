@@ -174,7 +174,7 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
 ir::ExprPtr ExprLowering::axis_function(const Expr& e, bool& known) {
   known = true;
   if (e.text == "CTRANS" || e.text == "CFINE" || e.text == "CROT" || e.text == "CROTS" || e.text == "CSCALE" ||
-      e.text == "CMIRROR" || e.text == "CRPL" || e.text == "INVFRAME") {
+      e.text == "CMIRROR" || e.text == "CRPL" || e.text == "INVFRAME" || e.text == "MEAFRAME") {
     return frame(e);
   }
   if (e.text == "AXNAME" && e.args.size() == 1 && e.args[0].kind == ExprKind::string) {
@@ -183,11 +183,20 @@ ir::ExprPtr ExprLowering::axis_function(const Expr& e, bool& known) {
     c_.keep("SIN-003", e.pos, "the machine " + c_.machine.profile->name + " has no axis " + e.args[0].text);
     return nullptr;
   }
+  if ((e.text == "AXSTRING" || e.text == "AXTOSPI") && e.args.size() == 1 && e.args[0].text == "SPI" &&
+      e.args[0].args.size() == 1) {
+    auto number = lower_as(e.args[0].args[0], ir::Type::integer);
+    if (!number || e.text == "AXTOSPI") return number;
+    auto text = make_expr(ir::Call{ir::Function::to_string, {std::move(number)}}, ir::Type::string, e.pos);
+    return make_expr(ir::Binary{ir::BinaryOp::concat, ir::string_literal("S"), std::move(text), ir::Compare::exact},
+                     ir::Type::string, e.pos);
+  }
   if (e.text == "AXSTRING" && e.args.size() == 1) {
     auto axis = axis_operand(e.args[0]);
     if (!axis) return nullptr;
     return make_expr(ir::Call{ir::Function::axis_text, {std::move(axis)}}, ir::Type::string, e.pos);
   }
+  if (e.text.starts_with("CTAB")) return table_function(e);
   if (e.text == "ISAXIS" && e.args.size() == 1 && e.args[0].kind == ExprKind::number) {
     const double n = e.args[0].number;
     bool there = false;
