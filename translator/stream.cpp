@@ -225,7 +225,7 @@ class StreamTranslation {
     const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, passing_.back()};
     ir::run_pass("safe_start", program, context);
     ir::run_pass("tidy", program, context);
-    if (passing_.back().has_errors() || passing_.back().warning_count() != 0) return give_up();
+    if (passing_.back().has_errors()) return give_up();
     writer_->begin(program, out_);
     return emit_all(program);
   }

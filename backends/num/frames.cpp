@@ -51,7 +51,10 @@ void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
   const auto wanted = add_up ? ir::Distance::incremental : ir::Distance::absolute;
   const bool as_is = c.by_distance_mode || mode == code_value(wanted);
   if (!as_is && !mode) return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
-  for (const auto& w : c.words) text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+  for (const auto& w : c.words) {
+    if (w.value.is(0) && profile().axis(w.axis) == nullptr) continue;  // the machine has nothing to put back
+    text += ' ' + word(axis_name(w.axis), w.value, w.pos);
+  }
   if (!as_is) text = (add_up ? "G91 " : "G90 ") + text + (add_up ? " G90" : " G91");
   add(text, Rank::setting, a.pos);
 }

@@ -223,17 +223,27 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   }
   if (w.value.literal() && !(std::fabs(w.value.number) <= facts::linear_max))
     return refuse(no_word, w.pos, "the coordinate is beyond what the control takes");
-  std::string text = word(axis_name(w.axis), w.value, w.pos);
-  if (w.mode != ir::WordMode::modal) {
-    const auto wanted = w.mode == ir::WordMode::absolute ? ir::Distance::absolute : ir::Distance::incremental;
-    const auto mode = setting(ir::Setting::distance);
-    if (!mode)
-      return refuse(no_word, w.pos,
-                    "a word that is absolute or incremental by itself stands where G90 or G91 is not known");
-    if (*mode != code_value(wanted) && m.frame == ir::FrameUse::normal)
-      text = (wanted == ir::Distance::absolute ? "G90 " + text + " G91" : "G91 " + text + " G90");
+  if (w.mode != ir::WordMode::modal && !setting(ir::Setting::distance))
+    return refuse(no_word, w.pos,
+                  "a word that is absolute or incremental by itself stands where G90 or G91 is not known");
+  if (!switched(m, w)) return add(word(axis_name(w.axis), w.value, w.pos), Rank::coordinate, w.pos);
+  // One pair of G90 and G91 in a block: the words between them stand together.
+  std::string text;
+  for (const auto& c : m.coords) {
+    if (!switched(m, c)) continue;
+    if (text.empty() && &c != &w) return;  // stands with the first of them
+    text += ' ' + word(axis_name(c.axis), c.value, c.pos);
   }
-  add(text, Rank::coordinate, w.pos);
+  const bool absolute = w.mode == ir::WordMode::absolute;
+  add((absolute ? "G90" : "G91") + text + (absolute ? " G91" : " G90"), Rank::coordinate, w.pos);
+}
+
+/// The word is absolute or incremental by itself, other than the mode in force.
+bool Writer::switched(const ir::Motion& m, const ir::CoordWord& w) {
+  const auto mode = setting(ir::Setting::distance);
+  if (w.mode == ir::WordMode::modal || !mode || m.frame != ir::FrameUse::normal) return false;
+  const auto wanted = w.mode == ir::WordMode::absolute ? ir::Distance::absolute : ir::Distance::incremental;
+  return *mode != code_value(wanted);
 }
 
 void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {

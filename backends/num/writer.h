@@ -48,6 +48,7 @@ class Writer final : public ProgramWriter {
   void motion(const ir::Motion& m) override;
   void frame_use(const ir::Motion& m) override;
   void coordinate(const ir::Motion& m, const ir::CoordWord& w) override;
+  [[nodiscard]] bool switched(const ir::Motion& m, const ir::CoordWord& w);
   void center(const ir::Motion& m, const ir::CenterWord& w) override;
   void radius(const ir::Motion& m) override;
   void motion_extra(const ir::Motion& m, const ir::MotionExtra& e) override;

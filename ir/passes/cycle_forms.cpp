@@ -445,4 +445,12 @@ bool uses_cycles(const Program& program) {
   return found;
 }
 
+bool stands_by_itself(const HoleCycle& c) {
+  const auto fixed = [](const Level& l) {
+    return l.given && (l.base == LevelBase::absolute || l.base == LevelBase::from_surface);
+  };
+  const bool surface = !c.surface.given || c.surface.base == LevelBase::absolute;
+  return surface && fixed(c.reference) && fixed(c.bottom) && c.retract.given && c.retract.base == LevelBase::absolute;
+}
+
 }  // namespace cnctrans::ir::passes

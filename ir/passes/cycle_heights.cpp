@@ -3,6 +3,18 @@
 
 namespace cnctrans::ir::passes {
 
+bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
+  const auto* hole = std::get_if<HoleCycle>(&active_->native->node);
+  const auto height = in_units(active_->height, b, facts);
+  if (hole == nullptr || !height || !hole->retract.given) return false;
+  const auto fixed = [](const Level& l) { return l.base == LevelBase::absolute && l.value.literal(); };
+  if (!fixed(hole->retract) || !fixed(hole->reference) || !stands_by_itself(*hole)) return false;
+  const double retract = hole->retract.value.number, reference = hole->reference.value.number;
+  const double to = fixed(hole->bottom) ? hole->bottom.value.number : reference;
+  const double up = retract > to ? 1 : -1;
+  return (retract - *height) * up > 1e-9 && (retract - reference) * up > 1e-9;
+}
+
 /// A single run whose retract plane is not the height it starts from: the target's cycle would go there first. It
 /// returns to the reference plane instead, and the rest is a move of its own. The place to go to; empty: as it is.
 std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active& a) const {

@@ -424,6 +424,8 @@ class CyclePass {
     if (feed && !own) b.actions.push_back(*feed);
   }
 
+  /// The tool stands below the plane to which the target's cycle would go first.
+  [[nodiscard]] bool below_retract_plane(const Block& b, const Facts& facts) const;
   std::optional<Value> leave_by_own_move(CyclePtr& cycle, const Active& a) const;
   void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   void define_by_call(Statement&& s, const CycleDefine& d, Active&& a, bool point_here, Body&& pieces, Body& out);

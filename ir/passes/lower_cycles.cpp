@@ -73,6 +73,9 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
 void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
+  // The target would go up first, the source goes straight down.
+  if (!active_->on_target && !active_->maybe_on_target && sure(facts) && below_retract_plane(b, facts))
+    return write_out(std::move(s), std::move(pieces), out);
   const auto w = tool_axis(active_->source, b, facts);
   const auto kind = way_to_hole(b, facts, context_);
   const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
@@ -150,19 +153,6 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   lacking_ = lacking_ || !active_->native;
   return was_native;
 }
-
-namespace {
-
-/// No level of the cycle is counted from where the tool stands.
-bool stands_by_itself(const HoleCycle& c) {
-  const auto fixed = [](const Level& l) {
-    return l.given && (l.base == LevelBase::absolute || l.base == LevelBase::from_surface);
-  };
-  const bool surface = !c.surface.given || c.surface.base == LevelBase::absolute;
-  return surface && fixed(c.reference) && fixed(c.bottom) && c.retract.given && c.retract.base == LevelBase::absolute;
-}
-
-}  // namespace
 
 void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);

@@ -132,6 +132,8 @@ void by_itself(Block& b);
 /// A cycle that starts over its retract plane makes no detour: the tool stands there, or there is one plane only.
 /// `height` and the levels in program units.
 bool stands_right(const HoleCycle& c, std::optional<double> height);
+/// No level of the cycle is counted from where the tool stands.
+bool stands_by_itself(const HoleCycle& c);
 /// Writes the rapid out by which the source positions without a code.
 void position_rapid(Block& b, const LegaliseContext& context);
 /// Reports a word of the tool axis under a cycle, on a source machine where it would be the depth. `source`: the

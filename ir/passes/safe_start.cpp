@@ -44,12 +44,37 @@ class SafeStart {
         offset <= context_.target.work_offset_rows) {
       blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
     }
+    if (!offset_said_ && offset == 0) tell_offset();
     if (!shift_cleared_ && clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
     main_.body.insert(below_head(main_.body), std::make_move_iterator(blocks.begin()),
                       std::make_move_iterator(blocks.end()));
   }
 
  private:
+  /// Which zero point holds where a program selects none.
+  static std::string zero_point(const machine::Profile& machine) {
+    if (machine.option("work_offset.kept") == "yes") return "the one selected last, by whatever program";
+    const auto row = machine.power_on.work_offset;
+    return row == 0 ? std::string("no offset") : "offset " + std::to_string(row) + " of its table";
+  }
+  void tell_offset() const {
+    const std::string source = zero_point(context_.source_machine), target = zero_point(context_.target_machine);
+    const Statement* first = source == target ? nullptr : first_move();
+    if (first == nullptr) return;
+    context_.diagnostics.warning("TRN-394", first->line.span,
+                                 "no work offset is selected before the first move: the source works with " + source +
+                                     " then, the target with " + target,
+                                 "select the work offset in the source, or check the zero point on the target");
+  }
+  const Statement* first_move() const {
+    const Statement* found = nullptr;
+    for_each_statement(main_.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (found == nullptr && b != nullptr && b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal)
+        found = &s;
+    });
+    return found;
+  }
   std::vector<Setting> wanted() const {
     std::vector<Setting> list{Setting::plane, Setting::comp};
     if (context_.target.exact_stop_modal) list.push_back(Setting::path_mode);
