@@ -258,6 +258,7 @@ bool mill_words(const HoleCycle& c, const dialect::MillingCycle& row, std::strin
     }
   }
   for (const auto& [own, value] : kept) words[own] = value;
+  if (kept.count(dialect::mill_contour_parameter) != 0) words.erase(std::string(dialect::mill_contour_parameter));
   const bool percent =
       words.count("AMODE") != 0 && words["AMODE"].literal() && static_cast<long>(words["AMODE"].number) / 10 % 10 == 1;
   const auto has = [&c](std::string_view name) {
@@ -390,7 +391,7 @@ std::string cycle_call(const ir::Cycle& cycle, const std::function<std::string(c
   } else {
     name = arguments(std::get<HoleCycle>(cycle.node), args);
     const auto contours = ir::cycles::contours_named(std::get<HoleCycle>(cycle.node));
-    if (!contours.empty()) contour = contour_text(contours.front());
+    if (!contours.empty() && args.count(dialect::mill_contour_parameter) != 0) contour = contour_text(contours.front());
   }
   const dialect::CycleRow* row = dialect::cycle(name);
   if (row == nullptr) return {};

@@ -17,8 +17,11 @@ inline constexpr std::string_view step_parameter = "MIDA";
 inline constexpr std::string_view spigot_option = "sinumerik.spigot_size";
 inline constexpr std::string_view spigot_radius = "radius", spigot_diameter = "diameter";
 
-/// The parameter that names a contour: a subprogram, or two labels with a colon between them.
-inline constexpr std::string_view mill_contour_parameter = "KNAME";
+/// The parameter that names a contour: a subprogram, or two labels with a colon between them; without it, the cycle
+/// that named one before.
+inline constexpr std::string_view mill_contour_parameter = "KNAME", contour_cycle = "CYCLE62";
+/// Labels that enclose a contour which is called by its name.
+inline constexpr std::string_view contour_begin = "E_LAB_A_", contour_end = "E_LAB_E_";
 
 struct MillingCycle {
   std::string_view name;                                                     ///< "POCKET3"
@@ -77,7 +80,7 @@ inline constexpr std::array milling_cycles = {
                  {{{"MID", "infeed"}, {"FAL", "wall_stock"}, {"FALD", "floor_stock"}, {"FFP1", "mill_feed"},
                    {"FFD", "plunge_feed"}, {"VARI", "variant"}, {"RL", "side"}, {"AS1", "approach"},
                    {"LP1", "approach_length"}, {"FF3", "link_feed"}, {"AS2", "leave"}, {"LP2", "leave_length"}}},
-                 "KNAME,VARI,RL,AS1,LP1,AS2,LP2", "1,2,11,12,101,102,111,112,201,202,211,212,301,302,311,312", ""},
+                 "VARI,RL,AS1,LP1,AS2,LP2", "1,2,11,12,101,102,111,112,201,202,211,212,301,302,311,312", ""},
     MillingCycle{"POCKET1", "pocket.rect",
                  {{{"LENG", "length"}, {"WID", "width"}, {"CRAD", "corner"}, {"CPA", "u"}, {"CPO", "v"},
                    {"STA1", "angle"}, {"FFD", "plunge_feed"}, {"FFP1", "mill_feed"}, {"MID", "infeed"},

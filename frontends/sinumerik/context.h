@@ -112,11 +112,19 @@ struct FileContext {
   void interrupt_lasting() {
     thread_start.interrupt();
     corner_feed.interrupt();
+    contours = {};
   }
 
   std::map<std::int32_t, CurveTable> tables{};          ///< CTABDEF, by number
   CurveTable* table = nullptr;                          ///< the one being defined
   std::vector<ir::Assign::Item>* given_back = nullptr;  ///< where functions put the values of their VAR arguments
+
+  /// Contours that CYCLE62 names, as words of a milling cycle (ir/cycles/mill_contour), in the order of the text.
+  struct Contours {
+    std::vector<std::vector<std::pair<std::string, ir::Value>>> list;
+    bool used = false;  ///< by a cycle: the next CYCLE62 begins a new list
+  };
+  Contours contours{};
 
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
 

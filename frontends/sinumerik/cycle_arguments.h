@@ -23,6 +23,8 @@ class Arguments {
     const int i = parameter_index(row_, name);
     return i >= 0 && static_cast<std::size_t>(i) < given_.size() && given_[static_cast<std::size_t>(i)];
   }
+  /// The call has a place for it.
+  [[nodiscard]] bool knows(std::string_view name) const { return parameter_index(row_, name) >= 0; }
   [[nodiscard]] ir::Value get(std::string_view name) const {
     return given(name) ? values_[static_cast<std::size_t>(parameter_index(row_, name))] : ir::Value(0);
   }
@@ -41,6 +43,8 @@ ir::Value absolute_value(const ir::Value& v);
 void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
 /// A contour as a cycle names it: a subprogram, or two labels with a colon between them.
 void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words);
+/// The contour of a milling cycle that works along one; false: an error has been reported.
+bool milling_contour(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
 /// Shape and words of a milling cycle (18.3); false: an error has been reported.
 bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
 

@@ -295,7 +295,7 @@ ir::CyclePtr pattern(const std::string& name, const CycleRow& row, const Argumen
 
 ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector<Expr>& args, WordPos pos) {
   const CycleRow& row = *sinumerik::cycle(name);
-  if (!row.carried) {
+  if (!row.carried || name == contour_cycle) {  // which stands alone, and not behind MCALL
     refuse(feature_of(row.family), pos, name + " is not carried yet");
     return nullptr;
   }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/saturate.h"
-#include "base/text.h"
 #include "frontends/sinumerik/cycle_arguments.h"
 #include "ir/cycles/milling.h"
 
@@ -158,16 +157,7 @@ bool milling_words(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle&
   if (!good || !variant(cycle, vari, c, pos) || !modes(cycle, a, hole, c, pos)) return false;
   hole.kind = ir::HoleKind::mill;
   hole.mill.shape = std::string(cycle.shape);
-  if (a.given(mill_contour_parameter)) {
-    const ir::Value name = a.get(mill_contour_parameter);
-    const auto* text = name.expr ? std::get_if<ir::String>(&name.expr->node) : nullptr;
-    if (text == nullptr || trim(text->text).empty()) {
-      c.error("SIN-021", pos,
-              "the contour of " + std::string(cycle.name) + " is a fixed name, or two labels with a colon");
-      return false;
-    }
-    contour_words(std::string(trim(text->text)), hole.mill.words);
-  }
+  if (a.knows(mill_contour_parameter) && !milling_contour(cycle, a, hole, c, pos)) return false;
   for (const auto& [own, word] : cycle.parameters) {
     if (own.empty() || !a.given(own)) continue;
     auto [name, value] = word_of(own, word, a);

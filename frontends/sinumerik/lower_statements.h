@@ -85,6 +85,8 @@ class StatementLowering {
   bool assign_system(const syntax::Expr& target, const syntax::Expr& value, WordPos pos, Parts& parts);
   /// A call that changes nothing of the path: kept as text with a note.
   bool without_effect(const std::string& name, WordPos pos, Parts& parts);
+  /// A cycle that prepares others: the contour that CYCLE62 names is noted; CYCLE800 without arguments.
+  bool moves_nothing(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos,
                   Parts& parts);
