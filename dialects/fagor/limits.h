@@ -5,10 +5,11 @@
 
 namespace cnctrans::dialects::fagor {
 
-inline constexpr std::int64_t max_label = 99'999'999;       ///< N0..N99999999 (error 2)
-inline constexpr std::int64_t max_profile_label = 9'999;    ///< labels named by the profile cycles
-inline constexpr std::int64_t max_repeat = 9'999;           ///< N at the block's end, RPT (error 2)
-inline constexpr std::int64_t max_subroutine = 9'999;       ///< SUB, LSUB (error 63)
+inline constexpr std::int64_t max_label = 99'999'999;     ///< N0..N99999999 (error 2)
+inline constexpr std::int64_t max_profile_label = 9'999;  ///< labels named by the profile cycles
+inline constexpr std::int64_t max_repeat = 9'999;         ///< N at the block's end, RPT (error 2)
+inline constexpr std::int64_t max_subroutine = 9'999;     ///< SUB, LSUB (error 63)
+inline constexpr std::int64_t first_oem_parameter = 2000;
 inline constexpr std::int64_t max_oem_subroutine = 20'000;  ///< 10000..20000 only in OEM programs
 inline constexpr int max_m_functions = 7;                   ///< in one block (error 10)
 inline constexpr int max_assignments = 26;                  ///< in one ( ) block, also arguments of PCALL

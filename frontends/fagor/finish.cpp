@@ -176,6 +176,70 @@ void judge_text_uses(const ir::Program& program, LowerState& state) {
   }
 }
 
+/// A hole bored away from its depth, and one that begins below its reference plane (25.3).
+void judge_depths(ir::Program& program, LowerState& state) {
+  bool any = false;
+  const auto cycle_in = [](const ir::Statement& s) -> const ir::HoleCycle* {
+    const auto* b = std::get_if<ir::Block>(&s.node);
+    if (b == nullptr) return nullptr;
+    for (const auto& a : b->actions) {
+      const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+      const auto* hole = d != nullptr && d->cycle ? std::get_if<ir::HoleCycle>(&d->cycle->node) : nullptr;
+      if (hole != nullptr && hole->axis == ir::axis::none && !hole->keeps_initial) return hole;
+    }
+    return nullptr;
+  };
+  for (const auto& r : program.routines)
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) { any = any || cycle_in(s) != nullptr; });
+  if (!any) return;
+  ir::number_statements(program);
+  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
+  std::uint32_t programmed = 0;  // axes the text has moved: where the tool starts is the machine's affair
+  const auto check = [&](const ir::Statement& s) {
+    const auto* block = std::get_if<ir::Block>(&s.node);
+    const std::uint32_t before = programmed;
+    if (block != nullptr && block->has_motion) {
+      for (const auto& c : block->motion.coords) programmed |= 1U << c.axis;
+    }
+    const ir::HoleCycle* hole = cycle_in(s);
+    if (hole == nullptr) return;
+    ir::Facts at = table.before(s.id);
+    for (const auto& a : std::get<ir::Block>(s.node).actions) {
+      const auto* set = std::get_if<ir::ModalSet>(&a.data);
+      if (set != nullptr && a.order != ir::Order::after)
+        at.settings[static_cast<std::size_t>(set->setting)] = set->value;
+    }
+    const auto distance = at.settings[static_cast<std::size_t>(ir::Setting::distance)];
+    const auto plane = at.settings[static_cast<std::size_t>(ir::Setting::plane)];
+    if (!at.reachable || !distance || !plane) return;
+    const bool absolute = *distance == static_cast<std::uint8_t>(ir::Distance::absolute);
+    const ir::AxisId normal = ir::plane_axes(static_cast<ir::Plane>(*plane)).w;
+    const auto tool = (before >> normal & 1U) != 0 ? at.position[normal] : std::nullopt;
+    const auto height = [&](const ir::Level& l, std::optional<double> from) -> std::optional<double> {
+      if (!l.value.literal()) return std::nullopt;
+      const bool own = l.base == ir::LevelBase::absolute || (l.base == ir::LevelBase::distance_mode && absolute);
+      return own ? std::optional(l.value.number) : from ? std::optional(*from + l.value.number) : std::nullopt;
+    };
+    auto reference = height(hole->reference, tool);
+    const bool relative = !reference && !tool && hole->bottom.value.literal() &&
+                          (hole->bottom.base == ir::LevelBase::from_reference || !absolute);
+    if (relative) reference = 0;  // only the way from it to the bottom counts
+    const auto bottom = reference ? height(hole->bottom, reference) : std::nullopt;
+    if (!reference || !bottom) return;
+    state.set_line(s.line.span);
+    if (*bottom > *reference) {
+      state.warning("FAG-048", {}, "the depth of this cycle lies above its reference plane: the tool works upwards",
+                    "look at the sign of I");
+    }
+    if (tool && *tool < *reference - 1e-9 && *tool > *bottom + 1e-9) {
+      state.error("FAG-046", {},
+                  "the tool stands between the reference plane and the depth where the cycle is called [1046]",
+                  "move it above the reference plane");
+    }
+  };
+  for (const auto& r : program.routines) ir::for_each_statement(r.body, check);
+}
+
 /// G49 alone in a file that inclines no plane: nothing to end.
 void drop_inclined_ends(ir::Program& program, LowerState& state) {
   if (state.facts.first_inclined_plane.known() || state.facts.inclined_ends.empty()) return;
@@ -201,6 +265,7 @@ void finish_program(ir::Program& program, LowerState& state) {
   const FileFacts& facts = state.facts;
   judge_planes(program, state);
   judge_text_uses(program, state);
+  judge_depths(program, state);
   drop_inclined_ends(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);

@@ -70,6 +70,7 @@ class FagorStream : public StreamReader {
     add(state_.comp_by_text);
     add(state_.units_by_text);
     add(state_.motion_by_text);
+    add(static_cast<int>(state_.motion_sure) + 2 * static_cast<int>(state_.comp_begins));
     add(state_.facts.rotary);
     add(state_.facts.preset);
     add(state_.facts.table_shift);

@@ -219,6 +219,7 @@ void BlockLowerer::lower(const syntax::Block& in, ir::Block& out, BlockResult& r
     if (!result.opaque.empty()) return;
     if (has_after_) after_motion_last();
     motion();
+    check_block();
     if (unused_ != 0 || radius_count_ != 0) {
       repeat();
       leftovers();

@@ -116,6 +116,12 @@ class BlockLowerer {
   void after_motion_last();
   void repeat();
   void leftovers();
+  // what stops the control (lower_checks.cpp)
+  void check_block();
+  [[nodiscard]] const Word* has_use(dialects::fagor::Use use) const;
+  void check_compensation(bool arc, bool moves);
+  void check_arc_end();
+  void refuse_under_arc(const GWord& g);
   ir::MotionExtra& extra();
 
   LowerState& state_;

@@ -88,6 +88,7 @@ bool BlockLowerer::full_retract(int code) const {
 void BlockLowerer::hole_cycle(const GWord& g) {
   cycle_ = true;
   result_->needs_program = true;
+  refuse_under_arc(g);
   const int code = g.row->value;
   const facts::HoleLetters& letters = letters_of(code);
   const Word* depth = take('I');

@@ -1,4 +1,5 @@
 #include "frontends/fagor/lower_expr.h"
+#include "base/text.h"
 
 #include <cmath>
 #include <optional>
@@ -36,6 +37,10 @@ ir::VarRef parameter(const Expr& e, LowerState& state) {
   if (n != std::floor(n) || n > 1e6 || !facts::valid_parameter(saturate<std::int64_t>(n))) {
     state.error("FAG-018", e.pos, "the parameter P" + index.text + " does not exist",
                 "parameters are P0-P25, P100-P299, P1000-P1255 and P2000-P2255");
+  } else if (n >= facts::first_oem_parameter && !state.attributes.empty() &&
+             to_upper_ascii(state.attributes).find('O') == std::string::npos) {
+    state.error("FAG-046", e.pos, "P" + index.text + " belongs to the programs of the machine's maker [1254]",
+                "the header of such a program has the attribute O");
   }
   return {parameter_space, {}, ir::number(n), {}};
 }

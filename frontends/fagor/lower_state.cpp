@@ -57,6 +57,7 @@ void LowerState::start_routine(bool subroutine) {
   turned_ = false;
   comp_by_text = ir::CompSide::off;
   motion_by_text = ir::MotionKind::modal;
+  motion_sure = comp_begins = false;
   constants_.clear();
   constants_known_ = true;
   spindle_ = 1;

@@ -101,7 +101,7 @@ class LowerState {
   [[nodiscard]] ir::AxisId longitudinal_given() const { return longitudinal_; }
   /// A block that can be reached from elsewhere: what the text said before may not hold.
   void labelled() {
-    spindle_sure_ = longitudinal_sure_ = false;
+    spindle_sure_ = longitudinal_sure_ = motion_sure = comp_begins = false;
     constants_.clear();
   }
   /// Parameters that hold a fixed number here, whatever way leads to the block.
@@ -116,6 +116,9 @@ class LowerState {
   ir::CompSide comp_by_text = ir::CompSide::off;
   ir::Units units_by_text = ir::Units::metric;
   ir::MotionKind motion_by_text = ir::MotionKind::modal;
+  bool motion_sure = false;                            ///< no other way leads here since the last motion code
+  bool comp_begins = false;                            ///< G40, G41 or G42 since the last move in the plane
+  std::string attributes;                              ///< of the header; empty: a file without one
   std::shared_ptr<const ir::HoleCycle> cycle_by_text;  ///< the hole cycle in force
   int cycle_code_by_text = 0;                          ///< its G number
   FileFacts facts;

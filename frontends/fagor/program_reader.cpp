@@ -101,6 +101,7 @@ void ProgramReader::percent(std::string_view text) {
                      "the header is not of the form %comment,MX, with a comment of at most 20 characters",
                      "the control lists such a program with asterisks; attributes are O, H, M and X");
     }
+    state_.attributes = main.attributes;
     return;
   }
   if (local_group_) {
