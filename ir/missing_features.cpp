@@ -24,7 +24,7 @@ constexpr std::array features{
     MissingFeature{"cycle.milling", "milling cycles along contours, pockets with islands, engraving",
                    "pockets, slots, faces, spigots, milled threads and paths along a contour are carried"},
     MissingFeature{"cycle.pattern", "free lists of hole positions", "lines, circles and grids are carried"},
-    MissingFeature{"cycle.turning", "turning cycles whose moves are not described (parting, contour grooves, corners)",
+    MissingFeature{"cycle.turning", "turning cycles whose moves are not described (parting, contour grooves)",
                    "read and kept; their sequence is not in the references"},
     MissingFeature{"language.files", "file operations", "no output file model yet"},
     MissingFeature{"language.macro", "macros of the machine builder called by a code", "their text is on the machine"},

@@ -15,7 +15,7 @@ inline constexpr std::string_view contour_parameter = "NPP";
 struct TurningCycle {
   std::string_view name;                                                     ///< "CYCLE97"
   std::string_view cycle;                                                    ///< name in the IR
-  std::array<std::pair<std::string_view, std::string_view>, 22> parameters;  ///< own name, name in the IR
+  std::array<std::pair<std::string_view, std::string_view>, 29> parameters;  ///< own name, name in the IR
   std::string_view needs;  ///< own names that must be given, separated by one comma each
 };
 
@@ -57,6 +57,22 @@ inline constexpr std::array turning_cycles = {
                    {"NID", "idle"}, {"PP1", "pitch"}, {"PP2", "pitch_2"}, {"PP3", "pitch_3"}, {"VARI", "variant"},
                    {"NUMT", "starts"}, {"VRT", "withdrawal"}}},
                  "PO1,DM1,PO2,DM2,PO3,DM3,PO4,DM4,TDEP,PP1,PP2,PP3,VARI"},
+    TurningCycle{"CYCLE99", "shape.thread",
+                 {{{"SPL", "z"}, {"SPD", "nominal"}, {"FPL", "z_end"}, {"FPD", "nominal_end"}, {"APP", "run_in"},
+                   {"ROP", "run_out"}, {"TDEP", "depth"}, {"FAL", "finish_stock"}, {"IANG", "infeed_angle"},
+                   {"NSP", "start_angle"}, {"NRC", "passes"}, {"NID", "idle"}, {"PIT", "pitch"}, {"VARI", "variant"},
+                   {"NUMT", "starts"}, {"SDIS", "withdrawal"}, {"MID", "first_infeed"}, {"GDEP", "change_depth"},
+                   {"PIT1", "spare_1"}, {"FDEP", "spare_2"}, {"GST", "first_start"}, {"GUD", "spare_3"},
+                   {"IFLANK", "flank_infeed"}, {"PITA", "pitch_unit"}, {"PITM", "spare_4"}, {"PTAB", "spare_5"},
+                   {"PTABA", "spare_6"}, {"DMODE", "display"}, {"AMODE", "spare_7"}}},
+                 "SPL,SPD,FPL,TDEP,PIT,VARI"},
+    TurningCycle{"CYCLE951", "shape.corner",
+                 {{{"SPD", "nominal"}, {"SPL", "z"}, {"EPD", "nominal_end"}, {"EPL", "z_end"}, {"ZPD", "spare_1"},
+                   {"ZPL", "spare_2"}, {"LAGE", "position"}, {"MID", "step"}, {"FALX", "stock_x"}, {"FALZ", "stock_z"},
+                   {"VARI", "variant"}, {"RF1", "spare_3"}, {"RF2", "spare_4"}, {"RF3", "spare_5"},
+                   {"SDIS", "clearance"}, {"FF1", "rough_feed"}, {"NR", "spare_6"}, {"DMODE", "display"},
+                   {"AMODE", "spare_7"}}},
+                 "SPD,SPL,EPD,EPL,LAGE,MID,VARI"},
 };
 // clang-format on
 

@@ -99,6 +99,12 @@ constexpr std::array parameters = {
     Parameter{"quadrant", Quantity::plain},
     Parameter{"position", Quantity::plain},
     Parameter{"nominal", Quantity::length},
+    Parameter{"nominal_end", Quantity::length},
+    Parameter{"change_depth", Quantity::length},
+    Parameter{"flank_infeed", Quantity::length},
+    Parameter{"first_infeed", Quantity::length},
+    Parameter{"first_start", Quantity::plain},
+    Parameter{"pitch_unit", Quantity::plain},
     Parameter{"display", Quantity::plain},
     // Words of newer signatures: carried, and only 0 is carried out.
     Parameter{"spare_1", Quantity::plain},
@@ -143,6 +149,8 @@ constexpr std::array cycles = {
     MachiningCycle{"relief.shoulder", Kind::shaped, false, true, false, CycleEnd::elsewhere},
     MachiningCycle{"relief.thread", Kind::shaped, false, true, false, CycleEnd::elsewhere},
     MachiningCycle{"relief.placed", Kind::shaped, false, true, false, CycleEnd::elsewhere},
+    MachiningCycle{"shape.thread", Kind::shaped, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"shape.corner", Kind::shaped, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.groove", Kind::profile, false, false, false},
     MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
@@ -236,6 +244,7 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
     *error = "a cycle of the lathe in another plane than that of Z and X is not carried out";
     return std::nullopt;
   }
+  if (cycle.name.starts_with("shape.")) return detail::newer_signature(cycle.name, numbers, context, error);
   const MachiningCycle turned{cycle.name, cycle.kind, face, cycle.ends_comp, cycle.ends_modes};
   detail::Roles roles(turned, numbers, context);
   bool done = false;

@@ -380,7 +380,7 @@ bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string*
   style.chip_length = std::abs(r.number("chip_length"));
   style.chip_dwell = r.number("chip_dwell");
   // The cycle finds its own start: outside of the contour and its allowance, and 1 mm more.
-  constexpr double clearance = 1;
+  const double clearance = r.number("clearance", 1);
   double nearest = target.front().a.q;
   for (const auto& x : target) nearest = std::max({nearest, x.a.q, x.b.q});
   const double top = highest(target);
