@@ -63,7 +63,12 @@ void read_one(ir::NamedCycle& cycle, const ir::Program& program, const ir::Routi
   Folded folded(cycle, constants, routine, s);
   const auto modes = ir::passes::modes_at(b, facts, machine.power_on);
   ir::cycles::TurnNumbers numbers;
-  if (!modes || !ir::passes::machining_numbers(folded.cycle, *modes, numbers))
+  // Of its words only the first point counts for the contour.
+  ir::NamedCycle place{folded.cycle.name, {}};
+  for (const auto& w : folded.cycle.words) {
+    if (w.first == "x" || w.first == "z") place.words.push_back(w);
+  }
+  if (!modes || !ir::passes::machining_numbers(place, *modes, numbers))
     return ir::cycles::put_contour_fault(cycle, "its words or the modes in force are known only when the program runs");
   std::string error;
   const auto blocks = ir::cycles::profile_blocks(program, routine, cycle, &error);

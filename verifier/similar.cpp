@@ -201,6 +201,10 @@ class Stock {
       if (!what.empty()) return what;
     }
     const auto there = moves_of(frame_, a_), here = moves_of(frame_, b_);
+    top_ = highest(frame_.of(contour));
+    for (const auto& m : there) {
+      if (cuts(*m.event)) top_ = std::max(top_, highest(m.points));
+    }
     std::string what = feeds(there, here);
     if (what.empty()) what = below(there, "source");
     if (what.empty()) what = below(here, "translation");
@@ -218,14 +222,28 @@ class Stock {
   }
 
   std::string contours(bool finish) {
-    const Line a = contour(*a_.run, finish), b = contour(*b_.run, finish);
-    if (a.empty()) return {};
+    const Line whole_a = contour(*a_.run, finish), whole_b = contour(*b_.run, finish);
+    if (whole_a.empty()) return {};
+    const Line a = finish ? whole_a : without_tail(whole_a, whole_b),
+               b = finish ? whole_b : without_tail(whole_b, whole_a);
     const double far = std::max(farthest(a, b), farthest(b, a));
     if (far > t_.contour)
       return fmt::format("the contours that the two cycles {} are {} mm apart", finish ? "finish" : "leave",
                          rounded(far, 4));
     apart = std::max(apart, far);
     return {};
+  }
+
+  /// A wall that goes on straight out from the highest point of the other contour bounds passes over it, nothing else.
+  [[nodiscard]] Line without_tail(const Line& line, const Line& other) const {
+    const Point& top = other.front().p > other.back().p ? other.front() : other.back();
+    const bool ends = highest(other) <= top.p + t_.contour;
+    Line out;
+    for (const auto& t : line) {
+      const bool over = ends && t.p > top.p + t_.contour && std::fabs(t.q - top.q) <= t_.contour;
+      out.push_back(over ? Point{top.p, t.q} : t);
+    }
+    return out;
   }
 
   std::string feeds(const std::vector<Move>& there, const std::vector<Move>& here) const {
@@ -256,7 +274,7 @@ class Stock {
       for (const auto& p : bound) end = std::min(end, p.q);
       for (const auto& p : m.points) {
         const auto floor = height(bound, p.q, t_.contour);
-        const bool beyond = p.q < end - t_.contour && p.p < highest(bound) + t_.contour;
+        const bool beyond = p.q < end - t_.contour && p.p < top_ + t_.contour;
         if (!beyond && (!floor || p.p >= *floor - t_.contour)) continue;
         return fmt::format("a {} of the cycle in the {} goes {} the contour, at {}", interpreter::name(m.event->kind),
                            side, beyond ? "beyond the end of" : "below", said(p));
@@ -345,6 +363,7 @@ class Stock {
   const CyclePasses &a_, &b_;
   const Tolerances& t_;
   Frame frame_;
+  double top_ = 0;  ///< the highest point that the source's passes come to
 };
 
 /// Other things than moves that a cycle does must be the same.

@@ -1,4 +1,5 @@
 // Machining cycles of a lathe in the cycle pass.
+#include <algorithm>
 #include <utility>
 
 #include "ir/passes/cycle_pass.h"
@@ -50,7 +51,7 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
     return put_moves(std::move(s), std::move(calls), std::move(pieces), out);
   }
   std::string not_similar;
-  if (auto form = turning_.similar(cycle, s, b, facts_, &not_similar))
+  if (auto form = turning_.similar(cycle, s, b, facts_, false, &not_similar))
     return put_similar(std::move(s), std::move(*form), std::move(pieces), out);
   if (!not_similar.empty())
     context_.diagnostics.note("TRN-416", s.line.span,
@@ -74,7 +75,12 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
         error = fault;
     }
   }
-  if (!moves) return no_moves(std::move(s), error, out);
+  if (!moves) {
+    std::string none;
+    if (auto form = turning_.similar(cycle, s, b, facts_, true, &none))
+      return put_similar(std::move(s), std::move(*form), std::move(pieces), out);
+    return no_moves(std::move(s), error, out);
+  }
   context_.diagnostics.note("TRN-333", s.line.span,
                             loops && !head
                                 ? "the cycle is written out as a loop over its passes: the target has none that "
@@ -89,15 +95,51 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
   put_moves(std::move(s), std::move(*moves), std::move(pieces), out);
 }
 
+/// Copies of profiles, behind the end of the routine.
+void CyclePass::add_copies(Body& out) {
+  for (std::size_t i = 0; i < uses_of_profiles_.size(); ++i) {
+    const auto& use = uses_of_profiles_[i];
+    const auto here = uses_of_profiles_.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto same = [&](const ProfileUse& o) { return o.first_label == use.first_label; };
+    if (use.copy.empty() || std::find_if(uses_of_profiles_.begin(), here, same) != here) continue;
+    for (auto& s : copied_profile(use, editor_.program)) out.push_back(std::move(s));
+  }
+}
+
+/// A profile that another cycle reads in another way has labels of its own, and blocks of its own.
+void CyclePass::own_labels(SimilarForm& form) {
+  ProfileUse& use = *form.use;
+  const auto stands = [&](const ProfileUse& o) { return o == use && o.copy.empty() == use.copy.empty(); };
+  if (std::any_of(uses_of_profiles_.begin(), uses_of_profiles_.end(), stands)) return;
+  const auto clash = [&](const ProfileUse& o) {
+    return o.first_label == use.first_label || o.last_label == use.last_label;
+  };
+  while (std::any_of(uses_of_profiles_.begin(), uses_of_profiles_.end(), clash)) {
+    if (use.copy.empty()) use.copy = use.blocks;
+    for (auto* label : {&use.first_label, &use.last_label})
+      *label = use.numbers ? std::to_string(std::stol(*label) + 20) : *label + 'A';
+  }
+  use.name(form.cycle);
+}
+
 /// The target's own cycle in the place of one that makes other passes: the same part, place and state behind it.
 void CyclePass::put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out) {
   Body calls;
   const LineInfo like = s.line;
+  if (form.use) own_labels(form);
   if (form.before.x) calls.push_back(rapid_to(like, form.before));
+  if (form.feed_before) calls.push_back(make_block(like, action(SetFeed{*form.feed_before, false})));
   calls.push_back(single_run(like, std::make_shared<const Cycle>(Cycle{form.cycle})));
   if (form.after.x) {
     calls.push_back(rapid_to(like, form.after));
     std::get<Block>(calls.back().node).motion.keeps_modal = form.rapid_stays;
+  }
+  if (form.motion) {
+    Block b;
+    b.has_motion = true;
+    b.motion.kind = *form.motion;
+    b.motion.explicit_code = true;
+    calls.push_back(made(like, std::move(b)));
   }
   if (form.feed) calls.push_back(make_block(like, action(SetFeed{*form.feed, false})));
   if (form.use) uses_of_profiles_.push_back(*form.use);

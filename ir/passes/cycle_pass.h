@@ -56,6 +56,7 @@ class CyclePass {
     });
     Body out;
     walk(editor_.routine.body, out);
+    add_copies(out);
     editor_.routine.body = std::move(out);
     report_unsure();
   }
@@ -65,7 +66,6 @@ class CyclePass {
     return all;
   }
 
-  /// Profiles that cycles of the target read.
   [[nodiscard]] const std::vector<ProfileUse>& uses_of_profiles() const { return uses_of_profiles_; }
 
  private:
@@ -455,9 +455,7 @@ class CyclePass {
 
   /// A point on a target that defines the cycle in the block of its first point.
   void native_point(Statement&& s, Body&& pieces, Body& out);
-
   void plain(Statement&& s, Body&& pieces, Body& out);
-
   /// A new retract plane while the cycle is active is a new cycle. True: the target's own one has changed.
   bool follow_retract_plane(const Block& b, const Facts& facts);
 
@@ -465,6 +463,8 @@ class CyclePass {
 
   void write_out(Statement&& s, Body&& pieces, Body& out);
   void write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out);
+  void add_copies(Body& out);
+  void own_labels(SimilarForm& form);
   void put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out);
   void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
   void no_moves(Statement&& s, const std::string& why, Body& out);

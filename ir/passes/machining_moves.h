@@ -45,9 +45,9 @@ class TurnCycles {
   [[nodiscard]] std::optional<TurnForm> native(const NamedCycle& cycle, const Statement& s, const Block& b,
                                                const Facts& facts) const;
   /// A cycle of the target that leaves the same part by other passes, when the options ask for it; nullopt with a
-  /// sentence: none. `ways` tells of each block of a profile whether something runs it.
+  /// sentence: none. `last_resort`: without being asked for too, unless they forbid the target's cycles.
   [[nodiscard]] std::optional<SimilarForm> similar(const NamedCycle& cycle, const Statement& s, const Block& b,
-                                                   const FactsOf& facts, std::string* why) const;
+                                                   const FactsOf& facts, bool last_resort, std::string* why) const;
   /// Ids of the blocks that the profiles of written out cycles stand in.
   [[nodiscard]] const std::set<std::uint32_t>& profile_blocks() const { return profile_blocks_; }
 
@@ -63,7 +63,7 @@ class TurnCycles {
   void keep_profile(const Program& program, const Routine& routine, const NamedCycle& named, Site& site);
   /// The blocks as the target's cycle is to read them; nullopt with a sentence: it can't.
   [[nodiscard]] std::optional<ProfileUse> use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
-                                                 std::string* why) const;
+                                                 std::optional<double> tail, bool face, std::string* why) const;
   /// Width of the tool in mm; 0: not known.
   [[nodiscard]] double nose_width(const TurnState& state) const;
   const LegaliseContext& context_;

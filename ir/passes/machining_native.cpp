@@ -103,14 +103,36 @@ void TurnCycles::keep_profile(const Program& program, const Routine& routine, co
 
 namespace {
 
-/// A block that says nothing but an element of a profile.
-bool plain_element(const Block& b) {
+/// A block that says nothing but an element of a profile, in words that mean the same wherever it stands. `here`: it
+/// stays where the program runs through it, so that the later passes know what holds there.
+bool plain_element(const Block& b, bool here) {
+  const bool words = std::all_of(b.motion.coords.begin(), b.motion.coords.end(), [](const CoordWord& c) {
+    return c.mode != WordMode::incremental && c.scale == WordScale::modal;
+  });
+  const bool centres = std::all_of(b.motion.centers.begin(), b.motion.centers.end(), [here](const CenterWord& c) {
+    return here || (c.mode == CenterMode::from_start && c.scale == WordScale::radius);
+  });
+  if (!words || !centres) return false;
   const bool kind = b.motion.kind == MotionKind::modal || b.motion.kind == MotionKind::linear ||
                     b.motion.kind == MotionKind::arc_cw || b.motion.kind == MotionKind::arc_ccw;
-  const bool actions = std::all_of(b.actions.begin(), b.actions.end(),
-                                   [](const Action& a) { return std::holds_alternative<Corner>(a.data); });
+  const bool actions = std::all_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<Corner>(a.data) || std::holds_alternative<SetFeed>(a.data);
+  });
   return b.empty() || (b.has_motion && kind && b.motion.frame == FrameUse::normal && !b.motion.extra && actions &&
                        b.repeat_given == 0);
+}
+
+/// The greatest block number of the program, up to the next ten.
+std::int64_t last_number(const Program& program) {
+  std::int64_t most = 0;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      for (const auto& l : labels_on(s.line)) {
+        if (l.is_number && l.text.size() < 10) most = std::max<std::int64_t>(most, std::stol(l.text));
+      }
+    });
+  }
+  return (most + 9) / 10 * 10;
 }
 
 std::string label_of_use(const Program& program, const std::string& prefix, const NamedCycle& named,
@@ -133,20 +155,38 @@ std::string label_of_use(const Program& program, const std::string& prefix, cons
 }  // namespace
 
 std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
-                                             std::string* why) const {
+                                             std::optional<double> tail, bool face, std::string* why) const {
   ProfileUse use;
   *why = "its profile stands where the target's cycle can't read it";
-  if (!site.apart || !context_.target.identifier_labels || site.blocks.size() < 2) return std::nullopt;
+  const bool numbers = !context_.target.identifier_labels;
+  if (!site.apart || site.blocks.size() < (numbers ? 3 : 2)) return std::nullopt;
   use.first = site.blocks.front().id;
   use.last = site.blocks.back().id;
   bool run = false;
   for (const auto& s : site.blocks) {
     const auto& b = std::get<Block>(s.node);
     run = run || facts.before(s).reachable;
-    if (s.line.skip_mask != 0 || !plain_element(b)) {
+    if (s.line.skip_mask != 0 || !plain_element(b, run && !numbers && !tail)) {
       *why = "a block of its profile says more than an element of it";
       return std::nullopt;
     }
+  }
+  use.numbers = numbers;
+  const auto& head = std::get<Block>(site.blocks.front().node);
+  const bool begins = head.has_motion && head.motion.coords.size() == 2 &&
+                      motion_in(head, facts.before(site.blocks.front())) == MotionKind::linear;
+  if (numbers) {
+    *why = "its profile does not begin with a straight move to a point";
+    if (!begins) return std::nullopt;
+    const auto last = last_number(program_);
+    if (last + 20 > context_.target.label_max) return std::nullopt;
+    use.first = site.blocks[1].id;  // the point before it stands among the words
+    use.first_label = std::to_string(last + 10);
+    use.last_label = std::to_string(last + 20);
+    use.blocks = {site.blocks.begin() + 1, site.blocks.end()};
+    if (run) use.copy = use.blocks;
+    why->clear();
+    return use;
   }
   use.first_label = label_of_use(program_, context_.target.label_prefix, named, "first_label");
   use.last_label = label_of_use(program_, context_.target.label_prefix, named, "last_label");
@@ -155,8 +195,12 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   }
   if (use.x) use.x->text = {};
   if (use.z) use.z->text = {};
-  if (run && use.x) {
-    *why = "the program also runs through the blocks of its profile, and the point where it begins is not among them";
+  use.blocks = site.blocks;
+  use.tail = tail;
+  use.face = face;
+  if (run && (use.x || use.tail)) use.copy = site.blocks;
+  if (!use.x && !begins) {
+    *why = "its profile does not begin with a straight move to a point";
     return std::nullopt;
   }
   if (use.first_label.empty() || use.last_label.empty() || use.first_label == use.last_label) return std::nullopt;
@@ -165,11 +209,13 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
 }
 
 std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const Statement& s, const Block& b,
-                                               const FactsOf& all, std::string* why) const {
+                                               const FactsOf& all, bool last_resort, std::string* why) const {
   why->clear();
   const auto it = sites_.find(s.id);
   const auto family = cycles::family_of(named.name);
-  if (context_.options.cycles != CycleWriting::similar || it == sites_.end() || family.empty()) return std::nullopt;
+  const auto asked = context_.options.cycles;
+  if (asked != CycleWriting::similar && !(last_resort && asked == CycleWriting::native)) return std::nullopt;
+  if (it == sites_.end() || family.empty()) return std::nullopt;
   if (!context_.target.native_cycle) return std::nullopt;
   const Facts& facts = all.before(s);
   const auto m = modes_at(b, facts, context_.source_machine.power_on);
@@ -210,14 +256,20 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
   std::optional<SimilarForm> form;
   if (family == "stock") {
     if (!site.profile) return *why = site.fault, std::nullopt;
+    for (const auto& c :
+         site.blocks.empty() ? std::vector<CoordWord>{} : std::get<Block>(site.blocks.front().node).motion.coords) {
+      if (c.mode == WordMode::incremental || c.scale != WordScale::modal) continue;
+      if (c.axis == axis::x) source.begins.x = c.value;
+      if (c.axis == axis::z) source.begins.z = c.value;
+    }
+    for (auto* v : {&source.begins.x, &source.begins.z}) {
+      if (*v) (*v)->text = {};
+    }
     form = similar_stock(source, why);
     if (!form) return std::nullopt;
-    form->use = use_of(named, site, all, why);
+    form->use = use_of(named, site, all, form->tail, form->face, why);
     if (!form->use) return std::nullopt;
-    for (auto& [w, v] : form->cycle.words) {
-      if (w == "first_label") v = Value(string_literal(form->use->first_label));
-      if (w == "last_label") v = Value(string_literal(form->use->last_label));
-    }
+    form->use->name(form->cycle);
   } else if (family == "thread") {
     form = similar_thread(source, why);
     if (!form) return std::nullopt;
@@ -227,6 +279,11 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
   const bool comp_off = own->ends_comp || setting_in<CompSide>(b, facts, Setting::comp) == CompSide::off;
   if (form && other->ends_comp && !comp_off)
     return *why = "radius compensation may be on, and would be off behind it", std::nullopt;
+  if (form && other->ends_modes && !own->ends_modes) {
+    const bool straight = facts.motion == MotionKind::rapid || facts.motion == MotionKind::linear;
+    if (!straight) return *why = "the motion function in force behind it is not known here", std::nullopt;
+    if (facts.motion == MotionKind::linear) form->motion = facts.motion;
+  }
   return form;
 }
 

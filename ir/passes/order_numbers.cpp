@@ -2,6 +2,7 @@
 // of the text between the numbers of the source, and a range runs from its smaller number to its greater one.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "ir/passes/editor.h"
@@ -42,6 +43,7 @@ class NumberPass {
   /// False: a number that is none.
   bool collect() {
     const auto* known = context_.source_numbers;
+    const auto profiles = profile_numbers();
     bool good = true;
     for_each_statement(routine_.body, [&](Statement& s) {
       const std::string_view text = s.line.number;
@@ -50,10 +52,28 @@ class NumberPass {
       m.line = &s.line;
       const auto r = std::from_chars(text.data(), text.data() + text.size(), m.number);
       good = good && r.ec == std::errc{} && r.ptr == text.data() + text.size();
-      m.made = known != nullptr && known->count(text.data()) == 0;
+      m.made = known != nullptr && known->count(text.data()) == 0 && profiles.count(m.number) == 0;
       marks_.push_back(m);
     });
     return good;
+  }
+  /// Of the blocks that cycles name as their profile: they stay as they are.
+  std::set<std::int64_t> profile_numbers() const {
+    std::set<std::int64_t> found;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&found](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+          const auto* d = std::get_if<CycleDefine>(&b->actions[i].data);
+          const auto* named = d != nullptr && d->cycle ? std::get_if<NamedCycle>(&d->cycle->node) : nullptr;
+          if (named == nullptr) continue;
+          for (const auto& [w, v] : named->words) {
+            if ((w == "first_label" || w == "last_label") && v.literal()) found.insert(std::lround(v.number));
+          }
+        }
+      });
+    }
+    return found;
   }
   std::vector<std::int64_t> numbers() const {
     std::vector<std::int64_t> n;
@@ -129,6 +149,12 @@ class NumberPass {
     }
   }
   void renumber_all() {
+    if (!profile_numbers().empty()) {
+      context_.diagnostics.error("TRN-192", routine_.header.span,
+                                 "a routine with a profile of a cycle must be numbered anew",
+                                 "put the two numbers of every range in ascending order");
+      return;
+    }
     const auto found = between(0, -1, static_cast<std::int64_t>(marks_.size()));
     if (found.empty()) {
       context_.diagnostics.error("TRN-192", routine_.header.span,

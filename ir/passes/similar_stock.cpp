@@ -67,18 +67,23 @@ class StockForms {
 
   std::optional<SimilarForm> find() {
     if (s_.profile == nullptr) return no("its profile is not known");
-    if (std::isnan(s_.at.x) || std::isnan(s_.at.z) || !s_.start.x || !s_.start.z)
+    const bool anywhere = s_.named.name == "stock.contour";
+    if (!anywhere && (std::isnan(s_.at.x) || std::isnan(s_.at.z) || !s_.start.x || !s_.start.z))
       return no("the place of the tool before it is not known here");
     if (!play(s_.named, mine_)) return std::nullopt;
     if (has("section") && !is_zero("section")) return no("it works in sections");
     if (!is_zero("chip_dwell") || !is_zero("chip_length")) return no("it breaks chips");
     std::vector<NamedCycle> forms;
     contour_forms(forms);
+    profile_forms(forms);
     if (forms.empty()) return no("the target has none of its kind");
     for (const auto& form : forms) {
       Played theirs;
-      if (!play(form, theirs) || !leaves_the_same(theirs)) continue;
-      return written(form, theirs);
+      if (!play(form, theirs)) continue;
+      from_the_tool_ = form.name != "stock.contour";
+      if (leaves_the_same(theirs)) return written(form, theirs);
+      if (from_the_tool_) continue;
+      if (auto longer = with_tail(form)) return longer;
     }
     return std::nullopt;
   }
@@ -114,6 +119,8 @@ class StockForms {
       if (!text && !f.literal() && !constant_value(f.expr)) {
         if (w != "step" && w != "axial_step" && !w.starts_with("stock") && !w.ends_with("_feed") && w != "withdrawal")
           return no("its words are computed when the program runs"), false;
+        if (w.starts_with("stock") && s_.named.name == "stock.blank")
+          return no("the sense of its allowance is known only when the program runs"), false;
         const double k = w.ends_with("_feed") ? 1e-3 : w.starts_with("stock") ? 0.5 : 1;
         f = Value(k * (1 + double(w.size()) / 1e3));
         computed_ = true;
@@ -123,10 +130,10 @@ class StockForms {
     TurnNumbers numbers;
     if (!machining_numbers(folded, s_.modes, numbers)) return no("its words are computed when the program runs"), false;
     cycles::TurnContext context;
-    context.start = s_.at;
+    context.start = &out == &mine_ ? s_.at : at_;
     context.nose_width = s_.nose_width;
     context.longer_in_x = s_.longer_in_x;
-    context.profile = s_.profile;
+    context.profile = profile_;
     context.left = &out.left;
     std::string error;
     auto moves = cycles::expand(*cycles::find_machining(cycle.name), numbers, context, &error);
@@ -136,16 +143,61 @@ class StockForms {
     return true;
   }
 
+  /// A blank that stands over the contour: the contour with a wall from its highest end out to there.
+  std::optional<SimilarForm> with_tail(const NamedCycle& form) {
+    const auto step = numbers_.find(mine_.left.face && numbers_.contains("axial_step") ? "axial_step" : "step");
+    if (!mine_.left.finish.empty() || mine_.left.rough.empty() || step == numbers_.end() || computed_)
+      return std::nullopt;
+    const auto height = [&](TurnPoint t) { return mine_.height(t); };
+    cycles::TurnProfile longer = *s_.profile;
+    const TurnPoint end = longer.part.back().to;
+    for (const auto& e : longer.part) {
+      if (height(e.from) > height(end) + tiny || height(e.to) > height(end) + tiny) return std::nullopt;
+    }
+    if (height(longer.part.front().from) > height(end) - tiny) return std::nullopt;
+    const double top = mine_.first_pass() + std::abs(step->second);
+    double to = top;
+    Played theirs;
+    for (int k = 0; k < 2; ++k) {
+      TurnPoint tip = end;
+      (mine_.left.face ? tip.z : tip.x) = mine_.left.out * to;
+      if (height(tip) < height(end) + tiny) return std::nullopt;
+      longer.part.resize(s_.profile->part.size());
+      longer.part.push_back({end, tip, false, false, {}});
+      theirs = {};
+      profile_ = &longer;
+      const bool played = play(form, theirs);
+      profile_ = s_.profile;
+      if (!played || theirs.left.rough.empty()) return std::nullopt;
+      if (k == 0) to -= theirs.top() - top;
+    }
+    const auto& rough = theirs.left.rough;
+    const auto& own = mine_.left.rough;
+    if (rough.size() != own.size() + 1 || !same(std::vector(rough.begin(), rough.end() - 1), own)) return std::nullopt;
+    const TurnPoint a = rough.back().from, b = rough.back().to;
+    const bool straight = std::abs(mine_.left.face ? a.x - b.x : a.z - b.z) < tiny;
+    if (!straight || theirs.left.face != mine_.left.face || theirs.left.out != mine_.left.out) return std::nullopt;
+    if (recess() || mine_.first_pass() > theirs.top() + tiny) return std::nullopt;
+    auto out = written(form, theirs);
+    const double k = s_.modes.diameter == DiameterMode::radius || mine_.left.face ? 1 : 2;
+    out.tail = std::round(mine_.left.out * to * k * 1e6) / 1e6;
+    out.face = mine_.left.face;
+    why_.clear();
+    return out;
+  }
+  [[nodiscard]] bool recess() const {
+    return std::any_of(mine_.left.rough.begin(), mine_.left.rough.end(),
+                       [&](const ProfileElement& e) { return mine_.height(e.to) < mine_.height(e.from) - tiny; });
+  }
+
   bool leaves_the_same(const Played& theirs) {
     if (theirs.left.face != mine_.left.face || theirs.left.out != mine_.left.out ||
         !same(theirs.left.rough, mine_.left.rough) || !same(theirs.left.finish, mine_.left.finish))
       return no("the target's cycle would come to another contour"), false;
     if (mine_.left.rough.empty()) return true;
-    for (const auto& e : mine_.left.rough) {
-      if (mine_.height(e.to) < mine_.height(e.from) - tiny)
-        return no("its contour has a recess, and the target's cycle leaves steps on the far side of one"), false;
-    }
-    const double high = mine_.first_pass() - theirs.top();
+    if (recess())
+      return no("its contour has a recess, and the target's cycle leaves steps on the far side of one"), false;
+    const double high = mine_.first_pass() - (from_the_tool_ ? theirs.height(at_) : theirs.top());
     if (high > tiny && !computed_)
       return no("the blank stands " + shortest(std::round(high * 1e3) / 1e3) +
                 " mm and more over the highest point of the contour, where the target's cycle begins"),
@@ -193,6 +245,48 @@ class StockForms {
       forms.push_back(std::move(g));
     }
   }
+  /// From the place of the tool, with the profile's first point among the words.
+  void profile_forms(std::vector<NamedCycle>& forms) {
+    const bool by_blank = s_.named.name == "stock.blank";
+    if (s_.named.name != "stock.contour" && !by_blank) return;
+    NamedCycle f;
+    f.name = mine_.left.face ? "face.profile" : "turn.profile";
+    if (!s_.target.native_cycle(Cycle{f})) return;
+    const auto variant = number("variant");
+    if (!by_blank && (!variant || *variant >= 200)) {
+      no("its passes leave steps");
+      return;
+    }
+    if (mine_.left.rough.empty() || !s_.begins.x || !s_.begins.z) {
+      no(mine_.left.rough.empty() ? "the target's cycle does not finish alone"
+                                  : "its profile does not begin with a point in X and Z");
+      return;
+    }
+    const auto put = [&](std::string_view name, const Value* v) {
+      if (v != nullptr) f.words.emplace_back(std::string(name), plain(*v));
+    };
+    f.words.emplace_back("x", *s_.begins.x);
+    f.words.emplace_back("z", *s_.begins.z);
+    put("step", find_word(has("axial_step") ? "axial_step" : "step"));
+    if (!is_zero("stock") && is_zero("stock_x") && is_zero("stock_z")) {
+      put("stock_x", find_word("stock"));
+    } else {
+      const Value none(0.0);
+      put("stock_x", has("stock_x") ? find_word("stock_x") : &none);
+      put("stock_z", has("stock_z") ? find_word("stock_z") : &none);
+    }
+    if (!is_zero("groove_feed")) put("groove_feed", find_word("groove_feed"));
+    if (!mine_.left.finish.empty()) put("finish_feed", find_word("finish_feed"));
+    f.words.emplace_back("first_label", Value(1.0));
+    f.words.emplace_back("last_label", Value(2.0));
+    if (!by_blank && !s_.feed) {
+      no("the feed in force before it is not known here");
+      return;
+    }
+    if (!by_blank) at_ = mine_.moves.front().to;
+    own_place_ = !by_blank;
+    forms.push_back(std::move(f));
+  }
   [[nodiscard]] double highest_x() const {
     double x = -std::numeric_limits<double>::infinity();
     for (const auto& e : s_.profile->part) x = std::max({x, e.from.x, e.to.x});
@@ -214,20 +308,30 @@ class StockForms {
   [[nodiscard]] SimilarForm written(const NamedCycle& form, const Played& theirs) const {
     SimilarForm out;
     out.cycle = form;
-    out.after = s_.start;
+    const double k = s_.modes.diameter == DiameterMode::radius ? 1 : 2;
+    if (own_place_) {
+      const auto word = [](double v) { return Value(std::round(v * 1e6) / 1e6 + 0.0); };
+      out.before = {word(at_.x * k), word(at_.z)};
+    } else if (!from_the_tool_) {
+      out.after = s_.start;
+    }
+    if (from_the_tool_ && !is_zero("rough_feed")) out.feed_before = plain(*find_word("rough_feed"));
+    if (from_the_tool_ && (out.feed_before || !mine_.left.finish.empty())) out.feed = s_.feed;
     const auto* own = cycles::find_machining(s_.named.name);
     out.rapid_stays = own->ends_modes;
     if (own->ends_modes) out.feed = last_feed();
     const int a = mine_.passes(), b = theirs.passes();
     const auto one = [](int n) { return std::to_string(n) + (n == 1 ? " pass" : " passes"); };
-    if (!computed_) out.differs = one(b) + " instead of " + one(a) + ", ";
+    if (!computed_) out.differs = (a == b ? "as many passes" : one(b) + " instead of " + one(a)) + ", ";
     const TurnPoint from = theirs.moves.empty() ? TurnPoint{} : theirs.moves.front().to;
-    const double k = s_.modes.diameter == DiameterMode::radius ? 1 : 2;
     const auto shown = [](double v) { return shortest(std::round(v * 1e3) / 1e3 + 0.0); };
-    if (!theirs.moves.empty() && theirs.moves.front().step == TurnStep::rapid)
+    if (from_the_tool_)
+      out.differs += "from the place of the tool, not in equal steps";
+    else if (!theirs.moves.empty() && theirs.moves.front().step == TurnStep::rapid)
       out.differs += "from X" + shown(from.x * k) + " Z" + shown(from.z) +
                      " (1 mm off the contour; nothing of the blank may stand there)";
-    if (has("rough_feed") && !is_zero("rough_feed")) out.differs += ", without the pass before finishing";
+    if (own->ends_modes && has("rough_feed") && !is_zero("rough_feed"))
+      out.differs += ", without the pass before finishing";
     return out;
   }
   /// The feed that the source's cycle leaves in force.
@@ -243,6 +347,10 @@ class StockForms {
 
   const SimilarSource& s_;
   std::string& why_;
+  const cycles::TurnProfile* profile_ = s_.profile;
+  TurnPoint at_ = s_.at;        ///< where the target's cycle is called
+  bool from_the_tool_ = false;  ///< the passes of the target's cycle begin where the tool stands
+  bool own_place_ = false;      ///< that is where the source's begins and ends by itself
   Played mine_;
   TurnNumbers numbers_;
   bool computed_ = false;
@@ -256,6 +364,7 @@ std::optional<SimilarForm> similar_stock(const SimilarSource& source, std::strin
 
 void keep_used(const Program& program, const std::vector<ProfileUse>& uses, std::set<std::uint32_t>& blocks) {
   for (const auto& use : uses) {
+    if (!use.copy.empty()) continue;
     for (const auto& r : program.routines) {
       bool inside = false;
       for (const auto& s : r.body) {
@@ -267,34 +376,98 @@ void keep_used(const Program& program, const std::vector<ProfileUse>& uses, std:
   }
 }
 
+namespace {
+
+Statement straight_to(const LineInfo& like, const std::optional<Value>& x, const std::optional<Value>& z) {
+  Block b;
+  b.has_motion = true;
+  b.motion.kind = MotionKind::linear;
+  b.motion.explicit_code = true;
+  for (const auto& [axis, v] : {std::pair(axis::x, x), std::pair(axis::z, z)}) {
+    if (!v) continue;
+    CoordWord w;
+    w.axis = axis;
+    w.value = *v;
+    b.motion.coords.push_back(w);
+  }
+  return made(like, std::move(b));
+}
+std::optional<Statement> tail_of(const ProfileUse& use, const LineInfo& like) {
+  if (!use.tail) return std::nullopt;
+  const auto to = std::optional(Value(*use.tail));
+  return use.face ? straight_to(like, {}, to) : straight_to(like, to, {});
+}
+/// The first block of a range is read without what stands before it.
+void say_straight(Statement& s) {
+  auto& b = std::get<Block>(s.node);
+  if (!b.has_motion || b.motion.kind != MotionKind::modal) return;
+  b.motion.kind = MotionKind::linear;
+  b.motion.explicit_code = true;
+}
+LabelRef first_of(const ProfileUse& use) {
+  return LabelRef{use.first_label, use.numbers, nullptr};
+}
+LabelRef last_of(const ProfileUse& use) {
+  return LabelRef{use.last_label, use.numbers, nullptr};
+}
+
+}  // namespace
+
+void ProfileUse::name(NamedCycle& cycle) const {
+  const auto value = [this](const std::string& label) {
+    return numbers ? Value(double(std::stol(label))) : Value(string_literal(label));
+  };
+  for (auto& [w, v] : cycle.words) {
+    if (w == "first_label") v = value(first_label);
+    if (w == "last_label") v = value(last_label);
+  }
+}
+
+Body copied_profile(const ProfileUse& use, Program& program) {
+  Body out;
+  for (const auto& s : use.copy) {
+    out.push_back(s);
+    out.back().id = 0;
+    out.back().line.number = {};
+    out.back().line.labels.clear();
+    std::erase_if(std::get<Block>(out.back().node).actions,
+                  [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
+  }
+  if (use.x && use.z) out.insert(out.begin(), straight_to(out.front().line, use.x, use.z));
+  if (auto tail = tail_of(use, out.back().line)) out.push_back(std::move(*tail));
+  say_straight(out.front());
+  set_label(out.front().line, first_of(use), program);
+  set_label(out.back().line, last_of(use), program);
+  return out;
+}
+
 void label_profiles(Program& program, const std::vector<ProfileUse>& uses) {
   std::vector<ProfileUse> done;
   for (const auto& use : uses) {
-    if (std::find(done.begin(), done.end(), use) != done.end()) continue;
+    if (!use.copy.empty() || std::find(done.begin(), done.end(), use) != done.end()) continue;
     done.push_back(use);
     for (auto& r : program.routines) {
       for (std::size_t i = 0; i < r.body.size(); ++i) {
-        if (r.body[i].id == use.last) set_label(r.body[i].line, LabelRef{use.last_label, false, nullptr}, program);
-        if (r.body[i].id != use.first) continue;
-        const LabelRef label{use.first_label, false, nullptr};
-        if (!use.x || !use.z) {
-          set_label(r.body[i].line, label, program);
-          continue;
+        if (r.body[i].id == 0) continue;
+        const bool first = r.body[i].id == use.first, last = r.body[i].id == use.last;
+        const auto place = [&] { return r.body.begin() + static_cast<std::ptrdiff_t>(i); };
+        if (first && use.x && use.z) {
+          Statement s = straight_to(r.body[i].line, use.x, use.z);
+          set_label(s.line, first_of(use), program);
+          r.body.insert(place(), std::move(s));
+          ++i;
+        } else if (first) {
+          say_straight(r.body[i]);
+          set_label(r.body[i].line, first_of(use), program);
         }
-        Block b;
-        b.has_motion = true;
-        b.motion.kind = MotionKind::linear;
-        b.motion.explicit_code = true;
-        for (const auto& [axis, v] : {std::pair(axis::x, *use.x), std::pair(axis::z, *use.z)}) {
-          CoordWord w;
-          w.axis = axis;
-          w.value = v;
-          b.motion.coords.push_back(w);
+        if (!last) continue;
+        if (auto tail = tail_of(use, r.body[i].line)) {
+          set_label(tail->line, last_of(use), program);
+          r.body.insert(place() + 1, std::move(*tail));
+        } else {
+          set_label(r.body[i].line, last_of(use), program);
         }
-        Statement s = made(r.body[i].line, std::move(b));
-        set_label(s.line, label, program);
-        r.body.insert(r.body.begin() + static_cast<std::ptrdiff_t>(i), std::move(s));
-        ++i;
+        break;
       }
     }
   }

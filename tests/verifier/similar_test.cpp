@@ -219,6 +219,15 @@ TEST(Similar, TheToolStandsElsewhereBehindIt) {
   EXPECT_FALSE(difference(c).empty());
 }
 
+TEST(Similar, AWallOverTheContour) {
+  auto b = target();
+  b.runs[0].rough.push_back({18, wall});
+  const auto v = compare(source(), b);
+  EXPECT_EQ(v.status, Status::within_tolerance) << v.difference.what;
+  b.runs[0].rough.back().z = wall + 0.1;  // it leans
+  EXPECT_TRUE(says(compare(source(), b).difference.what, "apart"));
+}
+
 TEST(Similar, CyclesOfAnotherFamily) {
   auto b = target();
   b.runs[0].family = "thread";
