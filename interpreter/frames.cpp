@@ -1,6 +1,7 @@
 // Work offsets, the programmable frame and the pole.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/saturate.h"
 #include "interpreter/block_machine.h"
@@ -164,7 +165,12 @@ bool BlockMachine::change_frame(const ir::FrameChange& c) {
   } else if (!change_slot(c, combine, slot)) {
     return false;
   }
-  return !failure_.set && rebuild_frame();
+  // A frame outside of what the program puts with its own statements: increments count in it at once.
+  const bool own = c.slot == ir::FrameSlot::chain || c.slot == ir::FrameSlot::preset;
+  const bool keeps = std::exchange(policy_.keeps_programmed, policy_.keeps_programmed && own);
+  const bool done = !failure_.set && rebuild_frame();
+  policy_.keeps_programmed = keeps;
+  return done;
 }
 
 bool BlockMachine::change_slot(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot) {

@@ -27,6 +27,10 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
     return;
   }
   const ir::FrameChange& c = *f.change;
+  if (same_dialect() && c.slot != ir::FrameSlot::chain && !a.text.empty()) {  // TOFRAME, CYCLE800(..)
+    if (!stands_already(a.pos)) add(std::string(a.text), Rank::head, a.pos);
+    return;
+  }
   if (c.slot == ir::FrameSlot::chain && c.combine == ir::FrameCombine::replace_named &&
       c.kind == ir::FrameKind::translate) {
     std::string text = same_dialect() && !a.text.empty() ? std::string(a.text) : c.fine ? "G59" : "G58";

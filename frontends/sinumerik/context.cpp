@@ -11,6 +11,7 @@ MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p) {
     if (a.name.size() == 1 && a.name[0] >= 'A' && a.name[0] <= 'Z')
       axis_of[static_cast<std::size_t>(a.name[0] - 'A')] = a.id;
   }
+  for (const auto& a : p.axes) rotary[a.id] = a.rotary;
   for (const auto& m : p.m_codes) {
     if (m.code >= 0 && m.code < m_limit) m_codes[static_cast<std::size_t>(m.code)] = &m;
   }

@@ -29,6 +29,7 @@ struct MachineFacts {
   bool tool_word_changes = false;                        ///< T carries out the change (MD22550 = 0)
   bool undefined_names_are_global = false;               ///< undeclared names are global user variables
   std::int32_t r_count = 0;                              ///< parameters from R0 on
+  std::array<bool, ir::axis::count_max> rotary{};        ///< axes that turn
   double default_edge = 0;                               ///< D that a tool change selects; 0: none
 
   [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis
@@ -87,6 +88,29 @@ struct CurveTable {
   bool known = true;                                ///< its blocks tell all of it
 };
 
+/// Where the tool points, as far as the text tells (motion reference 7.7, 10.2).
+struct ToolDirection {
+  enum class State : std::uint8_t {
+    normal,  ///< along the normal of the plane: no transformation, no carrier
+    known,   ///< `vector`, in the coordinates of the workpiece
+    unsure
+  };
+  State state = State::normal;
+  std::array<double, 3> vector{0, 0, 1};
+  std::array<double, 3> outside{0, 0, 1};  ///< as `vector`, in the coordinates that TOROTOF brings back
+  bool has_outside = false;
+  bool axes_moved = false;  ///< a rotary axis was programmed
+
+  void turned_by_axis() {
+    axes_moved = true;
+    if (state == State::known) state = State::unsure;
+  }
+  void transformation(bool orients) {
+    state = !orients ? State::normal : axes_moved ? State::unsure : State::known;
+    vector = {0, 0, 1};
+  }
+};
+
 struct FileContext {
   const MachineFacts& machine;
   FileId file;
@@ -112,8 +136,14 @@ struct FileContext {
   void interrupt_lasting() {
     thread_start.interrupt();
     corner_feed.interrupt();
+    tool.state = ToolDirection::State::unsure;
     contours = {};
   }
+
+  ToolDirection tool{};
+  bool framed = false;       ///< the program may have put a frame of its own, beside that of the tool
+  bool tool_frame = false;   ///< the frame of the tool or of a swivelled plane is in force
+  bool other_plane = false;  ///< G18 or G19 was written
 
   std::map<std::int32_t, CurveTable> tables{};          ///< CTABDEF, by number
   CurveTable* table = nullptr;                          ///< the one being defined

@@ -124,6 +124,9 @@ bool StatementLowering::transformation(const std::string& name, WordPos pos, Par
   add(ir::OpaqueWord{c_.slice(pos)});
   add(ir::FrameOp{std::move(clear)});
   add(ir::WorkOffset{ir::Value(0), true});
+  c_.tool.transformation(name != "TRAFOOF");
+  if (name != "TRAORI" && name != "TRAFOOF") c_.tool.state = ToolDirection::State::unsure;
+  c_.framed = c_.tool_frame = false;
   c_.warning("SIN-041", pos,
              name +
                  " switches a transformation: positions are those of the tool in its coordinates, and the frames in "

@@ -59,6 +59,7 @@ bool StatementLowering::beside_word(const Word& w, Parts& parts) {
     if (row == nullptr) row = beside(w.address, BesideForm::procedure);
   }
   if (row == nullptr || c_.symbol(to_upper_ascii(w.address)) != nullptr) return false;
+  if (row->name == "TCARR") c_.tool.state = ToolDirection::State::unsure;
   put_beside(row->feature, w.pos, parts);
   return true;
 }

@@ -16,10 +16,6 @@ using syntax::ExprKind;
 
 bool StatementLowering::moves_nothing(const std::string& name, const std::vector<Expr>& args, WordPos pos) {
   const bool bare = std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.kind == ExprKind::missing; });
-  // Without arguments, or with the data record "0", it ends the swivelled plane; one that begins it is refused, so
-  // there is none (18.5).
-  const bool ends = bare || (args.size() > 1 && args[1].kind == ExprKind::string && args[1].text == "0");
-  if (name == "CYCLE800") return ends;
   if (name != contour_cycle) return false;
   if (bare || c_.contours.used) c_.contours = {};
   if (bare) return true;

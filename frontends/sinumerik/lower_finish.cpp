@@ -184,6 +184,7 @@ bool WordLowering::finish() {
     c_.error("SIN-003", special_pos_, "RPL= belongs to ROT or AROT");
   }
   finish_motion();
+  finish_orientation();
   default_offset();
   sort_actions();
   return true;
@@ -328,7 +329,9 @@ void WordLowering::finish_frame() {
   const bool solid = (verb == FrameVerb::rots || verb == FrameVerb::arots) && coords.size() == 2;
   const WordPos whole = statement_pos();
   const bool empty = coords.empty() && !has_rpl_;
-  change->combine = additive ? ir::FrameCombine::compose : empty ? ir::FrameCombine::clear : ir::FrameCombine::replace;
+  const bool all = empty && !c_.tool_frame;  // else the frame of the tool stays
+  change->combine = additive ? ir::FrameCombine::compose : all ? ir::FrameCombine::clear : ir::FrameCombine::replace;
+  c_.framed = !empty || (c_.framed && additive);
   switch (verb) {
     case FrameVerb::rot:
     case FrameVerb::arot:
@@ -417,16 +420,6 @@ ir::Plane WordLowering::plane_of_centres() const {
   }
   if (x && y) return ir::Plane::xy;
   return x ? ir::Plane::zx : ir::Plane::yz;
-}
-
-/// A3=, B3=, LEAD= and their like: the orientation of the tool, kept; the position of its tip is in the other words.
-void WordLowering::orientation(const Word& w) {
-  push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::before, w.pos);
-  if (c_.first_time("A3=")) {
-    c_.note(
-        "SIN-009", w.pos,
-        std::string(c_.slice(w.pos)) + ": the orientation of the tool is kept as text; positions are those of its tip");
-  }
 }
 
 /// FRC= of the block, else FRCM=, which stays in force for the corners that follow in the text.

@@ -31,6 +31,11 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.corner_feed = {};
   c_.offset_chosen = routine.kind != ir::RoutineKind::main;
   c_.motion = c_.machine.profile->power_on.motion;
+  const bool sub = routine.kind == ir::RoutineKind::sub;
+  c_.tool = {};
+  if (sub) c_.tool.state = ToolDirection::State::unsure;
+  c_.framed = sub;
+  c_.tool_frame = c_.other_plane = false;
 }
 
 void StatementLowering::end_routine(const SourceText* source) {

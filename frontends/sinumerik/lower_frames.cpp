@@ -332,6 +332,7 @@ std::optional<bool> StatementLowering::assign_frame(const Expr& target, const Ex
                      (target.args[2].text == "TR" || target.args[2].text == "FI");
   if (shift) return std::nullopt;  // a value of the table of offsets
   const std::uint32_t before = c_.errors;
+  if (target.text.starts_with("$P_")) c_.framed = true;
   auto name = exprs_.frame_name(target);
   if (c_.errors != before) return false;
   if (!name) return std::nullopt;

@@ -364,6 +364,10 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
 
 bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   if (const Procedure use = procedure(name); use != Procedure::none) return predefined(use, name, args, pos, parts);
+  // Without arguments, or with the data record "0", it ends the swivelled plane (18.5).
+  const bool bare = std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.kind == ExprKind::missing; });
+  const bool ends = bare || (args.size() > 1 && args[1].kind == ExprKind::string && args[1].text == "0");
+  if (name == "CYCLE800") return ends ? swivel_end(pos, parts) : swivel(args, pos, parts);
   if (moves_nothing(name, args, pos)) return without_effect(name, pos, parts);
   if (name == "PO") return denominator(args, pos, parts);
   if (sinumerik::cycle(name) != nullptr) {

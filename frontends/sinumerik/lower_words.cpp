@@ -59,6 +59,8 @@ void WordLowering::begin(ir::Block& out) {
   tail_ = Tail::none;
   feature_ = {};
   if (has_extra_) extra_ = ir::MotionExtra{};
+  vector_ = {};
+  has_vector_ = other_orientation_ = false;
   has_extra_ = has_dwell_ = has_rpl_ = has_corner_feed_ = false;
   corner_ = -1;
 }
@@ -148,6 +150,8 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       c_.motion = m.kind;
       break;
     case GUse::setting:
+      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane && static_cast<ir::Plane>(g.b) != ir::Plane::xy)
+        c_.other_plane = true;
       push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting,
            ir::Order::before, pos);
       break;
@@ -194,6 +198,13 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
                        ": the soft approach or retraction depends on the tool's radius; the move is "
                        "shown as a straight line to its programmed end");
       }
+      break;
+    case GUse::tool_frame: tool_frame(g, pos); break;
+    case GUse::table_frame:
+      if (c_.tool.state != ToolDirection::State::normal)
+        return refuse("motion.transformation", pos, "PAROT of an orientable table is not carried yet");
+      push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
+      c_.note("SIN-009", pos, "PAROT is kept as text: no carrier is selected, so it turns nothing");
       break;
     case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
   }
@@ -297,6 +308,7 @@ void WordLowering::coordinate(ir::AxisId axis, const Word& w, ir::Value value, A
     failed_ = true;
     c_.error("SIN-005", w.pos, std::string(w.address) + " is written twice in this block");
   }
+  if (c_.machine.rotary[axis]) c_.tool.turned_by_axis();
   auto& coord = out_->motion.coords.emplace_back();
   coord.axis = axis;
   coord.value = std::move(value);

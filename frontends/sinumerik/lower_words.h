@@ -86,6 +86,8 @@ class WordLowering {
   void finish_corner();
   void lasting_missed(WordPos pos);
   void orientation(const syntax::Word& w);
+  void finish_orientation();
+  void tool_frame(const GFunction& g, WordPos pos);
   void check_words(bool arc);
   [[nodiscard]] ir::Plane plane_of_centres() const;
   void reject_axis_words(std::string_view why);
@@ -121,6 +123,8 @@ class WordLowering {
   Tail tail_ = Tail::none;
   WordPos tail_pos_;
   std::string_view feature_;
+  std::array<double, 3> vector_{};  ///< A3= B3= C3= of the block
+  bool has_vector_ = false, other_orientation_ = false;
   bool has_extra_ = false;
   ir::MotionExtra extra_;
   bool has_dwell_ = false;

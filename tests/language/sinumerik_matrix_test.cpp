@@ -34,6 +34,10 @@ std::string use_of(const facts::GFunction& g) {
     case timing: return "kept as text: the programmed path is the same";
     case compensation: return "kept as text: acts on the compensated path only";
     case joint: return "run as a straight move to the programmed end (SIN-045); no other control gets it";
+    case tool_frame:
+      return "carried where the text tells where the tool points (SIN-052); else kept as text, and a run stops there";
+    case table_frame:
+      return "carried where no carrier is selected: it turns nothing; else kept as text, and a run stops there";
     case path: return g.b != 0 ? "carried as continuous path; the rounding is not (SIN-019)" : "carried";
     case limit: return "carried for spindles; limits of the working area are kept as text";
     case suppress: return "carried for straight moves";
