@@ -30,6 +30,18 @@ std::set<std::string> variables_of(const ir::Program& program, const ir::ExprPtr
   return names;
 }
 
+/// The control itself puts the variable to 0 at the start.
+bool zeroed(const std::vector<ir::VariableSpace>& spaces, const std::string& name) {
+  for (const auto& space : spaces) {
+    if (space.named() || !space.starts_at_zero || name.rfind(space.prefix, 0) != 0) continue;
+    const auto n = parse_decimal(std::string_view(name).substr(space.prefix.size()));
+    for (const auto& part : space.segments) {
+      if (n && *n >= static_cast<double>(part.lo) && *n <= static_cast<double>(part.hi)) return !part.persistent;
+    }
+  }
+  return false;
+}
+
 const std::string* text_of(const ir::ExprPtr& e) {
   const auto* s = e ? std::get_if<ir::String>(&e->node) : nullptr;
   return s != nullptr ? &s->text : nullptr;
@@ -38,7 +50,10 @@ const std::string* text_of(const ir::ExprPtr& e) {
 }  // namespace
 
 Explorer::Explorer(const ir::Program& program, Inputs start, std::function<bool(const std::string&)> settable)
-    : start_(std::move(start)), settable_(std::move(settable)) {
+    : start_(std::move(start)),
+      settable_([spaces = program.spaces, known = std::move(settable)](const std::string& name) {
+        return !zeroed(spaces, name) && known(name);
+      }) {
   for (const auto& routine : program.routines) {
     for (const auto& p : routine.parameters) defined_.insert(name_of(program, p.variable));
     ir::for_each_statement(routine.body, [&](const ir::Statement& s) { collect(program, routine, s); });

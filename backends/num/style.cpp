@@ -65,6 +65,11 @@ std::vector<ir::VariablePool> pools(bool later) {
   return list;
 }
 
+/// Reference 11: the 7xx has one plane (ER) where the feed starts and where the tool goes back to.
+bool one_plane(const ir::HoleCycle& c) {
+  return c.retract.given && c.retract.base == c.reference.base && ir::equal(c.retract.value, c.reference.value);
+}
+
 ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   ir::Capabilities c;
   c.dialect = "num";
@@ -126,10 +131,11 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   };
   c.system_data = [](const ir::SystemRef& s) { return is_parameter_name(s.text); };
   c.data_form = [lathe](const ir::SystemRef& s) { return data_form(s, lathe); };
-  c.native_cycle = [](const ir::Cycle& cycle) {
+  c.native_cycle = [later](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);
     const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);
-    return hole != nullptr ? native_hole(*hole) : named != nullptr && named->name == "thread.chased";
+    return hole != nullptr ? native_hole(*hole) && (later || one_plane(*hole))
+                           : named != nullptr && named->name == "thread.chased";
   };
   return c;
 }

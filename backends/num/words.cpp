@@ -247,6 +247,7 @@ bool Writer::switched(const ir::Motion& m, const ir::CoordWord& w) {
 }
 
 void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
+  if (inverse_time_arc(w.pos)) return;
   if (w.axis > ir::axis::z) return refuse(no_word, w.pos, "the centre of an arc on this axis has no counterpart here");
   const bool from_start = centre_from_start(profile());
   const auto mode = setting(ir::Setting::distance);
@@ -261,7 +262,16 @@ void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
   add(word(letters.substr(w.axis, 1), w.value, w.pos), Rank::center, w.pos);
 }
 
+/// Reference 7: no arcs under G93.
+bool Writer::inverse_time_arc(WordPos pos) {
+  if (same_dialect() || setting(ir::Setting::feed_mode) != code_value(ir::FeedMode::inverse_time)) return false;
+  refuse(no_word, pos, "an arc with an inverse-time feed has no counterpart here: G93 takes no G2 and G3",
+         "write the feed of the arc in mm/min");
+  return true;
+}
+
 void Writer::radius(const ir::Motion& m) {
+  if (inverse_time_arc(m.radius_pos)) return;
   if (m.radius.literal() && m.radius.number < 0)
     return refuse(no_word, m.radius_pos, "an arc over 180 degrees by its radius has no counterpart here");
   ProgramWriter::radius(m);

@@ -48,6 +48,7 @@ class Writer final : public ProgramWriter {
   void motion(const ir::Motion& m) override;
   void frame_use(const ir::Motion& m) override;
   void coordinate(const ir::Motion& m, const ir::CoordWord& w) override;
+  bool inverse_time_arc(WordPos pos);
   [[nodiscard]] bool switched(const ir::Motion& m, const ir::CoordWord& w);
   void center(const ir::Motion& m, const ir::CenterWord& w) override;
   void radius(const ir::Motion& m) override;

@@ -37,9 +37,51 @@ bool moves_in_plane(const Block& b, const Facts& facts) {
   });
 }
 
+/// What no control takes while radius compensation is on: another tool, offset, work offset or plane.
+const Action* forbidden(const Block& b, const Facts& before) {
+  for (const auto& a : b.actions) {
+    if (std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
+        std::holds_alternative<ToolOffset>(a.data))
+      return &a;
+    if (const auto* w = std::get_if<WorkOffset>(&a.data);
+        w != nullptr && before.work_offset != (w->off               ? 0
+                                               : w->index.literal() ? w->index.number
+                                                                    : -1))
+      return &a;
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    const auto plane = before.settings[static_cast<std::size_t>(Setting::plane)];
+    if (m != nullptr && m->setting == Setting::plane && plane && *plane != m->value) return &a;
+  }
+  return nullptr;
+}
+
+/// Controls stop with an alarm there, or go on with another centre of the tool each.
+void check_changes(const Program& program, const LegaliseContext& context) {
+  if (program.dialect == context.target.dialect || !program_compensates(program, context.source_machine)) return;
+  Program numbered = program;
+  const FactsOf facts(numbered, context);
+  for (const auto& r : numbered.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      const Facts& before = facts.before(s);
+      const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
+      if (!before.reachable || !side || side == CompSide::off || now == CompSide::off) return;
+      const Action* a = forbidden(*b, before);
+      if (a == nullptr) return;
+      context.diagnostics.warning(
+          "TRN-395", word_span(s.line.span, a->pos),
+          "the tool, its offset, the work offset or the plane changes while radius compensation "
+          "is on: most controls refuse that, and the others cut another contour",
+          "end the compensation before the change and start it again after it");
+    });
+  }
+}
+
 }  // namespace
 
 void check_compensation(Program& program, const LegaliseContext& context) {
+  check_changes(program, context);
   const std::string source = context.source_machine.option(option), target = context.target_machine.option(option);
   if (source == target || !program_compensates(program, context.source_machine)) return;
   const FactsOf facts(program, context);

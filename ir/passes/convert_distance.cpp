@@ -74,7 +74,18 @@ class DistancePass {
       : context_(context), facts_(facts) {
     keeps_differ_ =
         context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
-    if (keeps_differ_) unmoved_.emplace(program, UnmovedAxes{});
+    if (!keeps_differ_) return;
+    unmoved_.emplace(program, UnmovedAxes{});
+    for (const auto& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        for (const auto& a : b->actions) {
+          const auto* f = std::get_if<FrameOp>(&a.data);
+          turns_ = turns_ || (f != nullptr && f->change && turns(*f->change));
+        }
+      });
+    }
   }
 
   void block(Editor& editor, Statement&& s, Body& out) {
@@ -114,8 +125,12 @@ class DistancePass {
     out.push_back(std::move(s));
   }
 
+  static bool turns(const FrameChange& c) {
+    return c.kind != FrameKind::translate || c.slot == FrameSlot::rotation || c.slot == FrameSlot::scale ||
+           c.slot == FrameSlot::mirror;
+  }
   void new_routine(Editor& editor) {
-    dirty_ = 0;
+    dirty_ = turned_ = 0;
     shifted_.clear_all();
     const Routine& r = editor.routine;
     uses_ = label_uses(editor.program, r);
@@ -350,6 +365,8 @@ class DistancePass {
         shifted_.moved[x] = 0;
       }
       dirty_ = ~0U;
+      if (f != nullptr && f->change && (turns(*f->change) || (turns_ && f->change->combine == FrameCombine::clear)))
+        turned_ = ~0U;
       if (offset || !f->change || s.line.skip_mask != 0)
         shifted_.clear_all();
       else
@@ -362,14 +379,21 @@ class DistancePass {
     const bool settled = relative && made_absolute(b, facts);
     for (const auto& c : b.motion.coords) {
       const std::uint32_t bit = 1U << c.axis;
+      const bool turned = (turned_ & bit) != 0;
+      turned_ &= ~bit;
       if ((dirty_ & bit) == 0) continue;
       dirty_ &= ~bit;
       if (settled || distance_of(c, b, facts) == Distance::absolute) continue;
-      context_.diagnostics.warning(
-          "TRN-182", word_span(s.line.span, c.pos),
+      const Span at = word_span(s.line.span, c.pos);
+      const char* const what =
           "an incremental move of this axis right after a change of the offsets: the source and "
-          "the target control differ in the point that it starts from",
-          "make the first move of the axis after the change absolute");
+          "the target control differ in the point that it starts from";
+      const char* const hint = "make the first move of the axis after the change absolute";
+      // By how much is not known; behind a rotation, scale or mirror it is another direction as well.
+      if (turned)
+        context_.diagnostics.error("TRN-182", at, what, hint);
+      else
+        context_.diagnostics.warning("TRN-182", at, what, hint);
     }
     return settled;
   }
@@ -378,7 +402,9 @@ class DistancePass {
   const FactsOf& facts_;
   std::optional<FlowStates<UnmovedAxes>> unmoved_;
   bool keeps_differ_ = false;
-  std::uint32_t dirty_ = 0;  ///< bit n: axis n has not moved since the frame changed
+  std::uint32_t turned_ = 0;  ///< bit n: not since a rotation, scale or mirror began or ended
+  bool turns_ = false;        ///< the program has such
+  std::uint32_t dirty_ = 0;   ///< bit n: axis n has not moved since the frame changed
   Shifted shifted_;
   LabelUses uses_;
   bool straight_ = false;

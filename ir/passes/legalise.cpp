@@ -65,6 +65,7 @@ constexpr std::array pipeline{
     Pass{"messages", passes::convert_messages, false},
     Pass{"labels", passes::resolve_labels, false},
     Pass{"routines", passes::name_routines, false},
+    Pass{"call_limits", passes::check_call_limits, false},
     Pass{"numbers", passes::order_numbers, false},
     Pass{"safe_start", passes::safe_start, false},
     Pass{"tidy", passes::tidy, false},

@@ -115,6 +115,12 @@ void StreamWatch::follow_head(const Block& block) {
 
 bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const {
   if (std::holds_alternative<MachineFunction>(a.data) || std::holds_alternative<FrameOp>(a.data)) return true;
+  const auto* plane = set_of(a, Setting::plane);
+  if (state_.comp != CompSide::off && in_block(block, Setting::comp, state_.comp) != CompSide::off &&
+      (std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
+       std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+       (plane != nullptr && plane->value != static_cast<std::uint8_t>(state_.plane))))
+    return true;
   if (const auto* m = std::get_if<ModalSet>(&a.data)) {
     const Setting s = m->setting;
     return s == Setting::feed_mode || s == Setting::units || s == Setting::path_mode || s == Setting::diameter ||

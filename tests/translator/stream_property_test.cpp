@@ -81,7 +81,7 @@ TEST_P(StreamOfPair, IsTheWholeProgramPath) {
   if (never) {
     EXPECT_EQ(streamed, 0U);
   } else {
-    EXPECT_GT(streamed, programs / 12);  // the comparison is not an empty one
+    EXPECT_GT(streamed, programs / 15);  // the comparison is not an empty one; what gets a warning is not streamed
   }
 }
 
