@@ -7,6 +7,7 @@
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
 #include "frontends/common/word_scanner.h"
+#include "frontends/num/compensation.h"
 #include "frontends/num/cycle_changes.h"
 #include "frontends/num/lines.h"
 
@@ -23,6 +24,7 @@ class NumStream : public StreamReader {
       : file_(file),
         settings_(make_settings(*options.profile)),
         lower_(settings_, ignored_),
+        watch_(settings_.power_on),
         reader_(options.reader, settings_.structured) {
     frame_.dialect = "num";
     frame_.spaces = facts::spaces();
@@ -54,6 +56,7 @@ class NumStream : public StreamReader {
       (void)diagnostics;  // the whole-program path reports
       return StreamLine::needs_program;
     }
+    if (watch_.suspects(std::get<ir::Block>(out.node))) return StreamLine::needs_program;
     ended_ = ended_ || flow_.end;
     return flow_.end ? StreamLine::program_end : StreamLine::statement;
   }
@@ -85,6 +88,7 @@ class NumStream : public StreamReader {
   Settings settings_;
   Diagnostics ignored_;
   Lowering lower_;
+  CompensationWatch watch_;
   BlockReader reader_;
   ir::Program frame_;
   syntax::Block syntax_;
@@ -100,6 +104,7 @@ class NumFrontend : public Frontend {
     ReadStats own;
     ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
     judge_cycle_changes(program, options.profile->power_on, diagnostics);
+    judge_compensation(program, options.profile->power_on, diagnostics);
     return program;
   }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
