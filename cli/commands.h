@@ -28,6 +28,7 @@ struct Arguments {
   std::string cycles = "native";
   std::string structure = "keep";
   std::string report;
+  std::string names;
   std::string diagnostics = "text";
   bool verify = false;
   bool explore = false;

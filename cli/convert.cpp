@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "cli/common.h"
 #include "cli/stdout_sink.h"
+#include "translator/names_file.h"
 #include "translator/report/report.h"
 #include "translator/stream.h"
 
@@ -87,6 +88,44 @@ class Job {
   std::set<std::string> names_;
 };
 
+/// The map of names of --names: what stands in the file, and what the translations of this call add.
+class NamesFile {
+ public:
+  explicit NamesFile(const Arguments& a) : a_(a) {}
+  ir::NameMap map;
+
+  /// False, and the reason is said: it is there and can't be used.
+  bool read() {
+    std::error_code ignored;
+    if (a_.names.empty() || !fs::exists(a_.names, ignored)) return true;
+    std::string error;
+    const SourcePtr text = SourceText::open(a_.names, &error);
+    auto found = text ? translator::parse_names(text->text(), a_.from, a_.to, &error) : std::nullopt;
+    if (!found) {
+      usage_error(a_, a_.names + ": " + error);
+      return false;
+    }
+    map = *std::move(found);
+    before_ = map;
+    return true;
+  }
+  /// A file whose names are all there already is left as it is.
+  [[nodiscard]] bool write() const {
+    if (a_.names.empty() || map == before_) return true;
+    std::string error;
+    if (!write_file(a_.names, translator::names_text(map, a_.from, a_.to), &error)) {
+      not_written(a_, error);
+      return false;
+    }
+    wrote(a_, a_.names);
+    return true;
+  }
+
+ private:
+  const Arguments& a_;
+  ir::NameMap before_;
+};
+
 /// Reports every file of the translation that can't be written; true: none.
 bool may_write(const Arguments& a, const translator::TranslateResult& result, const std::string& input, Job& job) {
   Diagnostics diagnostics;
@@ -153,7 +192,8 @@ FileTable targets_as_written(const Arguments& a, const translator::TranslateResu
 }
 
 /// The whole-program path: in memory, with calls, verified on request.
-int convert_whole(const Arguments& a, const translator::TranslateOptions& options, const std::string& input, Job& job) {
+int convert_whole(const Arguments& a, const translator::TranslateOptions& options, const std::string& input, Job& job,
+                  ir::NameMap& names) {
   translator::TranslateOptions with = options;
   with.taken = job.names();
   with.single_output = a.output.empty() || a.output == "-";
@@ -170,6 +210,7 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   job.take_names(result);
   const bool bad = result.verified && !result.verdict.good();
   const int status = write_outputs(a, result, bad);
+  if (status == ok && !bad) translator::add_names(names, result.names);
   if (!result.verified) return status;
   const int found = exit_of(result.verdict);
   a.messages->say(found == ok ? Severity::note : Severity::error, "CNC-VERDICT",
@@ -180,7 +221,7 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
 /// Tries the stream; nullopt: the whole-program path must do it.
 std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options,
                                   const std::string& input) {
-  if (options.verify || options.annotate || is_folder(a.output)) return std::nullopt;
+  if (options.verify || options.annotate || options.names != nullptr || is_folder(a.output)) return std::nullopt;
   std::error_code ignored;
   if (fs::equivalent(a.output, input, ignored)) return std::nullopt;
   ProgressLine progress(input);
@@ -224,8 +265,9 @@ int convert(const Arguments& a) {
   if (!a.report.empty() && !translator::report_writer(a.report))
     return usage_error(a, "--report FILE must end in .html, .json, .md or .sarif");
   const std::string folder = is_folder(a.output) ? std::string() : a.output;
-  std::string why = output_conflict({{"--report", a.report}}, a.inputs);
-  if (why.empty()) why = output_conflict({{"-o", folder}, {"--report", a.report}}, machine_files(a));
+  std::string why = output_conflict({{"--report", a.report}, {"--names", a.names}}, a.inputs);
+  if (why.empty())
+    why = output_conflict({{"-o", folder}, {"--report", a.report}, {"--names", a.names}}, machine_files(a));
   if (!why.empty()) return usage_error(a, why);
   translator::TranslateOptions options;
   if (!translate_options(a, options)) return usage;
@@ -233,11 +275,14 @@ int convert(const Arguments& a) {
     options.verify = options.keep_traces = true;  // a report without its proof would be half of one
   int status = ok;
   Job job(a.inputs);
+  NamesFile names(a);
+  if (!names.read()) return usage;
+  if (!a.names.empty()) options.names = &names.map;
   for (const auto& input : a.inputs) {
     const auto streamed = convert_stream(a, options, input);
-    status = std::max(status, streamed ? *streamed : convert_whole(a, options, input, job));
+    status = std::max(status, streamed ? *streamed : convert_whole(a, options, input, job, names.map));
   }
-  return status;
+  return names.write() ? status : std::max<int>(status, refused);
 }
 
 }  // namespace cnctrans::cli

@@ -85,6 +85,8 @@ void add_converting(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "file, or folder ending in /; without it standard output");
   app.add_flag("--verify", a.verify, "replay source and translation and compare them");
   add_exploring(app, a);
+  app.add_option("--names", a.names,
+                 "file with the names of programs, subprograms and variables: read when it is there, then completed");
   app.add_option("--report", a.report, "write a report (.html .json .md .sarif); implies --verify");
 }
 

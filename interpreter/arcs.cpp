@@ -87,7 +87,7 @@ bool BlockMachine::polar_arc(const ir::Motion& m, Move& move) {
   double r = r0;
   const bool absolute = x.polar_mode == ir::WordMode::absolute ||
                         (x.polar_mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
-  if (x.has_polar_radius) r = value(x.polar_radius) * unit() + (absolute ? 0 : r0);
+  if (x.has_polar_radius) polar_radius_ = r = value(x.polar_radius) * unit() + (absolute ? 0 : r0);
   if (x.has_polar_angle) {
     const double a = value(x.polar_angle);
     Vec direction{cos_degrees(a), sin_degrees(a)};

@@ -28,6 +28,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.machine_metric = is("machine_move.units", "machine");
   policy_.pole_follows_arc = is("polar.pole_follows_arc", "yes");
   policy_.pole_stays = is("polar.pole_stays", "yes");
+  policy_.polar_radius_stays = is("polar.radius", "programmed");
   policy_.plane_resets_pole = is("polar.plane_resets_pole", "yes");
   policy_.start_angle_stays = is("thread.start_angle", "modal");
   policy_.straight_tangents = is("arc.tangent_straight", "line");

@@ -116,6 +116,7 @@ class BlockMachine final : public SystemData {
   std::uint64_t arguments_given = 0;  ///< of the present call level
   std::size_t calls_open = 0;
   std::string_view last_label;  ///< number of the numbered statement carried out last; empty: none yet
+  bool block_again = false;     ///< a further pass of a repeated block: the cycle it defines is in force already
   bool single_points = false;   ///< a pattern stops at each point: a modal subprogram runs there
   /// A pattern in work has further points.
   [[nodiscard]] bool points_left() const { return pattern_here_ && next_point_ < points_.size(); }
@@ -143,7 +144,7 @@ class BlockMachine final : public SystemData {
          centre_through_frame = false;
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
          pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
-         offsets_at_once = false, preset_is_offset = false, straight_tangents = false;
+         offsets_at_once = false, preset_is_offset = false, straight_tangents = false, polar_radius_stays = false;
     bool data_modal = false;  ///< machine data in the units of the program
   };
   struct Pending {
@@ -345,8 +346,9 @@ class BlockMachine final : public SystemData {
   bool tool_came_with_t_ = false;  ///< the tool selected last was changed by its T: M6 has nothing left to do
   std::string tool_name_;
   Vec pole_;
-  bool pole_set_ = false;   ///< by the program, not the zero point of the plane
-  double start_angle_ = 0;  ///< of a thread, where it stays in force
+  bool pole_set_ = false;               ///< by the program, not the zero point of the plane
+  std::optional<double> polar_radius_;  ///< the one programmed last
+  double start_angle_ = 0;              ///< of a thread, where it stays in force
 
   // the last path element, for tangents
   std::array<double, 3> before_{};

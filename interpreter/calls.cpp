@@ -264,6 +264,8 @@ bool Runner::enter(Flow& callee, const std::vector<Bound>& arguments, ir::CallLe
   a.return_to = return_to;
   a.left = count;
   a.opened_level = opens;
+  a.caller_arguments = variables_.level().arguments;
+  if (!callee.routine->parameters.empty()) variables_.level().arguments = 0;
   a.repeats = repeats_.size();
   if (callee.routine->saves_modals) a.saved = machine_.modal();
   for (const auto& shape : callee.locals) a.locals.push_back({shape, false, {}});
@@ -349,7 +351,10 @@ std::uint32_t Runner::close_call() {
   auto& a = calls_.back();
   variables_.leave(a.locals, static_cast<std::uint32_t>(calls_.size() - 1));
   if (a.modal && a.opened_level) modal_.left_behind = variables_.level();
-  if (a.opened_level) variables_.pop_level();
+  if (a.opened_level)
+    variables_.pop_level();
+  else
+    variables_.level().arguments = a.caller_arguments;
   if (a.modal) --in_modal_;
   if (a.saved) machine_.restore_modal(*a.saved);
   const auto back = a.return_to;

@@ -67,6 +67,7 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
     pattern_here_ = true;
     return start_pattern(*named);
   }
+  if (block_again && c.modal && hole_) return true;
   std::optional<ir::cycles::HoleNumbers> numbers;
   ir::AxisId axis = ir::axis::z;
   if (!resolve_cycle(c.cycle, numbers, axis)) return false;

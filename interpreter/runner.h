@@ -38,6 +38,7 @@ class Runner {
     std::uint32_t entry = 0, stop = nowhere;
     std::int64_t left = 1;  ///< passes still to be done, this one included
     bool opened_level = false, modal = false;
+    std::uint64_t caller_arguments = 0;  ///< given to the caller, where both share a level
     std::optional<ir::ModalState> saved;
     std::size_t repeats = 0;       ///< open repeats below belong to callers
     std::vector<Bound> arguments;  ///< kept while passes are left: each starts from them

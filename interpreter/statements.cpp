@@ -40,6 +40,7 @@ void Runner::block(Instruction& in) {
     }
   }
   machine_.belongs_to(home->program, home->routine);
+  machine_.block_again = again;
   machine_.single_points = modal_.active && in_modal_ == 0;
   if (!machine_.block(b, where, cycle)) {
     fail_state();

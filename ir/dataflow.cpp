@@ -235,6 +235,7 @@ class Analysis {
     } else {
       f.forget();
       f.reachable = true;
+      f.modal_call = 0;  // a subprogram by itself: nothing says that its caller has one in force
     }
     current_ = dirty_.size();
     enter(routine, f);

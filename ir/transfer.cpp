@@ -90,7 +90,7 @@ class Transfer {
     const bool plain_hole = hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
-    if (x.here && plain_hole) leaves_at(*hole);
+    if (x.here && plain_hole) hole_here_ = hole;  // its retract plane may stand behind it in the block
     const auto* named = x.cycle ? std::get_if<NamedCycle>(&x.cycle->node) : nullptr;
     const auto* cycle = named != nullptr && !x.modal && x.here ? cycles::find_machining(named->name) : nullptr;
     if (cycle != nullptr) {
@@ -118,8 +118,15 @@ class Transfer {
 
   /// Where a hole carried out here leaves the tool.
   void leaves_at(const HoleCycle& hole) {
-    stays_ = !hole.retract.given && setting(Setting::retract_plane) == static_cast<std::uint8_t>(RetractPlane::initial);
-    if (hole.retract.given && hole.retract.base == LevelBase::absolute) left_at_ = known(hole.retract.value);
+    const auto plane = setting(Setting::retract_plane);
+    const bool to_reference = !hole.retract.given && plane == static_cast<std::uint8_t>(RetractPlane::reference);
+    stays_ = (!hole.retract.given && plane == static_cast<std::uint8_t>(RetractPlane::initial)) ||
+             (hole.retract.given && hole.retract.base == LevelBase::from_initial && hole.retract.value.is(0));
+    const Level& left = to_reference ? hole.reference : hole.retract;
+    const bool absolute = left.base == LevelBase::absolute ||
+                          (left.base == LevelBase::distance_mode &&
+                           setting(Setting::distance) == static_cast<std::uint8_t>(Distance::absolute));
+    if (left.given && absolute) left_at_ = known(left.value);
   }
 
   /// The same points in the other unit; rotary axes have none.
@@ -222,7 +229,9 @@ class Transfer {
     const auto plane = setting(Setting::plane);
     if (!holes_only || !plane) return forget_positions();
     const AxisId w = plane_axes(static_cast<Plane>(*plane)).w;
-    if (active || !runs_here_)
+    if (hole_here_ != nullptr) leaves_at(*hole_here_);
+    const bool defined_here = runs_here_ && here_is_hole_ && f_.cycle_from == id_;
+    if ((active && !defined_here) || !runs_here_)
       set_position(w, std::nullopt);
     else if (!stays_)
       set_position(w, left_at_ ? resolved(w, WordScale::modal, true, left_at_) : std::nullopt);
@@ -269,6 +278,7 @@ class Transfer {
   const cycles::MachiningCycle* kind_ = nullptr;
   bool runs_here_ = false;
   bool here_is_hole_ = false;
+  const HoleCycle* hole_here_ = nullptr;  ///< the hole of this block
   bool not_understood_ = false, follows_ = false;
 };
 

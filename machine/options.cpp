@@ -56,6 +56,8 @@ constexpr std::array specs{
                "most: 0.000001 to 1"},
     OptionSpec{"polar.plane_resets_pole", "no|yes", "no", "a plane function puts the pole to the zero point"},
     OptionSpec{"polar.pole_follows_arc", "no|yes", "no", "the centre of an arc becomes the pole"},
+    OptionSpec{"polar.radius", "present|programmed", "present",
+               "radius of polar words without one: the tool's distance from the pole, or the one programmed last"},
     OptionSpec{"polar.pole_stays", "no|yes", "no",
                "a pole that the program has set stays in its place when the zero point moves, or moves along"},
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",

@@ -36,7 +36,12 @@ struct LatheEvidence {
 
   void word(std::string_view name, std::string_view rest) {
     const std::string upper = to_upper_ascii(name);
-    diameter_axis = diameter_axis || holds<std::string_view>(marks.diameter_words, upper);
+    std::string with_digits = upper;  // DIAM90
+    for (const char c : rest) {
+      if (c < '0' || c > '9') break;
+      with_digits += c;
+    }
+    diameter_axis = diameter_axis || holds<std::string_view>(marks.diameter_words, with_digits);
     without_y = without_y || holds<std::string_view>(marks.words_without_y, upper);
     const bool value = !rest.empty() && (rest[0] == '-' || rest[0] == '+' || rest[0] == '.' || rest[0] == '=' ||
                                          (rest[0] >= '0' && rest[0] <= '9'));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "ir/cycles/mill_contour.h"
 #include "ir/text.h"
@@ -179,6 +180,25 @@ void end_main(ir::Program& program, Diagnostics& diagnostics) {
   }
 }
 
+/// The name that the map gives the main program. Those of other programs are taken.
+void name_program(const ir::NameMap& names, ir::Program& program, backends::WriteOptions& write) {
+  for (const auto& [stem, name] : names.programs) {
+    if (stem != write.main_stem) write.taken.insert(to_upper_ascii(name));
+  }
+  for (const auto& [from, name] : names.routines) write.taken.insert('%' + name);
+  const auto given = names.programs.find(write.main_stem);
+  if (given == names.programs.end()) return;
+  const std::string& name = given->second;
+  if (name.front() != '%') {
+    write.main_stem = name.substr(0, name.rfind('.'));
+    return;
+  }
+  const auto number = parse_decimal(std::string_view(name).substr(1));
+  for (auto& r : program.routines) {
+    if (r.kind == ir::RoutineKind::main && number) r.name = {saturate<std::int64_t>(*number), {}};
+  }
+}
+
 /// Errors of reading may be written over only when the user asked for it.
 bool refused(const Diagnostics& d, const TranslateOptions& options) {
   return d.has_errors() && options.unsupported == backends::Unsupported::error;
@@ -220,7 +240,13 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   join_libraries(source_program, loader, result.diagnostics);
   result.diagnostics.append(loader.library_diagnostics());
   interpreter::Options checks = options.run;
-  checks.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
+  ir::Program outside;  // stands for a subprogram that only the map of names knows
+  outside.routines.emplace_back().kind = ir::RoutineKind::sub;
+  checks.library = [&](const ir::RoutineName& name) {
+    const ir::Program* found = loader.find(name);
+    const bool named = found == nullptr && options.names != nullptr && options.names->given(name) != nullptr;
+    return named ? &outside : found;
+  };
   if (from == to) {
     // Into its own language a program keeps what can't be run here: only a run would stop there.
     Diagnostics found;
@@ -249,7 +275,9 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
       *target_profile,
       {options.cycles, options.raise_structure, options.unsupported != backends::Unsupported::error},
       result.diagnostics,
-      &names};
+      &names,
+      nullptr,
+      options.names};
   if (!as_it_stands) ir::legalise(work, context);
   if (refused(result.diagnostics, options)) {  // the writer would only say the same again
     result.files = loader.files();
@@ -266,13 +294,16 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   write.files_apart = options.files_apart;
   write.main_stem = source->stem();
   write.taken = options.taken;
+  if (options.names != nullptr) name_program(*options.names, work, write);
   auto files = to->backend->write(work, write, result.diagnostics);
   result.files = loader.files();
   if (refused(result.diagnostics, options)) {
     result.refused = true;
     return result;
   }
+  result.names = std::move(names.names);
   for (auto& f : files) {
+    if (f.main) result.names.programs[source->stem()] = f.program.empty() ? f.name : f.program;
     OutputText out{f.name, f.program, {}, std::move(f.map), f.main};
     out.bytes =
         encode_output(f.text, options.encoding.value_or(source->encoding()), options.eol.value_or(source->main_eol()),

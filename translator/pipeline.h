@@ -40,7 +40,8 @@ struct TranslateOptions {
   bool raise_structure = false;      ///< jumps become structures where the target has them and it is provably the same
   std::optional<Encoding> encoding;  ///< of the output; else as the input
   std::optional<Eol> eol;
-  interpreter::Options run;  ///< limits, --set, --skip for the verification
+  interpreter::Options run;            ///< limits, --set, --skip for the verification
+  const ir::NameMap* names = nullptr;  ///< names that are given; may be null
 };
 
 /// One file of the result, ready to be written: encoded, with line ends.
@@ -64,6 +65,7 @@ struct TranslateResult {
   std::string source_machine, target_machine;                  ///< names of the profiles
   bool lathe = false;                                          ///< the source's machine is one
   std::uint64_t lines = 0;
+  ir::NameMap names;  ///< those that the translation has, given or chosen
   std::string error;  ///< could not even start (file missing, unknown dialect): usage
 };
 

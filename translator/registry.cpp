@@ -48,7 +48,7 @@ const std::vector<Dialect>& dialects() {
        "L",
        ';',
        0,
-       {{}, {"DIAMON", "DIAMONA"}, {96}, {"LIMS"}},
+       {{}, {"DIAMON", "DIAMONA", "DIAM90", "DIAM90A"}, {96}, {"LIMS"}},
        {},
        frontends::sinumerik::make_frontend(),
        backends::sinumerik::make_backend()},

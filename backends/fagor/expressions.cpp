@@ -170,8 +170,9 @@ std::string system_name(const ir::SystemRef& s, bool lathe) {
       if (s.args.size() != 1) return "";
       if (!lathe) return "TOL";
       return s.axis == ir::axis::x ? "TOX" : s.axis == ir::axis::z ? "TOZ" : "";
-    case Datum::feed: return "FEED";
-    case Datum::spindle_speed: return "SPEED";
+    case Datum::feed_per_minute: return "FEED";
+    case Datum::feed_per_rev: return "PRGFPR";
+    case Datum::spindle_speed: return s.args.empty() ? "SPEED" : "";  // of the one spindle
     case Datum::part_count: return "PARTC";
     default: return "";
   }

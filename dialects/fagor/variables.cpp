@@ -69,7 +69,7 @@ constexpr std::array<VariableInfo, 280> table = {{
     {"FREAL", false, Index::none, Access::read, false, Datum::other, Unit::feed, ir::Type::real},
     {"FREAL", true, Index::none, Access::read, false, Datum::other, Unit::feed, ir::Type::real},
     {"FTEO", true, Index::none, Access::read, false, Datum::other, Unit::feed, ir::Type::real},
-    {"FEED", false, Index::none, Access::read, false, Datum::feed, Unit::feed, ir::Type::real},
+    {"FEED", false, Index::none, Access::read, false, Datum::feed_per_minute, Unit::feed, ir::Type::real},
     {"DNCF", false, Index::none, Access::read, false, Datum::other, Unit::feed, ir::Type::real},
     {"PLCF", false, Index::none, Access::read, false, Datum::other, Unit::feed, ir::Type::real},
     {"PRGF", false, Index::none, Access::read, false, Datum::feed_per_minute, Unit::feed, ir::Type::real},

@@ -52,11 +52,13 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
     return l;
   };
   if (const Word* er = use(e('R'))) {
-    const bool reference_was_retract = !has(e('H'));
     cycle.retract = level(*er);
-    if (reference_was_retract) cycle.reference = cycle.retract;
+    if (!has(e('H')) && !state_.cycle_has_impact_plane) cycle.reference = cycle.retract;
   }
-  if (const Word* eh = use(e('H'))) cycle.reference = level(*eh);
+  if (const Word* eh = use(e('H'))) {
+    cycle.reference = level(*eh);
+    state_.cycle_has_impact_plane = true;
+  }
   if (const Word* ef = use(e('F'))) {
     if (number != 82 && number != 83 && number != 87 && number != 89) {
       report_.refuse("NUM-027", ef->pos, "EF (dwell) in this cycle is not described", {}, "cycle.hole");
@@ -199,6 +201,7 @@ void Lowering::define_cycle(const Word& g) {
   // Without ER the tool goes back to the height from which the cycle was called.
   cycle.retract = cycle.reference =
       ir::Level{ir::Value(0), ir::LevelBase::from_initial, ir::LevelBase::from_initial, true};
+  state_.cycle_has_impact_plane = false;
   if (!cycle_words(cycle, number)) return;
   const bool pecks = cycle.kind == ir::HoleKind::peck_full || cycle.kind == ir::HoleKind::peck_break;
   if (pecks && cycle.pecks.law == ir::PeckLaw::none) cycle.kind = ir::HoleKind::drill;

@@ -29,6 +29,7 @@ struct TextState {
   ir::MotionKind motion = ir::MotionKind::linear;
   std::shared_ptr<const ir::HoleCycle> cycle;  ///< the hole cycle in force
   int cycle_code = 0;                          ///< its G number
+  bool cycle_has_impact_plane = false;         ///< EH was given: the plane stays when ER changes (11.1)
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
   bool contour_open = false;                   ///< the last element's end follows from the next one
   bool inch = false;                           ///< G70

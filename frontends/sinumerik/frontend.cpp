@@ -153,7 +153,9 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
   }
   const std::string upper = to_upper_ascii(name);
   const bool sub = names_subprogram(name) || upper.rfind("SPF", 0) == 0;
-  if (!fresh_ || routine_.header.span.known() || !routine_.body.empty()) {
+  const bool first = program_.routines.empty() && !routine_.header.span.known();
+  const bool begun = !fresh_ || routine_.header.span.known() || !routine_.body.empty();
+  if (begun && !(fresh_ && first)) {  // comments before the first header belong to its program
     if (blank_ != 0) close_blank();
     end_routine();
     begin_routine(name, sub);

@@ -310,8 +310,10 @@ class ConditionPass {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op) || b->compare == Compare::exact) return x;
+        const auto zero = [](const ExprPtr& side) { return constant_value(side) == 0.0; };
         if (b->left->type == Type::string || (exact(b->left) && exact(b->right)))
           return binary(b->op, b->left, b->right);
+        if (zero(b->left) || zero(b->right)) return binary(b->op, b->left, b->right);  // relative: only 0 equals 0
         warn(s);
         return b->op == BinaryOp::eq || b->op == BinaryOp::ne ? within(*b) : beyond(*b);
       });

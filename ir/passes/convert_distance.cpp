@@ -332,7 +332,8 @@ class DistancePass {
     if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
     if (context_.source_machine.option("frame.change_keeps") == "programmed") return shifted_.at[a];
     const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
-    if (shifted_.turned || !shifted_.moved[a] || !metric) return std::nullopt;
+    const bool turned = shifted_.turned || (turned_ >> a & 1U) != 0;  // the old point was one of the turned frame
+    if (turned || !shifted_.moved[a] || !metric) return std::nullopt;
     return *shifted_.at[a] - *shifted_.moved[a];
   }
 

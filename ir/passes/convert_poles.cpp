@@ -22,6 +22,7 @@ class PolePass {
     target_resets_ = context.target_machine.option("polar.plane_resets_pole") == "yes";
     target_stays_ = context.target_machine.option("polar.pole_stays") == "yes";
     stays_ = context.source_machine.option("polar.pole_stays") == "yes";
+    radius_stays_ = context.source_machine.option("polar.radius") == "programmed";
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
   }
 
@@ -151,22 +152,21 @@ class PolePass {
     if (about && pole_ && pole_->stale && !stays_ && whole) {  // the target's stayed behind
       if (context_.target.polar) b.actions.push_back(action(PoleSet{absolute(*pole_, whole->u, whole->v)}));
       pole_->stale = false;
-    } else if (about && pole_ && pole_->stale) {
+    } else if (about && pole_ && pole_->stale)
       problem = "the pole, which stays in its place when the zero point moves,";
-    }
-    if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts)) {
+    if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts))
       problem = "the start or the centre of this arc by polar words";
-    }
     if (is_polar_line(b, facts)) {
+      const bool takes_over = radius_stays_ && !b.motion.extra->has_polar_radius && !radius_;
+      if (takes_over && problem.empty()) problem = "the radius that these polar words take over";
       const bool done = polar_words(b, facts);
-      if (problem.empty() && !done && !stays_polar(b)) {
+      if (problem.empty() && !done && !stays_polar(b))
         problem = "the pole of these polar words, or the point before them,";
-      }
     } else if (!polar_arc_done_) {
       follow_point(b, facts);
     }
     settle(s);
-    if (place.column == 0) place = b.motion.code_pos;
+    place = place.column == 0 ? b.motion.code_pos : place;
     if (!problem.empty() && !quiet_) {
       refuse(s, program_, context_, "TRN-316", std::string(problem) + " is not known here, and the target needs it",
              "give the pole and the point before it as numbers", place);
@@ -308,6 +308,7 @@ class PolePass {
       forget_point();
       if (absolute && pole_ && x.has_polar_angle && x.polar_angle.literal() && x.polar_radius.literal())
         at_ = around(*pole_, x.polar_radius.number, x.polar_angle.number);
+      if (absolute) radius_ = x.polar_radius;
       return true;
     }
     return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra);
@@ -482,8 +483,8 @@ class PolePass {
   bool polar_arc_done_ = false;
   bool quiet_ = false;  ///< only following
   std::optional<Plane> plane_;
-  bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false;
-  bool target_stays_ = false;
+  bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false, target_stays_ = false,
+       radius_stays_ = false;
 };
 
 }  // namespace

@@ -66,10 +66,28 @@ HoleCycle rescaled(HoleCycle c, double scale_to) {
   return c;
 }
 
+/// So many pecks of a given size that end at the bottom, as pecks of that size.
+std::optional<HoleCycle> pecks_of_one_size(const HoleCycle& c) {
+  const Pecks& p = c.pecks;
+  const bool absolute = c.bottom.given && c.bottom.base == LevelBase::absolute && c.reference.given &&
+                        c.reference.base == LevelBase::absolute && !c.surface.given;
+  const bool numbers =
+      c.bottom.value.literal() && c.reference.value.literal() && p.first.literal() && p.count.literal();
+  if (p.law != PeckLaw::count || !absolute || !numbers || p.count.number < 0.5) return std::nullopt;
+  const double depth = std::fabs(c.reference.value.number - c.bottom.value.number);
+  if (std::fabs(depth - std::round(p.count.number) * std::fabs(p.first.number)) > 1e-9) return std::nullopt;
+  HoleCycle out = c;
+  out.pecks.law = PeckLaw::constant;
+  out.pecks.first = Value(std::fabs(p.first.number));
+  out.pecks.count = Value{};
+  return out;
+}
+
 /// The cycle and its other names: reaming and boring with a dwell move alike, and a computed dwell may have to be
 /// counted in seconds or in hundredths.
 std::vector<HoleCycle> same_moves(const HoleCycle& c) {
   std::vector<HoleCycle> all{c};
+  if (auto steps = pecks_of_one_size(c)) all.push_back(*std::move(steps));
   if (c.kind == HoleKind::ream || c.kind == HoleKind::bore) {
     all.push_back(c);
     all.back().kind = c.kind == HoleKind::ream ? HoleKind::bore : HoleKind::ream;
@@ -223,9 +241,20 @@ bool ToolHeight::keeps(const Statement& s) {
 
 void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,
                         std::optional<double> initial) {
+  const auto before = value_;
+  follow_block(s, facts, ran, harmless, initial);
+  if (s.line.skip_mask != 0 && value_ != before) value_.reset();  // perhaps the block was left out
+}
+
+void ToolHeight::enter(const Statement& s) {
   for (const auto& l : labels_on(s.line)) {
-    if (uses_.is_target(l)) value_.reset();
+    if (uses_.is_target(l) || uses_.computed) value_.reset();
   }
+}
+
+void ToolHeight::follow_block(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,
+                              std::optional<double> initial) {
+  enter(s);
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr) {
     if (!harmless) value_.reset();

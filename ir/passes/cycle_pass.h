@@ -145,7 +145,7 @@ class CyclePass {
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     const auto names = labels_on(s.line);
     const bool entered = std::any_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); });
-    if (entered) sense_.forget();
+    if (entered) sense_.forget(), height_.enter(s);
     const bool harmless = ToolHeight::keeps(s);
     const std::size_t first = out.size();
     ran_.reset();

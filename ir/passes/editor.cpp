@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "ir/passes/given_names.h"
 #include "ir/value_set.h"
 
 namespace cnctrans::ir::passes {
@@ -171,11 +172,12 @@ std::optional<VarRef> Editor::take(const LineInfo& where) {
     if (space == program.spaces.size()) program.spaces.emplace_back();
     return VarRef{space, name, nullptr, {}};
   }
+  const auto given = given_numbers(context);
   for (const bool preferred : {true, false}) {
     for (const auto& pool : target().pools) {
       if (pool.temporaries != preferred) continue;
       for (std::int64_t n = pool.hi; n >= pool.lo; --n) {
-        if (used().has(pool.prefix, n)) continue;
+        if (used().has(pool.prefix, n) || given.count({pool.prefix, n}) != 0) continue;
         used().add(pool.prefix, n);
         return variable_number(pool.prefix, n);
       }

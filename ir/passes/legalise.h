@@ -10,6 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "ir/passes/capabilities.h"
+#include "ir/passes/name_map.h"
 #include "ir/program.h"
 #include "machine/profile.h"
 
@@ -34,6 +35,7 @@ struct Renamed {
 };
 struct LegaliseReport {
   std::vector<Renamed> renamed;
+  NameMap names;  ///< numbers that this translation chose or was given
 };
 
 struct LegaliseContext {
@@ -45,6 +47,7 @@ struct LegaliseContext {
   LegaliseReport* report = nullptr;  ///< may be null
   /// Texts of the block numbers that the source has (their first characters); null: all numbers are the source's.
   const std::set<const char*>* source_numbers = nullptr;
+  const NameMap* names = nullptr;  ///< names that are given; may be null
 };
 
 /// Runs all passes in order. False when an error was reported.

@@ -139,6 +139,13 @@ void CyclePass::plain(Statement&& s, Body&& pieces, Body& out) {
   put(out, std::move(pieces), std::move(s));
 }
 
+/// The plane to which the cycle goes back: that of its definition at `defined_at` counts where it goes back to the
+/// initial plane.
+static bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, const Block& b, const Facts& facts) {
+  if (hole.retract.given || defined_at) return true;
+  return setting_in<RetractPlane>(b, facts, Setting::retract_plane) == RetractPlane::reference;
+}
+
 bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const bool sets = sets_retract_plane(b);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
@@ -149,6 +156,7 @@ bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const auto w = cycle_axis(*hole, b, facts);
   const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
   if (form && !by_call_ && !stands_right(std::get<HoleCycle>((*form)->node), height)) form.reset();
+  if (!back_is_known(*hole, active_->defined_at, b, facts)) form.reset();
   active_->native = form ? *form : nullptr;
   lacking_ = lacking_ || !active_->native;
   return was_native;
@@ -162,9 +170,13 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;
   const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+  // Over the holes the tool stands elsewhere than at the definition, whose height nobody knows.
+  const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
   if (w && !height) height = height_mm(b, facts, *w);
   const bool milling = hole != nullptr && hole->kind == HoleKind::mill;
-  if (milling)
+  if (lost)
+    error = "the height at which it was defined, to which it goes back, is not known here";
+  else if (milling)
     moves = milling_.write_out(*hole, s, b, facts, height, active_->defined_at ? active_->defined_at : height,
                                sense_.now(), &error);
   else if (hole == nullptr)

@@ -185,12 +185,30 @@ class RepeatPass {
     editor_.put_group(out, std::move(pieces), 2);
   }
 
+  static bool defines_cycle(const Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      return d != nullptr && d->modal;
+    });
+  }
+
   void block(Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     if (b.repeat.is(0) && uses_cycles(editor_.program)) return out.push_back(std::move(s));  // the cycles pass sees it
     const Value repeat = b.repeat;
     b.repeat_given = 0;
     b.repeat = Value{};
+    const LineInfo place = s.line;
+    if (defines_cycle(b) && !repeat.is(0)) {  // once: the further passes are points of it
+      Block further = b;
+      std::erase_if(further.actions, [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
+      further.repeat_given = 1;
+      further.repeat =
+          repeat.literal() ? Value(repeat.number - 1) : Value(binary(BinaryOp::subtract, repeat.expr, number(1)));
+      out.push_back(std::move(s));
+      if (!further.repeat.is(0)) block(made(place, std::move(further)), out);
+      return;
+    }
     if (!repeat.literal()) return counted(std::move(s), repeat.expr, out);
     const double n = repeat.number;
     if (n == 0) {  // the move without the cycle that it would run

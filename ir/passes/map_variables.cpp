@@ -9,9 +9,11 @@
 #include "base/text.h"
 #include "ir/passes/call_graph.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/given_names.h"
 #include "ir/passes/lower_calls.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/variable_pools.h"
+#include "ir/passes/variable_table.h"
 #include "ir/passes/variable_use.h"
 
 namespace cnctrans::ir::passes {
@@ -33,7 +35,7 @@ bool same_spaces(const Program& program, const LegaliseContext& context) {
 class VariableMap {
  public:
   VariableMap(Program& program, const LegaliseContext& context)
-      : program_(program), context_(context), use_(program, context), pools_(context) {}
+      : program_(program), context_(context), use_(program, context), pools_(context), given_(context, pools_) {}
 
   void run() {
     number_statements(program_);
@@ -85,10 +87,18 @@ class VariableMap {
       std::set<std::int64_t> shifts;
       for (const auto& segment : segments) {
         std::vector<std::int64_t> used;
+        bool given = false;
         for (const auto n : numbered.used) {
-          if (n >= segment.lo && n <= segment.hi) used.push_back(n);
+          if (n < segment.lo || n > segment.hi) continue;
+          const auto place = given_.place_of(variable_name(space, n), compensated(space, std::to_string(n)), 1);
+          if (!place) {
+            used.push_back(n);
+            continue;
+          }
+          places_[{space, n}] = *place;
+          given = shifts.insert(*constant_index(*place) - n).second || given;
         }
-        if (used.empty() && !(numbered.computed && &segment == &widest(segments))) continue;
+        if (used.empty() && (given || !numbered.computed || &segment != &widest(segments))) continue;
         place_segment(space, segment, std::move(used), shifts);
       }
       if (numbered.computed) computed_index(space, numbered, shifts);
@@ -202,6 +212,10 @@ class VariableMap {
       const auto& space = program_.spaces[key.first];
       if (space.prefix == level_prefix) continue;
       if (space.scope == Scope::routine && has_named_locals(context_.target.spaces)) continue;  // stays a name
+      if (const auto place = given_.place_of(key.second, compensated(key.first, key.second), info.elements())) {
+        named_places_[key] = *place;
+        continue;
+      }
       if (keeps_name(key, info)) continue;
       const auto wanted = preferred_number(key.second);
       const auto* pool = wanted && info.dimensions.empty() ? pools_.holding_any(*wanted) : nullptr;
@@ -213,8 +227,7 @@ class VariableMap {
       }
     }
     for (const auto& key : rest) {
-      std::int64_t size = 1;
-      for (const auto d : use_.named[key].dimensions) size *= std::max<std::int64_t>(d, 1);
+      const std::int64_t size = use_.named[key].elements();
       const auto free = pools_.run_of_free(size, compensated(key.first, key.second));
       if (!free) {
         none_left(key.second.substr(0, key.second.find('@')));
@@ -411,6 +424,7 @@ class VariableMap {
     for (const auto& [key, to] : places_) {
       const std::string from = variable_name(key.first, key.second), name = target_name(to);
       report(from, name, {});
+      note_place(from, to, 1);
       if (constant_index(to) != key.second) head.push_back(from + "=" + name);
     }
     for (const auto& [key, to] : named_places_) {
@@ -418,8 +432,9 @@ class VariableMap {
       const std::string plain = key.second.substr(0, at), name = target_name(to);
       const std::string owner = at == std::string::npos ? "" : key.second.substr(at + 1);
       report(plain, name, owner);
-      if (preferred_number(key.second) == constant_index(to)) continue;
-      if (owner == "arguments" || plain.find("_OF_CALLER") != std::string::npos || !to.name.empty()) continue;
+      const bool own = owner == "arguments" || plain.find("_OF_CALLER") != std::string::npos || !to.name.empty();
+      if (!own) note_place(key.second, to, use_.named.at(key).elements());
+      if (own || preferred_number(key.second) == constant_index(to)) continue;
       head.push_back(owner.empty() || owner == "0" ? plain + "=" + name : plain + "(" + owner + ")=" + name);
     }
     for (const auto& [key, to] : local_) {
@@ -435,7 +450,7 @@ class VariableMap {
       const SpaceId locals = named_places_.empty() ? 0 : local_space();
       declare_at_top(program_.routines[r], Type::real, locals, names);
     }
-    put_head(head);
+    put_variable_table(program_, head, zero_first_);
   }
   SpaceId local_space() const {
     const auto& spaces = context_.target.spaces;
@@ -455,25 +470,9 @@ class VariableMap {
     }
   }
 
-  /// Comments with the table, and the zeroes, before the first block of the main program.
-  void put_head(const std::vector<std::string>& entries) {
-    auto main = std::find_if(program_.routines.begin(), program_.routines.end(),
-                             [](const Routine& r) { return r.kind == RoutineKind::main; });
-    if (main == program_.routines.end()) return;
-    Body head;
-    std::string line;
-    for (const auto& e : entries) {
-      if (!line.empty() && line.size() + e.size() > 60) {
-        head.push_back(make_comment(line, program_));
-        line.clear();
-      }
-      line += (line.empty() ? "" : " ") + e;
-    }
-    if (!line.empty()) head.push_back(make_comment(line, program_));
-    const LineInfo nowhere;
-    for (const auto& v : zero_first_) head.push_back(make_assign(nowhere, v, number(0)));
-    main->body.insert(below_head(main->body), std::make_move_iterator(head.begin()),
-                      std::make_move_iterator(head.end()));
+  void note_place(const std::string& from, const VarRef& to, std::int64_t size) const {
+    if (context_.report != nullptr)
+      context_.report->names.variables[name_in_map(from)] = place_in_map(target_name(to), size);
   }
 
   Program& program_;
@@ -481,6 +480,7 @@ class VariableMap {
   std::set<std::pair<SpaceId, std::string>> compensated_;
   VariableUse use_;
   VariablePools pools_;
+  GivenNames given_;
   std::map<std::pair<SpaceId, std::int64_t>, VarRef> places_;
   std::map<SpaceId, std::int64_t> shift_;
   std::map<SpaceId, SpaceId> shifted_space_;

@@ -1,6 +1,7 @@
 // Names of subprograms (equivalences 2.2): a target that knows numbers only gets numbers; the name stays as the title.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/saturate.h"
@@ -55,17 +56,30 @@ class RoutineNames {
 
   void run() {
     std::set<std::int64_t> seen;
+    reserve_given();
     for (auto& r : program_.routines) {
       if (good(r.name.number)) used_.insert(r.name.number);
       if (r.kind == RoutineKind::main && good(r.name.number)) seen.insert(r.name.number);
     }
     for (auto& r : program_.routines) {
       if (r.kind != RoutineKind::sub) continue;
-      const bool by_number = good(r.name.number) && r.name.text.empty() && seen.insert(r.name.number).second;
-      if (by_number) continue;
+      if (const auto n = given(r.name)) {
+        if (!seen.insert(*n).second) taken_twice(r, *n);
+        rename(r, *n);
+        continue;
+      }
+      const bool by_number = good(r.name.number) && r.name.text.empty() && given_.count(r.name.number) == 0 &&
+                             seen.insert(r.name.number).second;
+      if (by_number) {
+        note(r.name, r.name.number);
+        continue;
+      }
       const std::int64_t wanted =
-          good(r.name.number) && seen.count(r.name.number) == 0 ? r.name.number : digits_of(r.name.text);
-      std::int64_t n = good(wanted) && (used_.count(wanted) == 0 || wanted == r.name.number) && seen.count(wanted) == 0
+          good(r.name.number) && given_.count(r.name.number) == 0 && seen.count(r.name.number) == 0
+              ? r.name.number
+              : digits_of(r.name.text);
+      std::int64_t n = good(wanted) && (used_.count(wanted) == 0 || wanted == r.name.number) &&
+                               given_.count(wanted) == 0 && seen.count(wanted) == 0
                            ? wanted
                            : free_number();
       if (n < 0) {
@@ -79,7 +93,84 @@ class RoutineNames {
     references();
   }
 
+  /// Names that the map gives in a target which has names: those only.
+  void run_named() {
+    if (context_.names == nullptr) return;
+    for (auto& r : program_.routines) {
+      if (r.kind != RoutineKind::sub) continue;
+      const auto to = given_name(r.name);
+      if (!to) continue;
+      if (!to->text.empty() && !identifier(to->text)) {
+        context_.diagnostics.error("TRN-441", r.header.span,
+                                   "the map of names calls this subprogram " + quoted(to->text) +
+                                       ", which is no name: two letters, then letters, digits and _",
+                                   "give it a name or a number in the map");
+        continue;
+      }
+      changes_.emplace_back(r.name, *to);
+      if (context_.report != nullptr) {
+        context_.report->renamed.push_back({Renamed::Kind::routine, shown(r.name), shown(*to), {}});
+        context_.report->names.routines[shown(r.name)] = context_.names->routines.at(shown(r.name));
+      }
+      r.name = *to;
+    }
+    for (const auto& r : program_.routines) {
+      if (r.kind == RoutineKind::sub && program_.find(r.name) != &r) taken_twice(r, r.name.number);
+    }
+    references();
+  }
+
  private:
+  /// What the map gives a subprogram, as the text says it: a number, or letters and more.
+  [[nodiscard]] const std::string* entry(const RoutineName& name) const {
+    return context_.names != nullptr ? context_.names->given(name) : nullptr;
+  }
+  static bool identifier(const std::string& name) {
+    constexpr std::size_t longest = 24;
+    const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; };
+    return name.size() >= 2 && name.size() <= longest && letter(name[0]) && letter(name[1]) &&
+           std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+  }
+  [[nodiscard]] std::optional<std::int64_t> given(const RoutineName& name) const {
+    const std::string* to = entry(name);
+    if (to == nullptr) return std::nullopt;
+    const auto n = digits_of(*to);
+    return good(n) ? std::optional(n) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<RoutineName> given_name(const RoutineName& name) const {
+    const std::string* to = entry(name);
+    if (to == nullptr) return std::nullopt;
+    if (const auto n = digits_of(*to); n >= 0) return RoutineName{n, {}};
+    return RoutineName{-1, to_upper_ascii(*to)};
+  }
+  /// The numbers of the map are nobody else's, also where this program does not call what has them.
+  void reserve_given() {
+    if (context_.names == nullptr) return;
+    for (const auto& [stem, name] : context_.names->programs) {
+      if (const auto n = name.front() == '%' ? digits_of(name) : -1; n >= 0) used_.insert(n);
+    }
+    for (const auto& [from, to] : context_.names->routines) {
+      const auto n = digits_of(to);
+      if (good(n)) {
+        used_.insert(n);
+        given_.insert(n);
+      } else {
+        context_.diagnostics.error("TRN-441", {},
+                                   "the map of names calls the subprogram " + from + " " + quoted(to) +
+                                       ", and the target has the numbers " +
+                                       std::to_string(context_.target.routine_number_min) + " to " +
+                                       std::to_string(context_.target.routine_number_max),
+                                   "give it one of them in the map");
+      }
+    }
+  }
+  void taken_twice(const Routine& r, std::int64_t n) const {
+    context_.diagnostics.error("TRN-441", r.header.span,
+                               "the map of names gives " + (n >= 0 ? std::to_string(n) : quoted(r.name.text)) +
+                                   " to two subprograms of this program",
+                               "give one of them another one in the map");
+  }
+
   bool good(std::int64_t n) const {
     return n >= context_.target.routine_number_min && n <= context_.target.routine_number_max;
   }
@@ -90,7 +181,7 @@ class RoutineNames {
     }
     return -1;
   }
-  static std::string shown(const RoutineName& n) { return n.text.empty() ? std::to_string(n.number) : n.text; }
+  static std::string shown(const RoutineName& n) { return NameMap::key(n); }
 
   void rename(Routine& r, std::int64_t n) {
     const RoutineName from = r.name;
@@ -100,6 +191,10 @@ class RoutineNames {
     if (context_.report != nullptr) {
       context_.report->renamed.push_back({Renamed::Kind::routine, shown(from), std::to_string(n), {}});
     }
+    note(from, n);
+  }
+  void note(const RoutineName& from, std::int64_t n) const {
+    if (context_.report != nullptr) context_.report->names.routines[shown(from)] = std::to_string(n);
   }
 
   void change(RoutineName& name, const Statement& s) {
@@ -107,6 +202,14 @@ class RoutineNames {
       const bool same = !from.text.empty() ? from.text == name.text : name.text.empty() && from.number == name.number;
       if (!same) continue;
       name = to;
+      return;
+    }
+    if (context_.target.named_routines) {  // not at hand
+      if (const auto to = program_.find(name) == nullptr ? given_name(name) : std::nullopt) call_outside(name, *to, s);
+      return;
+    }
+    if (const auto n = program_.find(name) == nullptr ? given(name) : std::nullopt) {
+      call_outside(name, RoutineName{*n, {}}, s);
       return;
     }
     if (name.text.empty() || program_.find(name) != nullptr) return;
@@ -119,6 +222,15 @@ class RoutineNames {
         "TRN-193", s.line.span,
         "the called program " + quoted(name.text) + " is not at hand, and the target calls by number",
         "add the folder with the subprogram with --lib");
+  }
+
+  void call_outside(RoutineName& name, const RoutineName& to, const Statement& s) const {
+    context_.diagnostics.warning("TRN-442", s.line.span,
+                                 "the called program " + quoted(shown(name)) +
+                                     " is not at hand: the call is written as the map of names says, and what it does "
+                                     "on the target is not known",
+                                 "see to it that " + quoted(shown(to)) + " of the target does the same");
+    name = to;
   }
 
   void references() {
@@ -138,6 +250,7 @@ class RoutineNames {
   Program& program_;
   const LegaliseContext& context_;
   std::set<std::int64_t> used_;
+  std::set<std::int64_t> given_;  ///< by the map
   std::vector<std::pair<RoutineName, RoutineName>> changes_;
 };
 
@@ -146,7 +259,10 @@ class RoutineNames {
 void name_routines(Program& program, const LegaliseContext& context) {
   RoutineNames names(program, context);
   names.part_namesakes();
-  if (!context.target.named_routines) names.run();
+  if (context.target.named_routines)
+    names.run_named();
+  else
+    names.run();
 }
 
 }  // namespace cnctrans::ir::passes

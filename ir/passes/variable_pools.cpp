@@ -67,6 +67,13 @@ const VariablePool* VariablePools::holding_any(std::int64_t n) const {
   return nullptr;
 }
 
+const VariablePool* VariablePools::pool_with(const std::string& prefix, std::int64_t n) const {
+  for (const auto& p : pools_) {
+    if (p.prefix == prefix && n >= p.lo && n <= p.hi && p.scope == Scope::global) return &p;
+  }
+  return nullptr;
+}
+
 const VariablePool* VariablePools::holding_prefix(const SpaceSegment& segment) const {
   for (const auto& p : pools_) {
     if (usable(p, segment.persistent)) return &p;

@@ -27,6 +27,8 @@ class VariablePools {
   /// The pool that has number `n` and can hold variables of `segment`; nullptr: none.
   [[nodiscard]] const VariablePool* holding(std::int64_t n, const SpaceSegment& segment) const;
   [[nodiscard]] const VariablePool* holding_any(std::int64_t n) const;
+  /// The pool of the whole program with these letters and number; nullptr: none.
+  [[nodiscard]] const VariablePool* pool_with(const std::string& prefix, std::int64_t n) const;
   [[nodiscard]] const VariablePool* holding_prefix(const SpaceSegment& segment) const;
   /// A pool and a distance by which all `used` numbers (those from `from` on) fit in and are free.
   [[nodiscard]] Found shift_for(const SpaceSegment& segment, std::int64_t from,

@@ -1,6 +1,8 @@
 // What variables a program uses: numbers of each numbered space, names, and where.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -14,6 +16,12 @@ struct VariableUse {
   struct Named {
     std::set<std::size_t> routines;
     std::vector<std::int64_t> dimensions;
+    /// 1 for a variable that is no array.
+    [[nodiscard]] std::int64_t elements() const {
+      std::int64_t n = 1;
+      for (const auto d : dimensions) n *= std::max<std::int64_t>(d, 1);
+      return n;
+    }
   };
   struct Numbered {
     std::set<std::int64_t> used;

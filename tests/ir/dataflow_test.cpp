@@ -200,7 +200,8 @@ TEST(Positions, HoleCyclesLeaveTheToolOverTheHole) {
       known("block rapid X 1 Y 2 Z 3\nblock " + cycle +
             ", rapid X 4\nN1 block rapid X incremental 5\nN2 block cycle_cancel\nN3 block rapid Z 9\nN4 block\n");
   EXPECT_EQ(k.x("1"), "4");
-  EXPECT_EQ(k.z("1"), "unknown");
+  EXPECT_EQ(k.z("1"), "3");  // back at the height of the definition
+  EXPECT_EQ(k.z("2"), "unknown");
   EXPECT_TRUE(k.at("1").cycle_active);
   EXPECT_EQ(k.x("2"), "9");
   EXPECT_EQ(k.y("2"), "2");
