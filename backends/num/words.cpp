@@ -156,6 +156,15 @@ void Writer::motion(const ir::Motion& m) {
   }
   if (m.kind == ir::MotionKind::thread && profile().kind != machine::Kind::lathe)
     return refuse(no_word, m.code_pos, "a thread cut in one move exists on lathes only (G38)");
+  const bool goes_on = m.kind == ir::MotionKind::modal && m.moves() && facts() != nullptr && facts()->reachable &&
+                       facts()->motion == ir::MotionKind::thread;
+  if (!same_dialect() && (goes_on || (m.kind == ir::MotionKind::thread && m.keeps_modal))) {  // G38 holds in its block
+    ir::Motion thread = m;
+    thread.kind = ir::MotionKind::thread;
+    thread.explicit_code = true;
+    thread.keeps_modal = false;
+    return motion(thread);
+  }
   // Positions of a cycle are reached in rapid without a code; one beside the cycle is an error of the control.
   bool in_cycle = cycle_here_;
   if (!in_cycle && !same_dialect()) {

@@ -395,6 +395,15 @@ bool StatementLowering::repeat(const Statement& s, ir::LineInfo& info) {
     out.last = out.first;
   } else if (s.args[1].kind != ExprKind::missing) {
     if (!label(s.args[1], out.last)) return false;
+    // Not between the first label and the REPEAT: the part ends here (reference-language 7.3).
+    const bool ahead = before && !numbered && !out.last.is_number && !out.last.computed &&
+                       std::find(labels_.rbegin(), std::next(seen), s.args[1].text) == std::next(seen);
+    if (ahead) {
+      c_.warning("SIN-061", s.pos,
+                 "the end label " + s.args[1].text + " does not stand between " + first +
+                     " and the REPEAT: the part ends at the REPEAT");
+      out.last = ir::LabelRef{};
+    }
   } else {
     // To the first ENDLABEL after the label; without one before the REPEAT, up to the REPEAT itself.
     const bool end_mark = !before || std::find(labels_.rbegin(), seen, "ENDLABEL") != seen;

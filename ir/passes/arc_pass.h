@@ -226,6 +226,15 @@ class ArcPass {
   void centers(Arc& arc) {
     Motion& m = arc.b.motion;
     const auto& t = context_.target;
+    if (std::any_of(m.centers.begin(), m.centers.end(),
+                    [&m](const CenterWord& w) { return w.mode != m.centers.front().mode; })) {
+      const auto center = center_point(arc);
+      if (!center || !known(arc.start))
+        return fail(arc, "TRN-313",
+                    "the centre is absolute on one axis only, and where the arc begins is not known here",
+                    "give both words of the centre in one way");
+      set_center(arc, *center);
+    }
     const CenterMode from = m.centers.front().mode;
     const bool whole = t.centers.count(from) != 0 && !incomplete(arc, from);
     if (!plane_known_ && (!whole || t.full_circle_needs_end)) {

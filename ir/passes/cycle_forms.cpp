@@ -292,6 +292,12 @@ bool has_plane_word(const Block& b, AxisId tool_axis) {
   return b.motion.extra != nullptr;
 }
 
+bool turns_to_point(const Block& b, const machine::Profile& machine) {
+  return b.has_motion && machine.option("cycle.rotary_triggers") == "yes" &&
+         std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                     [](const CoordWord& c) { return is_rotary_letter(c.axis); });
+}
+
 namespace {
 
 Motion along(MotionKind kind, AxisId axis, double value) {

@@ -440,7 +440,7 @@ class CyclePass {
     }
     if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
     const auto w = tool_axis(active_->source, b, facts);
-    return !w || has_plane_word(b, *w);
+    return !w || has_plane_word(b, *w) || turns_to_point(b, context_.source_machine);
   }
 
   /// A block while a cycle is active.

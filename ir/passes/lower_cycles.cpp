@@ -87,8 +87,9 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
                       (!target_rapid || kind == MotionKind::rapid) && b.motion.centers.empty() &&
                       !b.motion.radius_given;
   const LineInfo like = s.line;
-  const bool as_is =
-      !active_->single && (simple || (active_->trigger == CycleTrigger::plane_axis_word && !target_rapid));
+  const bool point_there = !w || has_plane_word(b, *w) || turns_to_point(b, context_.target_machine);
+  const bool as_is = !active_->single && point_there &&
+                     (simple || (active_->trigger == CycleTrigger::plane_axis_word && !target_rapid));
   if (as_is && active_->on_target) {
     // A code that does not stay is said: without it the writer would put the one that stays in force.
     if (target_rapid && (b.motion.keeps_modal || facts.motion == MotionKind::rapid)) by_itself(b);

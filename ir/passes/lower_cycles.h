@@ -104,6 +104,8 @@ class ToolHeight {
 
 /// Moves along the tool axis beside those in the plane.
 bool has_plane_word(const Block& b, AxisId tool_axis);
+/// A word of a rotary axis, on a machine where it alone makes the block a point of the cycle.
+bool turns_to_point(const Block& b, const machine::Profile& machine);
 
 /// Takes the definition or the end of a cycle out of the block.
 std::optional<CycleDefine> take_definition(Block& b, WordPos& pos);

@@ -53,6 +53,11 @@ class RepeatPass {
 
   void range(Statement&& s, Body& out) {
     auto& r = std::get<Repeat>(s.node);
+    const auto passes = constant_value(r.count);
+    if (passes && *passes <= 0) {
+      s.node = Label{};
+      return out.push_back(std::move(s));
+    }
     if (r.has_program && !target_.repeat_other_program) {
       if (target_.call_range) {
         CallRoutine c;
