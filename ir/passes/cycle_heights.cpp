@@ -3,6 +3,25 @@
 
 namespace cnctrans::ir::passes {
 
+bool comes_in_two_moves(const CyclePtr& native, const LegaliseContext& context) {
+  const auto* hole = native ? std::get_if<HoleCycle>(&native->node) : nullptr;
+  return hole != nullptr && context.target.retract_plane_switch && hole->retract.given &&
+         !(hole->retract.base == hole->reference.base && equal(hole->retract.value, hole->reference.value));
+}
+
+std::optional<Block> code_before_cycle(Block& b, const Facts& facts, const LegaliseContext& context) {
+  const bool own_code = b.has_motion && b.motion.kind == MotionKind::rapid && b.motion.explicit_code &&
+                        b.motion.keeps_modal && facts.motion != MotionKind::rapid;
+  const bool target_rapid = context.target_machine.option("cycle.positioning") == "rapid";
+  if (!own_code || !target_rapid || context.target.retract_plane_switch) return std::nullopt;
+  Block code;
+  code.has_motion = true;
+  code.motion.kind = MotionKind::rapid;
+  code.motion.explicit_code = true;
+  by_itself(b);
+  return code;
+}
+
 bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto* hole = std::get_if<HoleCycle>(&active_->native->node);
   const auto height = in_units(active_->height, b, facts);

@@ -93,6 +93,10 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   if (as_is && active_->on_target) {
     // A code that does not stay is said: without it the writer would put the one that stays in force.
     if (target_rapid && (b.motion.keeps_modal || facts.motion == MotionKind::rapid)) by_itself(b);
+    if (comes_in_two_moves(active_->native, context_) && b.motion.kind == MotionKind::modal) {
+      position_rapid(b, context_);
+      b.motion.explicit_code = false;  // the move to the retract plane has said it
+    }
     return put(out, std::move(pieces), std::move(s));
   }
   if (!sure(facts)) {  // each of the cycles would have to be written here
@@ -104,6 +108,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   if (maybe_on) pieces.push_back(off_statement(like, false));  // else the way to the point would run it
   active_->maybe_on_target = false;
   if (as_is) {
+    if (comes_in_two_moves(active_->native, context_)) position_rapid(b, context_);
     feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
     active_->on_target = active_->was_on_target = true;
@@ -364,6 +369,11 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
              "write the plane before it on every path");
       out.push_back(std::move(s));
       return;
+    }
+    if (comes_in_two_moves(a.native, context_)) position_rapid(b, context_);
+    if (auto code = code_before_cycle(b, facts, context_)) {
+      if (old_may) pieces.push_back(off_statement(s.line, false));
+      pieces.push_back(made(s.line, *std::move(code)));
     }
     feed_for_tap(b, a);
     b.actions.push_back(action(native));

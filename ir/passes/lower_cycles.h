@@ -135,6 +135,11 @@ bool sets_retract_plane(const Block& b);
 void position_kind(Block& b, const LegaliseContext& context);
 /// The target's cycle positions in rapid by itself, and takes no motion code beside it.
 void by_itself(Block& b);
+/// The target goes to the cycle's retract plane by a move of its own, between the way to the hole and the cycle.
+bool comes_in_two_moves(const CyclePtr& native, const LegaliseContext& context);
+/// A rapid that the block of a cycle puts in force, where the target takes no motion code beside its cycle: a block of
+/// its own before it. Empty: none is needed.
+std::optional<Block> code_before_cycle(Block& b, const Facts& facts, const LegaliseContext& context);
 /// A cycle that starts over its retract plane makes no detour: the tool stands there, or there is one plane only.
 /// `height` and the levels in program units.
 bool stands_right(const HoleCycle& c, std::optional<double> height);
