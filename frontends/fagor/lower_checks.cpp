@@ -31,6 +31,9 @@ void BlockLowerer::check_block() {
   const bool modal = out_->has_motion && m.kind == ir::MotionKind::modal;
   const auto kind = !modal ? m.kind : state_.motion_sure ? state_.motion_by_text : ir::MotionKind::modal;
   const bool arc = moves && is_arc(kind);
+  if (motion_code_ != nullptr) state_.motion_sure = true;
+  const bool only_motion = g_count_ == 0 || (g_count_ == 1 && motion_code_ != nullptr);
+  if (only_motion && !arc && !state_.comp_begins) return;  // most blocks
   check_compensation(arc, moves);
   if (arc && (kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw)) check_arc_end();
   if (const Word* machine = has_use(Use::machine_coordinates);
@@ -40,7 +43,6 @@ void BlockLowerer::check_block() {
                  "write the coordinates of the machine");
   if (const Word* dwell = has_use(Use::dwell); dwell != nullptr && in_->words.size() > 1 && (seen_ & bit('K')) == 0)
     state_.error(code, dwell->pos, "G04 without K stands alone in its block [11]", "put the other words behind it");
-  if (motion_code_ != nullptr) state_.motion_sure = true;
 }
 
 /// G40, G41, G42 take effect in a straight move: the block itself, or the first one behind it (13.4).
