@@ -111,13 +111,7 @@ bool StatementLowering::chosen_g(const syntax::Statement& s, Parts& parts) {
 /// TRANSMIT, TRACYL(40), TRAORI, TRAFOOF: the programmed positions stay those of the tool in the coordinates of the
 /// transformation, and every frame in force is deselected (motion reference 9.1). No other control gets it.
 bool StatementLowering::transformation(const std::string& name, WordPos pos, Parts& parts) {
-  const auto add = [&](ir::ActionData data) {
-    ir::Action a;
-    a.data = std::move(data);
-    a.pos = pos;
-    a.text = c_.slice(pos);
-    parts.actions.push_back(std::move(a));
-  };
+  const auto add = [&](ir::ActionData data) { parts.act(std::move(data), pos, c_.slice(pos)); };
   auto clear = std::make_shared<ir::FrameChange>();
   clear->slot = ir::FrameSlot::chain;
   clear->combine = ir::FrameCombine::clear;
@@ -238,12 +232,7 @@ bool StatementLowering::probe_item(const syntax::Statement& s, Parts& parts) {
   if (!exprs_.axis_operand(s.args[0].args[0])) return false;
   parts.probe_edge = &job.args[1];
   parts.probe_goes_on = s.args[0].text == "MEAWA";
-  ir::Action kept;
-  kept.pos = s.pos;
-  kept.text = c_.slice(s.pos);
-  kept.data = ir::OpaqueWord{kept.text};
-  kept.order = ir::Order::before;
-  parts.actions.push_back(std::move(kept));
+  parts.act(ir::OpaqueWord{c_.slice(s.pos)}, s.pos, c_.slice(s.pos)).order = ir::Order::before;
   return true;
 }
 
@@ -280,12 +269,7 @@ bool StatementLowering::spindle_axis(const syntax::Statement& s, Parts& parts) {
   syntax::Statement own = s;
   Expr& target = own.args[0];
   if (target.text == "FA") {
-    ir::Action a;
-    a.pos = s.pos;
-    a.text = c_.slice(s.pos);
-    a.data = ir::OpaqueWord{a.text};
-    a.order = ir::Order::with;
-    parts.actions.push_back(std::move(a));
+    parts.act(ir::OpaqueWord{c_.slice(s.pos)}, s.pos, c_.slice(s.pos)).order = ir::Order::with;
     c_.note("SIN-009", s.pos, "FA[SPI()] is kept as text: it says how fast the spindle is positioned");
     return true;
   }

@@ -200,12 +200,7 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
     return axis_item(s, parts);
   if ((target.text == "MEASA" || target.text == "MEAWA") && one_index) return probe_item(s, parts);
   if (is_timing_of_axis(target.text)) {
-    ir::Action a;
-    a.pos = s.pos;
-    a.text = c_.slice(s.pos);
-    a.data = ir::OpaqueWord{a.text};
-    a.order = ir::Order::with;
-    parts.actions.push_back(std::move(a));
+    parts.act(ir::OpaqueWord{c_.slice(s.pos)}, s.pos, c_.slice(s.pos)).order = ir::Order::with;
     c_.note("SIN-009", s.pos, target.text + "[] is kept as text: it does not change the programmed path");
     return true;
   }

@@ -155,13 +155,7 @@ void WordLowering::tool_frame(const GFunction& g, WordPos pos) {
 
 bool StatementLowering::swivel_end(WordPos pos, Parts& parts) {
   if (!c_.tool_frame) return without_effect("CYCLE800", pos, parts);
-  const auto add = [&](ir::ActionData data) {
-    ir::Action a;
-    a.data = std::move(data);
-    a.pos = pos;
-    a.text = c_.slice(pos);
-    parts.actions.push_back(std::move(a));
-  };
+  const auto add = [&](ir::ActionData data) { parts.act(std::move(data), pos, c_.slice(pos)); };
   add(ir::OpaqueWord{c_.slice(pos)});
   add(ir::FrameOp{cleared(ir::FrameSlot::shift)});
   add(ir::FrameOp{cleared(ir::FrameSlot::rotation)});
@@ -210,13 +204,7 @@ bool StatementLowering::swivel(const std::vector<Expr>& args, WordPos pos, Parts
       row[b] = rb * c - ra * s;
     }
   }
-  const auto add = [&](ir::ActionData data) {
-    ir::Action a;
-    a.data = std::move(data);
-    a.pos = pos;
-    a.text = c_.slice(pos);
-    parts.actions.push_back(std::move(a));
-  };
+  const auto add = [&](ir::ActionData data) { parts.act(std::move(data), pos, c_.slice(pos)); };
   add(ir::OpaqueWord{c_.slice(pos)});
   auto shift = std::make_shared<ir::FrameChange>();
   shift->slot = ir::FrameSlot::shift;

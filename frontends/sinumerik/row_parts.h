@@ -27,6 +27,15 @@ struct StatementLowering::Parts {
   bool has_count = false;
   ir::ExprPtr count;
   WordPos count_pos;
+
+  /// A further action, written at `pos` as `text`.
+  ir::Action& act(ir::ActionData data, WordPos pos, std::string_view text) {
+    ir::Action a;
+    a.data = std::move(data);
+    a.pos = pos;
+    a.text = text;
+    return actions.emplace_back(std::move(a));
+  }
 };
 
 }  // namespace cnctrans::sinumerik
