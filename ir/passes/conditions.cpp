@@ -310,7 +310,6 @@ class ConditionPass {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op) || b->compare == Compare::exact) return x;
-        const auto zero = [](const ExprPtr& side) { return constant_value(side) == 0.0; };
         if (b->left->type == Type::string || (exact(b->left) && exact(b->right)))
           return binary(b->op, b->left, b->right);
         if (zero(b->left) || zero(b->right)) return binary(b->op, b->left, b->right);  // relative: only 0 equals 0
@@ -320,6 +319,7 @@ class ConditionPass {
     };
     visit_statement(s, visit);
   }
+  static bool zero(const ExprPtr& side) { return constant_value(side) == 0.0; }
   /// The target takes values within 1e-12 of their size for equal, the source does not: a difference compared with 0 is
   /// exact there as well, because nothing but 0 is that near to 0.
   void exactly(Statement& s) {
@@ -328,7 +328,6 @@ class ConditionPass {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op) || b->compare != Compare::exact) return x;
-        const auto zero = [](const ExprPtr& side) { return constant_value(side) == 0.0; };
         if (b->left->type == Type::string || zero(b->left) || zero(b->right)) return x;
         if (exact(b->left) && exact(b->right)) return x;
         if (!computed(b->left) && !computed(b->right)) return x;

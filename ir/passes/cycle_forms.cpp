@@ -246,15 +246,17 @@ void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& 
   if (s.line.skip_mask != 0 && value_ != before) value_.reset();  // perhaps the block was left out
 }
 
-void ToolHeight::enter(const Statement& s) {
+bool ToolHeight::enter(const Statement& s) {
+  bool named = false;
   for (const auto& l : labels_on(s.line)) {
-    if (uses_.is_target(l) || uses_.computed) value_.reset();
+    named = named || uses_.is_target(l);
+    if (named || uses_.computed) value_.reset();
   }
+  return named;
 }
 
 void ToolHeight::follow_block(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,
                               std::optional<double> initial) {
-  enter(s);
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr) {
     if (!harmless) value_.reset();

@@ -143,9 +143,7 @@ class CyclePass {
   void one(Statement&& s, Body& out) {
     join(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
-    const auto names = labels_on(s.line);
-    const bool entered = std::any_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l); });
-    if (entered) sense_.forget(), height_.enter(s);
+    if (height_.enter(s)) sense_.forget();
     const bool harmless = ToolHeight::keeps(s);
     const std::size_t first = out.size();
     ran_.reset();

@@ -90,8 +90,8 @@ class ToolHeight {
   /// `ran`: the cycle that the block ran; null: none. `initial`: height at its definition in program units.
   void follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,
               std::optional<double> initial);
-  /// Before the statement: other ways than the text lead to its labels.
-  void enter(const Statement& s);
+  /// Before the statement: other ways than the text lead to its labels. True: one that the text names.
+  bool enter(const Statement& s);
   [[nodiscard]] std::optional<double> at(AxisId axis) const { return axis == axis_ ? value_ : std::nullopt; }  ///< mm
 
  private:
