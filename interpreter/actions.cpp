@@ -148,6 +148,7 @@ struct ActionRunner {
     }
     return true;
   }
+  bool operator()(const ir::SurfaceSet& a) const { return m.set_surface(a); }
   bool operator()(const ir::OpaqueWord& /*a*/) const {
     return true;
   }  // its diagnostic decides whether the program runs

@@ -251,6 +251,13 @@ class BlockMachine final : public SystemData {
   /// Of a move of rotary axes alone: degrees, whatever the unit of length.
   [[nodiscard]] double feed_degrees() const { return feed_degrees_[static_cast<std::size_t>(modal_.feed_mode)]; }
 
+  // the face and the cylinder of a turning part (surfaces.cpp)
+  bool set_surface(const ir::SurfaceSet& s);
+  void leave_surface(Axes& machine);
+  void enter_surface(ir::Surface surface, Axes& machine);
+  void y_axis(bool present);
+  bool surface_axis(ir::AxisId a);
+
   // splines and polynomials (curves.cpp)
   bool curve_allowed(const ir::Motion& m, bool spline);
   void begin_curve(ir::MotionKind kind);
@@ -377,6 +384,10 @@ class BlockMachine final : public SystemData {
   double modal_corner_ = 0;
   bool modal_corner_has_feed_ = false;
   double modal_corner_feed_ = 0;
+
+  double cylinder_ = 0;   ///< mm: diameter of the unrolled cylinder
+  double y_beneath_ = 0;  ///< place of the Y axis while Y is a coordinate of the face or the cylinder
+  bool y_lent_ = false;   ///< the machine has no Y axis of its own
 
   std::optional<ir::cycles::HoleNumbers> hole_;
   ir::cycles::MillNumbers mill_;  ///< with a hole of kind `mill`

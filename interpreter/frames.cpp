@@ -79,7 +79,9 @@ bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
 
 void BlockMachine::restore_modal(const ir::ModalState& state) {
   const bool other_offset = state.work_offset != modal_.work_offset;
+  const ir::Surface surface = modal_.surface;
   modal_ = state;
+  modal_.surface = surface;
   set_units();
   for (auto& s : spindles_) s.mode = modal_.spindle_mode;
   if (other_offset) set_work_offset(ir::WorkOffset{ir::Value(double(state.work_offset)), state.work_offset == 0});

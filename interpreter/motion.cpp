@@ -23,6 +23,16 @@ ir::MotionKind left_in_force(ir::MotionKind k) {
       k == ir::MotionKind::probe_toward || k == ir::MotionKind::probe_away || k == ir::MotionKind::to_stop;
   return once ? ir::MotionKind::linear : k;
 }
+
+constexpr std::string_view no_machine_point =
+    "a point of the machine in X, Y or C while they are coordinates of the face or the cylinder";
+
+/// Words of the axes that the face and the cylinder of a turning part take up.
+bool names_turned_axes(const ir::Motion& m) {
+  return std::any_of(m.coords.begin(), m.coords.end(), [](const ir::CoordWord& w) {
+    return w.axis == ir::axis::x || w.axis == ir::axis::y || w.axis == ir::axis::c;
+  });
+}
 }  // namespace
 
 bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
@@ -280,6 +290,8 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
 
 /// Coordinates of the machine itself; the frame stays out of it.
 bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
+  if (modal_.surface != ir::Surface::none && names_turned_axes(m))
+    return failure_.fail(code::surface, std::string(no_machine_point));
   if (pending_ || block_corner_ || !contour_.empty())
     return failure_.fail(code::corner_alone,
                          "a corner or an open contour cannot stand beside a move in machine coordinates");
@@ -310,6 +322,8 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
 
 /// To the reference point of the named axes (machine coordinates of the profile), in rapid.
 bool BlockMachine::reference_move(const ir::Motion& m) {
+  if (modal_.surface != ir::Surface::none && names_turned_axes(m))
+    return failure_.fail(code::surface, std::string(no_machine_point));
   std::vector<double> points;
   for (const auto& w : m.coords) {
     if (!check_axis(w.axis)) return false;
@@ -320,6 +334,8 @@ bool BlockMachine::reference_move(const ir::Motion& m) {
 
 /// To a fixed point of the machine, in rapid; only the profile says where it is.
 bool BlockMachine::fixed_point_move(const ir::Motion& m) {
+  if (modal_.surface != ir::Surface::none && names_turned_axes(m))
+    return failure_.fail(code::surface, std::string(no_machine_point));
   const double n = m.extra && m.extra->has_fixed_point ? std::round(value(m.extra->fixed_point)) : 1;
   if (failure_.set) return false;
   std::vector<double> points;

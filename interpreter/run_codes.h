@@ -47,6 +47,7 @@ inline constexpr std::string_view curve_place = "RUN-046";
 inline constexpr std::string_view curve_data = "RUN-047";
 inline constexpr std::string_view value_limits = "RUN-055";
 inline constexpr std::string_view text_cut = "RUN-056";
+inline constexpr std::string_view surface = "RUN-050";
 // Found before anything moves.
 inline constexpr std::string_view unknown_label = "RUN-101";
 inline constexpr std::string_view unknown_routine = "RUN-102";

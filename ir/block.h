@@ -307,10 +307,17 @@ struct SplineAxes {
   std::vector<SplineAxis> axes;
 };
 
-using ActionData =
-    std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear, ToolSelect,
-                 ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock, Coolant, MachineFunction,
-                 Stop, CycleDefine, CycleCancel, Corner, TangentialEnd, PreparationStop, OpaqueWord, SplineAxes>;
+/// Coordinates on a turning part with the C axis from here on, or (none) those of the axes again. The machine stands
+/// still; its point is seen in the new coordinates.
+struct SurfaceSet {
+  Surface surface = Surface::none;
+  Value diameter;  ///< cylinder: of the unrolled surface, in the unit of length; the number 0: on which X stands
+};
+
+using ActionData = std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear,
+                                ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock,
+                                Coolant, MachineFunction, Stop, CycleDefine, CycleCancel, Corner, TangentialEnd,
+                                PreparationStop, OpaqueWord, SplineAxes, SurfaceSet>;
 
 /// When an action is carried out relative to the motion of its block.
 enum class Order : std::uint8_t { before, with, after };

@@ -35,7 +35,8 @@ template <> struct EnumText<Plane> : NamedByFunction<Plane, Plane::yz> {};
 template <> struct EnumText<Distance> : NamedByFunction<Distance, Distance::incremental> {};
 template <> struct EnumText<Units> : NamedByFunction<Units, Units::inch> {};
 template <> struct EnumText<MotionKind> : NamedByFunction<MotionKind, MotionKind::tap_floating> {};
-template <> struct EnumText<Setting> : NamedByFunction<Setting, Setting::polynomial_axes> {};
+template <> struct EnumText<Setting> : NamedByFunction<Setting, Setting::surface> {};
+template <> struct EnumText<Surface> : NamedByFunction<Surface, Surface::cylinder> {};
 template <> struct EnumText<HoleKind> : NamedByFunction<HoleKind, HoleKind::mill> {};
 template <> struct EnumText<LevelBase> : NamedByFunction<LevelBase, LevelBase::distance_mode> {};
 template <> struct EnumText<PeckLaw> : NamedByFunction<PeckLaw, PeckLaw::balanced> {};
@@ -121,12 +122,12 @@ std::optional<E> enum_value(std::string_view text) {
 }
 
 /// Keyword of each kind of action, in the order of ActionData. A modal setting has its own name as keyword.
-inline constexpr NameList<25> action_names{
+inline constexpr NameList<26> action_names{
     "set",          "feed",         "spindle",          "spindle_run", "spindle_orient",   "spindle_limit",
     "spindle_gear", "tool",         "tool_change",      "tool_offset", "work_offset",      "frame",
     "pole",         "dwell",        "exact_stop_block", "coolant",     "machine_function", "stop",
     "cycle",        "cycle_cancel", "corner",           "tangential",  "preparation_stop", "opaque_word",
-    "spline_axes"};
+    "spline_axes",  "surface_set"};
 static_assert(action_names.size() == std::variant_size_v<ActionData>);
 
 /// Keyword of each kind of statement, in the order of Statement::node.

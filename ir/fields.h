@@ -265,6 +265,11 @@ template <class V, Is<SplineAxes> T>
 void fields(V& v, T& x) {
   v.words("axes", x.axes);
 }
+template <class V, Is<SurfaceSet> T>
+void fields(V& v, T& x) {
+  v.item("surface", x.surface);
+  v.opt("diameter", x.diameter);
+}
 template <class V, Is<Action> T>
 void fields(V& v, T& x) {
   v.action(x.data);

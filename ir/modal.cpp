@@ -21,6 +21,7 @@ constexpr std::array<std::string_view, 2> retract_names{"initial", "reference"};
 constexpr std::array<std::string_view, 2> feed_point_names{"centre", "contact"};
 constexpr std::array<std::string_view, 3> spline_end_names{"free", "natural", "tangent"};
 constexpr std::array<std::string_view, 2> reference_names{"arc_length", "parameter"};
+constexpr std::array<std::string_view, 3> surface_names{"none", "face", "cylinder"};
 constexpr std::array<std::string_view, 21> motion_names{
     "modal",           "rapid",        "linear",          "arc_cw",
     "arc_ccw",         "thread",       "thread_variable", "arc_through_point",
@@ -49,7 +50,8 @@ constexpr std::array<SettingRow, setting_count> settings{{{"plane", plane_names}
                                                           {"spline_start", spline_end_names},
                                                           {"spline_end", spline_end_names},
                                                           {"path_reference", reference_names},
-                                                          {"polynomial_axes", on_off_names}}};
+                                                          {"polynomial_axes", on_off_names},
+                                                          {"surface", surface_names}}};
 
 template <class E>
 std::uint8_t raw(E e) {
@@ -76,6 +78,7 @@ std::uint8_t ModalState::get(Setting s) const {
     case Setting::spline_end: return raw(spline_end);
     case Setting::path_reference: return raw(path_reference);
     case Setting::polynomial_axes: return raw(polynomial_axes);
+    case Setting::surface: return raw(surface);
     case Setting::count_: break;
   }
   return 0;
@@ -99,6 +102,7 @@ void ModalState::set(Setting s, std::uint8_t value) {
     case Setting::spline_end: spline_end = static_cast<SplineEnd>(value); break;
     case Setting::path_reference: path_reference = static_cast<PathReference>(value); break;
     case Setting::polynomial_axes: polynomial_axes = static_cast<OnOff>(value); break;
+    case Setting::surface: surface = static_cast<Surface>(value); break;
     case Setting::count_: break;
   }
 }
@@ -129,6 +133,9 @@ std::string_view name(CompSide s) {
 }
 std::string_view name(RetractPlane r) {
   return retract_names[raw(r)];
+}
+std::string_view name(Surface s) {
+  return surface_names[raw(s)];
 }
 std::string_view name(MotionKind k) {
   return motion_names[raw(k)];

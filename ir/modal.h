@@ -28,6 +28,10 @@ enum class SplineEnd : std::uint8_t { free, natural, tangent };
 /// What axes beside the curve follow: its length, or its parameter.
 enum class PathReference : std::uint8_t { arc_length, parameter };
 
+/// What the coordinates mean on a part that the C axis turns: a face has Cartesian X and Y about the axis of turning
+/// and Z; a cylinder X (radius), Y along the unrolled circumference, and Z.
+enum class Surface : std::uint8_t { none, face, cylinder };
+
 /// The motion function in force. `modal` in a block: the one in force before (no code written).
 enum class MotionKind : std::uint8_t {
   modal,
@@ -71,6 +75,7 @@ enum class Setting : std::uint8_t {
   spline_end,       ///< [SplineEnd]
   path_reference,   ///< [PathReference]
   polynomial_axes,  ///< [OnOff] off: polynomials are not carried out, only their ends
+  surface,          ///< [Surface]; set by a SurfaceSet
   count_
 };
 inline constexpr std::size_t setting_count = static_cast<std::size_t>(Setting::count_);
@@ -96,6 +101,7 @@ struct ModalState {
   SplineEnd spline_start = SplineEnd::natural, spline_end = SplineEnd::natural;
   PathReference path_reference = PathReference::arc_length;
   OnOff polynomial_axes = OnOff::on;
+  Surface surface = Surface::none;
   MotionKind motion = MotionKind::rapid;
   std::int32_t work_offset = 0;  ///< 0: none (machine zero); 1.. : table rows (1 = first settable offset)
 
@@ -134,6 +140,7 @@ std::string_view name(PathMode m);
 std::string_view name(SpindleMode m);
 std::string_view name(CompSide s);
 std::string_view name(RetractPlane r);
+std::string_view name(Surface s);
 std::string_view name(MotionKind k);
 std::string_view name(Setting s);
 /// Name of `value` of setting `s` ("absolute"); and back.

@@ -113,6 +113,13 @@ class Transfer {
                          x.word == contour::mark::plus || x.word == contour::mark::minus;
     (contour ? follows_ : not_understood_) = true;
   }
+  /// The same place in other coordinates.
+  void operator()(const SurfaceSet& x) {
+    auto& setting = f_.settings[static_cast<std::size_t>(Setting::surface)];
+    if (setting == static_cast<std::uint8_t>(x.surface) && x.surface != Surface::cylinder) return;
+    setting = static_cast<std::uint8_t>(x.surface);
+    for (const AxisId a : {axis::x, axis::y, axis::c}) f_.position[a].reset();
+  }
   template <class T>
   void operator()(const T&) {}
 

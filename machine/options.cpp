@@ -84,6 +84,7 @@ constexpr std::array specs{
     OptionSpec{"num.rotary_modulo", "text", "BC",
                "letters of the axes on which the sign of an absolute word is its direction; - for none"},
     OptionSpec{"num.rotary_unit", "number", "0.0001", "degrees in one unit of a rotary E parameter"},
+    OptionSpec{"num.face_x", "radius|machine", "radius", "X under G21: a radius, or as the machine's X is"},
     OptionSpec{"num.lenient_letter_O", "true|false", "true",
                "the letter O is read as the digit 0 in GO, with a warning"},
     OptionSpec{"num.missing_range_end", "error|to_last_lower", "error", "a block range whose last block is missing"},

@@ -90,6 +90,8 @@ void ProgramWriter::action(const ir::Action& a) {
   if (const std::string_view what = own_action(a); !same_dialect_ && !what.empty())
     return refuse("TRN-202", a.pos, std::string(what) + " has no counterpart here");
   if (const auto* m = std::get_if<ir::ModalSet>(&a.data)) note_setting(m->setting, m->value);
+  if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data))
+    note_setting(ir::Setting::surface, static_cast<std::uint8_t>(s->surface));
   // A word that means several things is written once in its own language; another one needs a word for each.
   if (same_dialect_ && line_.has_column(a.pos.column)) return;
   if (same_dialect_ && !a.text.empty() && spelling_is_whole_word(a)) {
@@ -124,6 +126,7 @@ void ProgramWriter::action(const ir::Action& a) {
     void operator()(const ir::TangentialEnd& x) const { w.tangential_end(a, x); }
     void operator()(const ir::PreparationStop& /*x*/) const { w.preparation_stop(a); }
     void operator()(const ir::OpaqueWord& x) const { w.opaque_word(a, x); }
+    void operator()(const ir::SurfaceSet& x) const { w.surface_set(a, x); }
     void operator()(const ir::SplineAxes& /*x*/) const {
       w.refuse("TRN-202", a.pos, "the choice of the axes of splines has no counterpart here");
     }

@@ -85,6 +85,7 @@ class ProgramWriter {
   virtual void corner(const ir::Action& a, const ir::Corner& c);
   virtual void tangential_end(const ir::Action& a, const ir::TangentialEnd& t);
   virtual void preparation_stop(const ir::Action& a);  // default: Style::preparation_stop
+  virtual void surface_set(const ir::Action& a, const ir::SurfaceSet& s);
   virtual void opaque_word(const ir::Action& a, const ir::OpaqueWord& w);
 
   // ---- motion of a block ----------------------------------------------------------------------------------------

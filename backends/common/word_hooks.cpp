@@ -86,6 +86,9 @@ void ProgramWriter::corner(const ir::Action& a, const ir::Corner& /*c*/) {
 void ProgramWriter::tangential_end(const ir::Action& a, const ir::TangentialEnd& /*t*/) {
   refuse(no_word, a.pos, "a tangential entry or exit has no counterpart here");
 }
+void ProgramWriter::surface_set(const ir::Action& a, const ir::SurfaceSet& /*s*/) {
+  refuse(no_word, a.pos, "work with the C axis on the face or the cylinder has no counterpart here");
+}
 void ProgramWriter::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {
   if (same_dialect_) return add(std::string(w.word), Rank::motion_extra, a.pos);
   if (ir::leaves_path_alone(a)) {

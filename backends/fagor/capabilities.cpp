@@ -126,6 +126,8 @@ void words(ir::Capabilities& c, bool lathe) {  // ch. 3..8, 10, 11
   c.helix_turns = false;
   c.helix_pitch = true;
   c.full_circle_needs_end = true;
+  c.surfaces = lathe ? ir::SurfaceForm::c_with_plane : ir::SurfaceForm::none;
+  c.surface_x_radius = lathe;
   c.diameter_switch = lathe;
   c.diameter_absolute_only = false;
   c.fixed_diameter = ir::DiameterMode::radius;
@@ -160,6 +162,9 @@ bool stands_alone(const ir::Action& a) {
   if (std::holds_alternative<ir::WorkOffset>(a.data) || std::holds_alternative<ir::SpindleLimit>(a.data) ||
       std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::Dwell>(a.data)) {
     return true;
+  }
+  if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) {
+    return s->surface != ir::Surface::none;
   }
   // A pole at the origin beside a plane is said by the plane itself.
   if (const auto* p = std::get_if<ir::PoleSet>(&a.data)) return !p->at || !at_origin(*p->at);

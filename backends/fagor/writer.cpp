@@ -38,7 +38,16 @@ bool leaves(const ir::Statement* s) {
 Writer::Writer(const ir::Program& program, const WriteOptions& options, const Style& style, Diagnostics& diagnostics)
     : ProgramWriter(program, options, style, diagnostics),
       lathe_(options.profile->kind == machine::Kind::lathe),
-      printer_(this->program(), lathe_, number_format()) {}
+      printer_(this->program(), lathe_, number_format()) {
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(r.body, [this](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || !lathe_) return;
+      for (const ir::Action& a : b->actions)
+        has_surfaces_ = has_surfaces_ || std::holds_alternative<ir::SurfaceSet>(a.data);
+    });
+  }
+}
 
 // ---- file frame ----------------------------------------------------------------------------------------------------
 

@@ -52,6 +52,7 @@ class Writer : public ProgramWriter {
 
   void action(const ir::Action& a) override;
   void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
+  void surface_set(const ir::Action& a, const ir::SurfaceSet& s) override;
   void set_feed(const ir::Action& a, const ir::SetFeed& f) override;
   void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
@@ -94,6 +95,8 @@ class Writer : public ProgramWriter {
   [[nodiscard]] std::string argument_text(const ir::Argument& a);
   [[nodiscard]] std::string action_text(const ir::Body& body);
   [[nodiscard]] bool written_as_g_call(const ir::CallRoutine& c) const;
+  void plain_block(const ir::Block& b);
+  [[nodiscard]] ir::Block on_surface(const ir::Block& b, ir::Surface surface) const;
   void g_call(const ir::CallRoutine& c);
   void keep_letters();
   void text_problem(std::string what);  ///< a part of a statement that can't be said
@@ -124,6 +127,8 @@ class Writer : public ProgramWriter {
   bool lathe_;
   Printer printer_;
   const ir::Block* block_ = nullptr;
+  bool has_surfaces_ = false;
+  ir::Block surface_block_;                  ///< the block at hand in the words of the face or the cylinder
   ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written
   bool after_offset_ = false;                ///< the last thing written is a work offset
   bool offset_before_ = false;               ///< the same, for the block at hand

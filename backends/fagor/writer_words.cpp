@@ -58,8 +58,56 @@ bool is_empty_line(const ir::Statement& s) {
 
 // ---- decisions -----------------------------------------------------------------------------------------------------
 
+/// The block in the words of the surface in force: C for the second coordinate, X a radius; the plane of the cylinder
+/// has Z as its abscissa, so that every sense of turning is the other one.
+ir::Block Writer::on_surface(const ir::Block& b, ir::Surface surface) const {
+  ir::Block out = b;
+  const bool cylinder = surface == ir::Surface::cylinder;
+  const auto own_text = [this](std::string_view text) { return same_dialect() && !text.empty(); };
+  for (ir::Action& a : out.actions) {
+    auto* m = std::get_if<ir::ModalSet>(&a.data);
+    if (m == nullptr) continue;
+    if (cylinder && m->setting == ir::Setting::comp && m->value != 0 && !own_text(a.text)) m->value = 3 - m->value;
+    if (cylinder && m->setting == ir::Setting::plane && m->value == code_value(ir::Plane::yz)) a.text = "G16 ZC";
+  }
+  ir::Motion& m = out.motion;
+  const bool turned = cylinder && !own_text(m.code_text);
+  if (turned && m.kind == ir::MotionKind::arc_cw) {
+    m.kind = ir::MotionKind::arc_ccw;
+  } else if (turned && m.kind == ir::MotionKind::arc_ccw) {
+    m.kind = ir::MotionKind::arc_cw;
+  }
+  for (ir::CoordWord& w : m.coords) {
+    if (w.axis == ir::axis::y) w.axis = ir::axis::c;
+    if (w.axis == ir::axis::x && surface == ir::Surface::face) w.scale = ir::WordScale::modal;
+  }
+  for (ir::CenterWord& w : m.centers) {
+    if (w.axis == ir::axis::y) w.axis = ir::axis::z;  // K is the letter of C as well
+    const bool from_start = w.mode == ir::CenterMode::from_start;
+    if (w.axis == ir::axis::x && surface == ir::Surface::face)
+      w.scale = from_start ? ir::WordScale::radius : ir::WordScale::modal;
+  }
+  return out;
+}
+
 void Writer::block(const ir::Block& b) {
   if (is_empty_line(current())) return add(std::string(style().blank_line), Rank::head);
+  auto surface = has_surfaces_ ? known<ir::Surface>(ir::Setting::surface) : std::optional(ir::Surface::none);
+  for (const ir::Action& a : b.actions) {
+    const auto* s = std::get_if<ir::SurfaceSet>(&a.data);
+    if (s != nullptr && a.order != ir::Order::after) surface = s->surface;
+  }
+  if (!surface && b.has_motion && b.motion.moves())
+    return refuse(no_word, b.motion.code_pos,
+                  "whether this block counts on the face, the cylinder or neither is not known here");
+  if (surface && *surface != ir::Surface::none) {
+    surface_block_ = on_surface(b, *surface);
+    return plain_block(surface_block_);
+  }
+  plain_block(b);
+}
+
+void Writer::plain_block(const ir::Block& b) {
   offset_before_ = after_offset_;
   if (!b.empty()) after_offset_ = false;
   // A cycle runs at the point of its block: its words follow the move.
@@ -125,6 +173,8 @@ bool Writer::implied(const ir::Action& a) {
   };
   if (std::any_of(block_->actions.begin(), block_->actions.end(), machining))
     return sets(a, ir::Setting::comp) || sets(a, ir::Setting::distance);  // ch. 9: how the cycle leaves
+  if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data); s != nullptr && s->surface == ir::Surface::none)
+    return same_dialect();  // by the plane or the spindle function
   if (holds<ir::PoleSet>(a)) return plane && !stands_alone(a);
   const bool home =
       block_->has_motion &&
@@ -135,6 +185,8 @@ bool Writer::implied(const ir::Action& a) {
 
 void Writer::action(const ir::Action& a) {
   if (implied(a)) {
+    if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data))
+      note_setting(ir::Setting::surface, static_cast<std::uint8_t>(s->surface));
     if (const auto* m = std::get_if<ir::ModalSet>(&a.data)) note_setting(m->setting, m->value);
     return;
   }
@@ -149,6 +201,7 @@ void Writer::action(const ir::Action& a) {
 // ---- settings ------------------------------------------------------------------------------------------------------
 
 void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  if (m.setting == ir::Setting::plane && a.text == "G16 ZC") return add("G16 ZC", Rank::setting, a.pos);
   if (m.setting == ir::Setting::plane) plane_by_text_ = static_cast<ir::Plane>(m.value);
   const bool neutral =
       (m.setting == ir::Setting::diameter && !lathe_ && m.value == 0) ||
@@ -172,6 +225,18 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
     }
   }
   ProgramWriter::modal_set(a, m);
+}
+
+/// G15 R unrolls the cylinder, G16 XC chooses the face; another plane and M3, M4, M5 end both (6.15).
+void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
+  if (s.surface == ir::Surface::none) return;
+  if (!lathe_) return ProgramWriter::surface_set(a, s);
+  if (s.surface == ir::Surface::face) {
+    add(std::string(g(Use::c_axis)), Rank::setting, a.pos);
+    further_line(a.pos);
+    return add("G16 XC", Rank::setting, a.pos);
+  }
+  add(std::string(g(Use::c_axis)) + ' ' + word("R", ir::scale(s.diameter, 0.5), a.pos), Rank::setting, a.pos);
 }
 
 /// F0 is the greatest feed of the machine, on this control.

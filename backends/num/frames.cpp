@@ -59,6 +59,18 @@ void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
   add(text, Rank::setting, a.pos);
 }
 
+/// G21 the face, G22 the cylinder on which X stands, G20 the axes again (12.6).
+void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
+  if (profile().kind != machine::Kind::lathe) {
+    if (s.surface != ir::Surface::none) ProgramWriter::surface_set(a, s);  // its end alone: nothing to say
+    return;
+  }
+  const std::string_view code = s.surface == ir::Surface::face       ? "G21"
+                                : s.surface == ir::Surface::cylinder ? "G22"
+                                                                     : "G20";
+  add(std::string(code), Rank::setting, a.pos);
+}
+
 void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   const ir::FrameChange& c = *f.change;
   const bool clear = c.combine == ir::FrameCombine::clear;

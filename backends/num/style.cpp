@@ -129,6 +129,8 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
     return std::holds_alternative<ir::Dwell>(a.data) || std::holds_alternative<ir::FrameOp>(a.data) ||
            std::holds_alternative<ir::SpindleLimit>(a.data);
   };
+  c.surfaces = lathe ? ir::SurfaceForm::y_from_x : ir::SurfaceForm::none;
+  c.surface_x_radius = true;
   c.system_data = [](const ir::SystemRef& s) { return is_parameter_name(s.text); };
   c.data_form = [lathe](const ir::SystemRef& s) { return data_form(s, lathe); };
   c.native_cycle = [later](const ir::Cycle& cycle) {

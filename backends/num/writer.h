@@ -40,6 +40,7 @@ class Writer final : public ProgramWriter {
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
   void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;
   void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
+  void surface_set(const ir::Action& a, const ir::SurfaceSet& s) override;
   void dwell(const ir::Action& a, const ir::Dwell& d) override;
   void cycle_define(const ir::Action& a, const ir::CycleDefine& c) override;
   void cycle_cancel(const ir::Action& a) override;

@@ -85,8 +85,10 @@ void words(ir::Capabilities& c) {  // reference-language 14
   c.own_block = [](const ir::Action& a) {
     return std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||
            std::holds_alternative<ir::CycleDefine>(a.data) || std::holds_alternative<ir::CycleCancel>(a.data) ||
-           std::holds_alternative<ir::PreparationStop>(a.data);
+           std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::SurfaceSet>(a.data);
   };
+  c.surfaces = ir::SurfaceForm::y_words;
+  c.surface_needs_radius = c.surface_clears_frames = true;
   c.corner_modal = c.corner_feed = true;
   c.corners = {ir::CornerKind::round, ir::CornerKind::chamfer_leg, ir::CornerKind::chamfer_chord};
   c.polar = c.line_angle = true;

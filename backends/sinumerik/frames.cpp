@@ -17,6 +17,16 @@ bool Writer::stands_already(WordPos pos) {
   return same;
 }
 
+void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
+  switch (s.surface) {
+    case ir::Surface::none: return add("TRAFOOF", Rank::setting, a.pos);
+    case ir::Surface::face: return add("TRANSMIT", Rank::setting, a.pos);
+    case ir::Surface::cylinder: break;
+  }
+  add("TRACYL(" + (s.diameter.literal() ? number_text(s.diameter) : expression_text(s.diameter.expr)) + ')',
+      Rank::setting, a.pos);
+}
+
 void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
   // $P_PFRAME=CTRANS(X,5):CROT(Z,30), ROTS X10 Y20: several changes, or angles that were computed, in the words of the
   // source

@@ -61,6 +61,7 @@ class Writer final : public ProgramWriter {
   void tool_offset(const ir::Action& a, const ir::ToolOffset& t) override;
   void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;
   void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
+  void surface_set(const ir::Action& a, const ir::SurfaceSet& s) override;
   void pole_set(const ir::Action& a, const ir::PoleSet& p) override;
   void dwell(const ir::Action& a, const ir::Dwell& d) override;
   void machine_function(const ir::Action& a, const ir::MachineFunction& m) override;

@@ -66,7 +66,7 @@ constexpr std::array table = {
     own(12, B, Group::none, Use::mirror_axis, ir::axis::y, false, "7.5"),
     own(13, B, Group::none, Use::mirror_axis, ir::axis::z, false, "7.5"),
     own(14, B, Group::none, Use::mirror_axes, 0, true, "7.5"),
-    refused(15, T, "6.15", "the C axis", "motion.transformation"),
+    own(15, T, Group::none, Use::c_axis, 0, true, "6.15", "the C axis"),
     own(15, M, Group::none, Use::longitudinal, 0, true, "25.1", "the choice of the longitudinal axis"),
     own(16, B, Group::plane, Use::plane_axes, 0, true, "3.2"),
     own(17, B, Group::plane, Use::plane, static_cast<std::uint8_t>(ir::Plane::xy), false, "3.2"),

@@ -41,6 +41,7 @@ enum class Use : std::uint8_t {
   plane,            ///< G17 G18 G19
   plane_axes,       ///< G16 with two axes
   longitudinal,     ///< G15 of the mill: the axis of tool length and cycles
+  c_axis,           ///< G15 of the lathe: the spindle is the C axis; R: radius of the cylinder that is unrolled
   dwell,            ///< G4
   absolute_centre,  ///< G6
   tangent_arc,      ///< G8

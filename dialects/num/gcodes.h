@@ -20,8 +20,8 @@ enum class GKind : std::uint8_t {
   handwheel,        ///< G12: no effect on the nominal path
   tool_axis,        ///< G16 P+- Q+- R+-
   plane,            ///< value: ir::Plane
-  lathe_plain,      ///< G20: the plain X Z coordinates
-  lathe_transform,  ///< G21 G22 G98
+  surface,          ///< value: ir::Surface: G20 G21 G22
+  lathe_transform,  ///< G98
   three_points,     ///< G23
   comp,             ///< value: ir::CompSide
   spatial_comp,     ///< G29 G43
@@ -109,9 +109,10 @@ inline constexpr std::array g_codes{
     GCode{17, GKind::plane, u8(ir::Plane::xy), GGroup::plane, GMachine::both, "plane XY", "4.3"},
     GCode{18, GKind::plane, u8(ir::Plane::zx), GGroup::plane, GMachine::both, "plane ZX", "4.3"},
     GCode{19, GKind::plane, u8(ir::Plane::yz), GGroup::plane, GMachine::both, "plane YZ", "4.3"},
-    GCode{20, GKind::lathe_plain, 0, GGroup::lathe, GMachine::lathe, "X Z coordinates", "12.6"},
-    GCode{21, GKind::lathe_transform, 0, GGroup::lathe, GMachine::lathe, "face milling with C", "12.6"},
-    GCode{22, GKind::lathe_transform, 0, GGroup::lathe, GMachine::lathe, "cylinder milling with C", "12.6"},
+    GCode{20, GKind::surface, u8(ir::Surface::none), GGroup::lathe, GMachine::lathe, "X Z coordinates", "12.6"},
+    GCode{21, GKind::surface, u8(ir::Surface::face), GGroup::lathe, GMachine::lathe, "face milling with C", "12.6"},
+    GCode{22, GKind::surface, u8(ir::Surface::cylinder), GGroup::lathe, GMachine::lathe, "cylinder milling with C",
+          "12.6"},
     GCode{23, GKind::three_points, 0, GGroup::block_only, GMachine::both, "circle through three points", "6.4"},
     GCode{24, GKind::transform, 0, GGroup::special, GMachine::mill, "tilted working plane", "5.1"},
     GCode{26, GKind::transform, 0, GGroup::special, GMachine::mill, "tool centre point control", "5.1"},
@@ -231,7 +232,6 @@ inline constexpr std::array g_remarks{
     GRemark{10, "a line at feed that a contact ends; not with a condition (NUM-045)"},
     GRemark{12, "left out with a warning (NUM-034)"},
     GRemark{16, "R+ only; another tool axis is refused (NUM-038)"},
-    GRemark{20, "kept as text, no effect (NUM-034)"},
     GRemark{75, "left out with a warning (NUM-033)"},
     GRemark{76, "with H: kept as text, it changes another program (NUM-034); into this program: refused (NUM-004)"},
     GRemark{78, "kept as text, no effect on the path (NUM-034)"},

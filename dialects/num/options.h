@@ -18,7 +18,7 @@ namespace option {
 inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
                                   letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
                                   missing_end = "num.missing_range_end", peck_law = "num.peck_law",
-                                  structured = "num.structured";
+                                  structured = "num.structured", face_x = "num.face_x";
 }  // namespace option
 
 inline constexpr std::array options{
@@ -32,6 +32,7 @@ inline constexpr std::array options{
     OptionRow{"num.rotary_unit", "*", "0.0001", "degrees in one unit of a rotary E parameter"},
     OptionRow{option::m30, "none end", "none", "whether M30 ends the program"},
     OptionRow{option::structured, "yes no", "yes", "IF, WHILE, REPEAT, FOR are written (10xx and later)"},
+    OptionRow{option::face_x, "radius machine", "radius", "X under G21: a radius, or as the machine's X is"},
     OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
 };
 

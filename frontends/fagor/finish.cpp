@@ -1,4 +1,5 @@
 // What a file's blocks owe to each other: done when all of it is known.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -240,6 +241,49 @@ void judge_depths(ir::Program& program, LowerState& state) {
   for (const auto& r : program.routines) ir::for_each_statement(r.body, check);
 }
 
+std::optional<ir::Surface> surface_in(const ir::Block& b) {
+  for (const auto& a : b.actions) {
+    if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) return s->surface;
+  }
+  return std::nullopt;
+}
+
+/// X, C and Y mean other things on the face and the cylinder than elsewhere: was the text the order of work?
+void judge_surfaces(ir::Program& program, LowerState& state) {
+  if (!state.facts.surfaces || in_order_of_text(program)) return;
+  ir::number_statements(program);
+  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
+  const auto concerned = [](const ir::Block& b) {
+    const auto& m = b.motion;
+    const auto moves = [](const ir::CoordWord& w) {
+      return w.axis == ir::axis::x || w.axis == ir::axis::y || w.axis == ir::axis::c;
+    };
+    const auto sense = [](const ir::Action& a) {
+      const auto* set = std::get_if<ir::ModalSet>(&a.data);
+      return set != nullptr && set->setting == ir::Setting::comp;
+    };
+    return (b.has_motion && (m.explicit_code || std::any_of(m.coords.begin(), m.coords.end(), moves))) ||
+           std::any_of(b.actions.begin(), b.actions.end(), sense);
+  };
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || surface_in(*b) || !concerned(*b)) return;
+      const auto line = state.facts.surface_lines.find(s.line.span.line);
+      const auto assumed = line == state.facts.surface_lines.end() ? ir::Surface::none : line->second;
+      const ir::Facts& before = table.before(s.id);
+      const auto known = before.settings[static_cast<std::size_t>(ir::Setting::surface)];
+      const auto plane = before.settings[static_cast<std::size_t>(ir::Setting::plane)];
+      const bool turned = assumed != ir::Surface::cylinder || plane == static_cast<std::uint8_t>(ir::Plane::yz);
+      if (!before.reachable || (known == static_cast<std::uint8_t>(assumed) && turned)) return;
+      state.set_line(s.line.span);
+      state.error("FAG-045", {},
+                  "this block depends on the C axis (G15, G16), and other ways may lead to it than the text says",
+                  "write G16 XC, G16 ZC or G18 before the block");
+    });
+  }
+}
+
 /// G49 alone in a file that inclines no plane: nothing to end.
 void drop_inclined_ends(ir::Program& program, LowerState& state) {
   if (state.facts.first_inclined_plane.known() || state.facts.inclined_ends.empty()) return;
@@ -266,6 +310,7 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_planes(program, state);
   judge_text_uses(program, state);
   judge_depths(program, state);
+  judge_surfaces(program, state);
   drop_inclined_ends(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);

@@ -105,7 +105,7 @@ void BlockLowerer::gather_m(const Word& w) {
 void BlockLowerer::gather(const syntax::Block& in) {
   g_count_ = m_count_ = coord_count_ = radius_count_ = radii_taken_ = 0;
   seen_ = unused_ = 0;
-  coords_taken_ = cycle_ = has_after_ = false;
+  coords_taken_ = cycle_ = has_after_ = surface_here_ = surface_ends_ = false;
   motion_code_ = nullptr;
   argument_ = nullptr;
   cycle_row_ = nullptr;
@@ -225,6 +225,7 @@ void BlockLowerer::lower(const syntax::Block& in, ir::Block& out, BlockResult& r
       leftovers();
     }
   }
+  if (state_.surface_by_text != ir::Surface::none) note_surface();
   if (state_.errors() != errors && !result.harmless) {
     if (result.opaque.empty()) result.opaque = "text.unread";
     result.harmless = false;
@@ -288,7 +289,10 @@ void BlockLowerer::machine_function(const Word& w) {
   const machine::MCode* m = state_.m(code);
   const Order order = m ? m->order : Order::before;
   using machine::MMeaning;
-  switch (m ? m->meaning : MMeaning::machine_function) {
+  const auto meaning = m ? m->meaning : MMeaning::machine_function;
+  if (meaning >= MMeaning::spindle_cw && meaning <= MMeaning::spindle_orient && state_.spindle_now() == 1)
+    leave_surface(order);  // the spindle is no C axis any more (6.15)
+  switch (meaning) {
     case MMeaning::stop: act(ir::Stop{false}, &w, order); return;
     case MMeaning::optional_stop: act(ir::Stop{true}, &w, order); return;
     case MMeaning::program_end: result_->end = &w; return;

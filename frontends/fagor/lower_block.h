@@ -90,6 +90,12 @@ class BlockLowerer {
   void home(const GWord& g);
   void compensations_off();
   void longitudinal_axis(const GWord& g);
+  void c_axis(const GWord& g);
+  bool surface_plane(const GWord& g);
+  void leave_surface(ir::Order order = ir::Order::before);
+  bool surface_coordinate(ir::CoordWord& c, const Word& w);
+  [[nodiscard]] ir::AxisId center_axis(const Word& w);
+  void note_surface();
   void choose_spindle(const GWord& g);
   void couple_spindles(const GWord& g);
   void marker(const GWord& g, std::string_view feature);
@@ -140,6 +146,8 @@ class BlockLowerer {
   std::size_t radius_count_ = 0, radii_taken_ = 0;
   std::uint32_t seen_ = 0, unused_ = 0;
   bool coords_taken_ = false;
+  bool surface_ends_ = false;  ///< behind the motion of this block
+  bool surface_here_ = false;  ///< the plane code of this block chooses the face or the cylinder
 
   const GWord* motion_code_ = nullptr;
   const dialects::fagor::CycleRow* cycle_row_ = nullptr;  ///< a machining cycle of the lathe: its letters are its own

@@ -92,6 +92,7 @@ void BlockLowerer::apply_special(const GWord& g) {
       compensations_off();
       return;
     case Use::longitudinal: longitudinal_axis(g); return;
+    case Use::c_axis: c_axis(g); return;
     case Use::spindle_choice: choose_spindle(g); return;
     case Use::spindle_couple: couple_spindles(g); return;
     case Use::hole_cycle: hole_cycle(g); return;
@@ -122,14 +123,13 @@ void BlockLowerer::give_up(const GWord& g) {
 }
 
 /// The end of something that is not carried out, or a transformation that leaves the programmed path as it is: G46 S1
-/// says how the slides follow, G46 alone and G45 alone end theirs, G15 alone makes the spindle the C axis, whose words
-/// are degrees until a plane with it is chosen (G16).
+/// says how the slides follow, G46 alone and G45 alone end theirs.
 bool BlockLowerer::ends_nothing(const GWord& g) {
   if (g.row->code == 46) {
     const Word* s = letter('S');
     return coord_count_ == 0 && (!s || (s->expr < 0 && (s->number == 0 || s->number == 1)));
   }
-  return (g.row->code == 45 || g.row->code == 15) && in_->words.size() == 1;
+  return g.row->code == 45 && in_->words.size() == 1;
 }
 
 /// The whole block stays as text; a run stops there.
@@ -200,6 +200,7 @@ void BlockLowerer::end_cycle() {
 }
 
 void BlockLowerer::plane(const GWord& g, ir::Plane p, bool turned) {
+  if (!surface_here_) leave_surface();
   if (p != state_.plane_now()) end_cycle();
   const bool arc = state_.motion_by_text == ir::MotionKind::arc_cw || state_.motion_by_text == ir::MotionKind::arc_ccw;
   if (turned != state_.turned() && (arc || state_.comp_by_text != ir::CompSide::off)) {
@@ -208,7 +209,7 @@ void BlockLowerer::plane(const GWord& g, ir::Plane p, bool turned) {
                  "still in force",
                  "write G1 and G40 before the plane");
   }
-  state_.plane_code(p, turned);
+  state_.plane_code(p, turned, surface_here_);
   ir::ModalSet set;
   set.setting = ir::Setting::plane;
   set.value = static_cast<std::uint8_t>(p);
@@ -244,6 +245,8 @@ void BlockLowerer::plane_axes(const GWord& g) {
     turned_plane(g, ir::Plane::zx);
   } else if (pair(ir::axis::z, ir::axis::y)) {
     turned_plane(g, ir::Plane::yz);
+  } else if (surface_plane(g)) {
+    return;
   } else {
     keep(g, "motion.transformation", "a plane of other axes than X, Y and Z is kept as text");
   }

@@ -43,6 +43,8 @@ void BlockLowerer::take_coordinates_into(ir::FrameChange& change) {
     const Word& w = *coords_[i];
     if (!state_.has_axis(axis_of(w)))
       state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w));
+    if (axis_of(w) == ir::axis::c && state_.surface_by_text != ir::Surface::none)
+      state_.error("FAG-045", w.pos, "a frame of the C axis under work on the face or the cylinder is not carried");
     ir::FrameWord f;
     f.axis = axis_of(w);
     f.value = value(w);

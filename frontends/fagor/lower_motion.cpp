@@ -21,6 +21,7 @@ void BlockLowerer::coordinates(ir::Motion& m) {
   for (std::size_t i = 0; i < coord_count_; ++i) {
     const Word& w = *coords_[i];
     const ir::AxisId axis = info_of(word_letter(w)).axis;
+    const bool surface = state_.surface_by_text != ir::Surface::none;
     if (!state_.has_axis(axis)) {
       state_.error("FAG-009", w.pos, std::string("the machine has no axis ") + word_letter(w),
                    "choose a machine profile that has it");
@@ -39,6 +40,7 @@ void BlockLowerer::coordinates(ir::Motion& m) {
       c.value = value(w);
     }
     c.pos = w.pos;
+    if (surface && surface_coordinate(c, w)) continue;
     if (ir::is_rotary_letter(axis)) rotary(c, w);
   }
 }
@@ -62,7 +64,7 @@ void BlockLowerer::centers(ir::Motion& m) {
   for (const char c : {'I', 'J', 'K'}) {
     const Word* w = take(c);
     if (!w) continue;
-    const auto axis = static_cast<ir::AxisId>(c - 'I');
+    const auto axis = center_axis(*w);
     ir::CenterWord center;
     center.axis = axis;
     center.value = value(*w);
@@ -74,15 +76,16 @@ void BlockLowerer::centers(ir::Motion& m) {
       extra().pitch = std::move(center.value);
       continue;
     }
+    const bool face = state_.surface_by_text == ir::Surface::face && axis == ir::axis::x;
     if (three_points_) {
       center.mode = ir::CenterMode::follows_distance;
-      center.scale = ir::WordScale::modal;
+      center.scale = face ? ir::WordScale::radius : ir::WordScale::modal;
       extra().through.push_back(std::move(center));
       continue;
     }
     if (absolute_centre_) {
       center.mode = ir::CenterMode::absolute;
-      center.scale = ir::WordScale::modal;
+      center.scale = face ? ir::WordScale::radius : ir::WordScale::modal;
     }
     m.centers.push_back(std::move(center));
   }

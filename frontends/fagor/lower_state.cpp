@@ -56,6 +56,8 @@ void LowerState::start_routine(bool subroutine) {
   plane_from_caller_ = in_subroutine_ = subroutine;
   turned_ = false;
   comp_by_text = ir::CompSide::off;
+  surface_by_text = ir::Surface::none;
+  surface_plane_by_text = false;
   motion_by_text = ir::MotionKind::modal;
   motion_sure = comp_begins = false;
   constants_.clear();
@@ -66,10 +68,10 @@ void LowerState::start_routine(bool subroutine) {
   cycle_by_text = nullptr;
 }
 
-void LowerState::plane_code(ir::Plane plane, bool turned) {
+void LowerState::plane_code(ir::Plane plane, bool turned, bool of_surface) {
   plane_ = plane;
   turned_ = turned;
-  if (turned && !facts.first_turned_plane.known()) facts.first_turned_plane = line_;
+  if (turned && !of_surface && !facts.first_turned_plane.known()) facts.first_turned_plane = line_;
   plane_from_caller_ = false;
   facts.planes[static_cast<std::size_t>(plane)] = true;
   longitudinal_ = ir::axis::none;

@@ -53,10 +53,12 @@ struct FileFacts {
   Span first_table_shift, first_machine_move, first_axis_scale;
   Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;
-  bool second_spindle = false;         ///< G28
-  std::vector<TextUse> text_uses;      ///< of the spindle and of the longitudinal axis
-  bool longitudinal = false;           ///< G15 of the mill
-  std::set<std::string> machine_data;  ///< variables reported as known to the machine only
+  std::map<std::uint32_t, ir::Surface> surface_lines;  ///< blocks read as coordinates of a face or cylinder, by line
+  bool surfaces = false;                               ///< G15 R, G16 XC
+  bool second_spindle = false;                         ///< G28
+  std::vector<TextUse> text_uses;                      ///< of the spindle and of the longitudinal axis
+  bool longitudinal = false;                           ///< G15 of the mill
+  std::set<std::string> machine_data;                  ///< variables reported as known to the machine only
 };
 
 class LowerState {
@@ -90,12 +92,13 @@ class LowerState {
   void start_routine(bool subroutine);
   [[nodiscard]] bool in_subroutine() const { return in_subroutine_; }
   /// `turned`: the second axis of the plane is its abscissa (G16 XZ): every sense of turning is seen from behind.
-  void plane_code(ir::Plane plane, bool turned = false);
+  void plane_code(ir::Plane plane, bool turned = false, bool of_surface = false);
   [[nodiscard]] bool turned() const { return turned_; }
   void spindle_code(std::uint8_t number);
   void longitudinal_code(ir::AxisId axis);
   /// The spindle of S and M words here (G28, G29).
   std::uint8_t spindle();
+  [[nodiscard]] std::uint8_t spindle_now() const { return spindle_; }
   /// The axis of cycles and tool length here: the normal of the plane, or by G15.
   ir::AxisId longitudinal();
   [[nodiscard]] ir::AxisId longitudinal_given() const { return longitudinal_; }
@@ -115,6 +118,8 @@ class LowerState {
   ir::Plane plane_by_text();
   ir::CompSide comp_by_text = ir::CompSide::off;
   ir::Units units_by_text = ir::Units::metric;
+  ir::Surface surface_by_text = ir::Surface::none;  ///< face, cylinder (G15, G16)
+  bool surface_plane_by_text = false;               ///< its plane is in force as well
   ir::MotionKind motion_by_text = ir::MotionKind::modal;
   bool motion_sure = false;                            ///< no other way leads here since the last motion code
   bool comp_begins = false;                            ///< G40, G41 or G42 since the last move in the plane

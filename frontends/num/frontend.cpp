@@ -10,6 +10,7 @@
 #include "frontends/num/compensation.h"
 #include "frontends/num/cycle_changes.h"
 #include "frontends/num/lines.h"
+#include "frontends/num/surfaces.h"
 
 namespace cnctrans::frontends::num {
 
@@ -104,6 +105,7 @@ class NumFrontend : public Frontend {
     ReadStats own;
     ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
     judge_cycle_changes(program, options.profile->power_on, diagnostics);
+    judge_surfaces(program, options.profile->power_on, diagnostics);
     judge_compensation(program, options.profile->power_on, diagnostics);
     return program;
   }

@@ -33,6 +33,7 @@ struct TextState {
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
   bool contour_open = false;                   ///< the last element's end follows from the next one
   bool inch = false;                           ///< G70
+  ir::Surface surface = ir::Surface::none;     ///< G21, G22
   bool turning_profile = false;                ///< between G64 and G80: blocks are a contour, not moves
   std::shared_ptr<ir::Cycle> stock;            ///< the G64 whose blank is being read
   std::size_t blank_points = 0;
@@ -99,6 +100,8 @@ class Lowering {
   bool take(const Word& w);
   void code(const Word& w);
   void code_action(const Word& w, const dialects::num::GCode& row);
+  void mark_surface(const syntax::Word& w, ir::Surface surface);
+  void face_words();
   void motion_code(const Word& w, ir::MotionKind kind);
   void machine_function(const Word& w);
   void coordinate(const Word& w, ir::AxisId axis);

@@ -24,6 +24,7 @@ void Lowering::resolve() {
   if (!report_.refused() && (present_ & ~used_) != 0) resolve_values();
   if (!report_.refused() && ((present_ & ~used_) != 0 || flow_->label_count != 0)) leftovers();
   if (marks_.unsorted) sort_actions();
+  face_words();
 }
 
 void Lowering::resolve_special() {

@@ -24,6 +24,7 @@ struct Settings {
   bool range_by_position = false;
   bool mends_ranges = false;  ///< a range whose last block is missing ends with the greatest smaller number
   bool m30_ends = false;
+  bool face_radius = true;                               ///< X of G21 is a radius
   bool pecks_constant = false;                           ///< P..Q as constant pecks and a last one
   double units_per_mm = 1000, units_per_degree = 10000;  ///< of E parameters
   std::uint32_t axes = 0;                                ///< bit n: the machine has axis n

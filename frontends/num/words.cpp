@@ -58,6 +58,34 @@ void Lowering::start_program(bool main) {
   state_.motion = settings_.power_on.motion;
 }
 
+/// G21: Cartesian X and Y on the face; G22: Y along the cylinder on which X stands; G20: X Z (12.6).
+void Lowering::mark_surface(const Word& w, ir::Surface surface) {
+  if (surface != ir::Surface::none) {
+    report_.warn("NUM-049", w.pos,
+                 "`" + std::string(text_of(w)) +
+                     (surface == ir::Surface::face
+                          ? "`: X on the face is read as a " +
+                                std::string(settings_.face_radius ? "radius" : "word of the machine's own kind") +
+                                "; the manuals at hand do not say it"
+                          : "`: the cylinder is the one on which X stands"),
+                 surface == ir::Surface::face ? "the option num.face_x says it" : "");
+  }
+  state_.surface = surface;
+  act(w, Step::setting, ir::SurfaceSet{surface, {}});
+}
+
+/// X of the face where it is a radius whatever the machine's X is.
+void Lowering::face_words() {
+  if (state_.surface != ir::Surface::face || !settings_.face_radius) return;
+  auto& m = out_->motion;
+  for (auto& c : m.coords) {
+    if (c.axis == ir::axis::x) c.scale = ir::WordScale::radius;
+  }
+  for (auto& c : m.centers) {
+    if (c.axis == ir::axis::x) c.scale = ir::WordScale::radius;
+  }
+}
+
 void Lowering::unknown(const Word& w, std::string_view why) {
   report_.refuse("NUM-005", w.pos, "`" + std::string(text_of(w)) + "`: " + std::string(why), {}, "block.word");
 }
@@ -138,7 +166,8 @@ ir::Value Lowering::axis_value(const Word& w, ir::AxisId axis) {
 }
 
 void Lowering::coordinate(const Word& w, ir::AxisId axis) {
-  if ((settings_.axes >> axis & 1U) == 0) {
+  const bool on_surface = axis == ir::axis::y && state_.surface != ir::Surface::none;
+  if ((settings_.axes >> axis & 1U) == 0 && !on_surface) {
     report_.refuse(
         "NUM-006", w.pos,
         "`" + std::string(text_of(w)) + "`: the machine has no axis " + std::string(ir::fixed_axis_name(axis)),
@@ -273,8 +302,8 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       return;
     case GKind::dwell: return mark(marks_.dwell);
     case GKind::exact_stop: act(w, Step::special, ir::ExactStopBlock{}); return;
+    case GKind::surface: return mark_surface(w, static_cast<ir::Surface>(row.value));
     case GKind::handwheel:
-    case GKind::lathe_plain:
       return leave_out(w, "NUM-034", "(" + std::string(row.title) + ") does not change the path", 1);
     case GKind::tool_axis: return mark(marks_.tool_axis);
     case GKind::three_points: return mark(marks_.three_points);

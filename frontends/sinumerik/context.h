@@ -112,7 +112,7 @@ struct ToolDirection {
 };
 
 struct FileContext {
-  const MachineFacts& machine;
+  MachineFacts& machine;
   FileId file;
   ir::Program& program;
   Diagnostics& diagnostics;

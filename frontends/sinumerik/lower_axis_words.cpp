@@ -108,14 +108,37 @@ bool StatementLowering::chosen_g(const syntax::Statement& s, Parts& parts) {
   return true;
 }
 
-/// TRANSMIT, TRACYL(40), TRAORI, TRAFOOF: the programmed positions stay those of the tool in the coordinates of the
-/// transformation, and every frame in force is deselected (motion reference 9.1). No other control gets it.
-bool StatementLowering::transformation(const std::string& name, WordPos pos, Parts& parts) {
+/// TRANSMIT, TRACYL(40), TRAFOOF: work with the C axis. TRAORI and the others: the programmed positions stay those of
+/// the tool in the coordinates of the transformation; no other control gets them. Every frame in force is deselected
+/// (motion reference 9.1).
+bool StatementLowering::transformation(const std::string& name, const std::vector<Expr>& args, WordPos pos,
+                                       Parts& parts) {
   const auto add = [&](ir::ActionData data) { parts.act(std::move(data), pos, c_.slice(pos)); };
   auto clear = std::make_shared<ir::FrameChange>();
   clear->slot = ir::FrameSlot::chain;
   clear->combine = ir::FrameCombine::clear;
-  add(ir::OpaqueWord{c_.slice(pos)});
+  ir::SurfaceSet surface;
+  if (name == "TRANSMIT" || name == "TRACYL") {
+    const bool face = name == "TRANSMIT";
+    surface.surface = face ? ir::Surface::face : ir::Surface::cylinder;
+    if (!face && (args.empty() || args[0].kind == ExprKind::missing)) {
+      c_.error("SIN-012", pos, "TRACYL() needs the diameter of the cylinder");
+      return false;
+    }
+    if (!face) {
+      auto diameter = exprs_.lower_as(args[0], ir::Type::real);
+      if (!diameter) return false;
+      const auto number = ir::constant_value(diameter);
+      surface.diameter = number ? ir::Value(*number) : ir::Value(std::move(diameter));
+    }
+    auto& y = c_.machine.axis_of['Y' - 'A'];  // a coordinate from here on, also where the machine has no such axis
+    if (y == ir::axis::none) y = ir::axis::y;
+    add(std::move(surface));
+  } else if (name == "TRAFOOF") {
+    add(std::move(surface));
+  } else {
+    add(ir::OpaqueWord{c_.slice(pos)});
+  }
   add(ir::FrameOp{std::move(clear)});
   add(ir::WorkOffset{ir::Value(0), true});
   c_.tool.transformation(name != "TRAFOOF");
@@ -125,7 +148,10 @@ bool StatementLowering::transformation(const std::string& name, WordPos pos, Par
              name +
                  " switches a transformation: positions are those of the tool in its coordinates, and the frames in "
                  "force, settable and programmable, are deselected",
-             "select the work offset and the frame again behind it");
+             name == "TRANSMIT"
+                 ? "select the work offset and the frame again behind it; X on the face is a diameter where "
+                   "DIAMON is in force: write DIAMOF"
+                 : "select the work offset and the frame again behind it");
   return true;
 }
 

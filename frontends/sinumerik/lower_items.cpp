@@ -304,7 +304,7 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     case Procedure::axis_setting: return axis_setting(name, args, pos, parts);
     case Procedure::screen:
     case Procedure::timing: return without_effect(name, pos, parts);
-    case Procedure::transformation: return transformation(name, pos, parts);
+    case Procedure::transformation: return transformation(name, args, pos, parts);
     case Procedure::coordination: {
       ir::Action a;
       a.data = ir::OpaqueWord{c_.slice(pos)};

@@ -64,7 +64,7 @@ class StatementLowering {
   bool frame_statements(const ir::ExprPtr& value, WordPos pos, std::vector<ir::Action>& out);
   bool offset_row(const ir::Expr& target, const ir::ExprPtr& value, WordPos pos, ir::Assign& out);
   // words of one axis (lower_axis_words.cpp)
-  bool transformation(const std::string& name, WordPos pos, Parts& parts);
+  bool transformation(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool swivel(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool swivel_end(WordPos pos, Parts& parts);
   bool preset(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);

@@ -34,6 +34,14 @@ enum class OutputForm : std::uint8_t {
   programs_in_one_file   ///< whole programs one after the other in a file
 };
 
+/// How the coordinates of a SurfaceSet are said.
+enum class SurfaceForm : std::uint8_t {
+  none,          ///< not at all
+  y_words,       ///< by a word of its own; X, Y, Z
+  y_from_x,      ///< the same, and the cylinder is that on which X stands
+  c_with_plane,  ///< with the plane; the second coordinate is a word of C, and the plane of the cylinder is Z C
+};
+
 /// A pool of numbers of a target variable space that a pass may hand out.
 struct VariablePool {
   std::string prefix;  ///< space prefix
@@ -145,6 +153,10 @@ struct Capabilities {
   bool diameter_switch = true;  ///< Setting::diameter can be written
   bool diameter_absolute_only = false;
   DiameterMode fixed_diameter = DiameterMode::radius;  ///< lathe mode of a control without a switch
+  SurfaceForm surfaces = SurfaceForm::none;
+  bool surface_x_radius = false;       ///< X of the face is a radius whatever the diameter mode
+  bool surface_needs_radius = false;   ///< the diameter mode must be off on the face
+  bool surface_clears_frames = false;  ///< SurfaceSet deselects work offset and programmable frame
   bool exact_stop_modal = true, exact_stop_block = false;
   double dwell_unit = 1;  ///< seconds of one unit of the dwell word
   double dwell_min = 0, dwell_max = 99999;

@@ -40,7 +40,8 @@ class DiameterPass {
  private:
   /// Radius from a word of the target: 0.5 or 1. `mode` is the source's mode of the moment.
   std::optional<double> target_factor(AxisId axis, WordScale scale, std::optional<Distance> distance,
-                                      std::optional<DiameterMode> mode) const {
+                                      std::optional<DiameterMode> mode, bool face = false) const {
+    if (face && axis == axis::x && context_.target.surface_x_radius) return 1;
     if (!is_diameter_axis(context_.target_machine, axis) || scale == WordScale::radius) return 1;
     if (scale == WordScale::diameter) return 0.5;
     if (!context_.target.diameter_switch) return context_.target.fixed_diameter == DiameterMode::radius ? 1 : 0.5;
@@ -68,8 +69,10 @@ class DiameterPass {
     if (!concerns(c.axis) && c.scale != WordScale::diameter) return;
     const auto distance = distance_of(c, b, facts);
     const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
-    const auto to = target_factor(c.axis, WordScale::modal, distance, mode);
-    if (c.scale == WordScale::modal && !mode && context_.target.diameter_switch) return;  // the same code does the same
+    const bool face = setting<Surface>(facts, Setting::surface) == Surface::face;
+    const auto to = target_factor(c.axis, WordScale::modal, distance, mode, face);
+    if (c.scale == WordScale::modal && !mode && !face && context_.target.diameter_switch)
+      return;  // the same code does the same
     rescale(s, c.value, to_radius(c.axis, c.scale, distance, b, facts, context_.source_machine), to, c.pos);
     c.scale = WordScale::modal;
   }
@@ -84,7 +87,8 @@ class DiameterPass {
     const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
     if (wanted == c.scale && (c.scale != WordScale::modal || context_.target.diameter_switch)) return;
     rescale(s, c.value, to_radius(c.axis, c.scale, distance, b, facts, context_.source_machine),
-            target_factor(c.axis, wanted, distance, mode), c.pos);
+            target_factor(c.axis, wanted, distance, mode, setting<Surface>(facts, Setting::surface) == Surface::face),
+            c.pos);
     c.scale = wanted;
   }
 

@@ -43,6 +43,7 @@ constexpr std::array pipeline{
     Pass{"preset_steps", passes::settle_preset_steps, false},
     Pass{"shift_parts", passes::join_shift_parts, false},
     Pass{"plane_scales", passes::complete_scales, false},
+    Pass{"surfaces", passes::convert_surfaces, false},
     Pass{"frames", passes::convert_frames, false},
     Pass{"poles", passes::convert_poles, false},
     Pass{"corners", passes::write_out_corners, false},

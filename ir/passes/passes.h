@@ -22,6 +22,8 @@ void write_out_tangents(Program& program, const LegaliseContext& context);  ///<
 void convert_arcs(Program& program, const LegaliseContext& context);        ///< centre forms, radius, helix
 void convert_distance(Program& program, const LegaliseContext& context);    ///< absolute and incremental words
 void convert_units(Program& program, const LegaliseContext& context);
+/// The coordinates of the face and the cylinder of work with the C axis, as the target says them.
+void convert_surfaces(Program& program, const LegaliseContext& context);
 void convert_diameters(Program& program, const LegaliseContext& context);
 void lower_conditions(Program& program, const LegaliseContext& context);   ///< AND, OR, NOT, tolerance
 void lower_expressions(Program& program, const LegaliseContext& context);  ///< operators and functions

@@ -75,7 +75,8 @@ struct PlainAction {
       case Setting::spline_start:
       case Setting::spline_end:
       case Setting::path_reference:
-      case Setting::polynomial_axes: return false;
+      case Setting::polynomial_axes:
+      case Setting::surface: return false;
       case Setting::distance: return one_distance();
       case Setting::plane:
       case Setting::spindle_mode:

@@ -133,6 +133,8 @@ struct BlockValues {
     } else if (auto* k = std::get_if<Corner>(&a.data)) {
       one(k->value, Role::corner, axis::none, a.pos);
       shared(k->feed, [this](Value& v) { one(v, Role::feed); });
+    } else if (auto* s = std::get_if<SurfaceSet>(&a.data)) {
+      one(s->diameter, Role::radius, axis::none, a.pos);
     } else if (auto* e = std::get_if<TangentialEnd>(&a.data)) {
       one(e->radius, Role::corner, axis::none, a.pos);
     }

@@ -122,11 +122,23 @@ TEST(ProgramWriter, WhatADialectDoesNotOverrideIsRefused) {
 }
 
 TEST(ProgramWriter, ActionsWithoutCounterpartAreRefused) {
-  const std::vector<ir::ActionData> all{
-      ir::SpindleOrient{}, ir::SpindleLimit{},    ir::WorkOffset{},      ir::FrameOp{},
-      ir::PoleSet{},       ir::Dwell{},           ir::ExactStopBlock{},  ir::CycleDefine{},
-      ir::CycleCancel{},   ir::Corner{},          ir::TangentialEnd{},   ir::OpaqueWord{},
-      ir::SplineAxes{},    ir::SetSpindle{2, {}}, ir::SpindleRun{2, {}}, ir::ModalSet{ir::Setting::plane, 0, true, {}}};
+  const std::vector<ir::ActionData> all{ir::SpindleOrient{},
+                                        ir::SpindleLimit{},
+                                        ir::WorkOffset{},
+                                        ir::FrameOp{},
+                                        ir::PoleSet{},
+                                        ir::Dwell{},
+                                        ir::ExactStopBlock{},
+                                        ir::CycleDefine{},
+                                        ir::CycleCancel{},
+                                        ir::Corner{},
+                                        ir::TangentialEnd{},
+                                        ir::OpaqueWord{},
+                                        ir::SurfaceSet{},
+                                        ir::SplineAxes{},
+                                        ir::SetSpindle{2, {}},
+                                        ir::SpindleRun{2, {}},
+                                        ir::ModalSet{ir::Setting::plane, 0, true, {}}};
   for (const auto& data : all) {
     Fixture f;
     ir::Block b;

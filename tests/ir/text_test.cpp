@@ -192,6 +192,7 @@ TEST(Fields, NoMemberIsForgotten) {
   expect_complete<OpaqueWord>("OpaqueWord");
   expect_complete<SplineAxis>("SplineAxis");
   expect_complete<SplineAxes>("SplineAxes");
+  expect_complete<SurfaceSet>("SurfaceSet");
   expect_complete<PolynomialWord>("PolynomialWord");
   expect_complete<Action>("Action");
   expect_complete<Level>("Level", 1);

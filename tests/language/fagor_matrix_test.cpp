@@ -68,8 +68,7 @@ std::string what(const facts::GCode& g) {
 std::string support(const facts::GCode& g) {
   switch (g.use) {
     case Use::refused:
-      return (g.code == 15 ? "alone kept as text: C in degrees (FAG-008); with R " : "") +
-             std::string(g.code == 46 ? "S0 and S1 kept as text: no effect on the programmed point (FAG-008); S2 "
+      return std::string(g.code == 46 ? "S0 and S1 kept as text: no effect on the programmed point (FAG-008); S2 "
                                       : "") +
              reason(g.feature);
     case Use::no_path: return "kept as text: no effect on the path (FAG-008)";
@@ -78,7 +77,9 @@ std::string support(const facts::GCode& g) {
       return "spindles: kept as text (FAG-037)" + (g.code == 30 ? "" : "; axes " + reason("beside.coupling"));
     case Use::soft_corner:
     case Use::look_ahead: return "carried as G05 (FAG-008)";
-    case Use::plane_axes: return "carried for XY, ZX, YZ; others " + reason("motion.transformation");
+    case Use::c_axis: return "alone kept as text: C in degrees (FAG-008); with R carried (FAG-045)";
+    case Use::plane_axes:
+      return "carried for XY, ZX, YZ, on the lathe also XC and ZC (FAG-045); others " + reason("motion.transformation");
     case Use::inclined_plane: return "carried with A B C and with Q R S; others " + reason(g.feature);
     case Use::home: return "carried with axes; alone " + reason("block.word");
     default: return "carried";

@@ -73,6 +73,10 @@ std::string word_table() {
   return s;
 }
 
+bool is_surface(std::string_view name) {
+  return name == "TRANSMIT" || name == "TRACYL" || name == "TRAFOOF";
+}
+
 std::string procedure_table() {
   std::string s = "| Procedure | Support |\n|---|---|\n";
   for (const auto& p : facts::procedures()) {
@@ -80,6 +84,7 @@ std::string procedure_table() {
     s += "| " + std::string(p.name) + " | " +
          (p.use == unsupported                 ? reason(facts::procedure_missing_feature(p.name))
           : p.use == timing || p.use == screen ? "kept as text: the programmed path is the same"
+          : is_surface(p.name)                 ? "carried: work with the C axis (SIN-041)"
           : p.use == transformation ? "a run goes on with the programmed positions; no other control gets it (SIN-041)"
           : p.use == coordination   ? "kept as text, a run passes over it; no other control gets it (SIN-042)"
                                     : "carried") +
