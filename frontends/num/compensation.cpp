@@ -11,10 +11,15 @@ namespace cnctrans::frontends::num {
 namespace {
 
 namespace facts = dialects::num;
-constexpr std::string_view code = "NUM-051";
+constexpr std::string_view code = "NUM-051", straight_code = "NUM-055";
 
 bool is_arc(std::optional<ir::MotionKind> k) {
   return k == ir::MotionKind::arc_cw || k == ir::MotionKind::arc_ccw || k == ir::MotionKind::arc_through_point;
+}
+
+/// A block that inherits G02 or G03 and gives no arc: neither centre nor radius.
+bool only_inherits(const ir::Motion& m) {
+  return m.kind == ir::MotionKind::modal && m.centers.empty() && !m.radius_given && m.extra == nullptr;
 }
 
 std::optional<std::uint8_t> set_in(const ir::Block& b, ir::Setting s) {
@@ -43,12 +48,12 @@ class Judge {
   Judge(const ir::FactTable& table, Diagnostics& diagnostics) : table_(table), diagnostics_(diagnostics) {}
 
   void routine() { begins_ = false; }
-  void statement(const ir::Statement& s) {
+  void statement(ir::Statement& s) {
     const ir::Facts& before = table_.before(s.id);
     if (!before.reachable) return;
     const auto comp = before.settings[static_cast<std::size_t>(ir::Setting::comp)];
     const bool on = comp && *comp != 0;
-    if (const auto* b = std::get_if<ir::Block>(&s.node)) {
+    if (auto* b = std::get_if<ir::Block>(&s.node)) {
       block(s, *b, before, on);
     } else if (const auto* a = std::get_if<ir::Assign>(&s.node); a != nullptr && on) {
       for (const auto& item : a->items) late_variable(s, item);
@@ -60,12 +65,14 @@ class Judge {
     diagnostics_.error(code, s.line.span, std::move(text), std::move(hint));
   }
 
-  void block(const ir::Statement& s, const ir::Block& b, const ir::Facts& before, bool on) {
+  void block(const ir::Statement& s, ir::Block& b, const ir::Facts& before, bool on) {
     const auto own = set_in(b, ir::Setting::comp);
     const bool moves = b.has_motion && b.motion.moves();
     const bool arc = moves && is_arc(b.motion.kind == ir::MotionKind::modal ? before.motion : b.motion.kind);
     if (own) begins_ = (*own != 0) != on;
-    if (arc && begins_)
+    if (arc && begins_ && own && *own == 0 && only_inherits(b.motion))
+      ends_straight(s, b.motion);
+    else if (arc && begins_)
       say(s, "radius compensation begins or ends with an arc", "begin and end it with a straight move (G00, G01)");
     if (moves) begins_ = false;
     const bool stays = on && (!own || *own != 0);
@@ -81,6 +88,15 @@ class Judge {
     if (const auto here = set_in(b, ir::Setting::feed_mode)) mode = here;
     if (arc && mode == static_cast<std::uint8_t>(ir::FeedMode::inverse_time))
       say(s, "an arc under G93", "write G94 and the feed per minute");
+  }
+
+  /// G40 with coordinates alone behind arcs: the last move of compensation is a straight one [9.3].
+  void ends_straight(const ir::Statement& s, ir::Motion& m) const {
+    diagnostics_.warning(straight_code, s.line.span,
+                         "G40 ends radius compensation with a straight move, though G02 or G03 is in force",
+                         "write G01 in this block");
+    m.kind = ir::MotionKind::linear;
+    m.keeps_modal = false;
   }
 
   void late_variable(const ir::Statement& s, const ir::Assign::Item& item) const {
@@ -122,9 +138,9 @@ void judge_compensation(ir::Program& program, const ir::ModalState& power_on, Di
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, power_on);
   Judge judge(table, diagnostics);
-  for (const auto& r : program.routines) {
+  for (auto& r : program.routines) {
     judge.routine();
-    ir::for_each_statement(r.body, [&judge](const ir::Statement& s) { judge.statement(s); });
+    ir::for_each_statement(r.body, [&judge](ir::Statement& s) { judge.statement(s); });
   }
 }
 
