@@ -83,6 +83,12 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
     cycle.rigid = true;
     cycle.pitch = value(*k);
   }
+  if (const Word* ek = number == 84 ? use(e('K')) : nullptr) {
+    report_.keep("NUM-004", ek->pos,
+                 "`" + std::string(text_of(*ek)) + "`: the speed of the way back of a tap is not carried",
+                 "cycle.hole");
+    return false;
+  }
   if (const Word* ec = number == 86 ? use(e('C')) : nullptr) {
     cycle.orient_angle = value(*ec);
     oriented_clearance(cycle);

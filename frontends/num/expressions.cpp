@@ -162,8 +162,8 @@ std::optional<ir::VarRef> Expressions::l_variable(const syntax::Expr& e) {
 
 std::optional<ir::VarRef> Expressions::symbol(const syntax::Expr& e) {
   if (e.text[0] == '\'' || (e.text.size() > 1 && e.text[1] == '.')) {
-    report_.refuse("NUM-024", e.pos, "`" + e.text + "` reads a state of the control that is not carried",
-                   "replace it by a variable that the program sets", "language.system_variable");
+    report_.keep("NUM-024", e.pos, "`" + e.text + "` reads a state of the control that is not carried",
+                 "language.system_variable", "replace it by a variable that the program sets");
     return std::nullopt;
   }
   if (!declared(e.text)) undeclared_.push_back({e.text, word_span(report_.line(), e.pos)});

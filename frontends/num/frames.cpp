@@ -206,8 +206,7 @@ void Lowering::tool_axis(const Word& g16) {
     const Word& w = *pending_[static_cast<std::size_t>(s)];
     const bool plus = w.number_text.empty() || w.number_text.back() == '+';
     if (axis != ir::axis::z || !plus) {
-      return report_.refuse("NUM-038", g16.pos, "a tool axis other than +Z is not carried yet", {},
-                            "motion.transformation");
+      return report_.keep("NUM-038", g16.pos, "a tool axis other than +Z is not carried yet", "motion.transformation");
     }
     state_.tool_axis = axis;
     leave_out(g16, "NUM-034", "R+ names the tool axis that counts anyway", 2);

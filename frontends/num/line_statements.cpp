@@ -323,15 +323,14 @@ bool FileReader::structured(const syntax::Statement& s) {
       (iequals_ascii(s.text.substr(0, 4), "PUSH") || iequals_ascii(s.text.substr(0, 4), "PULL")))
     return stack(s);
   if (s.keyword == "CARRIED") {
-    report.refuse("NUM-023", s.pos, "`" + s.text + "`: the functions on tables are not carried", {},
-                  "language.statement");
+    report.keep("NUM-023", s.pos, "`" + s.text + "`: the functions on tables are not carried", "language.statement");
     return true;
   }
   if (s.keyword == "EQUIV" || s.keyword == "INPUT") {
-    report.refuse("NUM-023", s.pos,
-                  s.keyword == "EQUIV" ? "another name for an address is not carried yet"
-                                       : "a value typed in by the operator is not carried",
-                  {}, "language.statement");
+    report.keep("NUM-023", s.pos,
+                s.keyword == "EQUIV" ? "another name for an address is not carried yet"
+                                     : "a value typed in by the operator is not carried",
+                "language.statement");
     return true;
   }
   return false;

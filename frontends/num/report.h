@@ -29,6 +29,14 @@ class Report {
     refused_ = true;
     harmless_ = false;
   }
+  /// The line is read and means something that is not carried: it becomes Opaque with the key `feature` of the
+  /// missing-features registry. A run stops at it and a translation refuses it; the reader only warns.
+  void keep(std::string_view code, WordPos pos, std::string message, std::string_view feature, std::string hint = {}) {
+    sink_.warning(code, word_span(line_, pos), std::move(message), std::move(hint));
+    if (!refused_) feature_ = feature;
+    refused_ = true;
+    harmless_ = false;
+  }
   /// The line is carried as text; it moves nothing and changes no state.
   void carry(std::string_view code, WordPos pos, std::string message, std::string_view feature,
              Severity severity = Severity::note) {

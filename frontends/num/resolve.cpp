@@ -170,9 +170,9 @@ void Lowering::leftovers() {
                      "`" + std::string(text_of(w)) + "`: angles and tangency belong to a line or an arc", {},
                      "motion.geometry");
     } else if ((arc_slots & bit(s)) != 0 && s == letter('R') && !w.has_value) {
-      report_.refuse("NUM-028", w.pos,
-                     "`" + std::string(text_of(w)) + "`: end points corrected by the tool radius are not carried yet",
-                     {}, "block.word");
+      report_.keep("NUM-028", w.pos,
+                   "`" + std::string(text_of(w)) + "`: end points corrected by the tool radius are not carried yet",
+                   "block.word");
     } else if ((arc_slots & bit(s)) != 0 && out_->has_motion && !w.is_expression && w.number == 0) {
       report_.warn("NUM-042", w.pos,
                    "`" + std::string(text_of(w)) + "` beside a line is 0 and says nothing; it is left out");

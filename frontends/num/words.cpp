@@ -116,10 +116,9 @@ void Lowering::only_text(const Word& w, const facts::GCode& row) {
     return report_.carry("NUM-034", w.pos, what + " does not change the path of this program; kept as text",
                          save ? "language.statement" : "language.synchronised");
   }
-  report_.refuse(
-      "NUM-004", w.pos, what + " is not carried here",
-      save ? "it writes into blocks of this program, or stands beside other words" : "write it in a block of its own",
-      save ? "language.statement" : "language.synchronised");
+  report_.keep(
+      "NUM-004", w.pos, what + " is not carried here", save ? "language.statement" : "language.synchronised",
+      save ? "it writes into blocks of this program, or stands beside other words" : "write it in a block of its own");
 }
 
 const syntax::Word* Lowering::use(int slot) {
@@ -249,7 +248,8 @@ void Lowering::code(const Word& w) {
   }
   const std::int64_t n = integer(w);
   const facts::GCode* row = n < 0 ? nullptr : facts::g_code(static_cast<double>(n));
-  if (!w.has_value && !w.number_text.empty() && n != 76) row = nullptr;  // a sign after the number
+  const bool signed_code = row != nullptr && (n == 76 || row->kind == GKind::transform);
+  if (!w.has_value && !w.number_text.empty() && !signed_code) row = nullptr;  // a sign after the number
   if (row != nullptr) return code_action(w, *row);
   if (n >= facts::g_macro_first && n <= facts::g_macro_last && macros_.count(n) != 0) {
     if (marks_.macro != nullptr) return unknown(w, "a second macro in the block");
@@ -278,9 +278,10 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     marks_.any = true;
   };
   const auto missing = [&](std::string_view feature) {
-    report_.refuse("NUM-004", w.pos,
-                   "`" + std::string(text_of(w)) + "` (" + std::string(row.title) + ") is not carried yet", {},
-                   feature);
+    report_.keep("NUM-004", w.pos,
+                 "`" + std::string(text_of(w)) + "` (" + std::string(row.title) +
+                     ") is kept as text: no run and no translation carries it",
+                 feature);
   };
   switch (row.kind) {
     case GKind::motion: return motion_code(w, static_cast<ir::MotionKind>(row.value));
