@@ -233,7 +233,9 @@ inline constexpr std::array g_remarks{
     GRemark{12, "left out with a warning (NUM-034)"},
     GRemark{16, "R+ only; another tool axis is kept as text (NUM-038)"},
     GRemark{75, "left out with a warning (NUM-033)"},
-    GRemark{76, "with H: kept as text, it changes another program (NUM-034); into this program: kept as text too, a run stops there (NUM-004)"},
+    GRemark{76,
+            "with H: kept as text, it changes another program (NUM-034); into this program: kept as text too, a run "
+            "stops there (NUM-004)"},
     GRemark{78, "kept as text, no effect on the path (NUM-034)"},
     GRemark{83, "P and Q of one size, or falling; a last peck of its own (num.peck_law = constant) is refused"},
     GRemark{92, "R counts for all arcs (NUM-032)"},
