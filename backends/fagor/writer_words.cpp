@@ -208,8 +208,10 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
       (m.setting == ir::Setting::spindle_mode && !lathe_ && m.value == code_value(ir::SpindleMode::rpm)) ||
       (m.setting == ir::Setting::length_comp && lathe_ && m.value == code_value(ir::OnOff::on)) ||
       (m.setting == ir::Setting::feed_point && lathe_ && m.value == code_value(ir::FeedPoint::centre)) ||
-      (m.setting == ir::Setting::retract_plane && lathe_);
-  if (neutral) return;  // always so on this model
+      (m.setting == ir::Setting::retract_plane && lathe_) ||
+      (m.setting == ir::Setting::plane && m.value == code_value(ir::Plane::xy) && !same_dialect() && has_surfaces_ &&
+       setting(ir::Setting::surface) == code_value(ir::Surface::face));  // G16 XC has said it
+  if (neutral) return;                                                   // always so on this model
   if (m.setting == ir::Setting::feed_override) {
     diagnostics().note("TRN-211", span_of(a.pos), "the switch of the feed override has no counterpart and is left out");
     return;

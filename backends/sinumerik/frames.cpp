@@ -17,6 +17,17 @@ bool Writer::stands_already(WordPos pos) {
   return same;
 }
 
+/// Under TRANSMIT the words of X are radii by themselves.
+bool Writer::radius_on_face(ir::AxisId axis) {
+  return axis == ir::axis::x && setting(ir::Setting::surface) == code_value(ir::Surface::face);
+}
+
+/// A word without an attribute is a radius, or the axis knows no diameters.
+bool Writer::plain_is_radius(ir::AxisId axis) {
+  const auto* spec = profile().axis(axis);
+  return spec == nullptr || !spec->diameter || radius_on_face(axis);
+}
+
 void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
   switch (s.surface) {
     case ir::Surface::none: return add("TRAFOOF", Rank::setting, a.pos);
@@ -70,8 +81,8 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
     text += ' ' + word(address, v, pos);
   };
   for (const ir::FrameWord& w : c.words) {
-    const bool scaled =
-        w.scale == ir::WordScale::modal || c.kind == ir::FrameKind::scale || c.kind == ir::FrameKind::mirror;
+    const bool scaled = w.scale == ir::WordScale::modal || radius_on_face(w.axis) || c.kind == ir::FrameKind::scale ||
+                        c.kind == ir::FrameKind::mirror;
     if (!scaled && program().lathe && w.axis == ir::axis::x) {
       return refuse("TRN-202", w.pos, "a shift of X that is not in the diameter mode in force has no counterpart here");
     }

@@ -347,8 +347,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   std::string attribute = rotary_attribute(w);
   const bool by_sign = !attribute.empty() && w.direction == ir::RotaryDirection::by_sign;
   const bool incremental = w.mode == ir::WordMode::incremental;
-  const auto* spec = profile().axis(w.axis);
-  const bool plain_radius = w.scale == ir::WordScale::radius && (spec == nullptr || !spec->diameter);
+  const bool plain_radius = w.scale == ir::WordScale::radius && plain_is_radius(w.axis);
   if (attribute.empty() && w.mode != ir::WordMode::modal) {
     const auto wanted = code_value(incremental ? ir::Distance::incremental : ir::Distance::absolute);
     const bool own = (w.scale == ir::WordScale::modal || plain_radius) && !same_dialect();
@@ -394,7 +393,8 @@ void Writer::center(const ir::Motion& m, const ir::CenterWord& w) {
   const std::string_view address = letters.substr(w.axis, 1);
   const bool absolute = w.mode == ir::CenterMode::absolute;
   const bool lathe_x = program().lathe && w.axis == ir::axis::x;
-  const bool scale_fits = !lathe_x || w.scale == (absolute ? ir::WordScale::modal : ir::WordScale::radius);
+  const bool modal = absolute && !radius_on_face(w.axis);
+  const bool scale_fits = !lathe_x || w.scale == (modal ? ir::WordScale::modal : ir::WordScale::radius);
   if (w.mode == ir::CenterMode::follows_distance || !scale_fits) return ProgramWriter::center(m, w);
   if (absolute) return add(attribute_word(address, "AC", w.value, w.pos), Rank::center, w.pos);
   add(word(address, w.value, w.pos), Rank::center, w.pos);

@@ -109,6 +109,8 @@ class Writer final : public ProgramWriter {
   void offset_uncertain() { offset_certain_ = false; }
   void nested(const ir::Body& statements);
   std::string rotary_attribute(const ir::CoordWord& w);
+  bool radius_on_face(ir::AxisId axis);
+  bool plain_is_radius(ir::AxisId axis);
   [[nodiscard]] ir::AxisId main_axis(const ir::Motion& m);
   [[nodiscard]] std::optional<double> travel(const ir::CoordWord& w);
   [[nodiscard]] std::string source_word(WordPos pos) const;

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "frontends/sinumerik/context.h"
+#include "frontends/sinumerik/face_radius.h"
 #include "frontends/sinumerik/line_reader.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/lower_words.h"
@@ -91,6 +92,7 @@ class FileReading {
     if (!source_->lines().empty()) look_.final_eol = source_->lines().back().has_eol;
     program_.files.push_back(std::move(look_));
     set_unit_hint(program_);
+    face_radius(program_, *machine_.profile, context_.diagnostics);
     return std::move(program_);
   }
 

@@ -149,8 +149,7 @@ bool StatementLowering::transformation(const std::string& name, const std::vecto
                  " switches a transformation: positions are those of the tool in its coordinates, and the frames in "
                  "force, settable and programmable, are deselected",
              name == "TRANSMIT"
-                 ? "select the work offset and the frame again behind it; X on the face is a diameter where "
-                   "DIAMON is in force: write DIAMOF"
+                 ? "select the work offset and the frame again behind it; X on the face is a radius: write DIAMOF"
                  : "select the work offset and the frame again behind it");
   return true;
 }

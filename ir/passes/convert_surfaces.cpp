@@ -63,6 +63,7 @@ class SurfacePass {
   void statement(Statement&& s, Body& out) {
     auto* b = std::get_if<Block>(&s.node);
     SurfaceSet* set = b != nullptr ? surface_in(*b) : nullptr;
+    if (b != nullptr) resume(s, *b);
     if (set == nullptr) {
       if (b != nullptr && target().surfaces == SurfaceForm::c_with_plane) under_plane(s, *b);
       out.push_back(std::move(s));
@@ -150,16 +151,47 @@ class SurfacePass {
       if (!plane) report(s, "TRN-452", "the plane in force behind this block is not known");
       const bool said = plane && std::any_of(b.actions.begin(), b.actions.end(),
                                              [&plane](const Action& a) { return is_plane(a, *plane); });
+      if (setting<Surface>(facts, Setting::surface) != Surface::none) straight(s, facts, out);
       if (plane && !said && setting<Surface>(facts, Setting::surface) != Surface::none)
         b.actions.push_back(action(ModalSet{Setting::plane, static_cast<std::uint8_t>(*plane)}));
       out.push_back(std::move(s));
       return;
     }
-    std::erase_if(b.actions, [surface](const Action& a) { return is_plane(a, plane_of(surface)); });
+    if (surface == Surface::cylinder) drop_plane(b);
     out.push_back(std::move(s));
     if (surface == Surface::face) return;
     out.push_back(
         made_block_with(line, ModalSet{Setting::plane, static_cast<std::uint8_t>(plane_of(Surface::cylinder))}));
+  }
+
+  /// It stands behind the choice of the cylinder already. The writer passes over that of the face.
+  static void drop_plane(Block& b) {
+    std::erase_if(b.actions, [](const Action& a) { return is_plane(a, plane_of(Surface::cylinder)); });
+  }
+
+  static bool is_arc(MotionKind k) { return k != MotionKind::rapid && k != MotionKind::linear; }
+
+  /// The target's senses of turning change with the plane: no arc stays in force over its end.
+  void straight(const Statement& s, const Facts& facts, Body& out) {
+    if (const auto comp = setting<CompSide>(facts, Setting::comp); comp && *comp != CompSide::off)
+      report(s, "TRN-452", "radius compensation over the end of work on the face or the cylinder",
+             "write G40 and a move before");
+    if (facts.motion && !is_arc(*facts.motion)) return;
+    straightened_ = true;
+    Block line;
+    line.has_motion = true;
+    line.motion.kind = MotionKind::linear;
+    out.push_back(made(s.line, std::move(line)));
+  }
+
+  /// Where the source goes on with the arc in force that `straight` has ended.
+  void resume(const Statement& s, Block& b) const {
+    if (!straightened_ || !b.has_motion || b.motion.kind != MotionKind::modal || !b.motion.moves()) return;
+    const auto kind = motion_in(b, facts_.before(s));
+    if (!kind)
+      report(s, "TRN-452", "which motion is in force here depends on the path", "write G1 or G0 in the block");
+    else if (is_arc(*kind))
+      b.motion.kind = *kind;
   }
 
   static Statement made_block_with(const LineInfo& like, ModalSet set) { return make_block(like, action(set)); }
@@ -193,13 +225,14 @@ class SurfacePass {
     });
     if (other != b.actions.end())
       report(s, "TRN-452", "another plane than that of the face or the cylinder while it is in force");
-    std::erase_if(b.actions, [&surface](const Action& a) { return is_plane(a, plane_of(*surface)); });
+    if (*surface == Surface::cylinder) drop_plane(b);
   }
 
   Program& program_;
   const LegaliseContext& context_;
   FactsOf facts_;
   bool frames_;
+  bool straightened_ = false;
 };
 
 }  // namespace
