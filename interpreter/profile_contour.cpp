@@ -19,8 +19,8 @@ class ElementSink final : public TraceSink {
       if (e.kind == EventKind::thread || e.kind == EventKind::probe) strange = true;
       return;
     }
-    const auto place = [&e](ir::AxisId a) { return e.to.value[a] > nowhere / 2 ? 0 : e.to.value[a]; };
-    const ir::cycles::TurnPoint to{place(ir::axis::x), place(ir::axis::z)};
+    const ir::cycles::TurnPoint to{e.to.value[ir::axis::x], e.to.value[ir::axis::z]};
+    open = open || to.x > nowhere / 2 || to.z > nowhere / 2;
     if (e.kind != EventKind::rapid && begun) {
       auto& list = blank ? out.blank : out.part;
       list.push_back({at, to, e.kind == EventKind::arc, !e.cw, {e.center_v, e.center_u}});
@@ -32,6 +32,7 @@ class ElementSink final : public TraceSink {
   ir::cycles::TurnProfile out;
   ir::cycles::TurnPoint at;
   bool begun = false, blank = false, strange = false;
+  bool open = false;  ///< a coordinate of the first point is missing
 };
 
 /// The same in any plane; the way to the first point belongs to no contour.
@@ -95,8 +96,9 @@ void BlockMachine::stand_for_contour(const ir::ModalState& state, std::optional<
   hole_.reset();
   base_pending_ = 0;
   p_.fill(0);
-  // The move to the first point is seen wherever that lies.
-  if (!from) path_event_.to.value[ir::axis::x] = path_event_.to.value[ir::axis::z] = nowhere;
+  // Without a start the move to the first point is seen wherever that lies.
+  path_event_.to.value[ir::axis::x] = from ? from->x : nowhere;
+  path_event_.to.value[ir::axis::z] = from ? from->z : nowhere;
   if (!from) return;
   p_[ir::axis::x] = from->x;
   p_[ir::axis::z] = from->z;
@@ -154,6 +156,7 @@ std::optional<ir::cycles::TurnProfile> contour_of(const machine::Profile& machin
   }
   if (!failure.set) reader.finish();
   if (failure.set) return *error = "its profile can't be read: " + failure.text, std::nullopt;
+  if (sink.open) return *error = "the first block of the profile names both X and Z", std::nullopt;
   if (sink.strange) return *error = "its profile holds a motion that is no contour", std::nullopt;
   if (emitter.limit_reached()) return *error = "its profile is too long", std::nullopt;
   return std::move(sink.out);
