@@ -289,13 +289,17 @@ class Transfer {
   bool not_understood_ = false, follows_ = false;
 };
 
+/// Data of a tool: programmed positions are those of its tip, whatever they are.
+bool is_tool_datum(Datum d) {
+  return d == Datum::tool_length || d == Datum::tool_radius || d == Datum::tool_wear || d == Datum::tool_nose ||
+         d == Datum::tool_nose_width || d == Datum::part_count || d == Datum::cycle_time;
+}
+
 void assign(const Assign& a, Facts& f) {
   for (const auto& it : a.items) {
     if (!it.to_system || it.system.datum == Datum::axis_feed) continue;
-    // A machine datum may be an offset, a frame or a tool: what depends on them is no longer known.
-    Transfer(f).forget_positions();
-    f.feed.reset();
-    f.spindle.reset();
+    // A machine datum may be an offset or a frame: what depends on them is no longer known. F and S are words only.
+    if (!is_tool_datum(it.system.datum)) Transfer(f).forget_positions();
     if (it.system.datum == Datum::other) f.work_offset.reset();
     if (it.system.datum == Datum::diameter_on) {
       const auto value = constant_value(it.value);

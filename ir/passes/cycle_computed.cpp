@@ -224,9 +224,10 @@ void ComputedHole::law_next(const Value& left) {
 }
 
 std::optional<Explosion> explode_computed(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
-                                          std::optional<double> defined_at, std::optional<SpindleState> sense,
-                                          Editor& editor, bool* downward, std::string* error) {
-  ComputedHole hole(c, like, b, facts, defined_at, sense, editor);
+                                          const FeedBefore& feed, std::optional<double> defined_at,
+                                          std::optional<SpindleState> sense, Editor& editor, bool* downward,
+                                          std::string* error) {
+  ComputedHole hole(c, like, b, facts, feed, defined_at, sense, editor);
   auto moves = hole.run();
   *downward = hole.taken_downward();
   if (!moves) *error = hole.error;

@@ -36,9 +36,9 @@ inline ExprPtr more(const Value& a, const Value& b) {
 
 class ComputedHole {
  public:
-  ComputedHole(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
+  ComputedHole(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts, const FeedBefore& feed,
                std::optional<double> initial, std::optional<SpindleState> sense, Editor& editor)
-      : c_(c), b_(b), facts_(facts), sense_(sense), editor_(editor), initial_(initial) {
+      : c_(c), b_(b), facts_(facts), feed_(feed), sense_(sense), editor_(editor), initial_(initial) {
     like_.span = like.span;
     like_.skip_mask = like.skip_mask;
   }
@@ -57,7 +57,7 @@ class ComputedHole {
     if (!c_.spindle_after_retract) restore();
     leave();
     if (c_.spindle_after_retract) restore();
-    if (feed_changed_) feed_word(usual_feed());
+    if (feed_changed_ && !feed_.none) feed_word(usual_feed());
     if (!error.empty()) return std::nullopt;
     Explosion made{std::move(out_), std::nullopt};
     if (retract_.literal()) made.end_height = retract_.number * unit_;
@@ -200,8 +200,8 @@ class ComputedHole {
   }
   void feed_word(const Value& f) { body().push_back(make_block(like_, action(SetFeed{f, false}))); }
   Value usual_feed() {
-    if (!facts_.feed) fail("the feed after the cycle's own one is not known here");
-    return Value(facts_.feed.value_or(0));
+    if (!feed_.value) fail("the feed after the cycle's own one is not known here");
+    return Value(feed_.value.value_or(0));
   }
   void dwell(const Value& v) {
     if (zero_value(v)) return;
@@ -326,6 +326,7 @@ class ComputedHole {
   const HoleCycle& c_;
   const Block& b_;
   const Facts& facts_;
+  FeedBefore feed_;
   std::optional<SpindleState> sense_;
   Editor& editor_;
   std::optional<double> initial_;  ///< mm

@@ -318,13 +318,13 @@ Motion along(MotionKind kind, AxisId axis, double value) {
 /// Steps of a hole as blocks.
 class Writer {
  public:
-  Writer(const LineInfo& like, AxisId axis, Plane plane, double unit, std::optional<double> feed,
+  Writer(const LineInfo& like, AxisId axis, Plane plane, double unit, const FeedBefore& feed,
          std::optional<SpindleState> sense)
-      : like_(like), axis_(axis), plane_(plane), unit_(unit), feed_(feed), sense_(sense) {}
+      : like_(like), axis_(axis), plane_(plane), unit_(unit), feed_(feed.value), no_feed_(feed.none), sense_(sense) {}
 
   /// The feed in force goes on behind the hole.
   bool finish(std::string* error) {
-    if (!changed_) return true;
+    if (!changed_ || no_feed_) return true;
     if (!feed_) {
       *error = "the feed after the cycle's own one is not known here";
       return false;
@@ -421,6 +421,7 @@ class Writer {
   Plane plane_;
   double unit_;
   std::optional<double> feed_;
+  bool no_feed_ = false;
   std::optional<SpindleState> sense_;
   double du_ = 0, dv_ = 0;
   bool changed_ = false;
@@ -429,8 +430,8 @@ class Writer {
 }  // namespace
 
 std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
-                                 double height, double defined_at, std::optional<SpindleState> sense,
-                                 std::string* error) {
+                                 const FeedBefore& feed, double height, double defined_at,
+                                 std::optional<SpindleState> sense, std::string* error) {
   const auto axis_id = cycle_axis(c, b, facts);
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
@@ -458,7 +459,7 @@ std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const
   LineInfo line;
   line.span = like.span;
   line.skip_mask = like.skip_mask;
-  Writer writer(line, *axis_id, *in_plane, unit, facts.feed, sense);
+  Writer writer(line, *axis_id, *in_plane, unit, feed, sense);
   writer.last = height;
   for (const auto& m : moves) {
     if (!writer.add(m, error)) return std::nullopt;

@@ -32,15 +32,16 @@ struct CycleCallees {
 class CyclePass {
  public:
   CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts,
-            CycleCallees& callees)
+            const FeedsBefore& feeds, CycleCallees& callees)
       : program_(program),
         context_(context),
         facts_(facts),
+        feeds_(feeds),
         callees_(callees),
         editor_(program, routine, context),
         uses_(label_uses(program, routine)),
-        turning_(program, routine, context),
-        milling_(program, routine, context),
+        turning_(program, routine, context, feeds),
+        milling_(program, routine, context, feeds),
         height_(uses_),
         sense_(program) {
     if (routine.kind != RoutineKind::main) sense_.forget();
@@ -469,6 +470,7 @@ class CyclePass {
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  const FeedsBefore& feeds_;
   CycleCallees& callees_;
   Editor editor_;
   LabelUses uses_;

@@ -83,7 +83,7 @@ const NamedCycle* pattern_in(const Block& b) {
 }
 
 std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
-                                   std::string* error) {
+                                   bool* guessed, std::string* error) {
   const auto* row = cycles::find_pattern(pattern.name);
   const auto at = place(b, facts);
   const auto numbers = numbers_of(pattern);
@@ -96,9 +96,10 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
     *error = "it counts from the tool, and where the modal subprogram leaves it is not known here";
     return std::nullopt;
   }
-  if (!known && row->kind == PatternKind::row && numbers->contains("count") && numbers->at("count") > 1) {
-    *error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
-    return std::nullopt;
+  if (row->kind == PatternKind::row && numbers->contains("count") && numbers->at("count") > 1) {
+    const double angle = numbers->contains("angle") ? numbers->at("angle") * std::acos(-1.0) / 180 : 0;
+    const bool by_u = std::fabs(std::cos(angle)) > 1e-9, by_v = std::fabs(std::sin(angle)) > 1e-9;
+    *guessed = (by_u && !at->at_u) || (by_v && !at->at_v);
   }
   const auto points = cycles::pattern_points(*row, *numbers, at->at_u.value_or(0), at->at_v.value_or(0), error);
   if (!points) return std::nullopt;

@@ -188,12 +188,13 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   else if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
-    moves = explode(*hole, s.line, b, facts, height.value_or(1e6), active_->defined_at.value_or(height.value_or(1e6)),
-                    sense_.now(), &error);
+    moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
+                    active_->defined_at.value_or(height.value_or(1e6)), sense_.now(), &error);
   if (!moves && error.empty()) {
     const auto initial = active_->defined_at ? active_->defined_at : height;
     bool downward = false;
-    moves = explode_computed(*hole, s.line, b, facts, initial, sense_.now(), editor_, &downward, &error);
+    moves = explode_computed(*hole, s.line, b, facts, feeds_.at(s, b, facts), initial, sense_.now(), editor_, &downward,
+                             &error);
     if (moves && downward)
       context_.diagnostics.warning("TRN-334", s.line.span,
                                    "the hole is taken to go downward: how deep it is only the run knows");
@@ -218,79 +219,6 @@ void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
          "give the cycle's words and the place before it as numbers");
   late_.clear();
   out.push_back(std::move(s));
-}
-
-void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
-  auto& b = std::get<Block>(s.node);
-  const auto& named = std::get<NamedCycle>(d.cycle->node);
-  const Facts& facts = facts_.before(s);
-  ran_ = active_;
-  const bool plain = !active_ || (active_->native && active_->on_target);
-  if (plain) {
-    if (auto native = native_pattern(named, b, facts, context_)) {
-      b.actions.push_back(action(CycleDefine{*native, false, true, d.trigger}));
-      return put(out, std::move(pieces), std::move(s));
-    }
-  }
-  std::string error;
-  auto points = pattern_blocks(named, s.line, b, facts, &error);
-  if (!points && error.empty()) {
-    if (auto loop = pattern_loop(named, s.line, b, facts, editor_, &error))
-      return pattern_as_loop(std::move(s), std::move(*loop), std::move(pieces), out);
-  }
-  if (!points) {
-    refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
-           "give the pattern's words and the place before it as numbers");
-    out.push_back(std::move(s));
-    return;
-  }
-  const auto id = s.id;
-  const LineInfo like = s.line;
-  const bool bare = b.empty();
-  if (!bare || points->empty()) put(out, std::move(pieces), std::move(s));
-  bool first = bare;
-  for (auto& p : *points) {
-    p.id = id;
-    if (first) p.line = like;
-    Body before;
-    if (first) before = std::move(pieces);
-    first = false;
-    if (active_)
-      point(std::move(p), std::move(before), out);
-    else
-      put(out, std::move(before), std::move(p));
-  }
-}
-
-void CyclePass::pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out) {
-  const auto id = s.id;
-  const LineInfo like = s.line;
-  auto& b = std::get<Block>(s.node);
-  if (b.empty()) {
-    loop.setup.front().line = like;
-    put(out, std::move(pieces), std::move(loop.setup.front()));
-    loop.setup.erase(loop.setup.begin());
-  } else {
-    put(out, std::move(pieces), std::move(s));
-  }
-  for (auto& piece : loop.setup) out.push_back(std::move(piece));
-  const auto run = [&](Block block, Body& to) {
-    Statement p = made(like, std::move(block));
-    p.id = id;
-    if (active_) return point(std::move(p), {}, to);
-    to.push_back(std::move(p));
-  };
-  if (loop.first) run(std::move(*loop.first), out);
-  While node;
-  node.condition = loop.again;
-  run(std::move(loop.next), node.body);
-  const ExprPtr counter = variable(loop.counter);
-  node.body.push_back(make_assign(like, loop.counter, binary(BinaryOp::add, counter, number(1))));
-  Body written;
-  written.push_back(made(like, std::move(node)));
-  lower_structures(editor_, written);
-  for (auto& piece : written) out.push_back(std::move(piece));
-  for (const auto& v : loop.taken) editor_.release(v);
 }
 
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
@@ -478,11 +406,12 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
       context.options.cycles != CycleWriting::explode)
     return;
   const FactsOf facts(program, context);
+  const FeedsBefore feeds(program, context);
   std::set<std::uint32_t> profiles;
   std::vector<ProfileUse> uses;
   CycleCallees callees;
   for (auto& r : program.routines) {
-    CyclePass pass(program, r, context, facts, callees);
+    CyclePass pass(program, r, context, facts, feeds, callees);
     pass.run();
     profiles.merge(pass.profiles());
     uses.insert(uses.end(), pass.uses_of_profiles().begin(), pass.uses_of_profiles().end());

@@ -4,6 +4,7 @@
 #include "ir/cycles/hole.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/feed_before.h"
 #include "ir/passes/rewrite.h"
 
 namespace cnctrans::ir::passes {
@@ -47,9 +48,10 @@ class SpindleSense {
 };
 /// The pattern that stands in the block; nullptr: none.
 const NamedCycle* pattern_in(const Block& b);
-/// The points of a pattern as blocks with a move each; empty and a text in `error`: it can't be said.
+/// The points of a pattern as blocks with a move each; empty and a text in `error`: it can't be said. `guessed`: set
+/// when the row begins at the end nearer to the tool, whose place is not known and is taken to be the zero point.
 std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
-                                   std::string* error);
+                                   bool* guessed, std::string* error);
 /// A pattern whose words only the run knows, as a loop: `setup`, then `first` when there is one, then `next` with
 /// `counter` counted up behind it while `again` holds.
 struct PatternLoop {
@@ -74,13 +76,14 @@ struct Explosion {
   std::optional<double> end_height;  ///< mm, when it is a number
 };
 std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
-                                 double height, double defined_at, std::optional<SpindleState> sense,
-                                 std::string* error);
+                                 const FeedBefore& feed, double height, double defined_at,
+                                 std::optional<SpindleState> sense, std::string* error);
 /// The same with words that only the run knows: expressions, and a loop over the pecks. `downward`: set when the hole
 /// is taken to go downward because no number says so.
 std::optional<Explosion> explode_computed(const HoleCycle& c, const LineInfo& like, const Block& b, const Facts& facts,
-                                          std::optional<double> defined_at, std::optional<SpindleState> sense,
-                                          Editor& editor, bool* downward, std::string* error);
+                                          const FeedBefore& feed, std::optional<double> defined_at,
+                                          std::optional<SpindleState> sense, Editor& editor, bool* downward,
+                                          std::string* error);
 /// Where the tool stands along its axis, by the text: after cycles the dataflow does not say.
 class ToolHeight {
  public:

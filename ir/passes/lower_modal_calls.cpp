@@ -191,7 +191,12 @@ class ModalCalls {
   void points(Statement&& s, const NamedCycle& pattern, Body& out) {
     const LineInfo like = s.line;
     std::string error;
-    auto blocks = pattern_blocks(pattern, like, std::get<Block>(s.node), facts_.before(s), &error);
+    bool guessed = false;
+    auto blocks = pattern_blocks(pattern, like, std::get<Block>(s.node), facts_.before(s), &guessed, &error);
+    if (guessed) {
+      blocks.reset();
+      error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
+    }
     if (!blocks) {
       if (error.empty()) error = "its words are computed when the program runs";
       refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,

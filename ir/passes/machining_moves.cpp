@@ -38,19 +38,15 @@ cycles::TurnUnits units_of(const ModalState& m) {
   return u;
 }
 
-std::optional<double> feed_in(const Block& b, const Facts& facts) {
-  std::optional<double> feed = facts.feed;
-  for (const auto& a : b.actions) {
-    if (const auto* f = std::get_if<SetFeed>(&a.data); f != nullptr && a.order != Order::after) feed = known(f->value);
-  }
-  return feed;
-}
-
 /// Moves as blocks.
 class Writer {
  public:
-  Writer(const LineInfo& like, const ModalState& modes, std::optional<double> feed, const TurnState& state)
-      : modes_(modes), unit_(modes.units == Units::inch ? 25.4 : 1), feed_(feed), state_(state) {
+  Writer(const LineInfo& like, const ModalState& modes, const FeedBefore& feed, const TurnState& state)
+      : modes_(modes),
+        unit_(modes.units == Units::inch ? 25.4 : 1),
+        feed_(feed.value),
+        no_feed_(feed.none),
+        state_(state) {
     line_.span = like.span;
     line_.skip_mask = like.skip_mask;
   }
@@ -85,7 +81,7 @@ class Writer {
   }
   /// Rapid is in force afterwards; else the feed is as before.
   bool finish(bool ends_modes, std::string* error) {
-    if (!ends_modes && changed_) {
+    if (!ends_modes && changed_ && !no_feed_) {
       if (!feed_) return *error = "the feed after the cycle's own one is not known here", false;
       put(SetFeed{Value{*feed_}, false});
     }
@@ -211,6 +207,7 @@ class Writer {
   ModalState modes_;
   double unit_;
   std::optional<double> feed_;
+  bool no_feed_ = false;
   TurnState state_;
   std::optional<CompSide> pending_comp_;
   bool changed_ = false;
@@ -394,8 +391,9 @@ void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, co
   }
 }
 
-TurnCycles::TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
-    : context_(context), program_(program), routine_(routine), constants_(program) {
+TurnCycles::TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context,
+                       const FeedsBefore& feeds)
+    : context_(context), feeds_(feeds), program_(program), routine_(routine), constants_(program) {
   const LabelUses uses = label_uses(program, routine);
   TurnState state;
   const auto sense = only_sense(program);
@@ -475,7 +473,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
     if (move.step == TurnStep::arc && setting_in<Plane>(b, facts, Setting::plane) != Plane::zx)
       return *error = "its arcs need the plane of Z and X", std::nullopt;
   }
-  Writer writer(s.line, *m, feed_in(b, facts), site.state);
+  Writer writer(s.line, *m, feeds_.at(s, b, facts), site.state);
   writer.at = context.start;
   for (const auto& move : *moves) {
     if (!writer.add(move, error)) return std::nullopt;

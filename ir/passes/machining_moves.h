@@ -31,7 +31,7 @@ bool machining_numbers(const NamedCycle& cycle, const ModalState& modes, cycles:
 /// its statements apart.
 class TurnCycles {
  public:
-  TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context);
+  TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context, const FeedsBefore& feeds);
 
   /// The moves as blocks; nullopt with a sentence: they can't be told here. With `values`, numbers that the head of the
   /// program gives to variables count as known, and are listed there ("P1=40, P2=3").
@@ -67,6 +67,7 @@ class TurnCycles {
   /// Width of the tool in mm; 0: not known.
   [[nodiscard]] double nose_width(const TurnState& state) const;
   const LegaliseContext& context_;
+  const FeedsBefore& feeds_;
   const Program& program_;
   const Routine& routine_;
   HeadConstants constants_;

@@ -297,7 +297,7 @@ std::optional<Body> TurnCycles::write_out_computed(const NamedCycle& named, cons
   if (const auto x = facts.position[axis::x]) start.x = Value(*x * k);
   if (const auto z = facts.position[axis::z]) start.z = Value(*z);
   ComputedTurn turn(named, s.line, *m, start, nose_width(it->second.state), editor);
-  turn.usual_feed = facts.feed;
+  turn.usual_feed = feeds_.at(s, b, facts);
   auto out = turn.run();
   if (!out) *error = turn.error;
   return out;

@@ -188,8 +188,9 @@ class Writer {
 
 }  // namespace
 
-MillCycles::MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context)
-    : context_(context) {
+MillCycles::MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context,
+                       const FeedsBefore& feeds)
+    : context_(context), feeds_(feeds) {
   if (!has_milling(program)) return;
   find_contours(program, routine);
   for (const auto& r : program.routines) {
@@ -215,9 +216,6 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
           tools.insert(t->name.empty() ? whole(t->number) : std::nullopt);
         if (const auto* d = std::get_if<ToolOffset>(&b->actions[i].data)) offsets.insert(whole(d->number));
       }
-      no_feed_ = no_feed_ && (b == nullptr || std::none_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
-                                return std::holds_alternative<SetFeed>(a.data);
-                              }));
     });
   }
   const LabelUses uses = label_uses(program, routine);
@@ -379,11 +377,8 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   context.spindle_ccw = sense == SpindleState::ccw;
   const auto moves = cycles::expand(*words, *numbers, context, error);
   if (!moves) return std::nullopt;
-  std::optional<double> feed = facts.feed;
-  for (const auto& a : b.actions) {
-    if (const auto* f = std::get_if<SetFeed>(&a.data); f != nullptr && a.order != Order::after) feed = known(f->value);
-  }
-  Writer writer(s.line, axes, unit, feed);
+  const FeedBefore feed = feeds_.at(s, b, facts);
+  Writer writer(s.line, axes, unit, feed.value);
   writer.u = context.u;
   writer.v = context.v;
   writer.w = context.w;
@@ -391,7 +386,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   for (const auto& m : *moves) {
     if (!writer.add(m, facts.spindle, error)) return std::nullopt;
   }
-  if (!no_feed_ && !writer.finish(error)) return std::nullopt;
+  if (!feed.none && !writer.finish(error)) return std::nullopt;
   if (leads_by_middle) {
     context_.diagnostics.warning(
         "TRN-420", s.line.span,

@@ -15,7 +15,7 @@ namespace cnctrans::ir::passes {
 /// The milling cycles of a program: the tool in use at every block, and the radii that profile and program give.
 class MillCycles {
  public:
-  MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context);
+  MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context, const FeedsBefore& feeds);
 
   /// The moves of one machining as blocks, behind the motion of the block itself; nullopt with a sentence: they can't
   /// be told here. `height`, `defined_at`: of the tool, mm.
@@ -41,8 +41,8 @@ class MillCycles {
                                              bool* none) const;
 
   const LegaliseContext& context_;
+  const FeedsBefore& feeds_;
   bool radius_written_ = false;  ///< by the program, under any name
-  bool no_feed_ = true;          ///< the program has no F of its own
   mutable std::optional<End> end_;
   void find_contours(const Program& program, const Routine& routine);
   std::set<std::uint32_t> contour_blocks_;

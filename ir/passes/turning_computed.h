@@ -28,7 +28,7 @@ class ComputedTurn {
   /// nullopt: `error` says why it can't be told.
   std::optional<Body> run();
   std::string error;
-  std::optional<double> usual_feed;  ///< in force before the cycle
+  FeedBefore usual_feed;  ///< in force before the cycle
 
  private:
   /// An axis by its role: one unit of a radius length is `k` units of its words.

@@ -81,7 +81,8 @@ bool ComputedTurn::straight() {
   set(*k, add(pass, Value(1.0)));
   close_while(outer, more(add(count, Value(0.5)), pass), std::move(inner));
   const double rough = number_word("rough_feed"), fine = number_word("finish_feed");
-  if ((rough > 0 || fine > 0) && !usual_feed) return fail("the feed after the cycle's own one is not known here");
+  const bool restored = (rough > 0 || fine > 0) && !usual_feed.none;
+  if (restored && !usual_feed.value) return fail("the feed after the cycle's own one is not known here");
   if (rough > 0) {
     rapid({first_p, first_q});
     feed_at({last_p, last_q}, Value(rough));
@@ -95,7 +96,7 @@ bool ComputedTurn::straight() {
   }
   rapid({from_p, std::nullopt});
   rapid({std::nullopt, from_q});
-  if (rough > 0 || fine > 0) body_->push_back(make_block(like_, action(SetFeed{Value(*usual_feed), false})));
+  if (restored) body_->push_back(make_block(like_, action(SetFeed{Value(*usual_feed.value), false})));
   return error.empty();
 }
 

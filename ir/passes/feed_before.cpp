@@ -1,0 +1,82 @@
+#include "ir/passes/feed_before.h"
+
+#include <algorithm>
+
+#include "ir/cycles/machining.h"
+#include "ir/cycles/pattern.h"
+#include "ir/passes/flow_states.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// Some machining cycles leave their last feed behind.
+bool leaves_feed(const CyclePtr& cycle) {
+  const auto* named = cycle ? std::get_if<NamedCycle>(&cycle->node) : nullptr;
+  if (named == nullptr || cycles::find_pattern(named->name) != nullptr) return false;
+  const auto* row = cycles::find_machining(named->name);
+  return row == nullptr || row->ends_modes;
+}
+
+/// A domain of FlowStates: whether some way has given a feed.
+class GivenDomain {
+ public:
+  struct State {
+    bool maybe = false;
+  };
+  [[nodiscard]] static State start(const Routine& r, bool called) { return {called || r.kind != RoutineKind::main}; }
+  static bool gives(const Statement& s) {
+    if (std::holds_alternative<Opaque>(s.node)) return true;
+    const auto* b = std::get_if<Block>(&s.node);
+    return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+             const auto* d = std::get_if<CycleDefine>(&a.data);
+             return std::holds_alternative<SetFeed>(a.data) || (d != nullptr && leaves_feed(d->cycle));
+           });
+  }
+  static void transfer(const Statement& s, State& state) { state.maybe = state.maybe || gives(s); }
+  static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) { found = found || gives(s); });
+    return found;
+  }
+  static void unknown(State& state) { state.maybe = true; }
+  static bool join(State& a, const State& b) {
+    const bool changed = b.maybe && !a.maybe;
+    a.maybe = a.maybe || b.maybe;
+    return changed;
+  }
+};
+
+}  // namespace
+
+struct FeedsBefore::Analysis {
+  Analysis(const Program& program, double at_power_on) : states(program, domain) {
+    const bool given = std::any_of(program.routines.begin(), program.routines.end(), GivenDomain::touches);
+    if (given && at_power_on > 0) power_on = at_power_on;
+  }
+  GivenDomain domain;
+  FlowStates<GivenDomain> states;
+  std::optional<double> power_on;  ///< a feed to go back to, in a program that has F
+};
+
+FeedsBefore::FeedsBefore(const Program& program, const LegaliseContext& context)
+    : analysis_(std::make_unique<Analysis>(program, context.source_machine.power_on_feed)) {}
+FeedsBefore::~FeedsBefore() = default;
+
+FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& facts) const {
+  FeedBefore feed{facts.feed, false};
+  bool own = false;
+  for (const auto& a : b.actions) {
+    const auto* f = std::get_if<SetFeed>(&a.data);
+    if (f == nullptr || a.order == Order::after) continue;
+    own = true;
+    feed.value = f->value.literal() ? std::optional(f->value.number) : constant_value(f->value.expr);
+  }
+  const auto* state = own || feed.value ? nullptr : analysis_->states.before(s);
+  if (state == nullptr || state->maybe) return feed;
+  if (setting_in<Units>(b, facts, Setting::units) == Units::metric) feed.value = analysis_->power_on;
+  feed.none = !analysis_->power_on;
+  return feed;
+}
+
+}  // namespace cnctrans::ir::passes

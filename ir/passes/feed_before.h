@@ -1,0 +1,31 @@
+// The feed that stands behind a cycle with feeds of its own: the one before it, or none where no F has been given yet.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ir/passes/facts.h"
+
+namespace cnctrans::ir::passes {
+
+struct FeedBefore {
+  std::optional<double> value;  ///< program units, when it is known
+  bool none = false;            ///< surely none has been given: there is nothing to restore
+};
+
+/// Of the whole program as it is when this is made; statements must have ids.
+class FeedsBefore {
+ public:
+  FeedsBefore(const Program& program, const LegaliseContext& context);
+  ~FeedsBefore();
+  FeedsBefore(const FeedsBefore&) = delete;
+  FeedsBefore& operator=(const FeedsBefore&) = delete;
+  /// Behind the F of the block itself. `b`: the block of `s`, perhaps without its motion.
+  [[nodiscard]] FeedBefore at(const Statement& s, const Block& b, const Facts& facts) const;
+
+ private:
+  struct Analysis;
+  std::unique_ptr<Analysis> analysis_;
+};
+
+}  // namespace cnctrans::ir::passes
