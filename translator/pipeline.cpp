@@ -13,6 +13,7 @@
 #include "translator/proof.h"
 #include "translator/readable.h"
 #include "translator/stream.h"
+#include "translator/written.h"
 
 namespace cnctrans::translator {
 
@@ -310,7 +311,9 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
                       source->has_bom() && !options.encoding, result.diagnostics);
     result.outputs.push_back(std::move(out));
   }
-  if (!names_differ(result.outputs, result.diagnostics) && refused(result.diagnostics, options)) {
+  if (from != to && result.diagnostics.error_count() == 0) check_written(result, *to, *target_profile);
+  if ((!names_differ(result.outputs, result.diagnostics) || result.diagnostics.has_errors()) &&
+      refused(result.diagnostics, options)) {
     result.refused = true;
     result.outputs.clear();
     return result;

@@ -122,6 +122,8 @@ class Writer : public ProgramWriter {
   void cycle_approach(const CycleWords& w);
   bool machining_cycle(const ir::Action& a, const ir::CycleDefine& c);
   void cycle_change(const ir::Action& a, const ir::HoleCycle& change);
+  [[nodiscard]] bool curve_in_force();
+  [[nodiscard]] bool arc_ends(const ir::Motion& m);
   [[nodiscard]] bool absolute_center(const ir::CenterWord& c);
 
   bool lathe_;

@@ -48,6 +48,37 @@ bool Writer::rollover() const {
   return profile().option("fagor.rotary_rollover") == "yes";
 }
 
+bool Writer::curve_in_force() {
+  const auto text = motion_tracker().text();
+  const auto kind = text || facts() == nullptr ? text : facts()->motion;
+  return kind && !is_straight(*kind);
+}
+
+/// An arc has both end coordinates of its plane, or an angle about its centre (29.1, error 43). False: refused.
+bool Writer::arc_ends(const ir::Motion& m) {
+  const bool arc = m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw ||
+                   (m.kind == ir::MotionKind::modal && (m.radius_given || !m.centers.empty()));
+  if (!arc || (m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius))) return true;
+  const auto plane = known<ir::Plane>(ir::Setting::plane);
+  const ir::PlaneAxes axes = ir::plane_axes(plane.value_or(plane_by_text_));
+  const auto given = std::count_if(m.coords.begin(), m.coords.end(),
+                                   [&axes](const ir::CoordWord& c) { return c.axis == axes.u || c.axis == axes.v; });
+  const bool surface = std::any_of(m.coords.begin(), m.coords.end(), [](const ir::CoordWord& c) {
+    return ir::is_rotary_letter(c.axis);
+  });  // face, cylinder
+  if (given != 1 || surface) return true;
+  if (plane) {
+    refuse("TRN-314", m.code_pos,
+           "the target wants both end coordinates of an arc, and the point before is not known here",
+           "write both end coordinates");
+  } else {
+    refuse("TRN-312", m.code_pos,
+           "the target wants both end coordinates of an arc, and its plane depends on the path that leads here",
+           "write the plane before this block on every path");
+  }
+  return false;
+}
+
 /// A cycle's block reaches its point in rapid without a motion code of its own (25.3).
 void Writer::motion(const ir::Motion& m) {
   ir::Motion copy;
@@ -69,6 +100,13 @@ void Writer::motion(const ir::Motion& m) {
     const auto text = motion_tracker().text();
     if (!text || is_straight(*text)) own().kind = ir::MotionKind::modal;
   }
+  // So does every point under a cycle; the arc or the thread that was in force before it stays out of the text.
+  const ir::Facts* f = facts();
+  if (!same_dialect() && m.kind == ir::MotionKind::modal && m.moves() && f != nullptr && f->cycle_active_known &&
+      f->cycle_active && f->motion && !is_straight(*f->motion)) {
+    own().kind = ir::MotionKind::rapid;
+    own().keeps_modal = false;
+  }
   if (!m.centers.empty()) {
     const bool absolute = absolute_center(m.centers.front());
     for (const ir::CenterWord& c : m.centers) {
@@ -77,6 +115,7 @@ void Writer::motion(const ir::Motion& m) {
     }
     if (absolute && !refused()) add(std::string(g(Use::absolute_centre)), Rank::frame);
   }
+  if (!same_dialect() && !arc_ends(*use)) return;
   if (same_dialect()) motion_tracker().start_routine();  // the source's own codes: nothing can be out of step
   ProgramWriter::motion(*use);
 }
@@ -377,6 +416,12 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   if (words->retract_given && !words->retract_is_reference && block_->has_motion && block_->motion.moves())
     further_line(a.pos);
   cycle_approach(*words);
+  // No cycle is called while an arc or a thread is in force (29.1, error 28); the hole is reached in rapid.
+  const bool own_code = block_->has_motion && block_->motion.kind != ir::MotionKind::modal;
+  if (!same_dialect() && !own_code && curve_in_force()) {
+    add(std::string(motion_code(style(), ir::MotionKind::rapid)), Rank::motion_code);
+    motion_tracker().wrote(ir::MotionKind::rapid, false);
+  }
   const bool spelled = same_dialect() && !a.text.empty();
   const std::string code(spelled ? a.text : words->code);
   add(code + cycle_retract(a, *words), Rank::frame, a.pos);

@@ -254,4 +254,52 @@ bool ArcPass::turns_to_pitch(Arc& arc) {
   return true;
 }
 
+void ArcPass::both_ends(Arc& arc, bool needed) {
+  if (!context_.target.full_circle_needs_end) return;
+  auto& coords = arc.b.motion.coords;
+  const auto missing = [&](AxisId axis) {
+    return std::none_of(coords.begin(), coords.end(), [axis](const CoordWord& w) { return w.axis == axis; });
+  };
+  const bool u = missing(arc.axis[0]), v = missing(arc.axis[1]);
+  if ((!u && !v) || (!needed && u && v)) return;
+  const auto unknown = [&](AxisId axis) { return missing(axis) && !start_of(arc, axis); };
+  if ((unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
+  std::vector<CoordWord> more;
+  for (const AxisId axis : {arc.axis[0], arc.axis[1]}) {
+    if (!missing(axis)) continue;
+    CoordWord w;
+    w.axis = axis;
+    w.scale = radius_scale(w.axis);
+    if (arc.distance == Distance::incremental) {
+      w.value = Value{0.0};
+    } else {
+      auto start = start_of(arc, w.axis);
+      if (!start && arc.distance) {
+        start = position_at_run(w.axis);
+        w.scale = WordScale::modal;
+      }
+      if ((!start || !arc.distance) && !needed) return;
+      if (!start || !arc.distance) {
+        return fail(arc, "TRN-314",
+                    "the target wants both end coordinates of an arc, and the point before is not known here",
+                    "write both end coordinates");
+      }
+      w.value = *start;
+    }
+    more.push_back(std::move(w));
+  }
+  for (auto& w : more) coords.insert(w.axis == arc.axis[0] ? coords.begin() : coords.end(), std::move(w));
+}
+
+/// What the target itself knows as the last programmed coordinate.
+std::optional<Value> ArcPass::position_at_run(AxisId axis) const {
+  SystemRef here;
+  here.datum = Datum::programmed_position;
+  here.axis = axis;
+  if (!context_.target.system_data || !context_.target.system_data(here)) return std::nullopt;
+  Expr e;
+  e.node = std::move(here);
+  return Value{std::make_shared<const Expr>(std::move(e))};
+}
+
 }  // namespace cnctrans::ir::passes

@@ -137,7 +137,12 @@ class ArcPass {
     if (m.radius_given) {
       if (!radius(arc)) return;
     }
-    if (!m.centers.empty()) centers(arc);
+    if (!m.centers.empty()) {
+      centers(arc);
+    } else if (m.radius_given && plane_known_ &&
+               setting_in<Surface>(arc.b, arc.facts, Setting::surface) == Surface::none) {
+      both_ends(arc, false);
+    }
     if (std::holds_alternative<Block>(s.node)) tiny(arc);
   }
 
@@ -253,7 +258,7 @@ class ArcPass {
                     "give the point before the arc as numbers on every path");
       }
     }
-    full_circle(arc);
+    both_ends(arc, true);
   }
 
   /// The end is given by increments and where they count from is no number: the words can't become absolute.
@@ -275,7 +280,7 @@ class ArcPass {
     if (!plane_known_ || arc.distance != Distance::absolute || !relative || !steps || modes.count(to) == 0 ||
         arc.b.repeat_given != 0)
       return false;
-    complete(arc, m.centers, to, true);
+    if (!m.radius_given) complete(arc, m.centers, to, true);
     for (auto& w : m.centers) w.mode = to;
     for (auto& c : m.coords) c.mode = WordMode::modal;
     for (const AxisId axis : {arc.axis[0], arc.axis[1]}) {
@@ -354,36 +359,10 @@ class ArcPass {
     return true;
   }
 
-  /// Both end words where the target wants them.
-  void full_circle(Arc& arc) {
-    if (!context_.target.full_circle_needs_end) return;
-    const auto unknown = [&](AxisId axis) {
-      const auto& c = arc.b.motion.coords;
-      return std::none_of(c.begin(), c.end(), [axis](const CoordWord& w) { return w.axis == axis; }) &&
-             !start_of(arc, axis);
-    };
-    if ((unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
-    auto& coords = arc.b.motion.coords;
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (std::any_of(coords.begin(), coords.end(), [&](const CoordWord& c) { return c.axis == arc.axis[i]; }))
-        continue;
-      CoordWord w;
-      w.axis = arc.axis[i];
-      w.scale = radius_scale(w.axis);
-      if (arc.distance == Distance::incremental) {
-        w.value = Value{0.0};
-      } else {
-        const auto start = start_of(arc, w.axis);
-        if (!start || !arc.distance) {
-          return fail(arc, "TRN-314",
-                      "the target wants both end coordinates of an arc, and the point before is not known here",
-                      "write both end coordinates");
-        }
-        w.value = *start;
-      }
-      coords.push_back(w);
-    }
-  }
+  /// Both end words where the target wants them. `needed`: refused where the missing one is not known, else left to the
+  /// writer.
+  void both_ends(Arc& arc, bool needed);
+  std::optional<Value> position_at_run(AxisId axis) const;
 
   Program& program_;
   const LegaliseContext& context_;

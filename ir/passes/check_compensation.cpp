@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "ir/passes/early_passes.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/passes.h"
 
@@ -82,6 +83,7 @@ void check_changes(const Program& program, const LegaliseContext& context) {
 
 void check_compensation(Program& program, const LegaliseContext& context) {
   check_changes(program, context);
+  check_compensation_ends(program, context);
   const std::string source = context.source_machine.option(option), target = context.target_machine.option(option);
   if (source == target || !program_compensates(program, context.source_machine)) return;
   const FactsOf facts(program, context);

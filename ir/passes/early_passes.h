@@ -7,6 +7,8 @@ namespace cnctrans::ir::passes {
 
 /// More calls in each other than the target takes.
 void check_call_limits(Program& program, const LegaliseContext& context);
+/// Radius compensation that begins or ends with an arc; a G40 that ends nothing before an arc goes.
+void check_compensation_ends(Program& program, const LegaliseContext& context);
 /// Tools called by name get numbers where the target has no names.
 void number_tools(Program& program, const LegaliseContext& context);
 /// The end of a repeated range stands on the last statement that its source line became.

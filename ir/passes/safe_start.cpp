@@ -24,7 +24,7 @@ class SafeStart {
     look();
     Block head;
     for (const Setting s : wanted()) {
-      if (said_[static_cast<std::size_t>(s)]) continue;
+      if (said_[static_cast<std::size_t>(s)] || (s == Setting::comp && begins_with_arc())) continue;
       const auto value = context_.source_machine.power_on.get(s);
       ModalSet set{s, value, true, {}};
       if (s == Setting::units) set.feed_too = context_.target.units_with_feed;
@@ -74,6 +74,16 @@ class SafeStart {
         found = &s;
     });
     return found;
+  }
+  /// Compensation ends in a straight move: where neither machine has it on, nothing is said before an arc.
+  bool begins_with_arc() const {
+    const Statement* first = first_move();
+    if (first == nullptr || context_.source_machine.power_on.comp != CompSide::off ||
+        context_.target_machine.power_on.comp != CompSide::off)
+      return false;
+    const MotionKind kind = std::get<Block>(first->node).motion.kind;
+    return kind == MotionKind::arc_cw || kind == MotionKind::arc_ccw || kind == MotionKind::arc_tangent ||
+           kind == MotionKind::arc_through_point;
   }
   std::vector<Setting> wanted() const {
     std::vector<Setting> list{Setting::plane, Setting::comp};

@@ -150,21 +150,27 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
   if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), rounded) ||
       std::any_of(m.centers.begin(), m.centers.end(), rounded) || (m.radius_given && too_long(m.radius)))
     return true;
-  if (m.centers.empty()) return !m.radius_given;
-  const CenterMode mode = m.centers.front().mode;
-  const bool relative =
-      mode == CenterMode::from_start || (mode == CenterMode::follows_distance && distance == Distance::incremental);
-  if (!relative && m.centers.size() < 2) return true;
-  if (!target_.full_circle_needs_end) return false;
   const PlaneAxes plane = plane_axes(in_block(block, Setting::plane, state_.plane));
   const auto written = [&m](AxisId axis) {
     return std::any_of(m.coords.begin(), m.coords.end(), [axis](const CoordWord& c) { return c.axis == axis; });
   };
-  return !written(plane.u) || !written(plane.v);
+  const bool both_ends = !target_.full_circle_needs_end || (written(plane.u) && written(plane.v));
+  if (m.centers.empty()) return !m.radius_given || !both_ends;
+  const CenterMode mode = m.centers.front().mode;
+  const bool relative =
+      mode == CenterMode::from_start || (mode == CenterMode::follows_distance && distance == Distance::incremental);
+  if (!relative && m.centers.size() < 2) return true;
+  return !both_ends;
 }
 
 bool StreamWatch::needs_whole(const Block& block) const {
   if (block.has_motion && motion_needs_whole(block)) return true;
+  const bool compensates = comp_begins_ || std::any_of(block.actions.begin(), block.actions.end(), [](const Action& a) {
+                             return set_of(a, Setting::comp) != nullptr;
+                           });
+  if (compensates && block.has_motion &&
+      is_arc(block.motion.kind == MotionKind::modal ? state_.motion : block.motion.kind))
+    return true;
   return std::any_of(block.actions.begin(), block.actions.end(), [&](const Action& a) {
     const bool tool = std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolOffset>(a.data);
     return (tool && never_on_ && !length_switched_) || action_needs_whole(block, a);
@@ -240,12 +246,14 @@ void StreamWatch::follow(const Block& block) {
     if (const auto* set = std::get_if<ModalSet>(&a.data)) {
       state_.set(set->setting, set->value);
       length_switched_ = length_switched_ || set->setting == Setting::length_comp;
+      comp_begins_ = comp_begins_ || set->setting == Setting::comp;
     } else if (std::holds_alternative<WorkOffset>(a.data)) {
       offset_changed_ = true;
     }
   }
   if (!block.has_motion) return;
   const Motion& m = block.motion;
+  if (m.moves()) comp_begins_ = false;
   if (m.kind != MotionKind::modal && m.keeps_modal) state_.motion = m.kind;
   for (const auto& c : m.coords) long_word_ = long_word_ || too_long(c.value);
 }
@@ -254,7 +262,7 @@ std::uint64_t StreamWatch::key() const {
   std::uint64_t key = static_cast<std::uint64_t>(state_.motion);
   for (std::size_t s = 0; s < setting_count; ++s) key = key << 2U | state_.get(static_cast<Setting>(s));
   for (const bool flag : {long_word_, offset_changed_, length_wanted_, length_switched_, gear_said_, offset_said_,
-                          offset_numbers_.differs(ToolOffset{Value{1.0}})})
+                          comp_begins_, offset_numbers_.differs(ToolOffset{Value{1.0}})})
     key = key << 1U | (flag ? 1U : 0U);
   return key;
 }

@@ -74,6 +74,7 @@ class StreamWatch {
   bool long_word_ = false;        ///< a coordinate so far has more places than the target writes
   bool offset_changed_ = false;   ///< a work offset was selected
   bool length_wanted_ = true;     ///< adds_length_: the next move along the tool switches it on
+  bool comp_begins_ = false;      ///< radius compensation was switched, and no move has followed
   bool length_switched_ = false;  ///< the source has switched length compensation
 };
 
