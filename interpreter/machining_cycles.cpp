@@ -7,6 +7,7 @@
 #include "interpreter/run_codes.h"
 #include "ir/cycles/machining.h"
 #include "ir/cycles/profile_blocks.h"
+#include "machine/tool_data.h"
 #include "machine/turning_tool.h"
 
 namespace cnctrans::interpreter {
@@ -64,6 +65,15 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   ir::cycles::TurnContext context;
   context.start = {p_[ir::axis::x], p_[ir::axis::z]};
   machine::tell_tool(profile_, tool_in_spindle_, context);
+  for (const std::string& name : machine::tool_data_names(profile_, "tool.width_data", tool_in_spindle_, offset_)) {
+    const auto written = written_.find(name);
+    const auto given = profile_.data.find(name);
+    const bool by_program = written != written_.end();
+    if (!by_program && given == profile_.data.end()) continue;
+    if (by_program) unread_.erase(name);
+    context.nose_width = (by_program ? written->second : given->second) * (policy_.data_modal ? unit() : 1);
+    break;
+  }
   std::optional<ir::cycles::TurnProfile> contour;
   if (ir::cycles::has_profile(c)) {
     contour = machining_profile(c, numbers);

@@ -6,6 +6,7 @@
 #include "interpreter/block_machine.h"
 #include "interpreter/profile_contour.h"
 #include "interpreter/run_codes.h"
+#include "machine/tool_data.h"
 
 namespace cnctrans::interpreter {
 
@@ -13,29 +14,13 @@ namespace {
 
 using ir::cycles::MillStep;
 
-/// The name of a datum with the numbers of the tool (#T) and of its offset or edge (#D).
-std::string with_numbers(std::string_view name, std::int32_t tool, std::int32_t offset) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool mark = name[i] == '#' && i + 1 < name.size();
-    if (mark)
-      out += std::to_string(name[++i] == 'T' ? tool : offset);
-    else
-      out += name[i];
-  }
-  return out;
-}
-
 }  // namespace
 
 double BlockMachine::tool_radius() {
   const std::int32_t number = tool_in_spindle_ != 0 ? tool_in_spindle_ : tool_;
-  std::string list = profile_.option("tool.radius_data");
-  list += list.empty() ? "TOOL_RADIUS" : "|TOOL_RADIUS";
-  for (std::string_view rest = list; !rest.empty();) {
-    const auto bar = std::min(rest.find('|'), rest.size());
-    const std::string name = with_numbers(rest.substr(0, bar), number, offset_);
-    rest.remove_prefix(std::min(bar + 1, rest.size()));
+  auto names = machine::tool_data_names(profile_, "tool.radius_data", number, offset_);
+  names.emplace_back("TOOL_RADIUS");
+  for (const std::string& name : names) {
     const double length = policy_.data_modal ? unit() : 1;
     if (const auto it = written_.find(name); it != written_.end()) {
       unread_.erase(name);

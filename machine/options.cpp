@@ -68,6 +68,8 @@ constexpr std::array specs{
     OptionSpec{"tool.radius_data", "text", "",
                "names of machine data with the radius of the tool in use, separated by |; #T and #D stand for the "
                "numbers of the tool and of its offset or edge"},
+    OptionSpec{"tool.width_data", "text", "",
+               "names of machine data with the width of the grooving tool in use, written like tool.radius_data"},
     OptionSpec{"work_offset.kept", "no|yes", "no",
                "whether the work offset selected last stays in force over the end of a program and power-off"},
     OptionSpec{"work_offset.write", "on_select|at_once", "on_select",

@@ -9,6 +9,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/written_data.h"
 
 namespace cnctrans::ir::passes {
 
@@ -401,7 +402,7 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
 }
 
 void lower_cycles(Program& program, const LegaliseContext& context) {
-  if (!uses_cycles(program)) return;
+  if (!uses_cycles(program)) return leave_out_data(program, context);
   if (program.dialect == context.target.dialect && !program.dialect.empty() &&
       context.options.cycles != CycleWriting::explode)
     return;
@@ -420,6 +421,7 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
   keep_used(program, uses, profiles);
   retire_profiles(program, profiles, facts);
   label_profiles(program, uses);
+  leave_out_data(program, context);
 }
 
 }  // namespace cnctrans::ir::passes

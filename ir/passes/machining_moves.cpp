@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "ir/cycles/profile_blocks.h"
 #include "ir/passes/blocks.h"
+#include "ir/passes/written_data.h"
 #include "machine/turning_tool.h"
 
 namespace cnctrans::ir::passes {
@@ -287,6 +288,10 @@ void follow(const Block& b, TurnState& state) {
       const auto n = known(t->number);
       state.tool = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
     }
+    if (const auto* d = std::get_if<ToolOffset>(&a.data)) {
+      const auto n = known(d->number);
+      state.offset = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
+    }
   }
 }
 
@@ -393,7 +398,12 @@ void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, co
 
 TurnCycles::TurnCycles(const Program& program, const Routine& routine, const LegaliseContext& context,
                        const FeedsBefore& feeds)
-    : context_(context), feeds_(feeds), program_(program), routine_(routine), constants_(program) {
+    : context_(context),
+      feeds_(feeds),
+      program_(program),
+      routine_(routine),
+      constants_(program),
+      written_(written_data(program)) {
   const LabelUses uses = label_uses(program, routine);
   TurnState state;
   const auto sense = only_sense(program);
@@ -403,7 +413,7 @@ TurnCycles::TurnCycles(const Program& program, const Routine& routine, const Leg
       if (!uses.is_target(l)) continue;
       // It runs one way only: that it runs has been seen before, and the label is reached from there or later.
       if (!(sense && state.spindle == sense)) state.spindle.reset();
-      state.tool.reset();
+      state.tool.reset(), state.offset.reset();
       state.x.reset(), state.z.reset();
     }
     const auto* b = std::get_if<Block>(&s.node);
@@ -462,6 +472,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   context.start = {x.value_or(unknown) * unit, z.value_or(unknown) * unit};
   machine::tell_tool(context_.source_machine, site.state.tool, context);
+  context.nose_width = nose_width(site.state, unit);
   if (cycles::has_profile(named)) {
     if (!site.profile) return *error = site.fault, std::nullopt;
     context.profile = &*site.profile;
@@ -481,12 +492,6 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   if (!writer.finish(cycle->ends_modes, error)) return std::nullopt;
   if (values != nullptr) *values = listed(used);
   return std::move(writer.blocks);
-}
-
-double TurnCycles::nose_width(const TurnState& state) const {
-  const auto& tools = context_.source_machine.tools;
-  const auto tool = std::find_if(tools.begin(), tools.end(), [&](const auto& t) { return t.number == state.tool; });
-  return tool == tools.end() ? 0 : tool->nose_width;
 }
 
 }  // namespace cnctrans::ir::passes

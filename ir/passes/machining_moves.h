@@ -17,7 +17,7 @@ namespace cnctrans::ir::passes {
 /// What the text says of spindle and tool at a block; nullopt: paths may disagree.
 struct TurnState {
   std::optional<SpindleState> spindle;
-  std::optional<std::int32_t> tool;
+  std::optional<std::int32_t> tool, offset;
   std::optional<Value> x, z;  ///< the last absolute words of the two axes
 };
 
@@ -64,14 +64,15 @@ class TurnCycles {
   /// The blocks as the target's cycle is to read them; nullopt with a sentence: it can't.
   [[nodiscard]] std::optional<ProfileUse> use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
                                                  std::optional<double> tail, bool face, std::string* why) const;
-  /// Width of the tool in mm; 0: not known.
-  [[nodiscard]] double nose_width(const TurnState& state) const;
+  /// Width of the tool in mm, the program's `unit` being that many mm; 0: not known.
+  [[nodiscard]] double nose_width(const TurnState& state, double unit) const;
   const LegaliseContext& context_;
   const FeedsBefore& feeds_;
   const Program& program_;
   const Routine& routine_;
   HeadConstants constants_;
-  std::map<std::uint32_t, Site> sites_;  ///< by id
+  std::map<std::string, std::optional<double>> written_;  ///< machine data
+  std::map<std::uint32_t, Site> sites_;                   ///< by id
   std::set<std::uint32_t> profile_blocks_;
 };
 

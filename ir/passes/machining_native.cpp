@@ -232,7 +232,7 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
                        *m,
                        {site.state.x, site.state.z},
                        {unknown, unknown},
-                       nose_width(site.state),
+                       nose_width(site.state, 1),
                        {},
                        {},
                        site.profile ? &*site.profile : nullptr,
@@ -296,7 +296,8 @@ std::optional<Body> TurnCycles::write_out_computed(const NamedCycle& named, cons
   const double k = m->diameter == DiameterMode::radius ? 1 : 2;
   if (const auto x = facts.position[axis::x]) start.x = Value(*x * k);
   if (const auto z = facts.position[axis::z]) start.z = Value(*z);
-  ComputedTurn turn(named, s.line, *m, start, nose_width(it->second.state), editor);
+  const double unit = m->units == Units::inch ? 25.4 : 1;
+  ComputedTurn turn(named, s.line, *m, start, nose_width(it->second.state, unit), editor);
   turn.usual_feed = feeds_.at(s, b, facts);
   auto out = turn.run();
   if (!out) *error = turn.error;

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "ir/cycles/mill_contour.h"
 #include "ir/passes/blocks.h"
+#include "ir/passes/written_data.h"
 
 namespace cnctrans::ir::passes {
 
@@ -54,15 +55,6 @@ bool stays(const Block& b) {
     return !std::holds_alternative<FrameOp>(a.data) && !std::holds_alternative<WorkOffset>(a.data) &&
            !std::holds_alternative<ModalSet>(a.data);
   });
-}
-
-std::string datum_name(const SystemRef& ref) {
-  std::string out = ref.text;
-  for (std::size_t i = 0; i < ref.args.size(); ++i) {
-    const auto n = constant_value(ref.args[i]);
-    out += (i == 0 ? "[" : ",") + (n ? shortest(*n) : std::string("*"));
-  }
-  return ref.args.empty() ? out : out + "]";
 }
 
 /// Where the tool stands behind the motion of the block, in program units; nullopt: not known.
@@ -193,6 +185,7 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
     : context_(context), feeds_(feeds) {
   if (!has_milling(program)) return;
   find_contours(program, routine);
+  written_ = written_data(program);
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [this](const Statement& s) {
       const auto* assign = std::get_if<Assign>(&s.node);
@@ -200,9 +193,6 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
       for (const auto& item : assign->items) {
         if (!item.to_system) continue;
         radius_written_ = radius_written_ || item.system.datum == Datum::tool_radius;
-        const auto value = constant_value(item.value);
-        const auto [it, fresh] = written_.emplace(datum_name(item.system), value);
-        if (!fresh && it->second != value) it->second.reset();
       }
     });
   }

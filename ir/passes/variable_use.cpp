@@ -1,5 +1,7 @@
 #include "ir/passes/variable_use.h"
 
+#include "ir/passes/written_data.h"
+
 #include "base/saturate.h"
 #include "ir/passes/call_graph.h"
 
@@ -38,7 +40,7 @@ VariableUse::VariableUse(const Program& program, const LegaliseContext& context)
       if (const auto* d = std::get_if<Declare>(&s.node)) dimensions(*d, r);
       if (const auto* a = std::get_if<Assign>(&s.node)) {
         for (const auto& i : a->items) {
-          if (i.to_system) system(i.system, s);
+          if (i.to_system && !left_out(i.system)) system(i.system, s);
         }
       }
       const auto* c = std::get_if<CallRoutine>(&s.node);
