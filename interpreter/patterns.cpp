@@ -37,6 +37,11 @@ bool BlockMachine::run_pattern() {
     release_pending();
     return failure_.fail(code::corner_alone, "a pattern follows a corner function");
   }
+  const auto* spec = pattern_ != nullptr ? ir::cycles::find_pattern(pattern_->name) : nullptr;
+  if (spec != nullptr && spec->from_tool && !hole_ && !single_points) {
+    return failure_.fail(code::bad_cycle,
+                         "points of a pattern where no cycle and no modal subprogram is in force: nothing to repeat");
+  }
   while (next_point_ < points_.size()) {
     if (!to_point(points_[next_point_++])) return false;
     if (hole_ && !run_cycle()) return false;

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "frontends/fagor/program_reader.h"
+#include "ir/cycles/pattern.h"
 #include "ir/dataflow.h"
 
 namespace cnctrans::fagor {
@@ -241,6 +242,34 @@ void judge_depths(ir::Program& program, LowerState& state) {
   for (const auto& r : program.routines) ir::for_each_statement(r.body, check);
 }
 
+/// G60 to G65 repeat the machining in force (25.4): an error where the file has none at all.
+void judge_patterns(const ir::Program& program, LowerState& state) {
+  if (program.main() == nullptr || calls_outside(program)) return;
+  bool machining = false;
+  std::vector<Span> patterns;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* m = std::get_if<ir::ModalCall>(&s.node);
+      machining = machining || (m != nullptr && !m->off);
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        const auto* d = std::get_if<ir::CycleDefine>(&b->actions[i].data);
+        if (d == nullptr || !d->cycle) continue;
+        const auto* named = std::get_if<ir::NamedCycle>(&d->cycle->node);
+        const auto* pattern = named != nullptr ? ir::cycles::find_pattern(named->name) : nullptr;
+        machining = machining || named == nullptr;
+        if (pattern != nullptr && pattern->from_tool) patterns.push_back(s.line.span);
+      }
+    });
+  }
+  if (machining) return;
+  for (const Span& where : patterns) {
+    state.set_line(where);
+    state.error("FAG-046", {}, "points of a pattern where no canned cycle and no MCALL is in force: nothing to repeat",
+                "write the cycle or MCALL before it");
+  }
+}
+
 std::optional<ir::Surface> surface_in(const ir::Block& b) {
   for (const auto& a : b.actions) {
     if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) return s->surface;
@@ -311,6 +340,7 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_text_uses(program, state);
   judge_depths(program, state);
   judge_surfaces(program, state);
+  judge_patterns(program, state);
   drop_inclined_ends(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);

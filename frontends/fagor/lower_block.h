@@ -127,6 +127,7 @@ class BlockLowerer {
   [[nodiscard]] const Word* has_use(dialects::fagor::Use use) const;
   void check_compensation(bool arc, bool moves);
   void check_arc_end();
+  void check_centre(ir::MotionKind kind);
   void refuse_under_arc(const GWord& g);
   ir::MotionExtra& extra();
 

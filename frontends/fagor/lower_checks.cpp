@@ -32,6 +32,7 @@ void BlockLowerer::check_block() {
   const auto kind = !modal ? m.kind : state_.motion_sure ? state_.motion_by_text : ir::MotionKind::modal;
   const bool arc = moves && is_arc(kind);
   if (motion_code_ != nullptr) state_.motion_sure = true;
+  check_centre(kind);
   const bool only_motion = g_count_ == 0 || (g_count_ == 1 && motion_code_ != nullptr);
   if (only_motion && !arc && !state_.comp_begins) return;  // most blocks
   check_compensation(arc, moves);
@@ -43,6 +44,15 @@ void BlockLowerer::check_block() {
                  "write the coordinates of the machine");
   if (const Word* dwell = has_use(Use::dwell); dwell != nullptr && in_->words.size() > 1 && (seen_ & bit('K')) == 0)
     state_.error(code, dwell->pos, "G04 without K stands alone in its block [11]", "put the other words behind it");
+}
+
+/// I, J, K of a block without a code belong to the arc in force; under G00 and G01 there is none.
+void BlockLowerer::check_centre(ir::MotionKind kind) {
+  const ir::Motion& m = out_->motion;
+  const bool given = out_->has_motion && (!m.centers.empty() || (m.extra && m.extra->has_pitch));
+  if (!given || m.explicit_code || (kind != ir::MotionKind::rapid && kind != ir::MotionKind::linear)) return;
+  state_.error(code, m.centers.empty() ? m.coords.empty() ? WordPos{} : m.coords.front().pos : m.centers.front().pos,
+               "I, J and K without an arc: G00 or G01 is in force [52]", "write G02 or G03, or leave them out");
 }
 
 /// G40, G41, G42 take effect in a straight move: the block itself, or the first one behind it (13.4).
