@@ -21,8 +21,9 @@ constexpr std::uint64_t kept_events = 2'000'000;
 void say_doubts(const Arguments& a) {
   std::error_code ignored;
   for (const auto& folder : a.libraries) {
-    if (!fs::is_directory(folder, ignored))
-      a.messages->say(Severity::warning, "CNC-LIB", "cnctrans: warning: --lib " + folder + ": there is no such folder");
+    if (!fs::exists(folder, ignored))
+      a.messages->say(Severity::warning, "CNC-LIB",
+                      "cnctrans: warning: --lib " + folder + ": there is no such folder or file");
   }
   const auto foreign = [&a](const char* option, const std::string& machine, const std::string& dialect) {
     for (const auto& d : translator::dialects()) {

@@ -28,7 +28,8 @@ using cnctrans::cli::Arguments;
 
 void add_reading(CLI::App& app, Arguments& a) {
   app.add_option("--machine", a.machine, "machine profile: a built-in name (fagor-lathe) or a JSON file");
-  app.add_option("--lib", a.libraries, "folder where called programs are looked up (repeatable)")
+  app.add_option("--lib", a.libraries,
+                 "folder where called programs and definitions are looked up, or a definition file (repeatable)")
       ->allow_extra_args(false);
   app.add_option("--reader", a.reader, "block reader: scanner, antlr, or both (compares them)")
       ->check(CLI::IsMember({"scanner", "antlr", "both"}));

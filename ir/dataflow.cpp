@@ -1,5 +1,6 @@
 // Modal facts of the whole program: a worklist in text order over the graphs of all routines, with calls followed.
 #include "ir/dataflow.h"
+#include "ir/uncalled.h"
 
 #include <algorithm>
 #include <unordered_map>
@@ -32,7 +33,8 @@ bool maybe_never(const ExprPtr& count) {
 
 class Analysis {
  public:
-  Analysis(const Program& program, const ModalState& power_on) : program_(program), power_on_(power_on) {}
+  Analysis(const Program& program, const ModalState& power_on, Uncalled uncalled)
+      : program_(program), power_on_(power_on), uncalled_(uncalled) {}
 
   FactTable run() {
     prepare();
@@ -40,7 +42,8 @@ class Analysis {
     const Routine* main = program_.main();
     if (main != nullptr) start(static_cast<std::size_t>(main - program_.routines.data()), true);
     for (std::size_t i = 0; i < routines_.size(); ++i) {
-      if (!routines_[i].entered) start(i, program_.routines[i].kind == RoutineKind::main);
+      const bool at_power_on = uncalled_ == Uncalled::power_on || program_.routines[i].kind == RoutineKind::main;
+      if (!routines_[i].entered) start(i, at_power_on);
     }
     return FactTable{std::move(facts_)};
   }
@@ -424,6 +427,7 @@ class Analysis {
 
   const Program& program_;
   const ModalState& power_on_;
+  Uncalled uncalled_;
   std::vector<RoutineState> routines_;
   std::vector<const Statement*> statements_;
   std::vector<std::vector<std::uint32_t>> successors_;
@@ -454,7 +458,11 @@ const Facts& FactTable::before(std::uint32_t id) const {
 }
 
 FactTable analyse(const Program& program, const ModalState& power_on) {
-  return Analysis(program, power_on).run();
+  return analyse(program, power_on, Uncalled::unknown);
+}
+
+FactTable analyse(const Program& program, const ModalState& power_on, Uncalled uncalled) {
+  return Analysis(program, power_on, uncalled).run();
 }
 
 }  // namespace cnctrans::ir

@@ -15,6 +15,10 @@ constexpr std::array specs{
                "levels of own local parameters that may be open at once; 0: no limit"},
     OptionSpec{"call.modal_words", "no|yes", "no",
                "under a modal call of a subprogram, F, S and a bare G0 or G1 run it as well, without motion"},
+    OptionSpec{
+        "call.uncalled_state", "when_needed|unknown|power_on", "when_needed",
+        "what a subprogram that nothing at hand calls starts with in a translation: nothing is known, or the state "
+        "of power-on; when_needed: that state where the program would be refused without it"},
     OptionSpec{"call.saves_modals", "no|yes", "no", "a subprogram can give its caller the modal state back (SAVE)"},
     OptionSpec{"comp.rapid", "kept|suspended", "kept",
                "a rapid move while radius compensation is on: compensated, or carried out without it"},

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "translator/definitions.h"
 #include "translator/program_axes.h"
 
 namespace cnctrans::translator {
@@ -139,7 +140,11 @@ void note_encoding(std::string_view text, std::uint32_t first_line, FileId file,
 
 Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
                std::vector<std::string> libraries)
-    : dialect_(dialect), profile_(profile), reader_(reader), folders_(std::move(libraries)) {}
+    : dialect_(dialect),
+      profile_(profile),
+      reader_(reader),
+      folders_(libraries),
+      definition_places_(std::move(libraries)) {}
 
 const ir::Program* Loader::read_main(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
   const std::string& path = source->name();
@@ -153,7 +158,7 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   const FileId id = files_.add(source);
   if (source->encoding() != Encoding::utf8) note_encoding(source->text(), 1, id, diagnostics);
   if (mains_.empty()) note_added_axes(profile_, id, diagnostics);
-  const frontends::ReadOptions options{reader_, &profile_};
+  const frontends::ReadOptions options{reader_, &profile_, &definitions()};
   const std::size_t said = diagnostics.all().size();
   mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));
   ir::Program& program = *mains_.back();
@@ -161,6 +166,31 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   note_faults(program, id, diagnostics, said);
   ir::number_statements(program);
   return &program;
+}
+
+const std::vector<const ir::Program*>& Loader::definitions() {
+  if (defined_) return definitions_;
+  defined_ = true;
+  for (const auto& path : definition_files(dialect_, definition_places_)) {
+    std::string error;
+    const SourcePtr source = SourceText::open(path, &error);
+    if (!source) continue;
+    Diagnostics said;
+    const frontends::ReadOptions options{reader_, &profile_};
+    own_definitions_.push_back(
+        std::make_unique<ir::Program>(dialect_.frontend->read(source, files_.add(source), options, said, nullptr)));
+    own_definitions_.back()->texts->hold(source);
+    definitions_.push_back(own_definitions_.back().get());
+    for (const auto& d : as_warnings(said).all()) {  // what it means for a program is no concern of it
+      if (d.severity == Severity::warning) library_diagnostics_.add(d);
+    }
+  }
+  return definitions_;
+}
+
+void Loader::use_definitions(const Loader& other) {
+  defined_ = true;
+  definitions_ = other.definitions_;
 }
 
 void Loader::list_candidates() {
@@ -212,7 +242,7 @@ bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
 ir::Program* Loader::load(Candidate& c) {
   if (!c.program) {
     const FileId id = files_.add(c.source);
-    const frontends::ReadOptions options{reader_, &profile_};
+    const frontends::ReadOptions options{reader_, &profile_, &definitions()};
     if (c.source->encoding() != Encoding::utf8) note_encoding(c.source->text(), 1, id, c.diagnostics);
     c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, c.diagnostics, nullptr));
     c.program->texts->hold(c.source);

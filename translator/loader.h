@@ -46,6 +46,10 @@ class Loader {
   /// Diagnostics of library files that were used.
   [[nodiscard]] const Diagnostics& library_diagnostics() const { return library_diagnostics_; }
   FileTable& files() { return files_; }
+  /// Files of the libraries that define names for every program of the machine; read when first asked for.
+  const std::vector<const ir::Program*>& definitions();
+  /// Definitions that another loader has read, in the place of own ones.
+  void use_definitions(const Loader& other);
   /// The error that reading gave for one of these lines (see interpreter::Options::fault). Errors on lines without a
   /// statement stand at the next statement of their routine.
   [[nodiscard]] const Diagnostic* fault(FileId file, std::uint32_t first_line, std::uint32_t last_line) const;
@@ -73,6 +77,10 @@ class Loader {
   std::vector<std::unique_ptr<ir::Program>> mains_;
   std::vector<Candidate> candidates_;
   bool listed_ = false;
+  bool defined_ = false;
+  std::vector<std::string> definition_places_;  ///< the libraries, without the folder of the program
+  std::vector<std::unique_ptr<ir::Program>> own_definitions_;
+  std::vector<const ir::Program*> definitions_;
   std::vector<const ir::Program*> called_;
   Diagnostics library_diagnostics_;
   std::map<std::pair<FileId, std::uint32_t>, Diagnostic> faults_;  ///< line 0: of a routine without header

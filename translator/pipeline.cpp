@@ -7,7 +7,9 @@
 #include "base/text.h"
 #include "ir/cycles/mill_contour.h"
 #include "ir/text.h"
+#include "translator/attempt.h"
 #include "translator/contours.h"
+#include "translator/definitions.h"
 #include "translator/encode.h"
 #include "translator/program_axes.h"
 #include "translator/proof.h"
@@ -113,6 +115,8 @@ void verify_outputs(TranslateResult& result, const Dialect& from, const ir::Prog
   }
   Diagnostics target_diagnostics;
   Loader target_loader(to, target_profile, frontends::Reader::scanner, {});
+  const bool same_names = source.dialect == to.name;
+  if (same_names) target_loader.use_definitions(loader);
   ir::Program target;
   bool first = true;
   for (const auto& out : result.outputs) {
@@ -129,8 +133,11 @@ void verify_outputs(TranslateResult& result, const Dialect& from, const ir::Prog
     }
     target.texts->share(read->texts);
   }
+  if (same_names) {
+    Diagnostics said_already;
+    declare_names(target, target_loader.definitions(), false, said_already);
+  }
   ir::number_statements(target);
-  const bool same_names = source.dialect == to.name;
   const auto target_settings = [&](const Settings& set) { return same_names ? set : renamed_settings(set, names); };
   Proof proof = prove({source, source_profile, loader}, {target, target_profile, target_loader},
                       {options.run, target_settings, options.explore, from.first_skip_switch});
@@ -262,6 +269,8 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   result.files = loader.files();
 
   ir::Program work = source_program;
+  declare_names(source_program, loader.definitions(), false, result.diagnostics);
+  if (from != to) work = source_program;
   // In its own language for its own machine a program is legal as it stands.
   const std::string& source_name = options.machine.empty() ? source_profile->name : options.machine;
   const std::string& named_target = options.target_machine.empty() ? target_profile->name : options.target_machine;
@@ -269,22 +278,6 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
                             !options.raise_structure;
   if (!as_it_stands) end_main(work, result.diagnostics);
   if (from != to) read_contours(work, *source_profile);
-  ir::LegaliseReport names;
-  const ir::LegaliseContext context{
-      to->backend->capabilities_for(*target_profile),
-      *source_profile,
-      *target_profile,
-      {options.cycles, options.raise_structure, options.unsupported != backends::Unsupported::error},
-      result.diagnostics,
-      &names,
-      nullptr,
-      options.names};
-  if (!as_it_stands) ir::legalise(work, context);
-  if (refused(result.diagnostics, options)) {  // the writer would only say the same again
-    result.files = loader.files();
-    result.refused = true;
-    return result;
-  }
   backends::WriteOptions write;
   write.profile = &*target_profile;
   write.unsupported = options.unsupported;
@@ -296,13 +289,18 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   write.main_stem = source->stem();
   write.taken = options.taken;
   if (options.names != nullptr) name_program(*options.names, work, write);
-  auto files = to->backend->write(work, write, result.diagnostics);
+  Attempt written =
+      attempt_both({*to, *source_profile, *target_profile, options, as_it_stands, refused(result.diagnostics, options)},
+                   work, write);
+  result.diagnostics.append(written.said);
+  auto& files = written.files;
+  const ir::LegaliseReport& names = written.names;
   result.files = loader.files();
   if (refused(result.diagnostics, options)) {
     result.refused = true;
     return result;
   }
-  result.names = std::move(names.names);
+  result.names = names.names;
   for (auto& f : files) {
     if (f.main) result.names.programs[source->stem()] = f.program.empty() ? f.name : f.program;
     OutputText out{f.name, f.program, {}, std::move(f.map), f.main};
@@ -408,6 +406,14 @@ RunResult run(
   Loader loader(*dialect, *profile, options.reader, options.libraries);
   Diagnostics running;
   const ir::Program* program = loader.read_main(source, result.diagnostics);
+  ir::Program defining;
+  if (const auto& definitions = loader.definitions(); !definitions.empty()) {
+    defining = *program;
+    std::vector<ir::RoutineName> called;
+    collect_calls(defining, called);
+    declare_names(defining, definitions, !called.empty(), result.diagnostics);
+    program = &defining;
+  }
   result.axis_names = names_of_axes(*program, *profile);
   const auto sink = make_sink(loader.files(), result.axis_names);
   interpreter::Options run_options = options.run;

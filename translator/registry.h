@@ -35,6 +35,8 @@ struct Dialect {
   std::vector<std::pair<int, char>> axis_codes{};  ///< G functions that use an axis without a word of it
   std::shared_ptr<const frontends::Frontend> frontend;
   std::shared_ptr<const backends::Backend> backend;
+  /// Of files that define names for every program of a machine: their extension, or the end of their name behind `_`.
+  std::vector<std::string_view> definition_extensions{};
 };
 
 /// All dialects in the order `cnctrans dialects` lists them.

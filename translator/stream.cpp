@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "ir/passes/legalise.h"
 #include "ir/passes/stream_watch.h"
+#include "translator/definitions.h"
 #include "translator/encode.h"
 #include "translator/line_shapes.h"
 #include "translator/program_axes.h"
@@ -336,7 +337,8 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   result.outcome = StreamOutcome::needs_program;
   // In its own language a program keeps its spelling, which the stream does not look at closely enough.
   if (from == nullptr || !readable(*from) || to == nullptr || from == to || options.verify || options.annotate ||
-      options.reader != frontends::Reader::scanner || !can_reopen(path))
+      options.reader != frontends::Reader::scanner || !can_reopen(path) ||
+      !definition_files(*from, options.libraries).empty())
     return result;
   Windows look;
   if (!look.open(path, &result.error)) {
@@ -363,7 +365,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   Windows windows;
   std::string error;
   run.outcome = StreamOutcome::needs_program;
-  if (!windows.open(path, &error)) return run;
+  if (!definition_files(dialect, options.libraries).empty() || !windows.open(path, &error)) return run;
   const FileId file = files.add_name(path);
   const frontends::ReadOptions read{options.reader, &profile};
   const auto reader = dialect.frontend->stream(file, read, path);

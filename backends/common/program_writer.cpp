@@ -4,6 +4,7 @@
 
 #include "backends/common/comments.h"
 #include "base/text.h"
+#include "ir/passes/uncalled.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -349,7 +350,9 @@ std::string ProgramWriter::number_target(std::size_t routine, const ir::LabelRef
 
 const ir::Facts* ProgramWriter::facts() {
   if (current_ == nullptr || current_->id == 0) return nullptr;
-  if (!facts_) facts_ = ir::analyse(program_, options_.profile->power_on);
+  if (!facts_) {
+    facts_ = ir::analyse(program_, options_.profile->power_on, ir::passes::uncalled_state(*options_.profile));
+  }
   return &facts_->before(current_->id);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "base/source.h"
@@ -21,6 +22,8 @@ enum class Reader : std::uint8_t { scanner, antlr, both };
 struct ReadOptions {
   Reader reader = Reader::scanner;
   const machine::Profile* profile = nullptr;  ///< never null when called
+  /// Files that define names for every program of the machine, read before; may be null.
+  const std::vector<const ir::Program*>* definitions = nullptr;
 };
 
 /// Counts for `check` and the corpus table.

@@ -43,6 +43,7 @@ struct Symbol {
   std::uint8_t dimensions = 0;
   bool character = false;                ///< a CHAR: also set by its code
   std::array<std::uint32_t, 3> sizes{};  ///< of the dimensions; 0: not known
+  bool of_machine = false;               ///< a definition file has it: a definition of the program hides it
 };
 
 /// A word that stays in force for later blocks, followed in the order of the text. Behind a label, a jump, a structure
@@ -157,6 +158,10 @@ struct FileContext {
   Contours contours{};
 
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
+  /// Definition files of the machine: global user data and macros. May be null.
+  const std::vector<const ir::Program*>* definitions = nullptr;
+  /// Puts what they define among the names of the routine that begins.
+  void take_definitions();
 
   /// All that is the matter with the line is that something is not carried: it is read and kept as text.
   [[nodiscard]] bool only_kept() const { return errors != 0 && errors == kept; }

@@ -75,7 +75,9 @@ class FileReading {
         words_(context_),
         statements_(context_, words_),
         reader_(options.reader),
-        stats_(stats) {}
+        stats_(stats) {
+    context_.definitions = options.definitions;
+  }
 
   ir::Program run() {
     fill_frame(program_, *machine_.profile);

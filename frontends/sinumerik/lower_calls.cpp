@@ -109,6 +109,7 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
       symbol.type = *type;
       symbol.space = *place;
     }
+    if (const Symbol* seen = c_.symbol(name); seen != nullptr && seen->of_machine) c_.symbols.erase(name);
     if (!c_.symbols.emplace(name, symbol).second) {
       c_.error("SIN-022", v.pos, name + " is defined twice (alarm 12170)");
       ok = false;

@@ -26,6 +26,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.read_names.clear();
   c_.unknown_names.clear();
   c_.macros.clear();
+  c_.take_definitions();
   c_.master_spindle = 1;
   c_.thread_start = {};
   c_.corner_feed = {};

@@ -15,9 +15,11 @@ bool ExprLowering::is_undefined(const Expr& e) const {
 
 ir::SystemRef ExprLowering::undefined(const Expr& e) {
   if (c_.first_time(e.text)) {
-    c_.warning("SIN-006", e.pos,
-               e.text + " is not defined in this program: no DEF, no parameter and no axis has this name",
-               "its value is not known; --set " + e.text + "=VALUE gives it one for a run");
+    c_.warning(
+        "SIN-006", e.pos, e.text + " is not defined in this program: no DEF, no parameter and no axis has this name",
+        "give the file that defines it with --lib (NAME.DEF); or have such names read as global user data (option "
+        "sinumerik.undefined_names = global of the machine profile), or give a value for a run: --set " +
+            e.text + "=VALUE");
   }
   return system(e);
 }

@@ -10,10 +10,7 @@ namespace cnctrans::ir::passes {
 
 class FactsOf {
  public:
-  FactsOf(Program& program, const LegaliseContext& context) {
-    number_statements(program);
-    table_ = analyse(program, context.source_machine.power_on);
-  }
+  FactsOf(Program& program, const LegaliseContext& context);
   /// What is known before the statement; a statement made by a pass after the analysis: nothing.
   [[nodiscard]] const Facts& before(const Statement& s) const { return s.id == 0 ? nothing_ : table_.before(s.id); }
 

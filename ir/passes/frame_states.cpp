@@ -5,6 +5,7 @@
 
 #include "ir/passes/call_graph.h"
 #include "ir/passes/frame_state.h"
+#include "ir/passes/uncalled.h"
 
 namespace cnctrans::ir::passes {
 
@@ -104,8 +105,10 @@ FrameStates::FrameStates(const Program& program, const FactsOf& facts, const Leg
   look();
   const CallGraph calls(program);
   for (std::size_t i = 0; i < routines_.size(); ++i) {
-    if (program.routines[i].kind == RoutineKind::main) enter(i, neutral_);
-    if (program.routines[i].kind == RoutineKind::sub && !calls.called(i)) {
+    const bool uncalled = program.routines[i].kind == RoutineKind::sub && !calls.called(i);
+    const bool assumed = uncalled && uncalled_state(context.source_machine) == Uncalled::power_on;
+    if (program.routines[i].kind == RoutineKind::main || assumed) enter(i, neutral_);
+    if (uncalled && !assumed) {
       FrameState any;
       any.limit(anything());
       any.forget();
