@@ -1,12 +1,14 @@
 // Routines that give their caller its modal state back (equivalences 21.1): on a target without that the state is
-// written out before each return.
+// written out before each return; what differs from call to call, behind those calls that it counts behind.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "ir/passes/call_graph.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/modal_needs.h"
 
 namespace cnctrans::ir::passes {
 
@@ -15,12 +17,14 @@ namespace {
 class Restore {
  public:
   Restore(Program& program, const LegaliseContext& context)
-      : program_(program), context_(context), calls_(program), facts_(program, context) {}
+      : program_(program), context_(context), calls_(program), facts_(program, context), needs_(program, calls_) {}
 
   void run() {
     for (std::size_t i = 0; i < program_.routines.size(); ++i) {
-      if (program_.routines[i].saves_modals) routine(i);
+      if (program_.routines[i].saves_modals) plan(i);
     }
+    for (const auto& [index, changes] : at_returns_) routine(index, changes);
+    write_behind_calls();
     for (auto& r : program_.routines) r.saves_modals = false;
   }
 
@@ -54,12 +58,125 @@ class Restore {
     return c;
   }
 
-  void routine(std::size_t index) {
+  /// What of the changes is written where; a fault when nobody can know what to write.
+  void plan(std::size_t index) {
     Routine& r = program_.routines[index];
     if (r.body.empty()) return;
+    const Facts& entry = facts_.before(r.body.front());
     const Changes changes = changes_of(index);
+    Changes at_return;
+    std::string missing;
+    const auto group = [&](const ModalGroup& g, std::string_view what, auto&& put) {
+      if (known(g, entry))
+        put(at_return);
+      else if (!behind_calls(index, g, put))
+        missing += (missing.empty() ? "" : ", ") + std::string(what);
+    };
+    for (const auto s : changes.settings) {
+      group({ModalGroup::Kind::setting, s}, name(s), [s](Changes& c) { c.settings.insert(s); });
+    }
+    if (changes.motion) {
+      group({ModalGroup::Kind::motion}, "motion function", [](Changes& c) { c.motion = true; });
+    }
+    if (changes.offset) {
+      group({ModalGroup::Kind::offset}, "work offset", [](Changes& c) { c.offset = true; });
+    }
+    if (missing.empty()) {
+      at_returns_.emplace_back(index, at_return);
+      return;
+    }
+    context_.diagnostics.error(
+        "TRN-189", r.header.span,
+        "the subprogram gives its caller the modal state back (SAVE), and what holds at its calls "
+        "is not known or not the same everywhere: " +
+            missing,
+        "write the state after each call");
+  }
+
+  static bool known(const ModalGroup& g, const Facts& facts) {
+    switch (g.kind) {
+      case ModalGroup::Kind::setting:
+        return facts.settings[static_cast<std::size_t>(g.setting)] && g.setting != Setting::units;
+      case ModalGroup::Kind::offset: return facts.work_offset.has_value();
+      case ModalGroup::Kind::motion: break;
+    }
+    return facts.motion == MotionKind::rapid || facts.motion == MotionKind::linear;
+  }
+
+  static bool same(const ModalGroup& g, const Facts& a, const Facts& b) {
+    const auto s = static_cast<std::size_t>(g.setting);
+    switch (g.kind) {
+      case ModalGroup::Kind::setting: return a.settings[s] == b.settings[s];
+      case ModalGroup::Kind::offset: return a.work_offset == b.work_offset;
+      case ModalGroup::Kind::motion: break;
+    }
+    return a.motion == b.motion;
+  }
+
+  /// What holds at the end of the routine, whichever way it ends.
+  Facts exit_of(std::size_t index) const {
+    const Body& body = program_.routines[index].body;
+    Facts out;
+    bool first = true;
+    for_each_statement(body, [&](const Statement& s) {
+      const auto* end = std::get_if<End>(&s.node);
+      if (!std::holds_alternative<Return>(s.node) && (end == nullptr || !end->returns_from_sub)) return;
+      if (first)
+        out = facts_.before(s);
+      else
+        join(out, facts_.before(s));
+      first = false;
+    });
+    const bool falls_out =
+        !std::holds_alternative<Return>(body.back().node) && !std::holds_alternative<End>(body.back().node);
+    if (first || falls_out) out.forget();
+    return out;
+  }
+
+  /// Behind each call that the group counts behind it is known: there it is written. False: not everywhere.
+  template <class Put>
+  bool behind_calls(std::size_t index, const ModalGroup& g, const Put& put) {
+    std::vector<std::uint32_t> places;
+    bool called = false;
+    for (const auto& site : calls_.sites()) {
+      if (site.callee != index) continue;
+      called = true;
+      if (!needs_.behind(site, g)) continue;
+      const auto* call = std::get_if<CallRoutine>(&site.statement->node);
+      const bool once = call != nullptr && !call->count && !call->has_range && !call->computed;
+      const Facts& before = facts_.before(*site.statement);
+      if (!once || !known(g, before)) return false;
+      if (!same(g, before, exit_of(index))) places.push_back(site.statement->id);
+    }
+    for (const auto id : places) put(behind_[id]);
+    return called;
+  }
+
+  void write_behind_calls() {
+    if (behind_.empty()) return;
+    for (auto& r : program_.routines) {
+      Editor editor(program_, r, context_);
+      rewrite_body(r.body, [&](Statement&& s, Body& out) {
+        const auto changes = s.id == 0 ? behind_.end() : behind_.find(s.id);
+        if (changes == behind_.end()) {
+          out.push_back(std::move(s));
+          return;
+        }
+        Body pieces;
+        const Facts before = facts_.before(s);
+        LineInfo like;
+        like.span = s.line.span;
+        like.skip_mask = s.line.skip_mask;
+        pieces.push_back(std::move(s));
+        written_back(like, changes->second, before, Facts{}, pieces);
+        editor.put_group(out, std::move(pieces), 0);
+      });
+    }
+  }
+
+  void routine(std::size_t index, const Changes& changes) {
+    Routine& r = program_.routines[index];
     const Facts entry = facts_.before(r.body.front());
-    if (!known(r, changes, entry)) return;
     Editor editor(program_, r, context_);
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       const auto* end = std::get_if<End>(&s.node);
@@ -72,28 +189,6 @@ class Restore {
     Body pieces;
     written_back(r.body.back().line, changes, entry, Facts{}, pieces);
     for (auto& p : pieces) r.body.push_back(std::move(p));
-  }
-
-  /// Without what held at the call there is nothing to write back.
-  bool known(const Routine& r, const Changes& changes, const Facts& entry) const {
-    std::string missing;
-    const auto lacks = [&missing](std::string_view what) {
-      missing += (missing.empty() ? "" : ", ") + std::string(what);
-    };
-    for (const auto s : changes.settings) {
-      if (!entry.settings[static_cast<std::size_t>(s)] || s == Setting::units) lacks(name(s));
-    }
-    const bool plain = entry.motion == MotionKind::rapid || entry.motion == MotionKind::linear;
-    if (changes.motion && !plain) lacks("motion function");
-    if (changes.offset && !entry.work_offset) lacks("work offset");
-    if (missing.empty()) return true;
-    context_.diagnostics.error(
-        "TRN-189", r.header.span,
-        "the subprogram gives its caller the modal state back (SAVE), and what holds at its calls "
-        "is not known or not the same everywhere: " +
-            missing,
-        "write the state after each call");
-    return false;
   }
 
   void written_back(const LineInfo& like, const Changes& changes, const Facts& entry, const Facts& now,
@@ -123,6 +218,9 @@ class Restore {
   const LegaliseContext& context_;
   CallGraph calls_;
   FactsOf facts_;
+  ModalNeeds needs_;
+  std::vector<std::pair<std::size_t, Changes>> at_returns_;
+  std::map<std::uint32_t, Changes> behind_;  ///< by the id of the call
 };
 
 }  // namespace
