@@ -57,13 +57,23 @@ HeadConstants::HeadConstants(const Program& program) : program_(program) {
   const auto main = std::find_if(program.routines.begin(), program.routines.end(),
                                  [](const Routine& r) { return r.kind == RoutineKind::main; });
   if (main == program.routines.end()) return;
-  for (const auto& s : main->body) {
+  do {
+    known_.clear();
+    look_at_head(*main);
+  } while (!known_.empty() && forget_written_elsewhere());
+}
+
+void HeadConstants::look_at_head(const Routine& main) {
+  const auto keep = [this](const Key& key, const Known& value) {
+    if (changing_.count(key) == 0) known_[key] = value;
+  };
+  for (const auto& s : main.body) {
     if (!straight(s)) break;
     if (const auto* d = std::get_if<Declare>(&s.node); d != nullptr && s.line.skip_mask == 0) {
       for (const auto& item : d->items) {
         const auto n =
             item.dimensions.empty() && item.initial.size() == 1 ? constant_value(item.initial[0]) : std::nullopt;
-        if (n) known_[Key{d->space, item.name, 0}] = {*n, s.line.span.line, 0};
+        if (n) keep(Key{d->space, item.name, 0}, {*n, s.line.span.line, 0});
       }
     }
     const auto* a = std::get_if<Assign>(&s.node);
@@ -73,19 +83,17 @@ HeadConstants::HeadConstants(const Program& program) : program_(program) {
     for (const auto& item : a->items) {
       const auto key = item.to_system ? std::nullopt : key_of(item.target);
       if (!key) continue;
-      const Value v = fold(Value(item.value), *main, behind);
+      const Value v = fold(Value(item.value), main, behind);
       const auto n = v.literal() ? std::optional(v.number) : constant_value(v.expr);
       if (n && s.line.skip_mask == 0)
-        known_[*key] = {*n, s.line.span.line, 1};
+        keep(*key, {*n, s.line.span.line, 1});
       else
         known_.erase(*key);
     }
   }
-  if (!known_.empty()) forget_written_elsewhere();
 }
 
-/// Set twice, by a computed number, as the result of a call, or where it can't be seen.
-void HeadConstants::forget_written_elsewhere() {
+bool HeadConstants::forget_written_elsewhere() {
   std::map<Key, int> writes;
   std::set<SpaceId> anywhere;
   bool hidden = false;
@@ -113,10 +121,13 @@ void HeadConstants::forget_written_elsewhere() {
     });
   }
   if (hidden) known_.clear();
-  std::erase_if(known_, [&](const auto& k) {
-    const auto it = writes.find(k.first);
-    return (it != writes.end() && it->second > k.second.writes) || anywhere.count(std::get<0>(k.first)) != 0;
-  });
+  return std::erase_if(known_, [&](const auto& k) {
+           const auto it = writes.find(k.first);
+           const bool gone =
+               (it != writes.end() && it->second > k.second.writes) || anywhere.count(std::get<0>(k.first)) != 0;
+           if (gone) changing_.insert(k.first);
+           return gone;
+         }) != 0;
 }
 
 Value HeadConstants::fold(const Value& v, const Routine& routine, const Statement& at,

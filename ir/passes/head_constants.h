@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -34,10 +35,14 @@ class HeadConstants {
     int writes = 1;          ///< by the statement that sets it: 0 for a definition with a value
   };
   static std::optional<Key> key_of(const VarRef& v);
-  void forget_written_elsewhere();
+  void look_at_head(const Routine& main);
+  /// What is set twice, by a computed number, as the result of a call, or where it can't be seen goes, for good.
+  /// \return something went
+  bool forget_written_elsewhere();
 
   const Program& program_;
   std::map<Key, Known> known_;
+  std::set<Key> changing_;  ///< is no constant, and nothing that is computed from it
 };
 
 }  // namespace cnctrans::ir::passes
