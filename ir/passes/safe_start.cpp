@@ -162,10 +162,15 @@ class SafeStart {
     return found;
   }
 
-  /// A programmed shift that outlives the program on the target is cleared where the source starts without one.
+  /// A programmed shift is cleared where the source starts without one: a shift of another program may still be in
+  /// force where the target keeps it over the end of a program, and the program's own may where it is run in parts.
   bool clears_shift() const {
     const auto slot = context_.target.frames.find(FrameSlot::shift);
     if (slot == context_.target.frames.end() || slot->second.count(FrameCombine::clear) == 0) return false;
+    const auto keeps = [](const machine::Profile& m) { return m.option("work_offset.kept") == "yes"; };
+    return (keeps(context_.target_machine) && !keeps(context_.source_machine)) || shifts_itself();
+  }
+  bool shifts_itself() const {
     bool uses = false;
     for (const auto& r : program_.routines) {
       for_each_statement(r.body, [&uses](const Statement& s) {
