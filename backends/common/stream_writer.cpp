@@ -298,6 +298,11 @@ bool PlainStreamWriter::add_action(const ir::Action& a, bool moves, Words& words
     }
     words.alone = words.alone || (table_.work_offset_alone && !same_dialect_);
     plain = true;
+  } else if (const auto* op = std::get_if<ir::FrameOp>(&a.data)) {
+    plain = op->change && op->change->slot == ir::FrameSlot::shift && op->change->combine == ir::FrameCombine::clear;
+    w.address = table_.shift_off;
+    w.rank = Rank::setting;
+    words.alone = true;
   } else if (std::holds_alternative<ir::ExactStopBlock>(a.data)) {
     w.address = style_.exact_stop_block;
     w.rank = Rank::setting;

@@ -31,6 +31,7 @@ struct PlainTable {
   std::string_view tool_change;                      ///< M6
   std::string_view work_offset_off;
   std::array<std::string_view, 5> work_offsets{};  ///< rows 1.. at index 1..
+  std::string_view shift_off;                      ///< ends the programmed shift of all axes, alone in its line
   std::string_view end_program;                    ///< M30
   std::string_view dwell;                          ///< "G4 F", alone in its line
   double dwell_unit = 1;                           ///< seconds of one unit of it

@@ -34,6 +34,7 @@ PlainTable table_of(const Style& style, const machine::Profile& profile, bool la
   for (ir::AxisId axis = 0; axis < ir::axis::a; ++axis) t.centers[axis] = center_letter(axis);
   t.radius = style.radius_address;
   t.work_offset_off = g_word(lathe, Use::machine_coordinates);
+  t.shift_off = g_word(lathe, Use::shift);
   for (std::size_t row = 1; row < t.work_offsets.size(); ++row) {
     t.work_offsets[row] = g_word(lathe, Use::work_offset, static_cast<int>(row));
   }
