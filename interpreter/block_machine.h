@@ -307,6 +307,7 @@ class BlockMachine final : public SystemData {
 
   // cycles (cycles.cpp)
   bool run_cycle();
+  bool turn_hole();
   bool read_mill_contours(const ir::HoleCycle& hole);
   bool run_milling();
   bool milling_move(const ir::cycles::MillMove& m, double speed);
@@ -393,6 +394,7 @@ class BlockMachine final : public SystemData {
   ir::cycles::MillNumbers mill_;  ///< with a hole of kind `mill`
   std::vector<ir::cycles::MillContour> mill_contours_;
   ir::AxisId hole_axis_ = ir::axis::z;
+  bool hole_follows_plane_ = false;  ///< a modal call works along the normal of the plane at each point
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;
   const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand

@@ -73,6 +73,8 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   if (!resolve_cycle(c.cycle, numbers, axis)) return false;
   hole_ = numbers;
   hole_axis_ = axis;
+  const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
+  hole_follows_plane_ = c.trigger == ir::CycleTrigger::path_motion && hole != nullptr && hole->axis == ir::axis::none;
   trigger_ = c.trigger;
   once_ = !c.modal;
   cycle_defined_here_ = true;
@@ -120,11 +122,23 @@ bool BlockMachine::cycle_triggers(const ir::Block& b) const {
   return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
 }
 
+/// The plane at the point counts; the levels, in millimetres, stay.
+bool BlockMachine::turn_hole() {
+  const ir::AxisId axis = ir::plane_axes(modal_.plane).w;
+  if (axis == hole_axis_) return true;
+  if (!check_axis(axis)) return false;
+  if (axis_[axis].scale_absolute != axis_[hole_axis_].scale_absolute)
+    return failure_.fail(code::bad_cycle, "the plane of a modal cycle was changed, and its levels would be diameters");
+  hole_axis_ = axis;
+  return true;
+}
+
 bool BlockMachine::run_cycle() {
   if (pending_) {
     release_pending();
     return failure_.fail(code::corner_alone, "a cycle follows a corner function");
   }
+  if (hole_follows_plane_ && !turn_hole()) return false;
   if (hole_->kind == ir::HoleKind::mill) return run_milling();
   std::string error;
   const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace cnctrans::verifier {
 
@@ -59,7 +60,8 @@ class StateFilter {
 
 /// The strokes of a tap: a thread, and back along it. In between and until the tool cuts again the sense of the spindle
 /// follows from the path, so only the sense that stays counts: the command is moved to where it matters. The
-/// orientation before the first stroke is part of the tap as well.
+/// orientation before the first stroke is part of the tap as well. So is a start of the spindle before it with nothing
+/// but rapids in between: some taps turn the spindle by themselves, others take it as it runs.
 class Taps {
  public:
   explicit Taps(const std::vector<Event>& events) { sort(events); }
@@ -80,13 +82,18 @@ class Taps {
     return out > 0 && back > 0 && dot < 0 && dot * dot > out * back * (1 - 1e-9);
   }
   void flush() {
+    const bool taps = (held_ != nullptr && tap_) || between_ != nullptr;
+    for (const std::size_t i : starts_) order[i] = taps ? nullptr : order[i];
+    if (taps) starts_.clear();
+    if (between_ != nullptr) order.insert(order.begin() + static_cast<std::ptrdiff_t>(between_at_), between_);
     if (held_ != nullptr) order.push_back(held_);
-    held_ = nullptr;
+    held_ = between_ = nullptr;
   }
   void sort(const std::vector<Event>& events) {
     order.reserve(events.size());
     for (const auto& e : events) one(e);
     flush();
+    order.erase(std::remove(order.begin(), order.end(), nullptr), order.end());
   }
   void one(const Event& e) {
     if (e.kind == EventKind::spindle && (stroke_ != nullptr || e.state == "oriented")) {
@@ -94,7 +101,10 @@ class Taps {
       held_ = &e;
       return;
     }
-    if (e.kind == EventKind::spindle) flush();
+    if (e.kind == EventKind::spindle) {
+      flush();
+      starts_.push_back(order.size());
+    }
     if (!is_barrier(e.kind)) {
       order.push_back(&e);
       return;
@@ -102,6 +112,11 @@ class Taps {
     const bool thread = e.kind == EventKind::thread;
     if (thread && goes_back(e)) {
       tap_ = true;
+      between_ = nullptr;
+    } else if (thread && held_ != nullptr && tap_) {  // perhaps the next tap: what stands between them is not seen then
+      between_ = std::exchange(held_, nullptr);
+      between_at_ = order.size();
+      tap_ = false;
     } else if (thread && held_ != nullptr && held_->state == "oriented" && (stroke_ == nullptr || tap_)) {
       held_ = nullptr;
       tap_ = false;
@@ -109,6 +124,7 @@ class Taps {
       flush();
       tap_ = false;
       stroke_ = nullptr;
+      if (!thread && e.kind != EventKind::rapid) starts_.clear();
     }
     order.push_back(&e);
     if (thread) {
@@ -118,11 +134,14 @@ class Taps {
     if (is_motion(e.kind)) last_ = &e;
   }
 
-  const Event* last_ = nullptr;    ///< the last motion
-  const Event* from_ = nullptr;    ///< the motion before the stroke
-  const Event* stroke_ = nullptr;  ///< the last thread
-  const Event* held_ = nullptr;    ///< a command of the spindle that waits
-  bool tap_ = false;               ///< the thread was run back
+  const Event* last_ = nullptr;      ///< the last motion
+  const Event* from_ = nullptr;      ///< the motion before the stroke
+  const Event* stroke_ = nullptr;    ///< the last thread
+  const Event* held_ = nullptr;      ///< a command of the spindle that waits
+  const Event* between_ = nullptr;   ///< one that waits for the thread behind it to be run back
+  std::size_t between_at_ = 0;       ///< its place in `order`
+  bool tap_ = false;                 ///< the thread was run back
+  std::vector<std::size_t> starts_;  ///< in `order`: the commands of the spindle before it
 };
 
 }  // namespace

@@ -41,6 +41,8 @@ ir::Level level(ir::Value value, ir::LevelBase base);
 ir::Value absolute_value(const ir::Value& v);
 /// Safety plane and depth. They lie below the retract plane, as they should, unless numbers say otherwise.
 void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
+/// Warns where the planes, as numbers, contradict each other (SIN-070, SIN-071).
+void check_planes(const ir::HoleCycle& hole, FileContext& c, WordPos pos);
 /// A contour as a cycle names it: a subprogram, or two labels with a colon between them.
 void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words);
 /// The contour of a milling cycle that works along one; false: an error has been reported.

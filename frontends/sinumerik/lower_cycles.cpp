@@ -250,7 +250,10 @@ bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     return false;
   }
   if (depth == 1 && hole.bottom.base == ir::LevelBase::absolute) {
-    hole.bottom = level(ir::negate(absolute_value(a.get("DP"))), ir::LevelBase::from_surface);
+    const ir::Value& reference = hole.reference.value;  // its sign is the side of the tool
+    const bool upward = reference.literal() && reference.number < 0;
+    const ir::Value down = absolute_value(a.get("DP"));
+    hole.bottom = level(upward ? down : ir::negate(down), ir::LevelBase::from_surface);
   }
   if (time == 2) {
     hole.dwell_bottom = absolute_value(hole.dwell_bottom);
@@ -331,11 +334,13 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   if (row.family == CycleFamily::milling) {
     const auto spigot = c_.machine.profile->option(std::string(spigot_option), spigot_radius);
     if (!milling_words(*milling_cycle(name, spigot), a, hole, c_, pos)) return nullptr;
+    check_planes(hole, c_, pos);
     return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
   }
   dwell(a.get("DTB"), hole, c_, pos);
   if (!kind_of(name, a, hole, c_, pos)) return nullptr;
   if (!modes(a, hole, c_, pos)) return nullptr;
+  check_planes(hole, c_, pos);
   auto out = std::make_shared<ir::Cycle>();
   out->node = std::move(hole);
   return out;

@@ -29,9 +29,9 @@ void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
   const ir::Value rfp = a.get("RFP");
   double down = -1;
   if (rtp.literal() && rfp.literal()) {
-    if (rtp.number < rfp.number) down = 1;
-    if (rtp.number == rfp.number)
-      c.warning("SIN-021", pos, "retract plane and reference plane are the same (alarm 61101 with a relative depth)");
+    const ir::Value dp = a.get("DP");
+    const bool same = rtp.number == rfp.number;
+    if (rtp.number < rfp.number || (same && !a.says("DPR") && dp.literal() && dp.number > rfp.number)) down = 1;
   } else {
     c.note("SIN-021", pos, "the retract plane is taken to lie above the reference plane");
   }
@@ -49,6 +49,26 @@ void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
     hole.bottom = level(a.get("DP"), ir::LevelBase::absolute);
   }
   hole.approach_by_retract = false;
+}
+
+void check_planes(const ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  const bool numbers = hole.retract.value.literal() && hole.surface.value.literal() && hole.bottom.value.literal();
+  if (!numbers) return;
+  const double rtp = hole.retract.value.number, rfp = hole.surface.value.number;
+  const bool relative = hole.bottom.base == ir::LevelBase::from_surface;
+  const double depth = hole.bottom.value.number + (relative ? rfp : 0);
+  if (relative && rtp == rfp)
+    c.warning("SIN-070", pos,
+              "retract plane and reference plane are the same, and the depth is relative: the control stops here "
+              "(alarm 61101)");
+  else if (std::fabs(rtp - depth) < std::fabs(rfp - depth))
+    c.warning("SIN-070", pos,
+              "the retract plane lies nearer to the depth than the reference plane: the control stops here (alarm "
+              "61101)");
+  else if ((rtp - rfp) * (depth - rfp) > 0)
+    c.warning("SIN-071", pos,
+              "the depth lies on the side of the reference plane to which the tool retracts: it works toward the "
+              "retract plane");
 }
 
 namespace {

@@ -82,6 +82,7 @@ class CyclePass {
     std::uint32_t defined_in = 0;  ///< the statement of that point
     TapNeeds needs;
     bool maybe_on_target = false;      ///< in force on one of the ways that lead here
+    std::optional<AxisId> axis;        ///< of the tool at the definition
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
   };
@@ -103,7 +104,7 @@ class CyclePass {
   // --- the cycle of the text and those of the ways (cycle_ways.cpp) ---------------------------------------------
 
   void look_for_definitions();
-  /// The active cycle of the text is the one in force on every way to a statement with these facts.
+  /// The active cycle of the text is in force on every way to the statement.
   [[nodiscard]] bool sure(const Facts& facts) const;
   /// A cycle of the target may be in force before a statement with these facts.
   [[nodiscard]] bool old_may_run(const Facts& facts) const;
@@ -114,7 +115,6 @@ class CyclePass {
   void refuse_other_ways(Statement& s) const;
   /// The target's cycle is off until the next point of the text, and control goes elsewhere before.
   void leave_while_off(const Statement& s) const;
-  /// A called subprogram changes the retract plane of the cycle.
   /// Where the hole goes back to by G98 or G99, which differ by the way: refused. True: done.
   [[nodiscard]] bool refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& out) const;
   void callee_sets_plane(const CallRoutine& call, const Statement& s) const;
@@ -246,13 +246,19 @@ class CyclePass {
         a.native = *native;
       return a;
     }
-    const auto w = tool_axis(cycle, b, facts);
-    if (w) a.height = height_mm(b, facts, *w);
-    if (!a.height && w) a.height = height_.at(*w);
+    a.axis = tool_axis(cycle, b, facts);
+    if (a.axis) a.height = height_mm(b, facts, *a.axis);
+    if (!a.height && a.axis) a.height = height_.at(*a.axis);
     a.defined_at = a.height;
     if (auto native = native_form(cycle, b, facts, context_, in_units(a.height, b, facts), sense_.now(), &a.needs))
       a.native = *native;
     return a;
+  }
+  /// The facts before a definition; a feed that surely nobody has given is 0, and needs no way back.
+  [[nodiscard]] Facts facts_for_tap(const Statement& s, const Block& b) const {
+    Facts facts = facts_.before(s);
+    if (feeds_.at(s, b, facts).none) facts.feed = 0;
+    return facts;
   }
   /// The cycle in force with the words of the change.
   CyclePtr changed(HoleCycle change) const {
@@ -315,7 +321,7 @@ class CyclePass {
   void modal_call(Statement&& s, Body& out) {
     const ModalCall m = std::get<ModalCall>(s.node);
     const bool ends_old = old_may_run(facts_.before(s));
-    active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_.before(s));
+    active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_for_tap(s, Block{}));
     active_->from = s.id;
     active_->deferred = true;
     lacking_ = lacking_ || !active_->native;
@@ -406,22 +412,7 @@ class CyclePass {
     put_group(out, std::move(pieces), main);
   }
 
-  void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
-    // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
-    const Facts& facts = facts_.before(s);
-    const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
-    const auto feed = active_ && !by_call_ ? feed_after_tap(*active_, facts) : std::nullopt;
-    const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
-    active_.reset();
-    if (!on || defines_again) return;
-    if (by_call_)
-      pieces.push_back(off_statement(s.line, true));
-    else
-      b.actions.insert(b.actions.begin(), action(CycleCancel{}));
-    const bool own = std::any_of(b.actions.begin(), b.actions.end(),
-                                 [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
-    if (feed && !own) b.actions.push_back(*feed);
-  }
+  void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces);
 
   /// The tool stands below the plane to which the target's cycle would go first.
   [[nodiscard]] bool below_retract_plane(const Block& b, const Facts& facts) const;
@@ -442,6 +433,8 @@ class CyclePass {
     return !w || has_plane_word(b, *w) || turns_to_point(b, context_.source_machine);
   }
 
+  /// A point of a modal call in another plane than that of its definition: defined again.
+  void turn(const Block& b, const Facts& facts, const LineInfo& like, Body& pieces);
   /// A block while a cycle is active.
   void point(Statement&& s, Body&& pieces, Body& out);
 

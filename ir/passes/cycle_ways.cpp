@@ -68,6 +68,35 @@ void CyclePass::check_tap(const Statement& s) const {
   }
 }
 
+void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
+  // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
+  const Facts& facts = facts_.before(s);
+  const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
+  const auto feed = active_ && !by_call_ ? feed_after_tap(*active_, facts) : std::nullopt;
+  const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
+  active_.reset();
+  if (!on || defines_again) return;
+  if (by_call_)
+    pieces.push_back(off_statement(s.line, true));
+  else
+    b.actions.insert(b.actions.begin(), action(CycleCancel{}));
+  const bool own = std::any_of(b.actions.begin(), b.actions.end(),
+                               [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
+  if (feed && !own) b.actions.push_back(*feed);
+}
+
+void CyclePass::turn(const Block& b, const Facts& facts, const LineInfo& like, Body& pieces) {
+  if (active_->trigger != CycleTrigger::path_motion) return;
+  const auto now = tool_axis(active_->source, b, facts);
+  if (!now || !active_->axis || now == active_->axis) return;
+  const Active before = *active_;
+  if (before.on_target || before.maybe_on_target) pieces.push_back(off_statement(like, by_call_));
+  active_ = define(before.source, before.trigger, b, facts);
+  active_->from = before.from;
+  active_->deferred = before.deferred;
+  active_->single = before.single;
+}
+
 bool CyclePass::sure(const Facts& facts) const {
   return surely_active_ || !facts.reachable || !facts.cycle_active_known || facts.cycle_from == active_->from;
 }

@@ -26,6 +26,8 @@ void write_out_curves(Program& program, const LegaliseContext& context);
 void say_tangent_arcs(Program& program, const LegaliseContext& context);
 /// A tap with a compensating chuck as a straight move.
 void write_floating_taps(Program& program, const LegaliseContext& context);
+/// Taps that turn the spindle by themselves, for targets whose taps take the spindle as it runs.
+void write_tap_speeds(Program& program, const LegaliseContext& context);
 /// A feed of one block as a feed and the one of before behind it.
 void write_block_feeds(Program& program, const LegaliseContext& context);
 /// Axes that move by themselves as straight moves.

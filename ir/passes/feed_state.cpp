@@ -21,6 +21,7 @@ const ModalSet* set_of(const Action& a, Setting s) {
 
 bool feeds_itself(const Cycle& c) {
   const auto* hole = std::get_if<HoleCycle>(&c.node);
+  if (hole != nullptr && hole->kind == HoleKind::tap && !hole->pitch.is(0)) return true;
   return hole == nullptr || hole->has_feed;
 }
 

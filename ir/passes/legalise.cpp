@@ -38,6 +38,7 @@ constexpr std::array pipeline{
     Pass{"structure", passes::raise_structure, false},
     Pass{"control", passes::lower_control, false},
     Pass{"written_offsets", passes::select_written_offsets, false},
+    Pass{"tap_speeds", passes::write_tap_speeds, false},
     Pass{"cycles", passes::lower_cycles, false},
     Pass{"reference_moves", passes::convert_reference_moves, true},
     Pass{"preset_steps", passes::settle_preset_steps, false},

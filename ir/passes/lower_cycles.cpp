@@ -17,6 +17,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   check_tap(s);
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
+  if (sure(facts) && triggers(b, facts)) turn(b, facts, s.line, pieces);
   const bool was_on = active_->on_target;
   const bool changed = follow_retract_plane(b, facts);
   const bool hole_here = triggers(b, facts);
@@ -246,7 +247,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
     return write_out_machining(std::move(s), cycle, std::move(pieces), out);
   }
   if (refuse_unknown_plane(s, d.cycle, out)) return;
-  Active a = define(d.cycle, d.trigger, b, facts);
+  Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
   a.from = s.id;
   lacking_ = lacking_ || (d.modal && !a.native);
   if (d.here) ran_ = a;

@@ -76,7 +76,7 @@ std::vector<CycleEntry> sinumerik_cycles() {
   for (const auto& c : facts::cycles()) {
     const auto [title, feature] = family(c.family);
     out.push_back({"sinumerik", std::string(c.name), c.family == facts::CycleFamily::turning ? "lathe" : "mill", title,
-                   c.carried ? std::string() : feature});
+                   c.carried || c.family == facts::CycleFamily::swivel ? std::string() : feature});
   }
   return out;
 }

@@ -1,0 +1,180 @@
+// Taps that orient and turn the spindle by themselves (a speed of their own, a sense behind them), for targets whose
+// taps take the spindle as it runs: speed and sense are said before the tap, and what it leaves behind it.
+#include <cmath>
+#include <utility>
+
+#include "ir/passes/early_passes.h"
+#include "ir/passes/editor.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/lower_cycles.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+struct Around {
+  CyclePtr cycle;
+  Block before;
+  std::optional<Block> after;
+  std::optional<double> slower;  ///< rev/min of the way out, which the target drives as the way in
+};
+
+SpindleState state_of(SpindleStep s) {
+  return s == SpindleStep::ccw ? SpindleState::ccw : s == SpindleStep::cw ? SpindleState::cw : SpindleState::off;
+}
+
+/// A right-hand tap in one stroke whose speeds are numbers.
+bool candidate(const HoleCycle& c) {
+  const bool numbers = c.pitch.literal() && c.pitch.number > 0 && c.has_speed && c.speed.literal() &&
+                       c.speed.number > 0 && (!c.has_speed_out || c.speed_out.literal());
+  const bool said =
+      c.spindle_after == SpindleStep::cw || c.spindle_after == SpindleStep::ccw || c.spindle_after == SpindleStep::off;
+  return c.kind == HoleKind::tap && c.orient_first && numbers && said && c.pecks.law == PeckLaw::none &&
+         c.spindle_bottom == SpindleStep::none;
+}
+
+std::optional<Around> split(const CyclePtr& cycle, const Facts& facts) {
+  const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+  if (c == nullptr || !candidate(*c)) return std::nullopt;
+  const double in = c->speed.number, out = c->has_speed_out ? c->speed_out.number : in;
+  const bool same_in = facts.spindle && std::fabs(*facts.spindle - in) < 1e-9;
+  if (same_in && std::fabs(out - in) < 1e-9 && c->spindle_after == SpindleStep::cw) return std::nullopt;
+  Around a;
+  HoleCycle plain = *c;
+  plain.spindle_after = plain.spindle_bottom = SpindleStep::usual;
+  plain.spindle_after_retract = plain.orient_first = plain.has_speed = plain.has_speed_out = false;
+  plain.orient_angle = plain.speed = plain.speed_out = Value{};
+  plain.rigid = true;
+  auto made = std::make_shared<Cycle>();
+  made->node = std::move(plain);
+  a.cycle = std::move(made);
+  if (!same_in) a.before.actions.push_back(action(SetSpindle{1, c->speed}));
+  a.before.actions.push_back(action(SpindleRun{1, SpindleState::cw}));
+  const bool other_speed = std::fabs(out - in) > 1e-9;
+  if (other_speed) a.slower = out;
+  if (other_speed || c->spindle_after != SpindleStep::cw) {
+    a.after.emplace();
+    if (other_speed) a.after->actions.push_back(action(SetSpindle{1, c->speed_out}));
+    a.after->actions.push_back(action(SpindleRun{1, state_of(c->spindle_after)}));
+  }
+  return a;
+}
+
+class TapSpeeds {
+ public:
+  TapSpeeds(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context), facts_(facts), editor_(program, routine, context), uses_(label_uses(program, routine)) {}
+
+  void run() { walk(editor_.routine.body); }
+
+ private:
+  void walk(Body& body) {
+    Body out;
+    std::optional<Block> behind;  // the modal call in force
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      each_body(body[i], [this](Body& inner) { walk(inner); });
+      one(body, i, behind, out);
+    }
+    body = std::move(out);
+  }
+  void one(Body& body, std::size_t i, std::optional<Block>& behind, Body& out) {
+    Statement& s = body[i];
+    auto* m = std::get_if<ModalCall>(&s.node);
+    auto* b = std::get_if<Block>(&s.node);
+    std::optional<Around> around;
+    if (m != nullptr && m->cycle && ends_in_sight(body, i)) {
+      around = split(m->cycle, facts_.before(s));
+      if (around) m->cycle = around->cycle;
+    }
+    for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
+      auto* d = std::get_if<CycleDefine>(&b->actions[k].data);
+      if (d == nullptr || d->modal || !d->here) continue;
+      around = split(d->cycle, facts_.before(s));
+      if (around) d->cycle = around->cycle;
+    }
+    const LineInfo like = s.line;
+    if (m != nullptr && behind) {  // the end of the one before
+      Body pieces;
+      pieces.push_back(std::move(s));
+      pieces.push_back(made(like, *std::exchange(behind, std::nullopt)));
+      editor_.put_group(out, std::move(pieces), 0);
+      return;
+    }
+    if (!around) return out.push_back(std::move(s));
+    if (around->slower) tell(like, *around->slower);
+    Body pieces;
+    pieces.push_back(made(like, std::move(around->before)));
+    pieces.push_back(std::move(s));
+    if (around->after && b != nullptr) pieces.push_back(made(like, *std::move(around->after)));
+    if (around->after && m != nullptr) behind = std::move(around->after);
+    editor_.put_group(out, std::move(pieces), 1);
+  }
+  /// Between a modal call and its end stand only points to which the tool goes in rapid, and nothing that turns the
+  /// spindle.
+  bool ends_in_sight(const Body& body, std::size_t from) const {
+    if (facts_.before(body[from]).motion != MotionKind::rapid) return false;
+    for (std::size_t i = from + 1; i < body.size(); ++i) {
+      const Statement& s = body[i];
+      for (const auto& l : labels_on(s.line)) {
+        if (uses_.is_target(l)) return false;
+      }
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) return m->off && s.line.skip_mask == 0;
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr && !ToolHeight::keeps(s)) return false;
+      if (b != nullptr && b->motion.kind != MotionKind::modal && b->motion.kind != MotionKind::rapid) return false;
+      for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
+        const auto& a = b->actions[k].data;
+        if (std::holds_alternative<SetSpindle>(a) || std::holds_alternative<SpindleRun>(a) ||
+            std::holds_alternative<SetFeed>(a))
+          return false;
+      }
+    }
+    return false;
+  }
+  void tell(const LineInfo& where, double out) const {
+    context_.diagnostics.warning("TRN-422", where.span,
+                                 "the tap leaves its hole at the speed of the way in, not at " + number_text(out) +
+                                     " rev/min: the target's tap has one speed",
+                                 "the thread is the same; give both ways one speed");
+  }
+  static std::string number_text(double x) {
+    std::string text = std::to_string(x);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text;
+  }
+
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  Editor editor_;
+  LabelUses uses_;
+};
+
+bool has_candidate(const Program& program) {
+  bool found = false;
+  const auto look = [&found](const CyclePtr& cycle) {
+    const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+    found = found || (c != nullptr && candidate(*c));
+  };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&look](const Statement& s) {
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) look(m->cycle);
+      const auto* b = std::get_if<Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        if (const auto* d = std::get_if<CycleDefine>(&b->actions[i].data)) look(d->cycle);
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void write_tap_speeds(Program& program, const LegaliseContext& context) {
+  const bool same = program.dialect == context.target.dialect && !program.dialect.empty();
+  if (same || context.options.cycles == CycleWriting::explode || !has_candidate(program)) return;
+  const FactsOf facts(program, context);
+  for (auto& r : program.routines) TapSpeeds(program, r, context, facts).run();
+}
+
+}  // namespace cnctrans::ir::passes
