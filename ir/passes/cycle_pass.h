@@ -272,6 +272,7 @@ class CyclePass {
   }
   /// A pattern: as one of the target's, else a block for each point.
   void pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
+  bool way_by_itself(Statement& p, const FeedBefore& feed, Body& before);
   void pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out);
   /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
   void feed_for_tap(Block& b, const Active& a) const {

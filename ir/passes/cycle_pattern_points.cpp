@@ -39,6 +39,7 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
   }
   const auto id = s.id;
   const LineInfo like = s.line;
+  const FeedBefore feed = feeds_.at(s, b, facts);
   const bool bare = b.empty();
   if (!bare || points->empty()) put(out, std::move(pieces), std::move(s));
   bool first = bare;
@@ -48,11 +49,42 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
     Body before;
     if (first) before = std::move(pieces);
     first = false;
+    if (!way_by_itself(p, feed, before)) return;
     if (active_)
       point(std::move(p), std::move(before), out);
     else
       put(out, std::move(before), std::move(p));
   }
+}
+
+/// A way at a feed of its own goes before the point, with the target's cycle off: at the point the feed of before
+/// counts again, for the hole as well. False: that feed is not known, which is reported.
+bool CyclePass::way_by_itself(Statement& p, const FeedBefore& feed, Body& before) {
+  auto& b = std::get<Block>(p.node);
+  if (b.actions.empty()) return true;
+  if (!feed.value && !feed.none) {
+    refuse(
+        p, program_, context_, "TRN-330",
+        "a pattern that the target lacks can't be written out: the feed after the pattern's own one is not known here",
+        "write F before it");
+    return false;
+  }
+  LineInfo like;
+  like.span = p.line.span;
+  like.skip_mask = p.line.skip_mask;
+  const bool on = active_ && (active_->on_target || active_->maybe_on_target);
+  if (on) before.push_back(off_statement(like, by_call_));
+  if (on && !by_call_) active_->on_target = active_->maybe_on_target = false;
+  Block way = b;
+  std::get<SetFeed>(way.actions.front().data).block_only = false;
+  before.push_back(made(like, std::move(way)));
+  if (feed.value) before.push_back(made(like, Block{}));
+  if (feed.value) std::get<Block>(before.back().node).actions.push_back(action(SetFeed{Value{*feed.value}, false}));
+  if (on && by_call_) before.push_back(on_statement(like, active_->native));
+  b.actions.clear();
+  b.motion.kind = MotionKind::rapid;
+  b.motion.centers.clear();
+  return true;
 }
 
 void CyclePass::pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out) {

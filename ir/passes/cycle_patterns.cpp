@@ -54,6 +54,13 @@ CoordWord coordinate(AxisId axis, double value, bool absolute) {
   return c;
 }
 
+CenterWord centre(AxisId axis, double value) {
+  CenterWord c;
+  c.axis = axis;
+  c.value = Value{rounded(value)};
+  return c;
+}
+
 MotionKind kind_of(PatternPoint::Way way) {
   switch (way) {
     case PatternPoint::Way::rapid: return MotionKind::rapid;
@@ -121,14 +128,15 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
     if (arc || std::fabs(p.v - v) > 1e-9 || (!known && absolute))
       block.motion.coords.push_back(coordinate(at->v, absolute ? p.v : p.v - v, absolute));
     if (block.motion.coords.empty()) block.motion.coords.push_back(coordinate(at->u, absolute ? p.u : 0, absolute));
+    if (arc && !known) {
+      *error = "the tool goes from point to point on arcs, and where it stands is not known here";
+      return std::nullopt;
+    }
     if (arc) {
-      *error = "the tool goes from point to point on arcs";
-      return std::nullopt;
+      block.motion.centers.push_back(centre(at->u, p.centre_u - u));
+      block.motion.centers.push_back(centre(at->v, p.centre_v - v));
     }
-    if (p.way != PatternPoint::Way::rapid) {
-      *error = "the tool goes from point to point at a feed of the pattern's own";
-      return std::nullopt;
-    }
+    if (p.way != PatternPoint::Way::rapid) block.actions.push_back(action(SetFeed{Value{p.feed}, false, true}));
     u = p.u;
     v = p.v;
     blocks.push_back(made(line, std::move(block)));

@@ -68,7 +68,7 @@ FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& fact
   bool own = false;
   for (const auto& a : b.actions) {
     const auto* f = std::get_if<SetFeed>(&a.data);
-    if (f == nullptr || a.order == Order::after) continue;
+    if (f == nullptr || f->block_only || a.order == Order::after) continue;
     own = true;
     feed.value = f->value.literal() ? std::optional(f->value.number) : constant_value(f->value.expr);
   }

@@ -115,7 +115,7 @@ void FeedDomain::settle(const Block& b, const Facts& facts, FeedState& state) co
     } else if (const auto* m = set_of(a, Setting::feed_mode)) {
       change_mode(*m, mode, state);
       mode = m->value;
-    } else if (const auto* f = std::get_if<SetFeed>(&a.data)) {
+    } else if (const auto* f = std::get_if<SetFeed>(&a.data); f != nullptr && !f->block_only) {
       std::optional<double> value;
       if (f->value.literal() && !(f->zero_is_maximum && f->value.number == 0)) value = f->value.number;
       for (std::size_t i = 0; i < state.slots.size(); ++i) {

@@ -197,6 +197,11 @@ class ModalCalls {
       blocks.reset();
       error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
     }
+    if (blocks && std::any_of(blocks->begin(), blocks->end(),
+                              [](const Statement& p) { return !std::get<Block>(p.node).actions.empty(); })) {
+      blocks.reset();
+      error = "the tool goes from point to point at a feed of the pattern's own";
+    }
     if (!blocks) {
       if (error.empty()) error = "its words are computed when the program runs";
       refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
