@@ -132,7 +132,9 @@ void Lowering::resolve_values() {
     flow_->program = use(letter('H'));
     flow_->curve = use(nu);
   }
-  if (const Word* w = use(letter('F'))) act(*w, Step::value, ir::SetFeed{value(*w), false});
+  const bool own_feed =
+      has(letter('F')) && (used_ & bit(letter('F'))) == 0;  // not the time of a dwell, nor G33's starts
+  if (const Word* w = own_feed ? use(letter('F')) : nullptr) act(*w, Step::value, ir::SetFeed{value(*w), false});
   if (has(letter('S')) && flow_->repeat == nullptr && (used_ & bit(letter('S'))) == 0) {
     const Word* w = use(letter('S'));
     act(*w, Step::value, ir::SetSpindle{1, value(*w)});

@@ -2,6 +2,7 @@
 // words, another in millimetres and radius. The values are rescaled where the two differ.
 #include <algorithm>
 
+#include "base/text.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/words.h"
 
@@ -30,7 +31,9 @@ class MachineDataPass {
 
   void statement(Statement& s) {
     bool used = false;
-    each_expression(s, [&used](const ExprPtr& e) { used = used || datum_of(e) != nullptr; });
+    each_expression(s, [&used](const ExprPtr& e) {
+      walk(e, [&used](const ExprPtr& x) { used = used || datum_of(x) != nullptr; });
+    });
     const auto* a = std::get_if<Assign>(&s.node);
     used = used || (a != nullptr && std::any_of(a->items.begin(), a->items.end(), [](const Assign::Item& i) {
                       return i.to_system && is_length(i.system.datum);
@@ -40,13 +43,13 @@ class MachineDataPass {
     visit.expression = [&](const ExprPtr& e) {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* datum = datum_of(x);
-        return datum == nullptr ? x : times(x, factor(s, *datum));
+        return datum == nullptr ? one_factor(x) : times(x, factor(s, *datum));
       });
     };
     visit_statement(s, visit);
     if (auto* to = std::get_if<Assign>(&s.node)) {
       for (auto& i : to->items) {
-        if (i.to_system && is_length(i.system.datum)) i.value = times(i.value, 1 / factor(s, i.system));
+        if (i.to_system && is_length(i.system.datum)) i.value = times(i.value, factor(s, i.system).inverse());
       }
     }
   }
@@ -56,20 +59,50 @@ class MachineDataPass {
     const auto* ref = e ? std::get_if<SystemRef>(&e->node) : nullptr;
     return ref != nullptr && is_length(ref->datum) ? ref : nullptr;
   }
-  static ExprPtr times(const ExprPtr& e, double factor) {
-    if (factor == 1) return e;
-    if (const auto constant = constant_value(e)) return number(*constant * factor);
-    return binary(BinaryOp::multiply, e, number(factor));
+  /// `to` units of the target for `from` units of the source.
+  struct Ratio {
+    double to = 1, from = 1;
+    [[nodiscard]] double value() const { return to / from; }
+    [[nodiscard]] Ratio inverse() const { return {from, to}; }
+  };
+
+  /// A division where its number is the shorter one: 25.4 instead of 0.03937..
+  static ExprPtr times(const ExprPtr& e, const Ratio& ratio) {
+    if (ratio.value() == 1) return e;
+    if (const auto constant = constant_value(e)) return number(*constant * ratio.value());
+    const double divisor = ratio.inverse().value();
+    if (shortest(divisor).size() < shortest(ratio.value()).size()) return binary(BinaryOp::divide, e, number(divisor));
+    return binary(BinaryOp::multiply, e, number(ratio.value()));
+  }
+
+  /// x*25.4*1000 is x*25400, and x/2*1000/1000 is x/2: one factor behind a datum, where it can be said in short.
+  static ExprPtr one_factor(const ExprPtr& e) {
+    const auto* outer = std::get_if<Binary>(&e->node);
+    const auto* inner = outer != nullptr ? std::get_if<Binary>(&outer->left->node) : nullptr;
+    if (inner == nullptr || datum_of(inner->left) == nullptr) return e;
+    const auto a = ratio_of(*inner), b = ratio_of(*outer);
+    if (!a || !b) return e;
+    const Ratio both{a->to * b->to, a->from * b->from};
+    const ExprPtr one = times(inner->left, both);
+    const auto* left = std::get_if<Binary>(&one->node);
+    return left != nullptr && shortest(std::get<Number>(left->right->node).value).size() > 6 ? e : one;
+  }
+  static std::optional<Ratio> ratio_of(const Binary& b) {
+    const auto* n = std::get_if<Number>(&b.right->node);
+    if (n == nullptr || n->value == 0) return std::nullopt;
+    if (b.op == BinaryOp::multiply) return Ratio{n->value, 1};
+    if (b.op == BinaryOp::divide) return Ratio{1, n->value};
+    return std::nullopt;
   }
 
   /// What the source reads, in units of what the target reads.
-  double factor(const Statement& s, const SystemRef& ref) {
+  Ratio factor(const Statement& s, const SystemRef& ref) {
     const auto from = millimetres(s, ref, context_.source_machine), to = millimetres(s, ref, context_.target_machine);
-    if (from && to) return *to / *from;
+    if (from && to) return {*to, *from};
     context_.diagnostics.error("TRN-173", s.line.span,
                                "in which unit " + ref.text + " is read depends on the path that leads here",
                                "write the unit and the diameter or radius code before this block on every path");
-    return 1;
+    return {};
   }
 
   /// Millimetres (radius) of the value 1; nullopt: not known here.

@@ -65,6 +65,16 @@ bool mode_leaves(const Action& a, const Program& program, const Capabilities& ta
   return m->setting != Setting::distance || !target.distance_inside_block;
 }
 
+/// F and S beside a dwell are the dwell's own where it may be programmed in revolutions.
+bool apart_from_dwell(const std::vector<Action>& actions, const Action& next, const Capabilities& target) {
+  const auto dwells = [](const Action& a) { return std::holds_alternative<Dwell>(a.data); };
+  const auto speaks = [](const Action& a) {
+    return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+  };
+  return target.dwell_revolutions && ((dwells(next) && std::any_of(actions.begin(), actions.end(), speaks)) ||
+                                      (speaks(next) && std::any_of(actions.begin(), actions.end(), dwells)));
+}
+
 class Splitter {
  public:
   Splitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
@@ -150,6 +160,7 @@ class Splitter {
       pieces.push_back(std::move(s));
     };
     for (auto& a : actions) {
+      if (apart_from_dwell(block, a, editor_.target())) cut();
       if (own_block(a, editor_.target())) {
         cut();
         a.order = Order::before;
@@ -185,6 +196,7 @@ bool needs_split(const Block& block, const Program& program, const LegaliseConte
   for (const auto& a : block.actions) {
     ++others;
     if (own_block(a, context.target)) alone = true;
+    if (apart_from_dwell(block.actions, a, context.target)) return true;
     if (moving && mode_leaves(a, program, context.target)) return true;
     if (!makes_event(a)) continue;
     const bool theirs = is_after(target_order(a, context.target_machine));
