@@ -109,7 +109,10 @@ class Builder {
         skipped = own_skip;
       }
       mark(s.line, open);
-      if (skipped || own_skip) {
+      const auto* branch = own_skip ? std::get_if<ir::If>(&s.node) : nullptr;
+      if (branch != nullptr && !branch->one_line) {
+        without_condition(*branch);
+      } else if (skipped || own_skip) {
         add(Op::nothing);
       } else {
         fault_of(s.line, &s);
@@ -209,6 +212,20 @@ class Builder {
       land(branch);
       body(n.else_body);
       land(out);
+    }
+    mark_line(n.end_line);
+    add(Op::nothing);
+  }
+  /// The line of an IF is left out, the lines behind it are not: its body is carried out up to ELSE.
+  void without_condition(const ir::If& n) {
+    add(Op::nothing);
+    body(n.then_body);
+    if (n.has_else || !n.else_body.empty()) {
+      mark_line(n.else_line);
+      const bool line_skipped = (n.else_line.skip_mask & skip_mask_) != 0;
+      const auto out = line_skipped ? nowhere : add(Op::go);
+      body(n.else_body);
+      if (!line_skipped) land(out);
     }
     mark_line(n.end_line);
     add(Op::nothing);

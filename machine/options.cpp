@@ -11,6 +11,9 @@ constexpr std::array specs{
     // Read by the interpreter, whatever the control.
     OptionSpec{"arc.tangent_straight", "error|line", "error",
                "a tangent arc whose end lies straight ahead: refused, or the straight line there"},
+    OptionSpec{"block.m_functions", "number", "0", "M functions that a block takes; 0: no limit"},
+    OptionSpec{"block.machine_functions", "number", "0",
+               "functions of the machine among the M functions that a block takes; 0: no limit"},
     OptionSpec{"calls.local_levels", "number", "0",
                "levels of own local parameters that may be open at once; 0: no limit"},
     OptionSpec{"call.modal_words", "no|yes", "no",

@@ -449,10 +449,7 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   const auto extra = [&](std::string_view address, const ir::Value& v) {
     add(word(address, v, {}), Rank::motion_extra);
   };
-  const auto polar = [&](std::string_view address, const ir::Value& v) {
-    if (e.polar_mode == ir::WordMode::modal || address == "RP") return extra(address, v);
-    add(attribute_word(address, e.polar_mode == ir::WordMode::incremental ? "IC" : "AC", v, {}), Rank::motion_extra);
-  };
+  const auto polar = [&](std::string_view address, const ir::Value& v) { polar_word(e, address, v); };
   for (const ir::ComputedWord& w : e.computed) {
     const std::string address = "AX[" + expression_text(w.axis) + ']';
     const bool modal = w.mode == ir::WordMode::modal;

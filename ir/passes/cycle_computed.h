@@ -219,6 +219,7 @@ class ComputedHole {
     if (!usual) return;
     if (*usual == cycles::CycleStep::spindle_stop) return run_spindle(SpindleState::off);
     if (!sense_) fail("the sense of the spindle before the cycle is not known here");
+    if (sense_ == SpindleState::off && c_.kind != HoleKind::bore_shift) return;  // goes on standing
     run_spindle(sense_.value_or(SpindleState::cw));
   }
   void restore() {

@@ -349,10 +349,13 @@ class Writer {
           *error = "the sense of the spindle before the cycle is not known here";
           return false;
         }
+        if (*sense_ == SpindleState::off)  // a standing spindle goes on standing
+          return m.step == cycles::CycleStep::spindle_reverse || oriented_ ? spindle(SpindleState::off) : true;
         return spindle((*sense_ == SpindleState::cw) == (m.step == cycles::CycleStep::spindle_restore)
                            ? SpindleState::cw
                            : SpindleState::ccw);
       case cycles::CycleStep::spindle_orient:
+        oriented_ = true;
         blocks.push_back(make_block(like_, action(SpindleOrient{1, Value{m.amount}})));
         return true;
       case cycles::CycleStep::operator_stop:
@@ -424,7 +427,7 @@ class Writer {
   bool no_feed_ = false;
   std::optional<SpindleState> sense_;
   double du_ = 0, dv_ = 0;
-  bool changed_ = false;
+  bool changed_ = false, oriented_ = false;
 };
 
 }  // namespace

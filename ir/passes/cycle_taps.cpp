@@ -125,6 +125,15 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
   return forms;
 }
 
+void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const LegaliseContext& context) {
+  const auto* hole = std::get_if<HoleCycle>(&cycle.node);
+  if (hole == nullptr || !is_tap(*hole) || hole->spindle_before != SpindleStep::usual || hole->has_speed) return;
+  context.diagnostics.warning("TRN-402", where.span,
+                              "the spindle stands before this tap: whether the control starts it by itself, and in "
+                              "which sense, is not said for every control",
+                              "write M3 or M4 before the cycle");
+}
+
 SpindleSense::SpindleSense(const Program& program) {
   const auto turns_back = [this](const HoleCycle& c) {
     for (const SpindleStep s : {c.spindle_before, c.spindle_after}) only_cw_ = only_cw_ && s != SpindleStep::ccw;
@@ -148,14 +157,16 @@ SpindleSense::SpindleSense(const Program& program) {
 
 void SpindleSense::forget() {
   state_.reset();
+  stands_ = false;
 }
 
 void SpindleSense::follow(const Statement& s, bool straight) {
-  if (!straight) state_.reset();
+  if (!straight) forget();
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr) return;
   for (const auto& a : b->actions) {
     const auto* run = std::get_if<SpindleRun>(&a.data);
+    if (run != nullptr && run->number == 1) stands_ = run->state == SpindleState::off && s.line.skip_mask == 0;
     if (run != nullptr && run->number == 1)
       state_ = run->state == SpindleState::ccw ? SpindleState::ccw : SpindleState::cw;
     if (run != nullptr && s.line.skip_mask != 0) state_.reset();

@@ -7,6 +7,10 @@ namespace cnctrans::ir::passes {
 
 /// More calls in each other than the target takes.
 void check_call_limits(Program& program, const LegaliseContext& context);
+/// Statements that read machine data which the target lacks, where the translation goes on without them.
+void leave_out_refused_data(Program& program, const LegaliseContext& context);
+/// M functions that are too many for one block of the target, and two commands to one spindle.
+void split_crowded_blocks(Program& program, const LegaliseContext& context);
 /// Radius compensation that begins or ends with an arc; a G40 that ends nothing before an arc goes.
 void check_compensation_ends(Program& program, const LegaliseContext& context);
 /// Tools called by name get numbers where the target has no names.

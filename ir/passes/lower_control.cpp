@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/passes.h"
@@ -454,6 +455,7 @@ void lower_structures(Editor& editor, Body& body) {
 }
 
 void lower_control(Program& program, const LegaliseContext& context) {
+  leave_out_refused_data(program, context);
   for (auto& r : program.routines) {
     Editor editor(program, r, context);
     ComputedJumps(editor).run();

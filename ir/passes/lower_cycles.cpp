@@ -191,12 +191,12 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
     error = "cycles of this kind are not carried yet";
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
     moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
-                    active_->defined_at.value_or(height.value_or(1e6)), sense_.now(), &error);
+                    active_->defined_at.value_or(height.value_or(1e6)), sense_.or_off(), &error);
   if (!moves && error.empty()) {
     const auto initial = active_->defined_at ? active_->defined_at : height;
     bool downward = false;
-    moves = explode_computed(*hole, s.line, b, facts, feeds_.at(s, b, facts), initial, sense_.now(), editor_, &downward,
-                             &error);
+    moves = explode_computed(*hole, s.line, b, facts, feeds_.at(s, b, facts), initial, sense_.or_off(), editor_,
+                             &downward, &error);
     if (moves && downward)
       context_.diagnostics.warning("TRN-334", s.line.span,
                                    "the hole is taken to go downward: how deep it is only the run knows");
@@ -248,6 +248,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
   }
   if (refuse_unknown_plane(s, d.cycle, out)) return;
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
+  if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   a.from = s.id;
   lacking_ = lacking_ || (d.modal && !a.native);
   if (d.here) ran_ = a;

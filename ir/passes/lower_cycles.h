@@ -41,11 +41,18 @@ class SpindleSense {
   void follow(const Statement& s, bool straight);
   void forget();
   [[nodiscard]] std::optional<SpindleState> now() const { return only_cw_ ? SpindleState::cw : state_; }
+  /// The text has switched it off, and no other way leads here.
+  [[nodiscard]] bool stands() const { return stands_; }
+  /// As now(), and off where it stands.
+  [[nodiscard]] std::optional<SpindleState> or_off() const { return stands_ ? SpindleState::off : now(); }
 
  private:
   bool only_cw_ = true;
   std::optional<SpindleState> state_ = SpindleState::cw;
+  bool stands_ = false;
 };
+/// A tap that the spindle stands before: each control starts it, or does not, by itself.
+void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const LegaliseContext& context);
 /// The pattern that stands in the block; nullptr: none.
 const NamedCycle* pattern_in(const Block& b);
 /// The points of a pattern as blocks with a move each; empty and a text in `error`: it can't be said. `guessed`: set

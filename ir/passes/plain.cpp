@@ -112,7 +112,9 @@ bool plain_legal(const Block& block, const Capabilities& target, const machine::
   if (block.repeat_given != 0) return false;
   const bool moving = block.has_motion && block.motion.moves();
   if (block.has_motion && !plain_motion(block.motion, target)) return false;
+  std::size_t runs = 0;
   for (const auto& a : block.actions) {
+    if (std::holds_alternative<SpindleRun>(a.data) && ++runs > 1) return false;
     if (!std::visit(PlainAction{target, machine, block, a, moving}, a.data)) return false;
     if (target.own_block && (moving || block.actions.size() > 1) && target.own_block(a)) return false;
   }

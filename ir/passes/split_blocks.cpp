@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ir/passes/blocks.h"
+#include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 
@@ -221,6 +222,7 @@ void split_blocks(Program& program, const LegaliseContext& context) {
     }
     Splitter(editor, std::move(s)).put(out);
   });
+  split_crowded_blocks(program, context);
 }
 
 }  // namespace cnctrans::ir::passes
