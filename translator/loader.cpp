@@ -181,7 +181,8 @@ const std::vector<const ir::Program*>& Loader::definitions() {
         std::make_unique<ir::Program>(dialect_.frontend->read(source, files_.add(source), options, said, nullptr)));
     own_definitions_.back()->texts->hold(source);
     definitions_.push_back(own_definitions_.back().get());
-    for (const auto& d : as_warnings(said).all()) {  // what it means for a program is no concern of it
+    const Diagnostics warnings = as_warnings(said);
+    for (const auto& d : warnings.all()) {  // what it means for a program is no concern of it
       if (d.severity == Severity::warning) library_diagnostics_.add(d);
     }
   }
