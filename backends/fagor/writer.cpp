@@ -321,8 +321,21 @@ std::string Writer::argument_text(const ir::Argument& a) {
   return a.name + (constant ? "" : "=") + value;
 }
 
+/// `EXEC P12`: the source ran a program and not a subroutine (12.8), and that program is not written with this one.
+bool Writer::runs_program(const ir::CallRoutine& c, std::string_view keyword) const {
+  const bool plain = c.arguments.empty() && c.level == ir::CallLevel::shared;
+  if (!same_dialect() || !plain || (!c.computed && program().find(c.routine) != nullptr)) return false;
+  const std::string source = to_upper_ascii(source_line(current().line.span));
+  const auto at = source.find(keyword);
+  return at != std::string::npos && (at == 0 || std::isalpha(static_cast<unsigned char>(source[at - 1])) == 0);
+}
+
 /// `keyword` empty: CALL, or PCALL when the callee has a level of its own.
 std::string Writer::call_text(std::string_view keyword, const ir::CallRoutine& c) {
+  const std::string_view whole = keyword.empty() ? "EXEC" : "MEXEC";
+  if (runs_program(c, whole))
+    return std::string(whole) + " P" +
+           (c.computed ? '(' + expression_text(c.computed) + ')' : std::to_string(c.routine.number));
   const bool level = c.level == ir::CallLevel::new_level;
   std::string text(!keyword.empty() ? keyword : level ? "PCALL" : "CALL");
   text += ' ';
@@ -384,7 +397,8 @@ void Writer::return_from(const ir::Return& r) {
 }
 
 void Writer::end_program(const ir::End& e) {
-  if (e.returns_from_sub && routine().kind != ir::RoutineKind::main) return ProgramWriter::end_program(e);
+  if (e.returns_from_sub && routine().kind != ir::RoutineKind::main)
+    return same_dialect() ? statement_line("RET") : ProgramWriter::end_program(e);
   add(same_dialect() && !e.text.empty() ? std::string(e.text) : "M30", Rank::tail);
 }
 

@@ -95,6 +95,7 @@ class Writer : public ProgramWriter {
   [[nodiscard]] std::string argument_text(const ir::Argument& a);
   [[nodiscard]] std::string action_text(const ir::Body& body);
   [[nodiscard]] bool written_as_g_call(const ir::CallRoutine& c) const;
+  [[nodiscard]] bool runs_program(const ir::CallRoutine& c, std::string_view keyword) const;
   void plain_block(const ir::Block& b);
   [[nodiscard]] ir::Block on_surface(const ir::Block& b, ir::Surface surface) const;
   void g_call(const ir::CallRoutine& c);

@@ -242,6 +242,18 @@ void judge_depths(ir::Program& program, LowerState& state) {
   for (const auto& r : program.routines) ir::for_each_statement(r.body, check);
 }
 
+/// The IR names routines by their number: a program and a subroutine of one number can't be told apart.
+void judge_executed(const ir::Program& program, LowerState& state) {
+  for (const auto& [where, number] : state.facts.executed) {
+    const auto* routine = program.find({number, {}});
+    if (routine == nullptr || routine->kind != ir::RoutineKind::sub) continue;
+    state.set_line(where);
+    state.error("FAG-050", {},
+                "the program " + std::to_string(number) + " is run, and a subroutine of this file has the same number",
+                "give one of them another number");
+  }
+}
+
 /// G60 to G65 repeat the machining in force (25.4): an error where the file has none at all.
 void judge_patterns(const ir::Program& program, LowerState& state) {
   if (program.main() == nullptr || calls_outside(program)) return;
@@ -340,6 +352,7 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_text_uses(program, state);
   judge_depths(program, state);
   judge_surfaces(program, state);
+  judge_executed(program, state);
   judge_patterns(program, state);
   drop_inclined_ends(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.

@@ -53,12 +53,13 @@ struct FileFacts {
   Span first_table_shift, first_machine_move, first_axis_scale;
   Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;
-  std::map<std::uint32_t, ir::Surface> surface_lines;  ///< blocks read as coordinates of a face or cylinder, by line
-  bool surfaces = false;                               ///< G15 R, G16 XC
-  bool second_spindle = false;                         ///< G28
-  std::vector<TextUse> text_uses;                      ///< of the spindle and of the longitudinal axis
-  bool longitudinal = false;                           ///< G15 of the mill
-  std::set<std::string> machine_data;                  ///< variables reported as known to the machine only
+  std::map<std::uint32_t, ir::Surface> surface_lines;   ///< blocks read as coordinates of a face or cylinder, by line
+  bool surfaces = false;                                ///< G15 R, G16 XC
+  bool second_spindle = false;                          ///< G28
+  std::vector<std::pair<Span, std::int64_t>> executed;  ///< EXEC and MEXEC, with the number of the program
+  std::vector<TextUse> text_uses;                       ///< of the spindle and of the longitudinal axis
+  bool longitudinal = false;                            ///< G15 of the mill
+  std::set<std::string> machine_data;                   ///< variables reported as known to the machine only
 };
 
 class LowerState {

@@ -50,6 +50,7 @@ class StatementLowerer {
   Node jump(const syntax::Statement& s);
   Node repeat(const syntax::Statement& s);
   Node call(const syntax::Statement& s);
+  Node execute(const syntax::Statement& s);
   Node message(const syntax::Statement& s);
   Node error(const syntax::Statement& s);
   Node kept(const syntax::Statement& s, std::string_view feature, bool harmless);
@@ -204,6 +205,26 @@ Node StatementLowerer::call(const syntax::Statement& s) {
   return modal;
 }
 
+/// EXEC and MEXEC of a program in the memory: it runs as a subroutine does and comes back behind its end (12.8).
+Node StatementLowerer::execute(const syntax::Statement& s) {
+  constexpr double most = 999999;
+  if (s.args.size() != 1) return kept(s, facts::keeps, false);  // from a disk or a computer
+  const Expr& e = s.args[0];
+  ir::CallRoutine call;
+  if (e.kind != ExprKind::number) {
+    call.computed = lower_expr(e, state_);
+  } else {
+    if (!whole(e.number, most)) state_.error("FAG-013", e.pos, "a program has a number from 0 to 999999");
+    call.routine.number = saturate<std::int64_t>(e.number);
+    state_.facts.executed.emplace_back(state_.line(), call.routine.number);
+  }
+  if (s.keyword == "EXEC") return call;
+  ir::ModalCall modal;
+  modal.here = true;
+  modal.call = std::move(call);
+  return modal;
+}
+
 Node StatementLowerer::message(const syntax::Statement& s) {
   if (s.args.size() != 1 || s.args[0].kind != ExprKind::string) return malformed(s, "MSG needs one text in quotes");
   if (s.args[0].text.size() > static_cast<std::size_t>(facts::max_message)) {
@@ -235,6 +256,7 @@ Node StatementLowerer::lower(const syntax::Statement& s) {
   if (k == "GOTO") return jump(s);
   if (k == "RPT") return repeat(s);
   if (k == "CALL" || k == "LL" || k == "PCALL" || k == "MCALL") return call(s);
+  if (k == "EXEC" || k == "MEXEC") return execute(s);
   if (k == "MSG") return message(s);
   if (k == "ERREUR") {
     state_.note("FAG-039", s.pos, "ERREUR is how the French manual prints ERROR; the control knows ERROR only");

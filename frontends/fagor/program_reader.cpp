@@ -197,12 +197,12 @@ void ProgramReader::iso_block(std::string_view text) {
   } else if (result.end) {
     const std::string_view code = word_text(*result.end);
     if (b.empty()) {
-      s.node = ir::End{code, false};
+      s.node = ir::End{code, !state_.in_subroutine()};
     } else {
       ir::Statement end;
       end.line.span = state_.line();
       end.line.joined = true;
-      end.node = ir::End{code, false};
+      end.node = ir::End{code, !state_.in_subroutine()};
       add(std::move(s));
       s = std::move(end);
     }

@@ -22,8 +22,8 @@ TEST(FagorBlock, MotionAndTechnology) {
 
 TEST(FagorBlock, OrderInTheBlock) {  // 5.7: M5, M0, M1, M30 after the motion, M3 before it
   EXPECT_EQ(line("X1 M5 M8"), "block coolant flood as \"M8\", modal X 1, spindle_run off after as \"M5\"");
-  EXPECT_EQ(line("X1 M30"), "block modal X 1\n& end_program as \"M30\"");
-  EXPECT_EQ(line("M30"), "end_program as \"M30\"");
+  EXPECT_EQ(line("X1 M30"), "block modal X 1\n& end_program returns_from_sub as \"M30\"");
+  EXPECT_EQ(line("M30"), "end_program returns_from_sub as \"M30\"");
   EXPECT_EQ(line("M155"), "block machine_function 155 as \"M155\"");
 }
 

@@ -38,7 +38,7 @@ TEST(FagorProgram, LocalSubroutines) {  // 2.2: before the line that starts the 
   EXPECT_EQ(r.codes(), "");
   EXPECT_EQ(r.program.routines[1].name.number, 10);
   EXPECT_EQ(r.program.routines[1].locality, ir::Locality::file_local);
-  EXPECT_EQ(r.statements(0), (std::vector<std::string>{"call 10", "end_program as \"M30\""}));
+  EXPECT_EQ(r.statements(0), (std::vector<std::string>{"call 10", "end_program returns_from_sub as \"M30\""}));
   EXPECT_EQ(r.statements(1), (std::vector<std::string>{"block modal X 1", "return as \"RET\""}));
   EXPECT_EQ(read("(LSUB 10)\nX1\n(RET)\nX5\n").codes(), "FAG-025 FAG-032");
 }
@@ -83,7 +83,10 @@ TEST(FagorProgram, Flow) {
   EXPECT_EQ(line("(MDOFF)"), "modal_call off");
   EXPECT_EQ(read("(P1=1) N3").codes(), "FAG-016");
   EXPECT_EQ(read("NP1 X5").codes(), "FAG-015") << "a label is no parameter";
-  EXPECT_EQ(read("(EXEC P12)").codes(), "FAG-022");
+  EXPECT_EQ(line("(EXEC P12)"), "call 12");
+  EXPECT_EQ(line("(EXEC P(P1+1))"), "call unnamed computed P[1] + 1");
+  EXPECT_EQ(read("(EXEC P12,HD)").codes(), "FAG-022");
+  EXPECT_EQ(read("(EXEC P12)\nM30\n(SUB 12)\n(RET)").codes(), "FAG-050");
   EXPECT_EQ(read("(WRITE G1 X5)").codes(), "FAG-023");
 }
 
@@ -150,7 +153,7 @@ TEST(FagorStream, SameAsWholeFile) {
     std::string t = ir::to_text(s, stream->frame());
     while (!t.empty() && t.back() == '\n') t.pop_back();
     got.push_back(t);
-    if (kind == frontends::StreamLine::program_end) got.push_back("& end_program as \"M30\"");
+    if (kind == frontends::StreamLine::program_end) got.push_back("& end_program returns_from_sub as \"M30\"");
   }
   EXPECT_EQ(got, whole.statements(0));
   EXPECT_EQ(stream->frame().routines.at(0).title, "PART");
