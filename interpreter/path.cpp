@@ -129,7 +129,8 @@ bool BlockMachine::join(Move& next) {
   }
   if (f.none) {
     release_pending();
-    return true;
+    if (p.modal || p.tangential || profile_.option("corner.straight_on") != "refused") return true;
+    return failure_.fail(code::corner_fit, "a corner function between two elements that meet without a corner");
   }
   const auto plane = ir::plane_axes(next.plane);
   Move first = p.move, corner = p.move;

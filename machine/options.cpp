@@ -25,6 +25,9 @@ constexpr std::array specs{
     OptionSpec{"call.saves_modals", "no|yes", "no", "a subprogram can give its caller the modal state back (SAVE)"},
     OptionSpec{"comp.rapid", "kept|suspended", "kept",
                "a rapid move while radius compensation is on: compensated, or carried out without it"},
+    OptionSpec{"corner.straight_on", "left_out|refused", "left_out",
+               "a corner function of a block between two elements that meet without a corner: nothing is inserted, or "
+               "an error"},
     OptionSpec{"cycle.axis_word", "moves|refused", "moves",
                "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
