@@ -30,6 +30,8 @@ constexpr std::array specs{
                "an error"},
     OptionSpec{"cycle.axis_word", "moves|refused", "moves",
                "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
+    OptionSpec{"cycle.levels", "as_written|by_mode", "as_written",
+               "levels of a cycle in a block under increments: each says what it is, or all follow the mode"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
     OptionSpec{

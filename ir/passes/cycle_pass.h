@@ -446,6 +446,8 @@ class CyclePass {
   bool call_with_cycle(CallRoutine& call, const LineInfo& where, const Facts& facts);
   void check_words(const Statement& s);
 
+  /// Absolute levels that the target would take for increments in this block.
+  [[nodiscard]] bool levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const;
   /// A point on a target that defines the cycle in the block of its first point.
   void native_point(Statement&& s, Body&& pieces, Body& out);
   void plain(Statement&& s, Body&& pieces, Body& out);

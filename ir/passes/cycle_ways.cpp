@@ -85,6 +85,15 @@ void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& p
   if (feed && !own) b.actions.push_back(*feed);
 }
 
+bool CyclePass::levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const {
+  const auto* hole = std::get_if<HoleCycle>(&native->node);
+  if (hole == nullptr || context_.target_machine.option("cycle.levels") != "by_mode" ||
+      setting_in<Distance>(b, facts, Setting::distance) != Distance::incremental)
+    return false;
+  const auto absolute = [](const Level& l) { return l.given && l.base == LevelBase::absolute; };
+  return absolute(hole->reference) || absolute(hole->bottom) || absolute(hole->retract);
+}
+
 void CyclePass::turn(const Block& b, const Facts& facts, const LineInfo& like, Body& pieces) {
   if (active_->trigger != CycleTrigger::path_motion) return;
   const auto now = tool_axis(active_->source, b, facts);

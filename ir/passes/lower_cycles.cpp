@@ -72,6 +72,17 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   native_point(std::move(s), std::move(pieces), out);
 }
 
+static Action distance_set(Distance d) {
+  return action(ModalSet{Setting::distance, static_cast<std::uint8_t>(d)});
+}
+/// The cycle where the tool stands, in a block that is absolute.
+static Statement under_absolute(const LineInfo& like, const CyclePtr& cycle, bool modal) {
+  Statement run = make_block(like, distance_set(Distance::absolute));
+  auto& b = std::get<Block>(run.node);
+  b.actions.push_back(action(CycleDefine{cycle, modal, true, CycleTrigger::plane_axis_word}));
+  return run;
+}
+
 void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
@@ -109,6 +120,19 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   const bool maybe_on = active_->maybe_on_target && !active_->on_target;
   if (maybe_on) pieces.push_back(off_statement(like, false));  // else the way to the point would run it
   active_->maybe_on_target = false;
+  const bool apart = levels_by_mode(active_->native, b, facts);  // the move first, then the cycle with its levels
+  if (as_is && apart) {
+    position_rapid(b, context_);
+    late_ = take_after(b);
+    const std::size_t main = pieces.size();
+    pieces.push_back(std::move(s));
+    pieces.push_back(under_absolute(like, active_->native, true));
+    feed_for_tap(std::get<Block>(pieces.back().node), *active_);
+    pieces.push_back(make_block(like, distance_set(Distance::incremental)));
+    active_->on_target = active_->was_on_target = true;
+    active_->defined_in = pieces[main].id;
+    return put_group(out, std::move(pieces), main);
+  }
   if (as_is) {
     if (comes_in_two_moves(active_->native, context_)) position_rapid(b, context_);
     feed_for_tap(b, *active_);
@@ -127,7 +151,8 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   late_ = take_after(b);
   const std::size_t main = pieces.size();
   pieces.push_back(std::move(s));
-  pieces.push_back(single_run(like, active_->native));
+  pieces.push_back(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native));
+  if (apart) pieces.push_back(make_block(like, distance_set(Distance::incremental)));
   put_group(out, std::move(pieces), main);
 }
 
@@ -307,6 +332,10 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
       pieces.push_back(made(s.line, *std::move(code)));
     }
     feed_for_tap(b, a);
+    if (!d.modal && !(b.has_motion && b.motion.moves()) && levels_by_mode(a.native, b, facts)) {
+      b.actions.push_back(distance_set(Distance::absolute));
+      late_.push_back(distance_set(Distance::incremental));
+    }
     b.actions.push_back(action(native));
     if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) late_.push_back(*feed);
     if (leave) {
