@@ -176,6 +176,13 @@ std::optional<ir::SystemRef> system_variable(const Expr& e, LowerState& state, b
   ref.axis = axis != ir::axis::none ? axis : tool_axis(info->name);
   arguments(e, state, ref);
   if (ref.datum == Datum::other) note_machine_datum(e, state);
+  if (!written && info->stops_preparation && state.comp_by_text != ir::CompSide::off) {  // 13.6
+    state.warning("FAG-028", e.pos,
+                  "reading " + e.text +
+                      " under radius compensation stops the look-ahead: the control drops the compensation at this "
+                      "point and takes it up again",
+                  "read it before G41 or G42, or check the contour around it");
+  }
   return ref;
 }
 

@@ -263,6 +263,20 @@ std::optional<Orientation> orientation(const TurnProfile& profile, const TurnCon
   return o;
 }
 
+/// The blank up to the ends of the part: where the two profiles begin or end apart, what lies below the blank's own
+/// first (last) point reaches to the straight line between both.
+Chain closed_blank(const TurnProfile& profile, const Orientation& o) {
+  if (profile.blank.empty()) return {};
+  std::vector<ProfileElement> lines = profile.blank;
+  const TurnPoint first = lines.front().from, last = lines.back().to;
+  TurnPoint head = profile.part.front().from, tail = profile.part.back().to;
+  const auto far = [](TurnPoint u, TurnPoint v) { return std::hypot(u.x - v.x, u.z - v.z); };
+  if (far(first, tail) + far(last, head) < far(first, head) + far(last, tail)) std::swap(head, tail);
+  if (far(head, first) > tiny) lines.insert(lines.begin(), {head, first, false, false, {}});
+  if (far(last, tail) > tiny) lines.push_back({last, tail, false, false, {}});
+  return split(chain_of(lines, o));
+}
+
 /// Back from the end of a pass in one rapid, unless the way would cross the profile.
 bool clear_way(const Chain& pass, RolePoint home) {
   const RolePoint end = pass.back().b;
@@ -328,7 +342,7 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
     if (r.number("section") != 0) return *error = "roughing in sections is not carried out", false;
     std::vector<Valley> valleys;
     const Chain outline = bridged(target, valleys);
-    work.passes(outline, split(chain_of(context.profile->blank, *o)));
+    work.passes(outline, closed_blank(*context.profile, *o));
     for (const auto& v : valleys) work.valley(v.chain, v.chain.front().a.p, false);
     if (!valleys.empty()) work.rapid({work.start().p, work.here().q});
     work.rapid(work.start());

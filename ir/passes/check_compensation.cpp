@@ -88,25 +88,41 @@ void check_compensation(Program& program, const LegaliseContext& context) {
   if (source == target || !program_compensates(program, context.source_machine)) return;
   const FactsOf facts(program, context);
   const bool suspends = source == "suspended";
+  const auto warn = [&](const Statement& s, bool known) {
+    context.diagnostics.warning("TRN-144", word_span(s.line.span, std::get<Block>(s.node).motion.code_pos),
+                                std::string("a rapid move while radius compensation is ") +
+                                    (known ? "on" : "on, on some way that leads here (said once a routine)") +
+                                    (suspends ? ": the source suspends it for this move, the target keeps it"
+                                              : ": the source keeps it, the target suspends it for this move") +
+                                    "; the centre of the tool differs by up to the tool radius",
+                                "end the compensation before this move and start it again after it");
+  };
+  const Block none;
   for (const auto& r : program.routines) {
-    bool unsure = false;  // once a routine: what is not known stays so from block to block
+    bool unsure = false;              // once a routine: what is not known stays so from block to block
+    const Statement* lift = nullptr;  // a rapid beside the plane; it counts where the contour goes on behind it
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr || !b->has_motion || b->motion.frame != FrameUse::normal) return;
+      if (b == nullptr) return;
       const Facts& before = facts.before(s);
-      if (!before.reachable || motion_in(*b, before).value_or(MotionKind::rapid) != MotionKind::rapid) return;
+      if (!before.reachable) return;
       const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
+      if (now == CompSide::off) lift = nullptr;
+      if (!b->has_motion || b->motion.frame != FrameUse::normal) return;
+      const bool plane = moves_in_plane(*b, before);
+      if (plane && lift != nullptr) warn(*std::exchange(lift, nullptr), true);
+      if (motion_in(*b, before).value_or(MotionKind::rapid) != MotionKind::rapid) return;
       if (!side && context.diagnostics.error_count() != 0) return;  // a block before it is refused
-      if (side == CompSide::off || now == CompSide::off || !moves_in_plane(*b, before)) return;
+      if (side == CompSide::off || now == CompSide::off) return;
+      if (!plane) {
+        const bool cuts = motion_in(none, before).value_or(MotionKind::linear) != MotionKind::rapid;
+        if (side && cuts && b->motion.moves() && lift == nullptr) lift = &s;
+        return;
+      }
       if (!side && std::exchange(unsure, true)) return;
-      context.diagnostics.warning("TRN-144", word_span(s.line.span, b->motion.code_pos),
-                                  std::string("a rapid move while radius compensation is ") +
-                                      (side ? "on" : "on, on some way that leads here (said once a routine)") +
-                                      (suspends ? ": the source suspends it for this move, the target keeps it"
-                                                : ": the source keeps it, the target suspends it for this move") +
-                                      "; the centre of the tool differs by up to the tool radius",
-                                  "end the compensation before this move and start it again after it");
+      warn(s, side.has_value());
     });
+    if (lift != nullptr && &r != program.main()) warn(*lift, true);  // the caller goes on
   }
 }
 

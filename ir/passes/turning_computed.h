@@ -76,6 +76,7 @@ class ComputedTurn {
   bool groove();
   void feed_at(const Spot& to, const Value& f);
   void withdraw_along(const Value& now, const Value& then, const Value& height, const Value& there, const Spot& last);
+  Value slope_of(const Value& rise, const Value& way);
   bool straight();
 
   const NamedCycle& cycle_;

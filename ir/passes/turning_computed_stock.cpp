@@ -23,6 +23,16 @@ void ComputedTurn::feed_at(const Spot& to, const Value& f) {
   std::get<Block>(body_->back().node).actions.push_back(action(SetFeed{f, false}));
 }
 
+/// rise / way; 0 where the way is none, so that the target never divides by 0: no height lies between the ends then.
+Value ComputedTurn::slope_of(const Value& rise, const Value& way) {
+  if (way.literal()) return kept(quotient(rise, way));
+  const Value run = kept(way), length = magnitude(run);
+  const auto slope = variable_of(Value(0.0));
+  if (!slope) return Value(0.0);
+  when(more(length, Value(least_rest / unit_)), *slope, quotient(rise, run));
+  return Value(variable(*slope));
+}
+
 /// Equal passes from the place of the call: straight_or_arc() in ir/cycles/turning.cpp.
 bool ComputedTurn::straight() {
   const bool across = p_.axis == axis::x;
@@ -46,7 +56,7 @@ bool ComputedTurn::straight() {
   const Value count(variable(*n));
   when(binary(BinaryOp::lt, count.expr, number(1)), *n, Value(1.0));
   Value slope;
-  if (!even) slope = kept(quotient(subtract(last_q, first_q), subtract(last_p, first_p)));
+  if (!even) slope = slope_of(subtract(last_q, first_q), subtract(last_p, first_p));
   const bool follows = !has("withdrawal");
   const auto k = variable_of(Value(1.0)), level = variable_of(from_p);
   const auto before = follows ? variable_of(from_p) : std::nullopt;
