@@ -71,9 +71,18 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   std::optional<ir::cycles::HoleNumbers> numbers;
   ir::AxisId axis = ir::axis::z;
   if (!resolve_cycle(c.cycle, numbers, axis)) return false;
+  const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
+  const auto* own = profile_.axis(axis);
+  // Where the tool stands before the program has moved it is the machine's affair.
+  const bool placed = own != nullptr && std::abs(path_event_.to.value[axis] - own->start) > 1e-9;
+  if (placed && hole != nullptr && !hole->keeps_initial && numbers &&
+      profile_.option("cycle.below_reference") == "refused" && p_[axis] < numbers->reference - 1e-9 &&
+      p_[axis] > numbers->bottom + 1e-9) {
+    return failure_.fail(code::bad_cycle,
+                         "the tool stands between the reference plane and the depth where the cycle is called");
+  }
   hole_ = numbers;
   hole_axis_ = axis;
-  const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
   hole_follows_plane_ = c.trigger == ir::CycleTrigger::path_motion && hole != nullptr && hole->axis == ir::axis::none;
   trigger_ = c.trigger;
   once_ = !c.modal;

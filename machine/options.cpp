@@ -32,6 +32,8 @@ constexpr std::array specs{
                "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
     OptionSpec{"cycle.levels", "as_written|by_mode", "as_written",
                "levels of a cycle in a block under increments: each says what it is, or all follow the mode"},
+    OptionSpec{"cycle.below_reference", "passes|refused", "passes",
+               "a hole cycle called while the tool stands between its reference plane and its depth"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
     OptionSpec{
