@@ -90,7 +90,6 @@ class PolePass {
     radius_.reset();
     angle_.reset();
   }
-
   void walk(Body& body) {
     for (auto& s : body) {
       for (const auto& l : labels_on(s.line)) {
@@ -178,8 +177,9 @@ class PolePass {
   /// The point of the polar words over a block without such words: moves along other axes leave it where it is.
   void follow_point(const Block& b, const Facts& facts) {
     const bool moved_zero = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* d = std::get_if<CycleDefine>(&a.data);
       return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
-             std::holds_alternative<CycleDefine>(a.data);
+             (d != nullptr && !leaves_point(*d));
     });
     if (moved_zero) return forget_point();
     if (!b.has_motion || !b.motion.moves()) return;

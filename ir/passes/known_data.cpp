@@ -29,7 +29,7 @@ class KnownData {
     if (used) {
       StatementVisitor visit;
       visit.expression = [&](const ExprPtr& e) {
-        return map_expr(e, [&](const ExprPtr& x) { return foreign(x) ? read(s, x) : x; });
+        return map_expr(e, [&](const ExprPtr& x) { return foreign(x) ? read(s, x) : folded(x); });
       };
       visit_statement(s, visit);
     }
@@ -45,6 +45,16 @@ class KnownData {
   [[nodiscard]] bool foreign(const ExprPtr& e) const {
     const auto* ref = datum_in(e);
     return ref != nullptr && !sayable(*ref);
+  }
+
+  /// A sum or product of numbers, one of which was read as a number.
+  static ExprPtr folded(const ExprPtr& e) {
+    const auto* b = std::get_if<Binary>(&e->node);
+    if (b == nullptr || (b->op != BinaryOp::add && b->op != BinaryOp::multiply)) return e;
+    const auto* left = as_number(b->left);
+    const auto* right = as_number(b->right);
+    if (left == nullptr || right == nullptr) return e;
+    return number(b->op == BinaryOp::add ? left->value + right->value : left->value * right->value);
   }
 
   /// DIAM=1 says what the code says.

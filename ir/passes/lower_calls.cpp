@@ -71,7 +71,29 @@ void declare_at_top(Routine& routine, Type type, SpaceId space, const std::vecto
   routine.body.insert(below_head(routine.body), std::move(s));
 }
 
+namespace {
+
+/// A part of the routine itself that is called is a repetition of it.
+void repeat_own_parts(Program& program) {
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      const auto* c = std::get_if<CallRoutine>(&s.node);
+      if (c == nullptr || !c->has_range || c->computed || c->tail || !c->arguments.empty() ||
+          program.find(c->routine) != &r)
+        return;
+      Repeat part;
+      part.first = c->first;
+      part.last = c->last;
+      part.count = c->count;
+      s.node = std::move(part);
+    });
+  }
+}
+
+}  // namespace
+
 void lower_calls(Program& program, const LegaliseContext& context) {
+  if (program.dialect != context.target.dialect && context.target.repeat_range) repeat_own_parts(program);
   number_statements(program);
   const CallGraph calls(program);
   const auto& spaces = context.target.spaces;

@@ -82,8 +82,31 @@ class RepeatPass {
       refused(s, "TRN-197", "the repeated part has no last block that could get a label",
               "put a label on its last block");
     }
-    if (auto* kept = std::get_if<Repeat>(&s.node)) check_count(s, kept->count);
+    if (std::holds_alternative<Repeat>(s.node)) return put_counted<Repeat>(std::move(s), out);
     out.push_back(std::move(s));
+  }
+
+  /// A repetition or a call with its count; several where the count is beyond the target's.
+  template <class Node>
+  void put_counted(Statement&& s, Body& out) {
+    auto& node = std::get<Node>(s.node);
+    const auto n = constant_value(node.count);
+    const auto most = static_cast<double>(target_.repeat_max);
+    constexpr double most_statements = 10;
+    if (!node.count || !n || *n <= most || *n > most_statements * most || s.line.joined) {
+      check_count(s, node.count);
+      return out.push_back(std::move(s));
+    }
+    const LineInfo like = s.line;
+    const Node whole = node;
+    node.count = number(most);
+    Body pieces{std::move(s)};
+    for (double left = *n - most; left > 0; left -= most) {
+      Node further = whole;
+      further.count = number(std::min(left, most));
+      pieces.push_back(made(like, std::move(further)));
+    }
+    editor_.put_group(out, std::move(pieces), 0);
   }
 
   /// The part ends just before the statement: the block there gets a label.
@@ -135,9 +158,7 @@ class RepeatPass {
       return;
     }
     if (!c.count || target_.call_count) {
-      check_count(s, c.count);
-      out.push_back(std::move(s));
-      return;
+      return put_counted<CallRoutine>(std::move(s), out);
     }
     const ExprPtr count = std::exchange(c.count, nullptr);
     const auto n = constant_value(count);
@@ -222,7 +243,9 @@ class RepeatPass {
       out.push_back(std::move(s));
       return;
     }
-    constexpr double most_copies = 5;
+    // Each point about a pole follows from the one before: in a loop it would be no number.
+    const bool polar = b.motion.extra && (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
+    const double most_copies = polar ? 72 : 5;
     if (n > most_copies) return counted(std::move(s), number(n), out);
     const LineInfo like = s.line;
     const Block copy = b;

@@ -39,6 +39,11 @@ std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start
 struct ArcPoints {
   Point2 start, end, centre;
 };
+/// A hole along the normal of the plane leaves the tool over its point.
+inline bool leaves_point(const CycleDefine& d) {
+  const auto* hole = d.cycle ? std::get_if<HoleCycle>(&d.cycle->node) : nullptr;
+  return hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
+}
 /// The full turns of a helix as its travel per turn; nothing happens where the travel along `normal` or the sense is
 /// not known.
 void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId normal, const ArcPoints& arc,
