@@ -160,7 +160,7 @@ bool BlockMachine::finish() {
   const bool fault = !pending_->modal;
   release_pending();
   if (!fault) return true;
-  return failure_.fail(code::corner_alone, "the program ends before the element that should follow the corner");
+  return without_corner("the program ends before the element that should follow the corner");
 }
 
 void BlockMachine::end_event(EndReason reason, const Failure& failure, const Span& where) {

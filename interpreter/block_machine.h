@@ -71,7 +71,7 @@ class BlockMachine final : public SystemData {
   /// Contours that several points fit were settled by the nearest one, here.
   [[nodiscard]] const std::vector<Span>& chosen_contours() const { return chosen_contours_; }
   /// The makers' manuals leave the way of splines between their points open: said once, at the first one.
-  void tell_curves(Diagnostics& diagnostics) const;
+  void tell_path(Diagnostics& diagnostics) const;
   /// The next spline block stands at its first point (a curve with a definition of its own); the curve ends.
   void begin_defined_curve() { curve_from_first_point_ = true; }
   bool end_defined_curve();
@@ -284,6 +284,7 @@ class BlockMachine final : public SystemData {
   bool emit_move(const Move& move, bool past_held);
   void add_travel(const Axes& from, const Event& e);
   bool join(Move& next);
+  bool without_corner(const std::string& why);
   bool corner_between(const Pending& p, const Element& a, const Element& b, Fillet& f, std::string& error);
   bool hold_if_corner(const Move& move);
   bool emit_joint(const Move& first, const Move& corner);
@@ -373,6 +374,7 @@ class BlockMachine final : public SystemData {
   double curve_tolerance_ = 0.001;
   std::vector<ir::AxisId> spline_axes_;  ///< empty: the first three
   std::vector<Span> curves_assumed_;
+  std::vector<std::pair<Span, std::string>> corners_left_out_;  ///< with the reason
 
   // per block
   std::optional<Pending> block_corner_;

@@ -23,7 +23,7 @@ struct BlockRunner::State {
     if (ended) return;
     ended = true;
     if (reason == EndReason::program_end && !machine.finish()) reason = EndReason::error;
-    machine.tell_curves(diagnostics);
+    machine.tell_path(diagnostics);
     result.reason = reason;
     if (reason == EndReason::error) {
       result.error_code = failure.code;

@@ -30,7 +30,9 @@ bool apart(const ir::curves::Point& a, const ir::curves::Point& b) {
 
 }  // namespace
 
-void BlockMachine::tell_curves(Diagnostics& diagnostics) const {
+void BlockMachine::tell_path(Diagnostics& diagnostics) const {
+  for (const auto& [where, why] : corners_left_out_)
+    diagnostics.warning(code::corner_left_out, where, why + ": the corner is left out, as the control does");
   if (curves_assumed_.empty()) return;
   diagnostics.warning(
       code::curve_assumed, curves_assumed_.front(),

@@ -145,7 +145,7 @@ bool BlockMachine::turn_hole() {
 bool BlockMachine::run_cycle() {
   if (pending_) {
     release_pending();
-    return failure_.fail(code::corner_alone, "a cycle follows a corner function");
+    if (!without_corner("a cycle follows a corner function")) return false;
   }
   if (hole_follows_plane_ && !turn_hole()) return false;
   if (hole_->kind == ir::HoleKind::mill) return run_milling();

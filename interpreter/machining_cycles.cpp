@@ -57,7 +57,7 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   if (cycle == nullptr) return failure_.fail(code::not_carried, "the cycle " + c.name + " is not carried out yet");
   if (pending_) {
     release_pending();
-    return failure_.fail(code::corner_alone, "a cycle follows a corner function");
+    if (!without_corner("a cycle follows a corner function")) return false;
   }
   if (!check_axis(ir::axis::x) || !check_axis(ir::axis::z)) return false;
   ir::cycles::TurnNumbers numbers;

@@ -78,8 +78,7 @@ void BlockMachine::arrived(const Move& move) {
 bool BlockMachine::hold_if_corner(const Move& move) {
   if (!block_corner_ && (modal_corner_ <= 0 || !is_contour(move))) return false;
   if (!in_plane(move)) {
-    if (!block_corner_) return false;
-    failure_.fail(code::corner_alone, "a corner function needs a move in the plane");
+    if (block_corner_ && without_corner("a corner function needs a move in the plane")) block_corner_.reset();
     return false;
   }
   if (block_corner_) {
@@ -105,6 +104,16 @@ void BlockMachine::release_pending() {
   emitter_.release();
 }
 
+/// A corner function that finds no second element. False: a fault.
+bool BlockMachine::without_corner(const std::string& why) {
+  if (profile_.option("corner.without_successor") != "left_out") return failure_.fail(code::corner_alone, why);
+  const auto& where = failure_.where;
+  const auto same = [&](const auto& c) { return c.first == where; };
+  if (std::none_of(corners_left_out_.begin(), corners_left_out_.end(), same))
+    corners_left_out_.emplace_back(where, why);
+  return true;
+}
+
 /// The waiting move meets its successor: both are cut back and the corner goes between them.
 bool BlockMachine::join(Move& next) {
   if (next.kind != Move::Kind::arc && next.from == next.to) return true;
@@ -118,14 +127,15 @@ bool BlockMachine::join(Move& next) {
   if (next.kind == Move::Kind::thread || !in_plane(next) || p.frame_serial != frame_serial_ ||
       p.move.plane != next.plane) {
     release_pending();
-    return failure_.fail(code::corner_alone, "what follows the corner is no move in the same plane and frame");
+    return without_corner("what follows the corner is no move in the same plane and frame");
   }
   const Element a = element_of(p.move), b = element_of(next);
   Fillet f;
   std::string error;
   if (!corner_between(p, a, b, f, error)) {
     release_pending();
-    return failure_.fail(code::corner_fit, error);
+    const bool back = p.modal && ir::geometry::interior_angle(a, b) < 1e-4;
+    return back ? without_corner(error) : failure_.fail(code::corner_fit, error);
   }
   if (f.none) {
     release_pending();
@@ -172,7 +182,8 @@ bool BlockMachine::corner_between(const Pending& p, const Element& a, const Elem
     const double s = sin_degrees(interior_angle(a, b) / 2);
     if (s > 0) leg = p.size / (2 * s);
   }
-  return chamfer(a, b, leg, f, error);
+  const bool at_arc = (a.arc || b.arc) && profile_.option("corner.chamfer_at_arc") == "yes";
+  return at_arc ? ir::geometry::chamfer_along(a, b, leg, f, error) : chamfer(a, b, leg, f, error);
 }
 
 /// The way that each axis goes; on an arc to its outermost points and back.

@@ -66,7 +66,7 @@ Result Runner::run() {
                          "several contours fit the data of these elements; the one nearest to its start was run",
                          "say which point is meant (E+ or E-)");
   }
-  machine_.tell_curves(diagnostics_);
+  machine_.tell_path(diagnostics_);
   for (const auto& datum : machine_.assumed()) {
     diagnostics_.warning(code::data_at_rest, datum.where,
                          "the value of " + datum.name + " is known to the machine only; " + shortest(datum.value) +

@@ -220,6 +220,31 @@ bool fillet(const Element& a, const Element& b, double radius, Fillet& out, std:
   return nearest >= 0;
 }
 
+namespace {
+/// The point `way` along the element from its start, or before its end.
+Vec point_along(const Element& e, double way, bool from_end) {
+  const Vec p = from_end ? e.b : e.a;
+  if (!e.arc) return from_end ? p - way * e.end_direction() : p + way * e.start_direction();
+  const double radius = length(p - e.c);
+  if (radius < same_point) return p;
+  return turned(p, e.c, (e.ccw == from_end ? -1 : 1) * way / radius * degrees);
+}
+double way_of(const Element& e) {
+  if (!e.arc) return length(e.b - e.a);
+  return swept_angle(e.a, e.b, e.c, e.ccw) / degrees * length(e.a - e.c);
+}
+}  // namespace
+
+bool chamfer_along(const Element& a, const Element& b, double leg, Fillet& out, std::string& error) {
+  out.none = interior_angle(a, b) > 180 - 1e-4;
+  if (out.none) return true;
+  out.from = point_along(a, leg, true);
+  out.to = point_along(b, leg, false);
+  if (leg < way_of(a) + same_point && leg < way_of(b) + same_point) return true;
+  error = "a chamfer of " + mm(leg) + " is longer than one of the two elements";
+  return false;
+}
+
 bool chamfer(const Element& a, const Element& b, double leg, Fillet& out, std::string& error) {
   if (a.arc || b.arc) {
     error = "a chamfer needs two straight lines";

@@ -57,6 +57,8 @@ struct Fillet {
 bool fillet(const Element& a, const Element& b, double radius, Fillet& out, std::string& error);
 /// Cuts both lines back by `leg`.
 bool chamfer(const Element& a, const Element& b, double leg, Fillet& out, std::string& error);
+/// As chamfer(), also at arcs: `leg` is cut off each element along the element, and the points are joined by a line.
+bool chamfer_along(const Element& a, const Element& b, double leg, Fillet& out, std::string& error);
 /// Angle between the elements inside the corner, degrees (180: no corner).
 double interior_angle(const Element& a, const Element& b);
 /// The straight line a is led into a circle of `radius` that touches b at its start: line a.a -> out.from, arc out.from

@@ -22,6 +22,9 @@ constexpr std::array specs{
         "call.uncalled_state", "when_needed|unknown|power_on", "when_needed",
         "what a subprogram that nothing at hand calls starts with in a translation: nothing is known, or the state "
         "of power-on; when_needed: that state where the program would be refused without it"},
+    OptionSpec{"corner.chamfer_at_arc", "no|yes", "no", "a chamfer at an arc: cut off along the elements, or refused"},
+    OptionSpec{"corner.without_successor", "error|left_out", "error",
+               "a corner function that no second element in the plane follows: refused, or left out with a warning"},
     OptionSpec{"call.saves_modals", "no|yes", "no", "a subprogram can give its caller the modal state back (SAVE)"},
     OptionSpec{"comp.rapid", "kept|suspended", "kept",
                "a rapid move while radius compensation is on: compensated, or carried out without it"},

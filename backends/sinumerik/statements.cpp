@@ -4,6 +4,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/computed.h"
+#include "ir/contour.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -359,6 +360,14 @@ void Writer::message(const ir::Message& m) {
     next_line();
     add(word, Rank::head);
   }
+}
+
+/// A line by ANG= alone needs no further word: the control finds its end with the next block.
+void Writer::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {
+  const auto* block = std::get_if<ir::Block>(&current().node);
+  const bool by_angle = block != nullptr && block->motion.extra && block->motion.extra->has_line_angle;
+  if (same_dialect() && by_angle && w.word == ir::contour::mark::secant) return;
+  ProgramWriter::opaque_word(a, w);
 }
 
 void Writer::declare(const ir::Declare& d) {

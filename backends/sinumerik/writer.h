@@ -46,6 +46,7 @@ class Writer final : public ProgramWriter {
   void end_program(const ir::End& e) override;
   void message(const ir::Message& m) override;
   void declare(const ir::Declare& d) override;
+  void opaque_word(const ir::Action& a, const ir::OpaqueWord& w) override;
 
   // words (words.cpp)
   void block(const ir::Block& b) override;

@@ -137,14 +137,20 @@ struct FileContext {
   void interrupt_lasting() {
     thread_start.interrupt();
     corner_feed.interrupt();
+    if (more_planes) plane.reset();
+    if (uses_css) css.reset();
     tool.state = ToolDirection::State::unsure;
     contours = {};
   }
 
   ToolDirection tool{};
-  bool framed = false;       ///< the program may have put a frame of its own, beside that of the tool
-  bool tool_frame = false;   ///< the frame of the tool or of a swivelled plane is in force
-  bool other_plane = false;  ///< G18 or G19 was written
+  bool framed = false;               ///< the program may have put a frame of its own, beside that of the tool
+  bool tool_frame = false;           ///< the frame of the tool or of a swivelled plane is in force
+  bool other_plane = false;          ///< G18 or G19 was written
+  std::optional<ir::Plane> plane{};  ///< in force, in the order of the text; none: it does not tell
+  bool more_planes = false;          ///< the file has codes of several planes
+  bool uses_css = false;             ///< G96 or G961 stands in the file
+  std::optional<bool> css{};  ///< constant cutting speed in force, in the order of the text; none: it does not tell
 
   std::map<std::int32_t, CurveTable> tables{};          ///< CTABDEF, by number
   CurveTable* table = nullptr;                          ///< the one being defined

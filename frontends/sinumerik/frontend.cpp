@@ -65,6 +65,14 @@ void set_unit_hint(ir::Program& program) {
   }
 }
 
+/// Words that begin so may stand in the file: "96" for G96, G961 and G962.
+bool names_g(std::string_view text, std::string_view digits) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if ((text[i] == 'G' || text[i] == 'g') && text.substr(i + 1).starts_with(digits)) return true;
+  }
+  return false;
+}
+
 class FileReading {
  public:
   FileReading(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
@@ -82,6 +90,11 @@ class FileReading {
   ir::Program run() {
     fill_frame(program_, *machine_.profile);
     program_.texts->hold(source_);
+    const std::string_view text = source_->text();
+    context_.uses_css = names_g(text, "96");
+    const ir::Plane first = machine_.profile->power_on.plane;
+    context_.more_planes = (names_g(text, "17") && first != ir::Plane::xy) ||
+                           (names_g(text, "18") && first != ir::Plane::zx) || names_g(text, "19");
     look_.file = context_.file;
     look_.name = source_->name();
     look_.encoding = source_->encoding();

@@ -236,31 +236,6 @@ void WordLowering::finish_dwell() {
   dwell_ = ir::Dwell{};
 }
 
-/// G110 from the present point, G111 from the zero point of the work frame, G112 from the last pole.
-void WordLowering::finish_pole() {
-  auto& coords = out_->motion.coords;
-  if (has_extra_) {
-    refuse("motion.geometry", special_pos_, "a pole given in polar words is not carried yet",
-           "give it with Cartesian words");
-    coords.clear();
-    return;
-  }
-  constexpr std::uint8_t present_point = 0, zero_point = 1;
-  auto at = std::make_shared<ir::FrameChange>();
-  at->combine = special_g_->a == zero_point      ? ir::FrameCombine::replace
-                : special_g_->a == present_point ? ir::FrameCombine::compose
-                                                 : ir::FrameCombine::add;
-  for (auto& c : coords) {
-    if (c.mode != ir::WordMode::modal) {
-      failed_ = true;
-      c_.error("SIN-012", c.pos, "AC() and IC() have no meaning here");
-    }
-    at->words.push_back(ir::FrameWord{c.axis, std::move(c.value), c.scale, c.pos});
-  }
-  coords.clear();
-  push(ir::PoleSet{std::move(at)}, Rank::setting, ir::Order::before, special_pos_);
-}
-
 namespace {
 
 /// Rotations given by angles about axes: X, Y, Z only.
@@ -482,6 +457,7 @@ void WordLowering::finish_motion() {
     c_.error("SIN-003", m.radius_pos, "CR= belongs to G2 and G3");
   }
   check_words(arc);
+  open_line();
   if (has_extra_) m.extra = std::make_shared<const ir::MotionExtra>(std::move(extra_));
   out_->has_motion = m.explicit_code || m.moves() || m.radius_given || m.frame != ir::FrameUse::normal;
 }

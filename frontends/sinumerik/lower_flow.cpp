@@ -37,6 +37,10 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   if (sub) c_.tool.state = ToolDirection::State::unsure;
   c_.framed = sub;
   c_.tool_frame = c_.other_plane = false;
+  c_.plane.reset();
+  c_.css.reset();
+  if (!sub) c_.plane = c_.machine.profile->power_on.plane;
+  if (!sub || !c_.uses_css) c_.css = false;
 }
 
 void StatementLowering::end_routine(const SourceText* source) {
@@ -148,7 +152,8 @@ bool is_structure(const Statement& s) {
 }  // namespace
 
 bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
-  c_.interrupt_lasting();
+  const auto defines = [](const Statement& s) { return s.keyword == "DEF" || s.keyword == "PROC"; };
+  if (!std::all_of(block.statements.begin(), block.statements.end(), defines)) c_.interrupt_lasting();
   bool ok = true;
   for (const Statement& s : block.statements) {
     const std::uint32_t before = c_.errors;

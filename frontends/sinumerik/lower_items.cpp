@@ -381,6 +381,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   ir::CallRoutine call;
   call.routine = routine_name(name);
   c_.interrupt_lasting();
+  c_.plane.reset();
   if (!call_arguments(name, args, call)) return false;
   parts.calls.emplace_back(std::move(call));
   return true;

@@ -152,6 +152,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
     case GUse::setting:
       if (static_cast<ir::Setting>(g.a) == ir::Setting::plane && static_cast<ir::Plane>(g.b) != ir::Plane::xy)
         c_.other_plane = true;
+      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane) c_.plane = static_cast<ir::Plane>(g.b);
       push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting,
            ir::Order::before, pos);
       break;
@@ -211,6 +212,13 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
 }
 
 void WordLowering::feed_mode(const GFunction& g, WordPos pos) {
+  const bool ends_css = g.b == 0 && c_.css.value_or(true);  // one group: G94 takes the place of G96
+  if (g.b != 2) c_.css = false;
+  if (g.b == 2) c_.css = c_.uses_css = true;
+  if (ends_css) {
+    push(ir::ModalSet{ir::Setting::spindle_mode, u(ir::SpindleMode::rpm), true, ir::FeedMemory::shared}, Rank::setting,
+         ir::Order::before, pos, false);
+  }
   if (g.b != 0) {
     const auto mode = g.b == 2 ? ir::SpindleMode::css : ir::SpindleMode::rpm;
     push(ir::ModalSet{ir::Setting::spindle_mode, u(mode), true, ir::FeedMemory::shared}, Rank::setting,

@@ -80,6 +80,8 @@ class WordLowering {
   void default_offset();
   [[nodiscard]] WordPos statement_pos() const;
   void finish_pole();
+  void polar_pole(ir::FrameChange& at);
+  void open_line();
   void finish_dwell();
   void finish_motion();
   void start_angle();

@@ -105,6 +105,7 @@ class CornerPass {
     }
     const Statement* next = following(body, at);
     if (next == nullptr || !contour(*next) || plane_at(s) != plane_at(*next)) return std::nullopt;
+    if (const auto angle = angle_at(body, at); angle && *angle < 1e-4) return std::nullopt;  // the path turns back
     Action a;
     Corner c = *lasting_;
     c.modal = false;
@@ -120,6 +121,16 @@ class CornerPass {
     auto& b = std::get<Block>(s.node);
     auto& c = std::get<Corner>(b.actions[action].data);
     const WordPos pos = b.actions[action].pos;
+    if (option("corner.without_successor") == "left_out" && stands_alone(body, at)) {
+      context_.diagnostics.warning(
+          "TRN-462", word_span(s.line.span, pos),
+          "no move in the plane follows this corner: the source's control leaves it out, and so "
+          "does the translation",
+          "take the word out of the source");
+      b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(action));
+      settle(s);
+      return std::nullopt;
+    }
     if (c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0) {
       const auto angle = angle_at(body, at);
       if (!angle || !c.value.literal()) {
@@ -133,8 +144,41 @@ class CornerPass {
       if (half > 0) c.value = Value{std::round(c.value.number / (2 * half) * 1e6) / 1e6};
       c.kind = CornerKind::chamfer_leg;
     }
-    if (!c.feed || target().corner_feed) return std::nullopt;
-    return with_feed(body, at, action);
+    const bool cut = c.kind != CornerKind::round && at_arc(body, at) && option("corner.chamfer_at_arc") == "yes" &&
+                     context_.target_machine.option("corner.chamfer_at_arc") != "yes";
+    if (!cut && (!c.feed || target().corner_feed)) return std::nullopt;
+    return own_element(body, at, action);
+  }
+
+  [[nodiscard]] std::string option(std::string_view name) const { return context_.source_machine.option(name); }
+
+  /// The corner has no second element: a move outside of the plane, a cycle or the end of the program comes first.
+  bool stands_alone(const Body& body, std::size_t at) const {
+    if (!plane_words(body[at])) return true;
+    for (std::size_t j = at + 1; j < body.size(); ++j) {
+      if (std::holds_alternative<End>(body[j].node)) return true;
+      const auto* b = std::get_if<Block>(&body[j].node);
+      if ((b == nullptr && !passes_by(body[j])) || body[j].line.skip_mask != 0) return false;
+      if (b != nullptr && b->has_motion && b->motion.moves()) return !plane_words(body[j]);
+    }
+    return false;
+  }
+  /// The block moves in its plane, or may.
+  bool plane_words(const Statement& s) const {
+    const auto& m = std::get<Block>(s.node).motion;
+    const auto plane = plane_at(s);
+    if (!plane || m.extra || !m.centers.empty() || m.radius_given) return true;
+    const auto axes = plane_axes(*plane);
+    return std::any_of(m.coords.begin(), m.coords.end(),
+                       [&](const CoordWord& c) { return c.axis == axes.u || c.axis == axes.v; });
+  }
+  bool at_arc(Body& body, std::size_t at) {
+    const Statement* next = following(body, at);
+    const auto arc = [this](const Statement& s) {
+      const auto kind = motion_in(std::get<Block>(s.node), facts_.before(s));
+      return !kind || *kind == MotionKind::arc_cw || *kind == MotionKind::arc_ccw;
+    };
+    return arc(body[at]) || (next != nullptr && arc(*next));
   }
 
   /// Degrees inside of the corner behind the block.
@@ -162,14 +206,18 @@ class CornerPass {
   }
 
   /// The corner as an element of its own, at its feed; the block behind it goes on at the feed before.
-  std::optional<Statement> with_feed(Body& body, std::size_t at, std::size_t action) {
+  std::optional<Statement> own_element(Body& body, std::size_t at, std::size_t action) {
     Statement& s = body[at];
     auto& b = std::get<Block>(s.node);
     const Corner c = std::get<Corner>(b.actions[action].data);
     const WordPos pos = b.actions[action].pos;
+    const bool straight = c.kind != CornerKind::round;
     const auto fail = [&](std::string why) -> std::optional<Statement> {
+      const bool feed = c.feed && !target().corner_feed;
       refuse(s, program_, context_, "TRN-352",
-             "a feed for this corner alone, which the target lacks; " + std::move(why),
+             (feed ? "a feed for this corner alone, which the target lacks; "
+                   : "a chamfer at an arc, which the target lacks; ") +
+                 std::move(why),
              "write the corner as an element of its own", pos);
       return std::nullopt;
     };
@@ -181,28 +229,30 @@ class CornerPass {
     auto& then = std::get<Block>(next->node);
     const auto feed = facts_.before(*next).feed;
     const bool given = sets_feed(then);
-    if (!given && !feed) return fail("the feed behind it is not known here");
-    if (here->e.arc || after->e.arc) return fail("it stands at an arc");
+    if (c.feed && !given && !feed) return fail("the feed behind it is not known here");
     Fillet f;
     std::string why;
-    if (!(c.kind == CornerKind::round ? fillet : chamfer)(here->e, after->e, c.value.number, f, why))
+    const bool arcs = here->e.arc || after->e.arc;
+    if (!(!straight ? fillet : arcs ? chamfer_along : chamfer)(here->e, after->e, c.value.number, f, why))
       return fail(std::move(why));
     b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(action));
     if (f.none) return std::nullopt;
     Block element;
     element.has_motion = true;
-    const bool straight = c.kind != CornerKind::round;
     element.motion.kind = straight ? MotionKind::linear : f.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
     element.motion.explicit_code = true;
     element.motion.keeps_modal = false;
     points_.set_end(b.motion, here->plane, f.from);
+    if (here->e.arc) PathPoints::set_centre(b.motion, here->plane, here->e.a, here->e.c);
     points_.set_end(element.motion, here->plane, f.to);
     points_.set_end(then.motion, here->plane, after->e.b);
+    if (after->e.arc) PathPoints::set_centre(then.motion, here->plane, f.to, after->e.c);
     if (!straight) PathPoints::set_centre(element.motion, here->plane, f.from, f.centre);
-    add_feed(element, *c.feed);
-    if (!given) add_feed(then, Value{*feed});
+    if (c.feed) add_feed(element, *c.feed);
+    if (c.feed && !given) add_feed(then, Value{*feed});
     context_.diagnostics.note("TRN-353", word_span(s.line.span, pos),
-                              "the corner is written as an element of its own, for its feed");
+                              c.feed ? "the corner is written as an element of its own, for its feed"
+                                     : "the chamfer at an arc is written as an element of its own");
     return made(s.line, std::move(element));
   }
   static bool sets_feed(const Block& b) {
@@ -261,7 +311,12 @@ class CornerPass {
 };
 
 /// Whether there is a corner that the target can't write as it stands.
-bool wanted(const Program& program, const Capabilities& target) {
+bool wanted(const Program& program, const LegaliseContext& context) {
+  const Capabilities& target = context.target;
+  const auto habit = [&](std::string_view option) {
+    return context.source_machine.option(option) != context.target_machine.option(option);
+  };
+  const bool habits = habit("corner.chamfer_at_arc") || habit("corner.without_successor");
   bool found = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
@@ -269,9 +324,9 @@ bool wanted(const Program& program, const Capabilities& target) {
       if (b == nullptr) return;
       for (const auto& a : b->actions) {
         const auto* c = std::get_if<Corner>(&a.data);
-        found =
-            found || (c != nullptr && ((c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
-                                       (c->kind == CornerKind::chamfer_chord && target.corners.count(c->kind) == 0)));
+        found = found ||
+                (c != nullptr && (habits || (c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
+                                  (c->kind == CornerKind::chamfer_chord && target.corners.count(c->kind) == 0)));
       }
     });
   }
@@ -281,7 +336,7 @@ bool wanted(const Program& program, const Capabilities& target) {
 }  // namespace
 
 void write_out_corners(Program& program, const LegaliseContext& context) {
-  if (context.target.corners.empty() || !wanted(program, context.target)) return;
+  if (context.target.corners.empty() || !wanted(program, context)) return;
   const FactsOf facts(program, context);
   CornerPass pass(program, context, facts);
   for (auto& r : program.routines) pass.routine(r);

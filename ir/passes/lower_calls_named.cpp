@@ -28,7 +28,9 @@ class NamedLocals {
   void run() {
     infos_.resize(program_.routines.size());
     for (std::size_t r = 0; r < infos_.size(); ++r) collect(r);
+    for (std::size_t r = 0; r < infos_.size(); ++r) find_handed_arrays(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) place(r);
+    for (std::size_t r = 0; r < infos_.size(); ++r) place_handed_arrays(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) rename(r);
     find_changed();
     for (std::size_t r = 0; r < infos_.size(); ++r) rewrite(r);
@@ -42,8 +44,9 @@ class NamedLocals {
     std::map<std::string, VarRef> places;              ///< where each goes (without array indices)
     std::set<std::string> arrays, by_reference, zero;  ///< zero: must be set to 0 where it is defined
     std::set<std::string> declared;
-    std::vector<Parameter> parameters;  ///< as the source had them
-    bool has_levels = false;            ///< some go to the target's levels
+    std::vector<Parameter> parameters;                             ///< as the source had them
+    bool has_levels = false;                                       ///< some go to the target's levels
+    std::map<std::string, std::pair<std::size_t, VarRef>> handed;  ///< array parameters: the caller's array, by routine
   };
 
   bool is_local_space(SpaceId s) const {
@@ -88,11 +91,54 @@ class NamedLocals {
     }
   }
 
+  /// An array handed over by reference is the caller's own; the parameter stands for it where all calls hand over one.
+  void find_handed_arrays(std::size_t r) {
+    Info& info = infos_[r];
+    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+      const Parameter& p = info.parameters[i];
+      if (!p.by_reference || p.name.find('[') == std::string::npos) continue;
+      std::optional<std::pair<std::size_t, VarRef>> from;
+      bool one = true;
+      for (const auto& site : calls_.sites()) {
+        if (site.callee != r) continue;
+        const auto* call = std::get_if<CallRoutine>(&site.statement->node);
+        const Argument* a = call != nullptr && i < call->arguments.size() ? &call->arguments[i] : nullptr;
+        const VarRef* v = a == nullptr ? nullptr : a->value ? as_variable(a->value) : &a->reference;
+        one = one && v != nullptr && !v->name.empty() && v->indices.empty() &&
+              (!from || (from->first == site.caller && same_variable(from->second, *v)));
+        if (one) from.emplace(site.caller, *v);
+      }
+      if (from && one) {
+        info.handed.emplace(p.variable.name, *from);
+        continue;
+      }
+      context_.diagnostics.error(
+          "TRN-461", program_.routines[r].header.span,
+          "the array parameter " + p.name +
+              (from ? ": its calls hand over different arrays, and " : ": nothing at hand calls the subprogram, and ") +
+              "the target has no arrays that a name can stand for",
+          "write a subprogram for each array, or use one array");
+    }
+  }
+  void place_handed_arrays(std::size_t r) {
+    for (const auto& [name, from] : infos_[r].handed) {
+      std::pair<std::size_t, VarRef> at = from;
+      for (std::size_t steps = 0; steps < infos_.size(); ++steps) {  // a parameter handed on
+        const auto further = infos_[at.first].handed.find(at.second.name);
+        if (further == infos_[at.first].handed.end()) break;
+        at = further->second;
+      }
+      const auto place = infos_[at.first].places.find(at.second.name);
+      infos_[r].places[name] = place != infos_[at.first].places.end() ? place->second : at.second;
+    }
+  }
+
   void place(std::size_t r) {
     Info& info = infos_[r];
     const Routine& routine = program_.routines[r];
     std::size_t used = 0;
     for (const auto& n : info.names) {
+      if (info.handed.count(n) != 0) continue;
       if (info.declared.count(n) == 0 && routine.kind == RoutineKind::sub && infos_[0].declared.count(n) != 0) {
         info.places[n] = frame_variable(program_, n, program_.routines[0]);  // the main program's, seen below
         infos_[0].places[n] = info.places[n];
@@ -285,6 +331,7 @@ class NamedLocals {
     std::vector<Argument> letters;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
       const Parameter& p = info.parameters[i];
+      if (info.handed.count(p.variable.name) != 0) continue;
       const Argument* a = i < call.arguments.size() && (call.arguments[i].value || call.arguments[i].by_reference)
                               ? &call.arguments[i]
                               : nullptr;
