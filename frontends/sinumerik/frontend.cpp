@@ -351,6 +351,8 @@ class LineStream final : public StreamReader {
         reader_(options.reader) {
     fill_frame(program_, *options.profile);
     context_.offset_chosen = false;
+    context_.css = false;
+    context_.plane = options.profile->power_on.plane;
     ir::Routine routine;
     const std::size_t slash = name.find_last_of('/');
     std::string_view stem = slash == std::string_view::npos ? name : name.substr(slash + 1);
