@@ -11,6 +11,21 @@
 
 namespace cnctrans::interpreter {
 
+namespace {
+
+/// The number that a text writes, also with an exponent: 1234.5EX-7.
+std::optional<double> number_in(std::string_view text) {
+  text = trim(text);
+  const std::size_t at = text.find_first_of("Ee");
+  if (at == std::string_view::npos || at + 1 >= text.size() || (text[at + 1] != 'X' && text[at + 1] != 'x'))
+    return parse_decimal(text);
+  const auto mantissa = parse_decimal(text.substr(0, at)), power = parse_decimal(text.substr(at + 2));
+  if (!mantissa || !power || *power != std::trunc(*power) || std::abs(*power) > 300) return std::nullopt;
+  return *mantissa * std::pow(10.0, *power);
+}
+
+}  // namespace
+
 std::string number_text(double value) {
   return cnctrans::rounded(value, 10);
 }
@@ -180,9 +195,9 @@ double Evaluator::text_function(const Node& n) {
     }
     case ir::Function::character_code:
       return subject.empty() ? 0 : static_cast<double>(static_cast<unsigned char>(subject.front()));
-    case ir::Function::is_number: return parse_decimal(trim(subject)) ? 1 : 0;
+    case ir::Function::is_number: return number_in(subject) ? 1 : 0;
     case ir::Function::to_number: {
-      const auto value = parse_decimal(trim(subject));
+      const auto value = number_in(subject);
       if (!value) failure_.fail(code::wrong_type, "\"" + subject + "\" is not a number");
       return value.value_or(0);
     }

@@ -270,7 +270,12 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
 
   ir::Program work = source_program;
   declare_names(source_program, loader.definitions(), false, result.diagnostics);
-  if (from != to) work = source_program;
+  if (from != to) {
+    work = source_program;
+    // The main program comes first, wherever its archive has it.
+    std::stable_partition(work.routines.begin(), work.routines.end(),
+                          [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
+  }
   // In its own language for its own machine a program is legal as it stands.
   const std::string& source_name = options.machine.empty() ? source_profile->name : options.machine;
   const std::string& named_target = options.target_machine.empty() ? target_profile->name : options.target_machine;

@@ -48,6 +48,14 @@ bool names_subprogram(std::string_view name) {
   return upper.size() > 4 && (upper.ends_with("_SPF") || upper.ends_with(".SPF"));
 }
 
+/// The name in a header. %SPF20, of older controls, is called as L20.
+ir::RoutineName header_name(std::string_view name) {
+  const std::string upper = to_upper_ascii(name);
+  const bool numbered =
+      upper.size() > 3 && upper.starts_with("SPF") && upper.find_first_not_of("0123456789", 3) == std::string::npos;
+  return routine_name(numbered ? "L" + upper.substr(3) : upper);
+}
+
 /// The unit that the program sets first.
 void set_unit_hint(ir::Program& program) {
   bool found = false;
@@ -178,7 +186,7 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
     begin_routine(name, sub);
   }
   routine_.kind = sub ? ir::RoutineKind::sub : ir::RoutineKind::main;
-  routine_.name = routine_name(name);
+  routine_.name = header_name(name);
   routine_.attributes = name;
   fill_line_info(block, context_.line, routine_.header);
   routine_.header.blank_lines_before = blank_;
