@@ -71,6 +71,17 @@ class Job {
            "; translate the two into different folders";
   }
 
+  /// Another file of this job has the program that this one would bring: the control knows programs by these.
+  std::string same_program(const fs::path& path, const translator::OutputText& out, const std::string& input) {
+    if (out.program.size() < 2 || out.program.find_first_not_of("0123456789", 1) != std::string::npos) return {};
+    std::error_code ignored;
+    const auto place = fs::weakly_canonical(fs::absolute(path), ignored).string();
+    const auto [it, fresh] = programs_.emplace(out.program, std::pair{place, input});
+    if (fresh || iequals_ascii(it->second.first, place)) return {};
+    return path.string() + " would be the program " + out.program + ", which " + it->second.first +
+           " is already, from the translation of " + it->second.second + "; give one of them another number by --names";
+  }
+
   void take_names(const translator::TranslateResult& result) {
     for (const auto& out : result.outputs) {
       names_.insert(to_upper_ascii(out.name));
@@ -85,6 +96,7 @@ class Job {
   };
   const std::vector<std::string>& inputs_;
   std::map<std::string, Written> written_;  ///< by path in capitals: the target's file system may not tell case
+  std::map<std::string, std::pair<std::string, std::string>> programs_;  ///< file and input by `%n`
   std::set<std::string> names_;
 };
 
@@ -131,7 +143,9 @@ bool may_write(const Arguments& a, const translator::TranslateResult& result, co
   Diagnostics diagnostics;
   for (const auto& out : result.outputs) {
     const std::string why = job.conflict(target_path(a, out), out.bytes, input, result.files);
-    if (!why.empty()) diagnostics.error("TRN-093", {}, why);
+    const std::string same = job.same_program(target_path(a, out), out, input);
+    for (const auto& text : {why, same})
+      if (!text.empty()) diagnostics.error("TRN-093", {}, text);
   }
   if (!diagnostics.has_errors()) return true;
   a.messages->add(diagnostics, result.files);

@@ -44,6 +44,7 @@ constexpr std::array specs{
         "an undercut whose side follows from a tool of which the profile gives no nose 1 to 4: outside (DIN 76 C "
         "and D inside) with the shoulder toward -Z, or refused"},
     OptionSpec{"cycle.rotary_triggers", "no|yes", "no", "a rotary axis word alone runs the modal hole cycle too"},
+    OptionSpec{"cycle.plane_function", "keeps|ends", "keeps", "a plane function while a hole cycle is active"},
     OptionSpec{"cycle.face_groove_left", "unknown|larger_x|smaller_x", "unknown",
                "where the left start of a shaped groove in the face lies; unknown: such grooves are refused"},
     OptionSpec{"cycle.groove_edge", "minus|plus", "minus",
@@ -51,6 +52,8 @@ constexpr std::array specs{
     OptionSpec{"frame.change_keeps", "machine|programmed", "machine",
                "what an incremental word adds to after a frame change: the present point seen in the new frame, or the "
                "coordinate programmed last (the difference of the frames is travelled)"},
+    OptionSpec{"frame.first_arc", "any|absolute_centre", "any",
+               "how an arc gives its centre that is the first move behind a mirror or a rotation"},
     OptionSpec{"frame.plane_change", "keeps|may_end_rotation", "keeps",
                "a plane function while a rotation is in force: the rotation stays, or that is not certain"},
     OptionSpec{

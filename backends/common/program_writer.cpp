@@ -300,6 +300,8 @@ void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* befor
     begin_line(s.line);
   }
   if (const ir::Opaque* text = unread_part(s, after)) return unread_structure(s, *text);
+  if (part_of_refused(s)) return refuse_rest();
+  if (s.line.span.known()) refused_block_.reset();
   dispatch(s);
 }
 

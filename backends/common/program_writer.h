@@ -188,6 +188,9 @@ class ProgramWriter {
   [[nodiscard]] std::string line_head(bool numbered);
   [[nodiscard]] std::string line_comments();
   void emit_refusal();
+  /// The statement comes of a source block of which something has been left out.
+  [[nodiscard]] bool part_of_refused(const ir::Statement& s) const;
+  void refuse_rest();
   void annotate();
   [[nodiscard]] bool is_blank_line() const;
   [[nodiscard]] bool is_join(const ir::LineInfo& info) const;
@@ -213,6 +216,7 @@ class ProgramWriter {
   std::int64_t next_number_ = 0;
   Span annotated_;
   std::string refusal_code_;
+  std::optional<Span> refused_block_;  ///< the source block that was left out last
   bool refusal_moves_ = true;
   bool rounding_noted_ = false;
 

@@ -34,9 +34,27 @@ void ProgramWriter::refuse(std::string_view code, WordPos pos, std::string what,
   }
 }
 
+bool ProgramWriter::part_of_refused(const ir::Statement& s) const {
+  const Span& own = s.line.span;
+  return refused_block_ && own.known() && own.file == refused_block_->file && own.line == refused_block_->line;
+}
+
+/// The remark of the first part has said it; a line of its own is only needed where a label or number stands.
+void ProgramWriter::refuse_rest() {
+  refusal_code_.clear();
+  if (info_->labels.empty() && info_->number.empty()) {
+    line_open_ = false;
+    line_.clear();
+    return;
+  }
+  refusal_code_ = "TRN-476";
+  refusal_moves_ = false;
+}
+
 /// The remark stands in place of the line: number and labels stay, so that jumps still find it.
 void ProgramWriter::emit_refusal() {
   const std::string code = std::exchange(refusal_code_, std::string{});
+  if (options_.unsupported != Unsupported::error && refusal_moves_ && info_->span.known()) refused_block_ = info_->span;
   line_.clear();
   std::string source(trim(source_line(info_->span)));
   if (source.empty() && current_ != nullptr) {

@@ -75,6 +75,7 @@ bool Writer::behind_words(WordPos pos) const {
 // ------------------------------------------------------------------------------------
 
 void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
+  freezes_speed(a, m);
   if (same_dialect() && !a.text.empty()) {
     const bool contact = m.setting == ir::Setting::feed_point;  // its word is R
     return add((contact ? "G92 " : "") + std::string(a.text), Rank::setting, a.pos);

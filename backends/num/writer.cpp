@@ -1,6 +1,7 @@
 // Statements of NUM programs: headers, assignments, G79, G77, messages.
 #include "backends/num/writer.h"
 
+#include <algorithm>
 #include <charconv>
 #include <numeric>
 
@@ -39,6 +40,22 @@ std::int64_t Writer::main_number() const {
     while (taken(n)) ++n;
   }
   return n;
+}
+
+/// G97 behind G96 without a speed: that the present one goes on is said of the source's control only.
+void Writer::freezes_speed(const ir::Action& a, const ir::ModalSet& m) {
+  if (m.setting != ir::Setting::spindle_mode) return;
+  const bool ends = m.value == code_value(ir::SpindleMode::rpm) && css_;
+  css_ = m.value == code_value(ir::SpindleMode::css);
+  const auto* b = std::get_if<ir::Block>(&current().node);
+  if (same_dialect() || b == nullptr || !ends) return;
+  const bool speed = std::any_of(b->actions.begin(), b->actions.end(),
+                                 [](const ir::Action& x) { return std::holds_alternative<ir::SetSpindle>(x.data); });
+  if (speed) return;
+  diagnostics().warning("TRN-477", span_of(a.pos),
+                        "G97 without S: the source goes on at the speed that constant cutting speed has reached; that "
+                        "this control does so is not stated",
+                        "write the speed with S");
 }
 
 void Writer::write_program() {

@@ -36,6 +36,8 @@ class Writer final : public ProgramWriter {
   void declare(const ir::Declare& d) override;
 
   void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
+  void freezes_speed(const ir::Action& a, const ir::ModalSet& m);
+  bool css_ = false;  ///< G96 was written last, G97 not since
   void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
   void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;

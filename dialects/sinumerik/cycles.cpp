@@ -16,11 +16,11 @@ constexpr CycleRow rows[] = {
      "RTP,RFP,SDIS,DP,DPR,DTB,SDAC,MPIT,PIT,POSS,SST,SST1,AXN,PITA,TECHNO,VARI,DAM,VRT,PITM,PTAB,PTABA,GMODE,DMODE,"
      "AMODE"},
     {"CYCLE840", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDR,SDAC,ENC,MPIT,PIT,AXN"},
-    {"CYCLE85", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,FFR,RFF"},
-    {"CYCLE86", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR,RPA,RPO,RPAP,POSS"},
+    {"CYCLE85", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,FFR,RFF,GMODE,DMODE,AMODE"},
+    {"CYCLE86", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR,RPA,RPO,RPAP,POSS,GMODE,DMODE,AMODE"},
     {"CYCLE87", drilling, true, "RTP,RFP,SDIS,DP,DPR,SDIR"},
     {"CYCLE88", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,SDIR"},
-    {"CYCLE89", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB"},
+    {"CYCLE89", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,GMODE,DMODE,AMODE"},
     // 18.2 patterns
     {"HOLES1", pattern, true, "SPCA,SPCO,STA1,FDIS,DBH,NUM"},
     {"HOLES2", pattern, true, "CPA,CPO,RAD,STA1,INDA,NUM"},

@@ -128,8 +128,9 @@ struct FileContext {
   std::set<std::string, std::less<>> read_names{};     ///< variables of the routine read so far, capitals
   std::set<std::string, std::less<>> unknown_names{};  ///< of those, the ones that the machine has given a value
 
-  std::uint8_t master_spindle = 1;  ///< SETMS, in the order of the text
-  bool offset_chosen = true;        ///< a D was written since the last T, in the order of the text
+  std::optional<ir::Units> units_by_text{};  ///< of the program, in the order of the text; none: the caller's
+  std::uint8_t master_spindle = 1;           ///< SETMS, in the order of the text
+  bool offset_chosen = true;                 ///< a D was written since the last T, in the order of the text
 
   LastingWord thread_start{};  ///< SF= in force
   LastingWord corner_feed{};   ///< FRCM= in force

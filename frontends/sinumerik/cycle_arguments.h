@@ -43,6 +43,8 @@ ir::Value absolute_value(const ir::Value& v);
 void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos);
 /// Warns where the planes, as numbers, contradict each other (SIN-070, SIN-071).
 void check_planes(const ir::HoleCycle& hole, FileContext& c, WordPos pos);
+/// The final depth where DP is an amount: from the reference plane away from the retract plane.
+ir::Level depth_by_amount(const Arguments& a);
 /// A contour as a cycle names it: a subprogram, or two labels with a colon between them.
 void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words);
 /// The contour of a milling cycle that works along one; false: an error has been reported.

@@ -201,7 +201,9 @@ bool StatementLowering::master_spindle(const std::vector<Expr>& args, WordPos po
   c_.master_spindle = args.empty() ? std::uint8_t{1} : static_cast<std::uint8_t>(args[0].number);
   c_.warning("SIN-026", pos,
              "the master spindle holds for the words that follow in this program; called programs are read with "
-             "spindle 1");
+             "spindle 1",
+             "feed per revolution, threads, G96 and tapping follow it on this control: on another one check which "
+             "spindle they follow");
   ir::Opaque o;
   o.text = c_.slice(pos);
   o.feature = "language.statement";

@@ -1,4 +1,5 @@
 // Standard drilling cycles: CYCLE81 to CYCLE89, CYCLE840 (reference-language 18.1).
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -25,6 +26,12 @@ std::string_view feature_of(CycleFamily family) {
     case CycleFamily::measuring: break;
   }
   return "motion.probe";
+}
+
+/// Units of AMODE: 1: the depth in DP is an amount.
+int absolute_mode(const Arguments& a) {
+  const ir::Value mode = a.get("AMODE");
+  return mode.literal() ? saturate<int>(std::fmod(mode.number, 10)) : 0;
 }
 
 /// Seconds when positive, revolutions when negative.
@@ -70,6 +77,47 @@ bool dwells(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
   return true;
 }
 
+/// The way back that breaks the chip: VRT, without it 1 mm, whatever the units of the program (18.1.1).
+ir::Value chip_lift(const Arguments& a, FileContext& c, WordPos pos) {
+  if (a.says("VRT")) return a.get("VRT");
+  if (c.units_by_text) return ir::Value(*c.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
+  c.warning("SIN-080", pos,
+            "the way back without VRT is 1 mm, and this subprogram does not say its units: it is taken to be called in "
+            "millimetres",
+            "write VRT, or G71 (G710) or G70 (G700) before the cycle");
+  return ir::Value(1);
+}
+
+/// The first depth lies between the reference plane and the final depth.
+bool first_depth(const Arguments& a, FileContext& c, WordPos pos) {
+  const ir::Value first = a.get("FDEP"), top = a.get("RFP"), rtp = a.get("RTP");
+  if (!first.literal() || !top.literal() || !rtp.literal()) return true;
+  const double down = rtp.number < top.number ? 1 : -1;
+  const ir::Value& end = a.get(a.says("DPR") ? "DPR" : "DP");
+  const double depth =
+      a.says("DPR") || absolute_mode(a) == 1 ? std::fabs(end.number) : down * (end.number - top.number);
+  const double to_first = down * (first.number - top.number);
+  if (to_first >= 0 && (!end.literal() || to_first <= depth + 1e-9)) return true;
+  c.error("SIN-021", pos,
+          to_first < 0 ? "FDEP lies on the wrong side of the reference plane (alarm 61107)"
+                       : "FDEP lies behind the final depth (alarm 61107)",
+          "FDEP is a coordinate; an amount is FDPR");
+  return false;
+}
+
+/// A factor; a number above 1 is a percentage, if the eighth digit of AMODE is set.
+bool first_feed(const Arguments& a, ir::Pecks& p, FileContext& c, WordPos pos) {
+  if (!a.says("FRF")) return true;
+  p.has_first_feed_factor = true;
+  p.first_feed_factor = a.get("FRF");
+  const ir::Value mode = a.get("AMODE");
+  if (mode.literal() && mode.number >= 1e7) p.first_feed_factor = ir::scale(a.get("FRF"), 0.01);
+  if (!p.first_feed_factor.literal() || (p.first_feed_factor.number > 0 && p.first_feed_factor.number <= 1))
+    return true;
+  c.error("SIN-021", pos, "FRF must be above 0 and not above 1: a factor of the feed for the first depth");
+  return false;
+}
+
 bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
   const ir::Value vari = a.get("VARI");
   if (!vari.literal() || (vari.number != 0 && vari.number != 1)) {
@@ -82,6 +130,7 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
   if (a.says("FDPR")) {
     p.first = absolute_value(a.get("FDPR"));
   } else if (a.given("FDEP")) {
+    if (!first_depth(a, c, pos)) return false;
     p.first_to = level(a.get("FDEP"), ir::LevelBase::absolute);
   } else {
     c.error("SIN-021", pos, "CYCLE83 needs its first depth: FDEP or FDPR");
@@ -98,15 +147,12 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     c.note("SIN-021", pos, "DAM is taken as an amount, not as a factor: its sign is known only when the program runs");
   p.minimum = a.get("MDEP");
   if (hole.kind == ir::HoleKind::peck_break) {
-    p.lift = a.says("VRT") ? a.get("VRT") : ir::Value(1);
+    p.lift = chip_lift(a, c, pos);
   } else {
     p.reapproach_automatic = !a.says("DIS1");
     p.reapproach = a.get("DIS1");
   }
-  if (a.says("FRF")) {
-    p.has_first_feed_factor = true;
-    p.first_feed_factor = a.get("FRF");
-  }
+  if (!first_feed(a, p, c, pos)) return false;
   if (!dwells(a, hole, c, pos)) return false;
   return axis_of_hole(a, hole, c, pos);
 }
@@ -179,7 +225,7 @@ bool rigid_tap(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos 
   if (!vari.is(0) && a.says("DAM")) {
     hole.pecks.law = ir::PeckLaw::constant;
     hole.pecks.first = absolute_value(a.get("DAM"));
-    if (vari.is(1)) hole.pecks.lift = a.says("VRT") ? a.get("VRT") : ir::Value(1);
+    if (vari.is(1)) hole.pecks.lift = chip_lift(a, c, pos);
   }
   return axis_of_hole(a, hole, c, pos);
 }
@@ -238,23 +284,24 @@ bool kind_of(std::string_view name, const Arguments& a, ir::HoleCycle& hole, Fil
   return true;
 }
 
-/// The modes behind the newer signatures: only those that mean the same as none.
+/// The modes behind the newer signatures: only those that mean the same as none. The digits above the tens, one for
+/// each further word, are taken for the usual reading (amounts, seconds) as long as none is above 1.
 bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
   if (!a.says("AMODE")) return true;
   const ir::Value mode = a.get("AMODE");
-  const int number = mode.literal() ? saturate<int>(mode.number) : -1;
+  const int number = mode.literal() && mode.number < 1e9 ? saturate<int>(mode.number) : -1;
   const int depth = number % 10;
   const int time = number / 10 % 10;
-  if (number < 0 || depth > 2 || time > 2) {
+  bool usual = true;
+  for (int rest = number / 100; rest > 0; rest /= 10) usual = usual && rest % 10 <= 1;
+  if (number < 0 || depth > 2 || time > 2 || !usual) {
     c.error("SIN-021", pos, "this AMODE is not carried yet");
     return false;
   }
-  if (depth == 1 && hole.bottom.base == ir::LevelBase::absolute) {
-    const ir::Value& reference = hole.reference.value;  // its sign is the side of the tool
-    const bool upward = reference.literal() && reference.number < 0;
-    const ir::Value down = absolute_value(a.get("DP"));
-    hole.bottom = level(upward ? down : ir::negate(down), ir::LevelBase::from_surface);
-  }
+  if (number >= 100)
+    c.warning("SIN-081", pos,
+              "digits of AMODE above the tens: the words that they speak of are taken as amounts and seconds");
+  if (depth == 1 && hole.bottom.base == ir::LevelBase::absolute) hole.bottom = depth_by_amount(a);
   if (time == 2) {
     hole.dwell_bottom = absolute_value(hole.dwell_bottom);
     hole.dwell_in_revolutions = true;
@@ -328,6 +375,15 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   if (!a.given("DP") && !a.says("DPR")) {
     c_.error("SIN-021", pos, name + " needs its depth: DP or DPR");
     return nullptr;
+  }
+  const auto known = static_cast<std::size_t>(std::count(row.parameters.begin(), row.parameters.end(), ',')) + 1;
+  for (std::size_t i = known; i < args.size(); ++i) {
+    if (args[i].kind == ExprKind::missing) continue;
+    c_.warning("SIN-082", args[i].pos,
+               name + " is carried with " + std::to_string(known) +
+                   " parameters: this one and those behind it are "
+                   "left out of account");
+    break;
   }
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);

@@ -33,6 +33,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.offset_chosen = routine.kind != ir::RoutineKind::main;
   c_.motion = c_.machine.profile->power_on.motion;
   const bool sub = routine.kind == ir::RoutineKind::sub;
+  c_.units_by_text = sub ? std::nullopt : std::optional(c_.machine.profile->power_on.units);
   c_.tool = {};
   if (sub) c_.tool.state = ToolDirection::State::unsure;
   c_.framed = sub;

@@ -71,6 +71,12 @@ void check_planes(const ir::HoleCycle& hole, FileContext& c, WordPos pos) {
               "retract plane");
 }
 
+ir::Level depth_by_amount(const Arguments& a) {
+  const ir::Value rtp = a.get("RTP"), rfp = a.get("RFP"), depth = absolute_value(a.get("DP"));
+  const bool upward = rtp.literal() && rfp.literal() && rtp.number < rfp.number;
+  return level(upward ? depth : ir::negate(depth), ir::LevelBase::from_surface);
+}
+
 namespace {
 
 template <class Each>
@@ -125,8 +131,7 @@ bool modes(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, F
   const auto mode = digits_of(a.get("AMODE")).value_or(0), plane = digits_of(a.get("DMODE")).value_or(0) % 10;
   constexpr ir::AxisId normals[] = {ir::axis::none, ir::axis::z, ir::axis::y, ir::axis::x};
   hole.axis = normals[plane];
-  if (mode % 10 == 1 && hole.bottom.base == ir::LevelBase::absolute)
-    hole.bottom = level(ir::negate(absolute_value(a.get("DP"))), ir::LevelBase::from_surface);
+  if (mode % 10 == 1 && hole.bottom.base == ir::LevelBase::absolute) hole.bottom = depth_by_amount(a);
   each_name(kept_milling_modes, [&](std::string_view own) {
     if (a.given(own)) keep(own, a.get(own), hole);
   });

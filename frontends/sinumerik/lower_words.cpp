@@ -157,6 +157,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
            ir::Order::before, pos);
       break;
     case GUse::units:
+      c_.units_by_text = static_cast<ir::Units>(g.a);
       push(ir::ModalSet{ir::Setting::units, g.a, g.b != 0, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
            pos);
       break;

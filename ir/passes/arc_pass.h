@@ -12,6 +12,9 @@
 
 namespace cnctrans::ir::passes {
 
+/// Warns of arcs right behind a mirror or a rotation whose centre the target wants absolute.
+void check_first_arcs(const Program& program, const LegaliseContext& context, const FactsOf& facts);
+
 class ArcPass {
  public:
   ArcPass(Program& program, const LegaliseContext& context, const FactsOf& facts)

@@ -9,6 +9,7 @@ void convert_arcs(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   ArcPass pass(program, context, facts);
   for (auto& r : program.routines) pass.routine(r);
+  check_first_arcs(program, context, facts);
 }
 
 }  // namespace cnctrans::ir::passes

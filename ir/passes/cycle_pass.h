@@ -113,7 +113,7 @@ class CyclePass {
   /// The block is a point in the words of the target too, whichever of its own cycles is in force.
   [[nodiscard]] bool bare_point(const Block& b, const Facts& facts) const;
   void refuse_other_ways(Statement& s) const;
-  /// The target's cycle is off until the next point of the text, and control goes elsewhere before.
+  [[nodiscard]] bool gives_back(bool reachable) const;  ///< a subprogram, a modal call that it leaves in force
   void leave_while_off(const Statement& s) const;
   /// Where the hole goes back to by G98 or G99, which differ by the way: refused. True: done.
   [[nodiscard]] bool refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& out) const;

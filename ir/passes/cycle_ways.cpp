@@ -132,7 +132,22 @@ void CyclePass::refuse_other_ways(Statement& s) const {
          "define the cycle again before this block, or cancel it on every path");
 }
 
+bool CyclePass::gives_back(bool reachable) const {
+  return reachable && active_ && active_->deferred && !active_->on_target && definitions_.count(active_->from) != 0 &&
+         editor_.routine.kind != RoutineKind::main;
+}
+
+/// A subprogram gives back a modal call whose points lie with its callers, and the target defines the cycle at them.
+static void refuse_given_back(const Span& where, const LegaliseContext& context) {
+  context.diagnostics.error("TRN-331", where,
+                            "the modal cycle goes on behind the return, and the target defines it at its first point: "
+                            "which points of the callers it drills can't be seen here",
+                            "cancel it before the return, or write the modal call where its points are");
+}
+
 void CyclePass::leave_while_off(const Statement& s) const {
+  const bool returns = std::holds_alternative<Return>(s.node) || std::holds_alternative<End>(s.node);
+  if (returns && gives_back(facts_.before(s).reachable)) refuse_given_back(s.line.span, context_);
   const bool leaves = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
                       std::holds_alternative<Repeat>(s.node) || std::holds_alternative<CallRoutine>(s.node);
   if (!leaves || !off_between()) return;
@@ -160,6 +175,10 @@ void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) c
 }
 
 void CyclePass::report_unsure() const {
+  const bool falls = !editor_.routine.body.empty() &&
+                     !std::holds_alternative<Return>(editor_.routine.body.back().node) &&
+                     !std::holds_alternative<End>(editor_.routine.body.back().node);
+  if (falls && gives_back(true)) refuse_given_back(editor_.routine.body.back().line.span, context_);
   if (!lacking_) return;
   for (const Span& where : unsure_) {
     context_.diagnostics.error(

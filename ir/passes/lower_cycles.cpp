@@ -156,13 +156,23 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
+/// The plane function ends the target's own cycle: the next point defines it again.
+static bool sets_plane(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return m != nullptr && m->setting == Setting::plane;
+  });
+}
+
 void CyclePass::plain(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   // A block that is no point, while the target's own cycle would make it one or take its words for the depth.
+  const bool plane_ends = !by_call_ && active_->native && (active_->on_target || active_->maybe_on_target) &&
+                          context_.target_machine.option("cycle.plane_function") == "ends" && sets_plane(b);
   const bool refused_word = context_.target_machine.option("cycle.axis_word") == "refused" && active_->native &&
                             (active_->on_target || active_->maybe_on_target) && !by_call_ && b.has_motion &&
                             b.motion.moves() && b.motion.frame == FrameUse::normal;
-  if (refused_word) {
+  if (refused_word || plane_ends) {
     pieces.push_back(off_statement(s.line, false));
     active_->on_target = active_->maybe_on_target = false;
   }

@@ -54,6 +54,21 @@ class RoutineNames {
     used_.clear();
   }
 
+  /// An archive with two main programs: the second one would stand among the subprograms of the first.
+  void part_mains() {
+    const Routine* first = program_.main();
+    for (auto& r : program_.routines) {
+      if (r.kind != RoutineKind::main || &r == first || r.name.number >= 0) continue;
+      context_.diagnostics.error("TRN-478", r.header.span,
+                                 "a second main program in one file: the target takes it as a program of its own",
+                                 "save it in a file of its own and translate that");
+      if (const std::int64_t n = free_number(); n >= 0) {
+        used_.insert(n);
+        rename(r, n);
+      }
+    }
+  }
+
   void run() {
     std::set<std::int64_t> seen;
     reserve_given();
@@ -90,6 +105,7 @@ class RoutineNames {
       seen.insert(n);
       rename(r, n);
     }
+    part_mains();
     references();
   }
 
