@@ -82,6 +82,7 @@ constexpr std::array specs{
                "a pole that the program has set stays in its place when the zero point moves, or moves along"},
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
+    OptionSpec{"thread.pitch", "each_block|modal", "each_block", "how long the pitch of a thread (G33) stays in force"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
     OptionSpec{"tool.offset", "row|edge", "row",
                "what a D number names: a row of one table for all tools, or an edge of the tool in force"},

@@ -5,6 +5,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/stream_watch.h"
+#include "ir/passes/thread_leads.h"
 
 namespace cnctrans::ir {
 
@@ -43,6 +44,7 @@ constexpr std::array pipeline{
     Pass{"reference_moves", passes::convert_reference_moves, true},
     Pass{"preset_steps", passes::settle_preset_steps, false},
     Pass{"shift_parts", passes::join_shift_parts, false},
+    Pass{"thread_leads", passes::write_thread_leads, false},
     Pass{"plane_scales", passes::complete_scales, false},
     Pass{"surfaces", passes::convert_surfaces, false},
     Pass{"frames", passes::convert_frames, false},

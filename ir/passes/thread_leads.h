@@ -1,0 +1,11 @@
+// The pitch of threads that join another one, for targets where each block says its own.
+#pragma once
+
+#include "ir/passes/legalise.h"
+
+namespace cnctrans::ir::passes {
+
+/// Writes the pitch in force into the thread blocks that have none.
+void write_thread_leads(Program& program, const LegaliseContext& context);
+
+}  // namespace cnctrans::ir::passes
