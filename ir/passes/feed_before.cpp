@@ -25,8 +25,8 @@ class GivenDomain {
     bool maybe = false;
   };
   [[nodiscard]] static State start(const Routine& r, bool called) { return {called || r.kind != RoutineKind::main}; }
-  static bool gives(const Statement& s) {
-    if (std::holds_alternative<Opaque>(s.node)) return true;
+  static bool gives(const Statement& s) { return std::holds_alternative<Opaque>(s.node) || says(s); }
+  static bool says(const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
              const auto* d = std::get_if<CycleDefine>(&a.data);
@@ -51,11 +51,18 @@ class GivenDomain {
 
 struct FeedsBefore::Analysis {
   Analysis(const Program& program, double at_power_on) : states(program, domain) {
-    const bool given = std::any_of(program.routines.begin(), program.routines.end(), GivenDomain::touches);
+    const CallGraph calls(program);
+    for (const auto& site : calls.sites()) given = given || !site.callee;
+    given = given || std::none_of(program.routines.begin(), program.routines.end(),
+                                  [](const Routine& r) { return r.kind == RoutineKind::main; });
+    for (const auto& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) { given = given || GivenDomain::says(s); });
+    }
     if (given && at_power_on > 0) power_on = at_power_on;
   }
   GivenDomain domain;
   FlowStates<GivenDomain> states;
+  bool given = false;              ///< F stands in the program, or may in what it calls or is called by
   std::optional<double> power_on;  ///< a feed to go back to, in a program that has F
 };
 
@@ -72,6 +79,7 @@ FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& fact
     own = true;
     feed.value = f->value.literal() ? std::optional(f->value.number) : constant_value(f->value.expr);
   }
+  if (!own && !analysis_->given) return {std::nullopt, true};
   const auto* state = own || feed.value ? nullptr : analysis_->states.before(s);
   if (state == nullptr || state->maybe) return feed;
   if (setting_in<Units>(b, facts, Setting::units) == Units::metric) feed.value = analysis_->power_on;
