@@ -54,6 +54,10 @@ constexpr std::array specs{
                "coordinate programmed last (the difference of the frames is travelled)"},
     OptionSpec{"frame.first_arc", "any|absolute_centre", "any",
                "how an arc gives its centre that is the first move behind a mirror or a rotation"},
+    OptionSpec{
+        "frame.mirror_order", "stated|assumed_with_rotation|assumed", "stated",
+        "whether the maker's manual says in which order a mirror and the other parts of the frame apply: yes, not "
+        "beside a rotation, not beside a rotation or a shift"},
     OptionSpec{"frame.plane_change", "keeps|may_end_rotation", "keeps",
                "a plane function while a rotation is in force: the rotation stays, or that is not certain"},
     OptionSpec{

@@ -32,6 +32,8 @@ PlainTable table_of(const Style& style, const machine::Profile& profile, bool la
   // A later change to inches changes the number of decimals.
   if (!inch) t.settings[static_cast<std::size_t>(ir::Setting::units)][static_cast<std::size_t>(ir::Units::inch)] = {};
   for (ir::AxisId axis = 0; axis < ir::axis::a; ++axis) t.centers[axis] = center_letter(axis);
+  // Rotary words are told of once a program (TRN-480).
+  for (const ir::AxisId axis : {ir::axis::a, ir::axis::b, ir::axis::c}) t.axes[axis] = {};
   t.radius = style.radius_address;
   t.work_offset_off = g_word(lathe, Use::machine_coordinates);
   t.shift_off = g_word(lathe, Use::shift);

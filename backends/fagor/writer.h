@@ -61,6 +61,7 @@ class Writer : public ProgramWriter {
   void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;
   void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
   [[nodiscard]] bool rollover() const;
+  void tell_rotary(const ir::CoordWord& w);
   void pole_set(const ir::Action& a, const ir::PoleSet& p) override;
   void dwell(const ir::Action& a, const ir::Dwell& d) override;
   void cycle_define(const ir::Action& a, const ir::CycleDefine& c) override;
@@ -131,6 +132,7 @@ class Writer : public ProgramWriter {
   Printer printer_;
   const ir::Block* block_ = nullptr;
   bool has_surfaces_ = false;
+  bool rotary_told_ = false;
   ir::Block surface_block_;                  ///< the block at hand in the words of the face or the cylinder
   ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written
   bool after_offset_ = false;                ///< the last thing written is a work offset

@@ -48,6 +48,20 @@ bool Writer::rollover() const {
   return profile().option("fagor.rotary_rollover") == "yes";
 }
 
+/// On a rollover axis a plain word is a place and its sign a direction, and whether the axis is one nobody knows here.
+void Writer::tell_rotary(const ir::CoordWord& w) {
+  const bool plain = same_dialect() || !ir::is_rotary_letter(w.axis) || rotary_told_ ||
+                     known<ir::Distance>(ir::Setting::distance) == ir::Distance::incremental ||
+                     known<ir::Surface>(ir::Setting::surface).value_or(ir::Surface::none) != ir::Surface::none;
+  if (plain) return;
+  rotary_told_ = true;
+  diagnostics().warning("TRN-480", span_of(w.pos),
+                        "the words of the rotary axis " + std::string(axis_name(w.axis)) +
+                            " are written as plain coordinates; on a rollover axis of the target the sign of an "
+                            "absolute word is the direction of turning (said once a program)",
+                        "compare the direction of every rotary move on the target's machine");
+}
+
 bool Writer::curve_in_force() {
   const auto text = motion_tracker().text();
   const auto kind = text || facts() == nullptr ? text : facts()->motion;
@@ -171,7 +185,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
     }
   }
   switch (w.direction) {
-    case ir::RotaryDirection::as_value: break;
+    case ir::RotaryDirection::as_value: tell_rotary(w); break;
     case ir::RotaryDirection::by_sign:
       if (!rollover() && !same_dialect() && known<ir::Distance>(ir::Setting::distance) != ir::Distance::incremental)
         return refuse(no_word, w.pos, plain_axis, rollover_hint);

@@ -146,8 +146,34 @@ class FramePass {
       }
     }
     b.actions = std::move(actions);
+    tell_mirror(s, state);
     settle(s);
     editor.put(out, {}, std::move(s));
+  }
+
+  /// A mirror beside what the manual of one of the two controls leaves open.
+  void tell_mirror(const Statement& s, const FrameState& state) {
+    if (mirror_told_ || program_.dialect == context_.target.dialect) return;
+    const PlanarFrame f = target_.part(state);
+    if (!f.mirror || *f.mirror == 0) return;
+    const auto mirrored = [&f](std::size_t axis) { return (*f.mirror >> axis & 1U) != 0; };
+    const PlaneAxes in_plane = plane_axes(f.plane);
+    const bool turned = f.turns() && mirrored(in_plane.u) != mirrored(in_plane.v);
+    bool shifted = false;
+    for (std::size_t axis = 0; axis < PlanarFrame::axes; ++axis)
+      shifted = shifted || (mirrored(axis) && !(f.shift[axis] && f.shift[axis]->is(0)));
+    const auto open = [&](const machine::Profile& m) {
+      const auto order = m.option("frame.mirror_order");
+      return (turned && order != "stated") || (shifted && order == "assumed");
+    };
+    if (!open(context_.source_machine) && !open(context_.target_machine)) return;
+    mirror_told_ = true;
+    context_.diagnostics.warning(
+        "TRN-481", s.line.span,
+        std::string("a mirror together with a ") + (turned ? "rotation" : "shift") +
+            ": in which order they apply is not stated for one of the two controls (said once "
+            "a program)",
+        "check the first points behind it on the machine; the profile's option frame.mirror_order");
   }
 
   /// A shift that outlives the program on the target is taken back where the source forgets it.
@@ -353,6 +379,7 @@ class FramePass {
   const FrameTarget target_;
   std::set<std::uint32_t> waiting_;
   bool pending_ = false;  ///< statements before this one wait to be said here
+  bool mirror_told_ = false;
 };
 
 bool uses_frames(const Program& program) {

@@ -58,7 +58,7 @@ Plane plane_of(Surface s) {
 class SurfacePass {
  public:
   SurfacePass(Program& program, const LegaliseContext& context)
-      : program_(program), context_(context), facts_(program, context), frames_(builds_frames(program)) {}
+      : context_(context), facts_(program, context), frames_(builds_frames(program)) {}
 
   void statement(Statement&& s, Body& out) {
     auto* b = std::get_if<Block>(&s.node);
@@ -228,7 +228,6 @@ class SurfacePass {
     if (*surface == Surface::cylinder) drop_plane(b);
   }
 
-  Program& program_;
   const LegaliseContext& context_;
   FactsOf facts_;
   bool frames_;
