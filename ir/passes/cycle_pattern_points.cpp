@@ -84,6 +84,9 @@ bool CyclePass::way_by_itself(Statement& p, const FeedBefore& feed, Body& before
   b.actions.clear();
   b.motion.kind = MotionKind::rapid;
   b.motion.centers.clear();
+  for (auto& c : b.motion.coords) {  // the way has been travelled
+    if (c.mode == WordMode::incremental) c.value = Value(0);
+  }
   return true;
 }
 
