@@ -151,6 +151,18 @@ std::optional<double> constant_binary(BinaryOp op, double a, double b) {
   }
 }
 
+/// The digits of `x` in one base as those of another; nullopt: it has none, or digits above 9 (the control's matter).
+std::optional<double> other_base(double x, std::int64_t from, std::int64_t into) {
+  if (!(x >= 0 && x <= 4294967295.0) || x != std::floor(x)) return std::nullopt;
+  auto rest = static_cast<std::int64_t>(x);
+  std::int64_t value = 0, unit = 1;
+  for (; rest > 0; rest /= from, unit *= into) {
+    if (rest % from > 9) return std::nullopt;
+    value += rest % from * unit;
+  }
+  return static_cast<double>(value);
+}
+
 std::optional<double> constant_call(const Call& c) {
   if (c.args.empty()) return std::nullopt;
   const auto a = constant_value(c.args[0]);
@@ -169,6 +181,15 @@ std::optional<double> constant_call(const Call& c) {
     case Function::trunc: return std::trunc(*a);
     case Function::ceil: return std::ceil(*a);
     case Function::floor: return std::floor(*a);
+    case Function::exp: return std::exp(*a);
+    case Function::ln: return *a > 0 ? std::optional(std::log(*a)) : std::nullopt;
+    case Function::log10: return *a > 0 ? std::optional(std::log10(*a)) : std::nullopt;
+    case Function::to_bcd: return *a <= 99'999'999 ? other_base(*a, 10, 16) : std::nullopt;
+    // With a digit above 9 it is no such code: a binary number already.
+    case Function::from_bcd: {
+      const auto code = other_base(*a, 16, 10);
+      return code || !(*a >= 0 && *a <= 4294967295.0 && *a == std::floor(*a)) ? code : a;
+    }
     default: return std::nullopt;
   }
 }

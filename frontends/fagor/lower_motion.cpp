@@ -73,6 +73,9 @@ void BlockLowerer::centers(ir::Motion& m) {
       (void)state_.plane_by_text();
       result_->needs_program = true;
       extra().has_pitch = true;
+      if (w->expr < 0 && w->number < 0)
+        state_.error("FAG-046", w->pos, "the pitch of a helix is never negative [54]",
+                     "the end along the tool axis gives its sense");
       extra().pitch = std::move(center.value);
       continue;
     }
