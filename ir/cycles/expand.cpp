@@ -152,8 +152,10 @@ void restore_spindle(const HoleNumbers& h, Path& path) {
   spindle(path, h.spindle_after, switches ? std::optional(CycleStep::spindle_restore) : std::nullopt);
 }
 
+/// The first peck is the one programmed, whatever is left behind it.
 void balanced(const HoleNumbers& h, double depth, std::vector<double>& sizes) {
-  double rest = depth;
+  sizes.push_back(std::min(h.first, depth));
+  double rest = depth - sizes.front();
   while (rest > 2 * h.first - tiny && sizes.size() < most_pecks) {
     sizes.push_back(h.first);
     rest -= h.first;
@@ -167,7 +169,7 @@ void balanced(const HoleNumbers& h, double depth, std::vector<double>& sizes) {
 }
 
 /// Smaller by `degression` while more than that (and the minimum) is left; the last remainder below two of the smallest
-/// strokes is shared between two.
+/// strokes is shared between two. The first is the one programmed.
 void arithmetic(const HoleNumbers& h, double depth, std::vector<double>& sizes) {
   const double smallest = std::min(h.first, std::max({h.degression, h.minimum, tiny * 10}));
   double stroke = h.first, rest = depth;
@@ -176,7 +178,7 @@ void arithmetic(const HoleNumbers& h, double depth, std::vector<double>& sizes) 
       sizes.push_back(rest);
       return;
     }
-    if (stroke <= smallest + tiny && rest < 2 * smallest - tiny) {
+    if (!sizes.empty() && stroke <= smallest + tiny && rest < 2 * smallest - tiny) {
       sizes.push_back(rest / 2);
       sizes.push_back(rest / 2);
       return;

@@ -128,7 +128,7 @@ bool ComputedHole::law_begin(const Value& left) {
     case PeckLaw::constant:
     case PeckLaw::count: peck_ = kept(first_); return error.empty();
     case PeckLaw::balanced:
-    case PeckLaw::arithmetic: return halving_begin(left);
+    case PeckLaw::arithmetic: return halving_begin();
     case PeckLaw::geometric: return geometric_begin();
     case PeckLaw::linear: return linear_begin(left);
     default: return fail("the law of its pecks is not carried out");
@@ -141,7 +141,7 @@ bool ComputedHole::peck_variable(const Value& v) {
   return peck_var_.has_value();
 }
 
-bool ComputedHole::halving_begin(const Value& left) {
+bool ComputedHole::halving_begin() {
   if (!peck_variable(first_)) return false;
   least_ = first_;
   if (c_.pecks.law == PeckLaw::arithmetic) {
@@ -157,7 +157,6 @@ bool ComputedHole::halving_begin(const Value& left) {
       when(more(least_, first_), *var, first_);
     }
   }
-  halve(left);
   return error.empty();
 }
 

@@ -316,7 +316,7 @@ class ComputedHole {
   Value reapproach(const Value& depth_now);
   bool law_begin(const Value& left);
   bool peck_variable(const Value& v);
-  bool halving_begin(const Value& left);
+  bool halving_begin();
   /// The last two of the smallest pecks share what is left.
   void halve(const Value& left);
   bool geometric_begin();
