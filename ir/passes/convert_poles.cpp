@@ -298,15 +298,15 @@ class PolePass {
     return context_.target.polar && (!turns || context_.target.helix_turns);
   }
 
-  /// An arc whose end is an angle about its centre: with its radius about the pole every target has it (the writer
-  /// leaves out a word that the target does not take), the other forms become axis words. False: not known.
+  /// An angle about the centre: with its radius every target has it, the other forms become axis words. False: not
+  /// known.
   bool polar_arc(Block& b, const Facts& facts) {
-    if (b.motion.centers.empty() && b.motion.extra->has_polar_radius && stays_polar(b)) {
-      const MotionExtra& x = *b.motion.extra;
+    const MotionExtra& x = *b.motion.extra;
+    if (b.motion.centers.empty() && x.has_polar_radius && x.has_polar_angle && stays_polar(b)) {
       const auto distance = setting_in<Distance>(b, facts, Setting::distance);
       const bool absolute = polar_absolute(x, distance);
       forget_point();
-      if (absolute && pole_ && x.has_polar_angle && x.polar_angle.literal() && x.polar_radius.literal())
+      if (absolute && pole_ && x.polar_angle.literal() && x.polar_radius.literal())
         at_ = around(*pole_, x.polar_radius.number, x.polar_angle.number);
       if (absolute) radius_ = x.polar_radius;
       return true;

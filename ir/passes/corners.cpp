@@ -105,6 +105,7 @@ class CornerPass {
     }
     const Statement* next = following(body, at);
     if (next == nullptr || !contour(*next) || plane_at(s) != plane_at(*next)) return std::nullopt;
+    if (along_one_axis(s, *next)) return std::nullopt;
     if (const auto angle = angle_at(body, at); angle && *angle < 1e-4) return std::nullopt;  // the path turns back
     Action a;
     Corner c = *lasting_;
@@ -113,6 +114,17 @@ class CornerPass {
     a.order = Order::before;
     block->actions.push_back(std::move(a));
     return single(body, at, block->actions.size() - 1);
+  }
+
+  /// Two lines along the same axis: straight on or back, and nothing to insert in either case.
+  static bool along_one_axis(const Statement& s, const Statement& next) {
+    const auto only_axis = [](const Statement& x) -> std::optional<AxisId> {
+      const Motion& m = std::get<Block>(x.node).motion;
+      if (m.coords.size() != 1 || !m.centers.empty() || m.extra != nullptr || m.radius_given) return std::nullopt;
+      return m.coords.front().axis;
+    };
+    const auto axis = only_axis(s);
+    return axis && axis == only_axis(next);
   }
 
   /// The corner of one block.
