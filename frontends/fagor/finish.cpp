@@ -7,6 +7,7 @@
 #include "frontends/fagor/program_reader.h"
 #include "ir/cycles/pattern.h"
 #include "ir/dataflow.h"
+#include "ir/search.h"
 
 namespace cnctrans::fagor {
 
@@ -282,13 +283,6 @@ void judge_patterns(const ir::Program& program, LowerState& state) {
   }
 }
 
-std::optional<ir::Surface> surface_in(const ir::Block& b) {
-  for (const auto& a : b.actions) {
-    if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) return s->surface;
-  }
-  return std::nullopt;
-}
-
 /// X, C and Y mean other things on the face and the cylinder than elsewhere: was the text the order of work?
 void judge_surfaces(ir::Program& program, LowerState& state) {
   if (!state.facts.surfaces || in_order_of_text(program)) return;
@@ -309,7 +303,7 @@ void judge_surfaces(ir::Program& program, LowerState& state) {
   for (const auto& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
-      if (b == nullptr || surface_in(*b) || !concerned(*b)) return;
+      if (b == nullptr || ir::action_in<ir::SurfaceSet>(*b) != nullptr || !concerned(*b)) return;
       const auto line = state.facts.surface_lines.find(s.line.span.line);
       const auto assumed = line == state.facts.surface_lines.end() ? ir::Surface::none : line->second;
       const ir::Facts& before = table.before(s.id);

@@ -4,17 +4,12 @@
 #include <optional>
 
 #include "ir/dataflow.h"
+#include "ir/passes/words.h"
+#include "ir/search.h"
 
 namespace cnctrans::frontends::num {
 
 namespace {
-
-std::optional<ir::Surface> surface_in(const ir::Block& b) {
-  for (const auto& a : b.actions) {
-    if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) return s->surface;
-  }
-  return std::nullopt;
-}
 
 bool says_x_or_y(const ir::Block& b) {
   return b.has_motion && std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [](const ir::CoordWord& w) {
@@ -34,26 +29,14 @@ bool turns(const ir::Block& b, const ir::Facts& facts) {
          });
 }
 
-template <class Enum>
-std::optional<Enum> in_force(const ir::Block& b, const ir::Facts& facts, ir::Setting s) {
-  auto value = facts.settings[static_cast<std::size_t>(s)];
-  for (const auto& a : b.actions) {
-    if (const auto* m = std::get_if<ir::ModalSet>(&a.data); m != nullptr && m->setting == s) value = m->value;
-  }
-  return value ? std::optional(static_cast<Enum>(*value)) : std::nullopt;
-}
-
 }  // namespace
 
 void judge_surfaces(ir::Program& program, const ir::ModalState& power_on, Diagnostics& diagnostics) {
-  bool used = false;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&used](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      used = used || (b != nullptr && surface_in(*b).value_or(ir::Surface::none) != ir::Surface::none);
-    });
-  }
-  if (!used) return;
+  const auto chooses = [](const ir::Action& a) {
+    const auto* set = std::get_if<ir::SurfaceSet>(&a.data);
+    return set != nullptr && set->surface != ir::Surface::none;
+  };
+  if (!ir::any_action(program, chooses)) return;
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, power_on);
   for (const auto& r : program.routines) {
@@ -61,12 +44,12 @@ void judge_surfaces(ir::Program& program, const ir::ModalState& power_on, Diagno
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
       if (b == nullptr) return;
-      const auto own = surface_in(*b);
-      if (own) by_text = *own;
+      const auto* own = ir::action_in<ir::SurfaceSet>(*b);
+      if (own != nullptr) by_text = own->surface;
       const ir::Facts& before = table.before(s.id);
       if (!before.reachable) return;
       const auto known = before.settings[static_cast<std::size_t>(ir::Setting::surface)];
-      if (!own && says_x_or_y(*b) && known != static_cast<std::uint8_t>(by_text)) {
+      if (own == nullptr && says_x_or_y(*b) && known != static_cast<std::uint8_t>(by_text)) {
         diagnostics.error("NUM-050", s.line.span,
                           "X and Y of this block depend on G20, G21 or G22, and which one is in force depends on the "
                           "way to it",
@@ -74,7 +57,7 @@ void judge_surfaces(ir::Program& program, const ir::ModalState& power_on, Diagno
       }
       const auto wanted = by_text == ir::Surface::face ? ir::Plane::xy : ir::Plane::yz;
       if (by_text != ir::Surface::none && turns(*b, before) &&
-          in_force<ir::Plane>(*b, before, ir::Setting::plane) != wanted) {
+          ir::passes::setting_in<ir::Plane>(*b, before, ir::Setting::plane) != wanted) {
         diagnostics.error("NUM-050", s.line.span,
                           "an arc or radius compensation on the face or the cylinder in another plane",
                           by_text == ir::Surface::face ? "write G17 behind G21" : "write G19 behind G22");

@@ -4,18 +4,11 @@
 #include <memory>
 
 #include "ir/dataflow.h"
+#include "ir/search.h"
 
 namespace cnctrans::frontends::sinumerik {
 
 namespace {
-
-const ir::SurfaceSet* surface_in(const ir::Block& b) {
-  const ir::SurfaceSet* found = nullptr;
-  for (const ir::Action& a : b.actions) {
-    if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) found = s;
-  }
-  return found;
-}
 
 bool open(ir::AxisId axis, ir::WordScale scale) {
   return axis == ir::axis::x && scale == ir::WordScale::modal;
@@ -53,7 +46,7 @@ void face_radius(ir::Program& program, const machine::Profile& profile, Diagnost
   for (const auto& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
-      const auto* set = b != nullptr ? surface_in(*b) : nullptr;
+      const auto* set = b != nullptr ? ir::action_in<ir::SurfaceSet>(*b) : nullptr;
       used = used || (set != nullptr && set->surface == ir::Surface::face);
       in_order = in_order && (b != nullptr || std::holds_alternative<ir::Assign>(s.node));
     });
@@ -67,7 +60,7 @@ void face_radius(ir::Program& program, const machine::Profile& profile, Diagnost
       auto* b = std::get_if<ir::Block>(&s.node);
       if (b == nullptr) return;
       const ir::Surface text = by_text;
-      if (const auto* set = surface_in(*b)) by_text = set->surface;
+      if (const auto* set = ir::action_in<ir::SurfaceSet>(*b)) by_text = set->surface;
       const ir::Facts& before = table.before(s.id);
       if (!before.reachable) return;
       auto surface = before.settings[static_cast<std::size_t>(ir::Setting::surface)];

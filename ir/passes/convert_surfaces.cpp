@@ -6,44 +6,18 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
 
-SurfaceSet* surface_in(Block& b) {
-  for (auto& a : b.actions) {
-    if (auto* s = std::get_if<SurfaceSet>(&a.data)) return s;
-  }
-  return nullptr;
-}
-
-bool uses_surfaces(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) found = found || std::holds_alternative<SurfaceSet>(a.data);
-    });
-  }
-  return found;
-}
-
 /// A programmable frame is built up somewhere; ending one does not count.
 bool builds_frames(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) {
-        const auto* f = std::get_if<FrameOp>(&a.data);
-        found = found || (f != nullptr && f->change && f->change->combine != FrameCombine::clear);
-      }
-    });
-  }
-  return found;
+  return any_action(program, [](const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    return f != nullptr && f->change && f->change->combine != FrameCombine::clear;
+  });
 }
 
 bool is_plane(const Action& a, Plane p) {
@@ -62,7 +36,7 @@ class SurfacePass {
 
   void statement(Statement&& s, Body& out) {
     auto* b = std::get_if<Block>(&s.node);
-    SurfaceSet* set = b != nullptr ? surface_in(*b) : nullptr;
+    SurfaceSet* set = b != nullptr ? action_in<SurfaceSet>(*b) : nullptr;
     if (b != nullptr) resume(s, *b);
     if (set == nullptr) {
       if (b != nullptr && target().surfaces == SurfaceForm::c_with_plane) under_plane(s, *b);
@@ -125,9 +99,7 @@ class SurfacePass {
                        : "the target deselects the work offset here, and the one in force is not known",
                "write the work offset behind this block");
       } else if (*facts.work_offset > 0) {
-        behind.push_back(made(s.line, Block{}));
-        std::get<Block>(behind.back().node)
-            .actions.push_back(action(WorkOffset{Value(static_cast<double>(*facts.work_offset)), false}));
+        behind.push_back(make_block(s.line, action(WorkOffset{Value(static_cast<double>(*facts.work_offset)), false})));
       }
     }
     const auto before = setting<Surface>(facts, Setting::surface);
@@ -137,9 +109,7 @@ class SurfacePass {
       report(s, "TRN-173", "whether X is a radius or a diameter here depends on the path that leads to the block");
     } else if (*mode != DiameterMode::radius) {
       const auto now = surface == Surface::face ? DiameterMode::radius : *mode;
-      behind.push_back(made(s.line, Block{}));
-      std::get<Block>(behind.back().node)
-          .actions.push_back(action(ModalSet{Setting::diameter, static_cast<std::uint8_t>(now)}));
+      behind.push_back(make_block(s.line, action(ModalSet{Setting::diameter, static_cast<std::uint8_t>(now)})));
     }
   }
 
@@ -161,7 +131,7 @@ class SurfacePass {
     out.push_back(std::move(s));
     if (surface == Surface::face) return;
     out.push_back(
-        made_block_with(line, ModalSet{Setting::plane, static_cast<std::uint8_t>(plane_of(Surface::cylinder))}));
+        make_block(line, action(ModalSet{Setting::plane, static_cast<std::uint8_t>(plane_of(Surface::cylinder))})));
   }
 
   /// It stands behind the choice of the cylinder already. The writer passes over that of the face.
@@ -169,14 +139,14 @@ class SurfacePass {
     std::erase_if(b.actions, [](const Action& a) { return is_plane(a, plane_of(Surface::cylinder)); });
   }
 
-  static bool is_arc(MotionKind k) { return k != MotionKind::rapid && k != MotionKind::linear; }
+  static bool no_line(MotionKind k) { return k != MotionKind::rapid && k != MotionKind::linear; }
 
   /// The target's senses of turning change with the plane: no arc stays in force over its end.
   void straight(const Statement& s, const Facts& facts, Body& out) {
     if (const auto comp = setting<CompSide>(facts, Setting::comp); comp && *comp != CompSide::off)
       report(s, "TRN-452", "radius compensation over the end of work on the face or the cylinder",
              "write G40 and a move before");
-    if (facts.motion && !is_arc(*facts.motion)) return;
+    if (facts.motion && !no_line(*facts.motion)) return;
     straightened_ = true;
     Block line;
     line.has_motion = true;
@@ -190,11 +160,9 @@ class SurfacePass {
     const auto kind = motion_in(b, facts_.before(s));
     if (!kind)
       report(s, "TRN-452", "which motion is in force here depends on the path", "write G1 or G0 in the block");
-    else if (is_arc(*kind))
+    else if (no_line(*kind))
       b.motion.kind = *kind;
   }
-
-  static Statement made_block_with(const LineInfo& like, ModalSet set) { return make_block(like, action(set)); }
 
   /// Senses of turning under a surface: only in its own plane.
   void under_plane(Statement& s, Block& b) {
@@ -208,7 +176,7 @@ class SurfacePass {
     }
     const auto plane = setting_in<Plane>(b, facts, Setting::plane);
     const auto kind = motion_in(b, facts);
-    const bool arc = b.has_motion && b.motion.moves() && kind != MotionKind::rapid && kind != MotionKind::linear;
+    const bool arc = b.has_motion && b.motion.moves() && (!kind || no_line(*kind));
     const bool turns = arc || std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
                          const auto* m = std::get_if<ModalSet>(&a.data);
                          const bool comp = m != nullptr && m->setting == Setting::comp && m->value != 0;
@@ -238,7 +206,7 @@ class SurfacePass {
 
 void convert_surfaces(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || context.target.surfaces == SurfaceForm::none) return;
-  if (!uses_surfaces(program)) return;
+  if (!any_action(program, [](const Action& a) { return std::holds_alternative<SurfaceSet>(a.data); })) return;
   SurfacePass pass(program, context);
   for (auto& r : program.routines)
     rewrite_body(r.body, [&pass](Statement&& s, Body& out) { pass.statement(std::move(s), out); });

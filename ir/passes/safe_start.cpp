@@ -8,6 +8,7 @@
 #include "ir/passes/feed_state.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
@@ -171,15 +172,7 @@ class SafeStart {
     return (keeps(context_.target_machine) && !keeps(context_.source_machine)) || shifts_itself();
   }
   bool shifts_itself() const {
-    bool uses = false;
-    for (const auto& r : program_.routines) {
-      for_each_statement(r.body, [&uses](const Statement& s) {
-        const auto* b = std::get_if<Block>(&s.node);
-        if (b == nullptr) return;
-        for (const auto& a : b->actions) uses = uses || std::holds_alternative<FrameOp>(a.data);
-      });
-    }
-    return uses;
+    return any_action(program_, [](const Action& a) { return std::holds_alternative<FrameOp>(a.data); });
   }
   static Action clear_shift() {
     auto change = std::make_shared<FrameChange>();

@@ -6,6 +6,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
@@ -24,18 +25,10 @@ bool is_part(const FrameChange& c) {
 }
 
 bool has_parts(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) {
-        const auto* op = std::get_if<FrameOp>(&a.data);
-        found = found || (op != nullptr && op->change && is_part(*op->change));
-      }
-    });
-  }
-  return found;
+  return any_action(program, [](const Action& a) {
+    const auto* op = std::get_if<FrameOp>(&a.data);
+    return op != nullptr && op->change && is_part(*op->change);
+  });
 }
 
 class ShiftParts {
