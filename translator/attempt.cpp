@@ -32,14 +32,14 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
 
 }  // namespace
 
-Attempt attempt_both(const AttemptContext& c, const ir::Program& program, const backends::WriteOptions& write) {
+Attempt attempt_both(const AttemptContext& c, ir::Program program, const backends::WriteOptions& write) {
   const std::string wanted = c.source_machine.option(ir::passes::uncalled_option, "when_needed");
   const bool uncalled = !c.as_it_stands && !ir::passes::uncalled_routines(program).empty();
-  if (!uncalled || wanted == "unknown") return attempt(c, program, write, false);
-  if (wanted == "power_on") return attempt(c, program, write, true);
+  if (!uncalled || wanted == "unknown") return attempt(c, std::move(program), write, false);
+  if (wanted == "power_on") return attempt(c, std::move(program), write, true);
   Attempt first = attempt(c, program, write, false);
   if (!first.said.has_errors()) return first;
-  Attempt second = attempt(c, program, write, true);
+  Attempt second = attempt(c, std::move(program), write, true);
   return second.said.error_count() < first.said.error_count() ? std::move(second) : std::move(first);
 }
 

@@ -28,6 +28,6 @@ struct Attempt {
 /// The program as it must be for the target, written. Subprograms that nothing at hand calls start with nothing known;
 /// where that refuses the program, the state of power-on is taken for granted, with a warning (TRN-460), unless the
 /// option `call.uncalled_state` of the source's machine says otherwise.
-Attempt attempt_both(const AttemptContext& context, const ir::Program& program, const backends::WriteOptions& write);
+Attempt attempt_both(const AttemptContext& context, ir::Program program, const backends::WriteOptions& write);
 
 }  // namespace cnctrans::translator

@@ -268,7 +268,8 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   }
   result.files = loader.files();
 
-  ir::Program work = source_program;
+  ir::Program work;
+  if (from == to) work = source_program;  // in its own language the names are the machine's
   declare_names(source_program, loader.definitions(), false, result.diagnostics);
   if (from != to) {
     work = source_program;
@@ -296,7 +297,7 @@ TranslateResult translate(const std::string& path, const TranslateOptions& optio
   if (options.names != nullptr) name_program(*options.names, work, write);
   Attempt written =
       attempt_both({*to, *source_profile, *target_profile, options, as_it_stands, refused(result.diagnostics, options)},
-                   work, write);
+                   std::move(work), write);
   result.diagnostics.append(written.said);
   auto& files = written.files;
   const ir::LegaliseReport& names = written.names;

@@ -8,6 +8,7 @@
 #include "backends/fagor/tables.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
+#include "ir/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -39,14 +40,12 @@ Writer::Writer(const ir::Program& program, const WriteOptions& options, const St
     : ProgramWriter(program, options, style, diagnostics),
       lathe_(options.profile->kind == machine::Kind::lathe),
       printer_(this->program(), lathe_, number_format()) {
-  for (const ir::Routine& r : program.routines) {
-    ir::for_each_statement(r.body, [this](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      if (b == nullptr || !lathe_) return;
-      for (const ir::Action& a : b->actions)
-        has_surfaces_ = has_surfaces_ || std::holds_alternative<ir::SurfaceSet>(a.data);
-    });
-  }
+  has_surfaces_ = lathe_ && ir::any_action(program, [](const ir::Action& a) {
+                    return std::holds_alternative<ir::SurfaceSet>(a.data);
+                  });
+  has_cycles_ = !same_dialect() && ir::any_action(program, [](const ir::Action& a) {
+    return std::holds_alternative<ir::CycleDefine>(a.data);
+  });
 }
 
 // ---- file frame ----------------------------------------------------------------------------------------------------

@@ -132,6 +132,7 @@ class Writer : public ProgramWriter {
   Printer printer_;
   const ir::Block* block_ = nullptr;
   bool has_surfaces_ = false;
+  bool has_cycles_ = false;  ///< of another control
   bool rotary_told_ = false;
   ir::Block surface_block_;                  ///< the block at hand in the words of the face or the cylinder
   ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written

@@ -115,9 +115,8 @@ void Writer::motion(const ir::Motion& m) {
     if (!text || is_straight(*text)) own().kind = ir::MotionKind::modal;
   }
   // So does every point under a cycle; the arc or the thread that was in force before it stays out of the text.
-  const ir::Facts* f = facts();
-  if (!same_dialect() && m.kind == ir::MotionKind::modal && m.moves() && f != nullptr && f->cycle_active_known &&
-      f->cycle_active && f->motion && !is_straight(*f->motion)) {
+  const ir::Facts* f = has_cycles_ && m.kind == ir::MotionKind::modal && m.moves() ? facts() : nullptr;
+  if (f != nullptr && f->cycle_active_known && f->cycle_active && f->motion && !is_straight(*f->motion)) {
     own().kind = ir::MotionKind::rapid;
     own().keeps_modal = false;
   }

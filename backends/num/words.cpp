@@ -157,9 +157,10 @@ void Writer::motion(const ir::Motion& m) {
   }
   if (m.kind == ir::MotionKind::thread && profile().kind != machine::Kind::lathe)
     return refuse(no_word, m.code_pos, "a thread cut in one move exists on lathes only (G38)");
-  const bool goes_on = m.kind == ir::MotionKind::modal && m.moves() && facts() != nullptr && facts()->reachable &&
-                       facts()->motion == ir::MotionKind::thread;
-  if (!same_dialect() && (goes_on || (m.kind == ir::MotionKind::thread && m.keeps_modal))) {  // G38 holds in its block
+  const bool may_thread = !same_dialect() && profile().kind == machine::Kind::lathe;
+  const ir::Facts* before = may_thread && m.kind == ir::MotionKind::modal && m.moves() ? facts() : nullptr;
+  const bool goes_on = before != nullptr && before->reachable && before->motion == ir::MotionKind::thread;
+  if (goes_on || (may_thread && m.kind == ir::MotionKind::thread && m.keeps_modal)) {  // G38 holds in its block
     ir::Motion thread = m;
     thread.kind = ir::MotionKind::thread;
     thread.explicit_code = true;

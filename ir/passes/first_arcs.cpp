@@ -82,8 +82,8 @@ void check_first_arcs(const Program& program, const LegaliseContext& context, co
       context.diagnostics.warning(
           "TRN-475", s.line.span,
           "an arc is the first move behind a change of mirror or rotation, and its centre counts from its start: this "
-          "control asks for an absolute centre there (G6)",
-          "give the centre as I=AC(..) J=AC(..) or move to the start of the arc again before it");
+          "control asks for an absolute centre there",
+          "give the centre absolute in the source, or move to the start of the arc again before it");
     });
   }
 }

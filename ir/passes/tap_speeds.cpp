@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
@@ -133,17 +134,10 @@ class TapSpeeds {
   }
   void tell(const LineInfo& where, double out) const {
     context_.diagnostics.warning("TRN-422", where.span,
-                                 "the tap leaves its hole at the speed of the way in, not at " + number_text(out) +
+                                 "the tap leaves its hole at the speed of the way in, not at " + shortest(out) +
                                      " rev/min: the target's tap has one speed",
                                  "the thread is the same; give both ways one speed");
   }
-  static std::string number_text(double x) {
-    std::string text = std::to_string(x);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-    return text;
-  }
-
   const LegaliseContext& context_;
   const FactsOf& facts_;
   Editor editor_;
