@@ -1,6 +1,7 @@
 #include "frontends/sinumerik/frontend.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
 #include <utility>
@@ -73,13 +74,20 @@ void set_unit_hint(ir::Program& program) {
   }
 }
 
-/// Words that begin so may stand in the file: "96" for G96, G961 and G962.
-bool names_g(std::string_view text, std::string_view digits) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if ((text[i] == 'G' || text[i] == 'g') && text.substr(i + 1).starts_with(digits)) return true;
+/// Which of these words may stand in the file, in one look at its text.
+struct CodesSeen {
+  bool css = false;              ///< G96, G961, G962
+  std::array<bool, 3> planes{};  ///< by ir::Plane
+  explicit CodesSeen(std::string_view text) {
+    for (std::size_t i = text.find_first_of("Gg"); i != std::string_view::npos; i = text.find_first_of("Gg", i + 1)) {
+      const std::string_view digits = text.substr(i + 1, 2);
+      css = css || digits == "96";
+      if (digits == "17") planes[static_cast<std::size_t>(ir::Plane::xy)] = true;
+      if (digits == "18") planes[static_cast<std::size_t>(ir::Plane::zx)] = true;
+      if (digits == "19") planes[static_cast<std::size_t>(ir::Plane::yz)] = true;
+    }
   }
-  return false;
-}
+};
 
 class FileReading {
  public:
@@ -98,11 +106,12 @@ class FileReading {
   ir::Program run() {
     fill_frame(program_, *machine_.profile);
     program_.texts->hold(source_);
-    const std::string_view text = source_->text();
-    context_.uses_css = names_g(text, "96");
-    const ir::Plane first = machine_.profile->power_on.plane;
-    context_.more_planes = (names_g(text, "17") && first != ir::Plane::xy) ||
-                           (names_g(text, "18") && first != ir::Plane::zx) || names_g(text, "19");
+    const CodesSeen seen(source_->text());
+    context_.uses_css = seen.css;
+    for (std::size_t p = 0; p < seen.planes.size(); ++p) {
+      const bool first = p == static_cast<std::size_t>(machine_.profile->power_on.plane);
+      context_.more_planes = context_.more_planes || (seen.planes[p] && !first);
+    }
     look_.file = context_.file;
     look_.name = source_->name();
     look_.encoding = source_->encoding();
