@@ -294,6 +294,7 @@ class BlockMachine final : public SystemData {
   bool run_machining(const ir::NamedCycle& c);
   bool machining_moves(const ir::cycles::MachiningCycle& cycle, const std::vector<ir::cycles::TurnMove>& moves,
                        bool taps);
+  void keep_pocket(std::uint64_t first, double radius);
   void keep_contours(const ir::cycles::LeftContours& left, CycleRun& run) const;
   bool machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNumbers& out);
   bool machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense);

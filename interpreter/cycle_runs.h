@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ir/modal.h"
+
 namespace cnctrans::interpreter {
 
 /// A point in the plane of X (radius) and Z, mm of the machine.
@@ -21,6 +23,9 @@ struct CycleRun {
   bool face = false;        ///< passes along X
   double out = 1;           ///< sense of X (with `face`: of Z) that leads away from the part
   bool comparable = false;  ///< the frame keeps the two axes: what stands above is right
+  /// Of a pocket: the plane in which it lies, the radius of the tool, and where the material begins, mm of the machine.
+  ir::Plane plane = ir::Plane::xy;
+  double radius = 0, surface = 0;
 };
 
 }  // namespace cnctrans::interpreter

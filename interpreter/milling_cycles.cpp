@@ -81,10 +81,34 @@ bool BlockMachine::run_milling() {
     return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
   }
   const double speed = spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  const std::uint64_t first = emitter_.seen();
   for (const auto& m : *moves) {
     if (!milling_move(m, speed)) return false;
   }
+  using ir::cycles::MillKind;
+  const bool pocket = mill_.shape->kind == MillKind::rectangle || mill_.shape->kind == MillKind::circle;
+  if (cycle_runs_ != nullptr && pocket) keep_pocket(first, context.tool_radius);
   return true;
+}
+
+void BlockMachine::keep_pocket(std::uint64_t first, double radius) {
+  const auto plane = ir::plane_axes(modal_.plane);
+  CycleRun run;
+  run.family = "pocket";
+  run.first = first;
+  run.last = emitter_.seen();
+  run.plane = modal_.plane;
+  run.radius = radius;
+  Axes low = p_, high = p_;
+  low[plane.w] = hole_->surface;
+  high[plane.w] = hole_->surface + 1;
+  low = frame_.apply(low);
+  high = frame_.apply(high);
+  run.surface = low[plane.w];
+  run.out = (high[plane.w] - low[plane.w]) * hole_->up;
+  const auto stays = [&](ir::AxisId axis) { return std::abs(high[axis] - low[axis]) < 1e-9; };
+  run.comparable = std::abs(std::abs(run.out) - 1) < 1e-9 && stays(plane.u) && stays(plane.v);
+  cycle_runs_->push_back(std::move(run));
 }
 
 bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {

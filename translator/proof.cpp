@@ -59,6 +59,8 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
   return verdict;
 }
 
+constexpr std::string_view tool_radius = "TOOL_RADIUS";  ///< machine datum of a run, no variable of the program
+
 class Prover {
  public:
   Prover(const Side& source, const Side& target, const ProofOptions& options)
@@ -103,6 +105,10 @@ class Prover {
     Proof p;
     p.source = replay(source_, run);
     run.set = options_.target_settings(inputs.set);
+    for (const auto& [name, value] : inputs.set) {  // a tool belongs to both machines
+      const auto same = [&n = name](const auto& s) { return s.first == n; };
+      if (name == tool_radius && std::none_of(run.set.begin(), run.set.end(), same)) run.set.emplace_back(name, value);
+    }
     p.target = replay(target_, run);
     p.verdict = judge(source_, p.source, target_, p.target);
     return p;

@@ -58,6 +58,44 @@ bool CyclePairs::about(const CycleRun& run, const PairPlace& start, const PairPl
   return true;
 }
 
+const CycleRun* CyclePairs::next_run(std::size_t k, bool source) const {
+  const auto& events = source ? a_ : b_;
+  for (std::size_t n = 0; k < events.size() && n <= most_moves_around; ++k, ++n) {
+    if (const auto* found = run_at(k, source); found != nullptr) return found;
+    if (events[k]->kind != EventKind::rapid) return nullptr;
+  }
+  return nullptr;
+}
+
+bool CyclePairs::finishes_apart(const CyclePasses& target, const PairPlace& at) const {
+  if (target.run->family != "pocket") return false;
+  const auto axes = ir::plane_axes(target.run->plane);
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+  bool any = false;
+  const auto cuts = [](const Event* e) { return e->kind == EventKind::linear || e->kind == EventKind::arc; };
+  for (const Event* e : target.events) {
+    if (!cuts(e)) continue;
+    const double u = e->to.value[axes.u], v = e->to.value[axes.v];
+    u0 = any ? std::min(u0, u) : u;
+    u1 = any ? std::max(u1, u) : u;
+    v0 = any ? std::min(v0, v) : v;
+    v1 = any ? std::max(v1, v) : v;
+    any = true;
+  }
+  /// The next cycle of the side machines the same pocket.
+  const auto here = [&](std::size_t k, bool source) {
+    const auto* next = next_run(k, source);
+    if (!any || next == nullptr || next == target.run || next->family != target.run->family) return false;
+    const auto& events = source ? a_ : b_;
+    while (k < events.size() && (number(events[k], source) < next->first || !cuts(events[k]))) ++k;
+    if (k == events.size()) return false;
+    const double u = events[k]->to.value[axes.u], v = events[k]->to.value[axes.v];
+    const double by = target.run->radius;
+    return u > u0 - by && u < u1 + by && v > v0 - by && v < v1 + by;
+  };
+  return here(at.j, false) && !here(at.i, true);
+}
+
 std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& start, double& max_length,
                                           std::string& what) const {
   PairPlace at = start;
@@ -78,6 +116,11 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   while (at.j < b_.size() && (at.j < first || number(b_[at.j], false) < target.run->last))
     take(b_[at.j], target, at.from_b, at.j);
   const double by = options_.tolerances.length;
+  if (finishes_apart(target, at)) {  // roughing and finishing are two of its cycles
+    while (run_at(at.j, false) == nullptr) take(b_[at.j], target, at.from_b, at.j);
+    const auto* second = run_at(at.j, false);
+    while (at.j < b_.size() && number(b_[at.j], false) < second->last) take(b_[at.j], target, at.from_b, at.j);
+  }
   for (std::size_t k = 0; k < most_moves_around && !together(at.from_a, at.from_b, by); ++k) {
     if (!rapid(at.j) || run_at(at.j, false) != nullptr) break;
     take(b_[at.j], target, at.from_b, at.j);

@@ -36,6 +36,10 @@ class CyclePairs {
   [[nodiscard]] std::size_t number(const interpreter::Event* e, bool source) const {
     return static_cast<std::size_t>(e - (source ? first_a_ : first_b_));
   }
+  /// The cycle to which rapid moves lead from there; null: none.
+  [[nodiscard]] const interpreter::CycleRun* next_run(std::size_t k, bool source) const;
+  /// The translation's next cycle finishes the pocket that `target` has roughed.
+  [[nodiscard]] bool finishes_apart(const CyclePasses& target, const PairPlace& at) const;
   [[nodiscard]] const interpreter::CycleRun* run_at(std::size_t j, bool source) const;
 
   const std::vector<const interpreter::Event*>&a_, &b_;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "verifier/similar_pocket.h"
 #include "verifier/similar_thread.h"
 
 namespace cnctrans::verifier {
@@ -397,6 +398,7 @@ std::string similar_difference(const CyclePasses& source, const CyclePasses& tar
   if (source.run->family != target.run->family) return "the cycles are of different kinds";
   const std::string what = beside_the_moves(source, target);
   if (!what.empty()) return what;
+  if (source.run->family == "pocket") return pocket_difference(source, target, tolerances, max_length);
   if (source.run->family == "thread") return thread_difference(source, target, tolerances, max_length);
   if (source.run->family != "stock") return "cycles of this kind are compared move by move";
   Stock stock(source, target, tolerances);

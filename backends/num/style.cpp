@@ -136,6 +136,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.native_cycle = [later](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);
     const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);
+    if (hole != nullptr && hole->kind == ir::HoleKind::mill) return later && native_pocket(*hole);
     return hole != nullptr ? native_hole(*hole) && (later || one_plane(*hole))
                            : named != nullptr && named->name == "thread.chased";
   };

@@ -21,6 +21,8 @@ bool centre_from_start(const machine::Profile& profile);
 bool later_family(const machine::Profile& profile);
 /// A hole cycle that a NUM cycle carries out with the same moves.
 bool native_hole(const ir::HoleCycle& cycle);
+/// A pocket that G45 says with its own words.
+bool native_pocket(const ir::HoleCycle& cycle);
 PlainTable plain_words(const machine::Profile& profile);
 
 }  // namespace cnctrans::backends::num

@@ -9,7 +9,6 @@
 #include "backends/num/writer.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
-#include "dialects/num/milling.h"
 #include "dialects/num/options.h"
 
 namespace cnctrans::backends::num {
@@ -367,24 +366,8 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
   add(level_word("EH", c.reference, a.pos), Rank::motion_extra);
 }
 
-/// G45 in its own words.
-void Writer::pocket(const ir::Action& a, const ir::HoleCycle& c) {
-  add(a.text.empty() ? "G45" : std::string(a.text), Rank::setting, a.pos);
-  const auto plane = setting(ir::Setting::plane);
-  const ir::AxisId axis = plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::z;
-  add(level_word(axis_name(axis), c.bottom, a.pos), Rank::center);
-  if (c.retract.base == ir::LevelBase::absolute) add(level_word("ER", c.retract, a.pos), Rank::motion_extra);
-  if (c.surface.given) add(level_word("EH", c.surface, a.pos), Rank::motion_extra);
-  for (const auto& row : facts::pocket_words) {
-    for (const auto& [name, v] : c.mill.words) {
-      const bool radius = name == "radius" && row.parameter == "corner";
-      if (radius || name == row.parameter) add(word(row.address, v, a.pos), Rank::motion_extra);
-    }
-  }
-}
-
 void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
-  if (c.kind == ir::HoleKind::mill && same_dialect()) return pocket(a, c);
+  if (c.kind == ir::HoleKind::mill && (same_dialect() || native_pocket(c))) return pocket(a, c);
   if (!native_hole(c))
     return refuse(no_cycle, a.pos, "this cycle is not one of this control's", "use --cycles=explode");
   const bool chips = c.kind == ir::HoleKind::peck_break;

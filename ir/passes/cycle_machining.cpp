@@ -151,6 +151,26 @@ void CyclePass::put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Bo
   put_moves(std::move(s), std::move(calls), std::move(pieces), out);
 }
 
+bool CyclePass::put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
+                                   bool last_resort, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  std::string none;
+  auto form = milling_.similar(hole, s, b, facts_.before(s), active_->defined_at ? active_->defined_at : height,
+                               sense_.now(), last_resort, &none);
+  const bool asked = context_.options.cycles == CycleWriting::similar && !last_resort;
+  if (!form && asked && !none.empty())
+    context_.diagnostics.note("TRN-416", s.line.span, "the target's own cycle would not leave the same part: " + none);
+  if (!form) return false;
+  context_.diagnostics.warning(
+      "TRN-415", s.line.span,
+      "the target's own cycle takes the place of this one: the same pocket by other passes: " + form->differs,
+      "check the tool on the target, and the way it takes");
+  position_rapid(b, context_);
+  active_->height = form->end_height;
+  put_moves(std::move(s), std::move(form->blocks), std::move(pieces), out);
+  return true;
+}
+
 /// What a cycle has become, in the place of its block.
 void CyclePass::put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);

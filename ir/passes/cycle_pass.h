@@ -460,6 +460,9 @@ class CyclePass {
   void write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out);
   void add_copies(Body& out);
   void own_labels(SimilarForm& form);
+  /// A pocket as the target's own cycle, by other passes. True: done.
+  bool put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
+                          bool last_resort, Body& out);
   void put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out);
   void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
   void no_moves(Statement&& s, const std::string& why, Body& out);

@@ -217,6 +217,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
   if (w && !height) height = height_mm(b, facts, *w);
   const bool milling = hole != nullptr && hole->kind == HoleKind::mill;
+  if (milling && !lost && put_similar_pocket(*hole, s, pieces, height, false, out)) return;
   if (lost)
     error = "the height at which it was defined, to which it goes back, is not known here";
   else if (milling)
@@ -227,6 +228,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
     moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
                     active_->defined_at.value_or(height.value_or(1e6)), sense_.or_off(), &error);
+  if (!moves && milling && !lost && put_similar_pocket(*hole, s, pieces, height, true, out)) return;
   if (!moves && error.empty()) {
     const auto initial = active_->defined_at ? active_->defined_at : height;
     bool downward = false;

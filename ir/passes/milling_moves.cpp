@@ -57,20 +57,6 @@ bool stays(const Block& b) {
   });
 }
 
-/// Where the tool stands behind the motion of the block, in program units; nullopt: not known.
-std::optional<double> place_after(const Block& b, const Facts& facts, AxisId axis) {
-  if (!b.has_motion) return facts.position[axis];
-  if (b.motion.extra || b.motion.frame != FrameUse::normal) return std::nullopt;
-  for (const auto& c : b.motion.coords) {
-    if (c.axis != axis) continue;
-    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const auto n = known(c.value);
-    const bool absolute = c.mode == WordMode::absolute || (c.mode == WordMode::modal && distance == Distance::absolute);
-    return absolute && c.scale == WordScale::modal ? n : std::nullopt;
-  }
-  return facts.position[axis];
-}
-
 /// Moves as blocks.
 class Writer {
  public:
@@ -179,6 +165,19 @@ class Writer {
 };
 
 }  // namespace
+
+std::optional<double> place_after(const Block& b, const Facts& facts, AxisId axis) {
+  if (!b.has_motion) return facts.position[axis];
+  if (b.motion.extra || b.motion.frame != FrameUse::normal) return std::nullopt;
+  for (const auto& c : b.motion.coords) {
+    if (c.axis != axis) continue;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    const auto n = known(c.value);
+    const bool absolute = c.mode == WordMode::absolute || (c.mode == WordMode::modal && distance == Distance::absolute);
+    return absolute && c.scale == WordScale::modal ? n : std::nullopt;
+  }
+  return facts.position[axis];
+}
 
 MillCycles::MillCycles(const Program& program, const Routine& routine, const LegaliseContext& context,
                        const FeedsBefore& feeds)

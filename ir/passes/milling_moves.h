@@ -12,6 +12,9 @@
 
 namespace cnctrans::ir::passes {
 
+/// Where the tool stands behind the motion of the block, in program units; nullopt: not known.
+std::optional<double> place_after(const Block& b, const Facts& facts, AxisId axis);
+
 /// The milling cycles of a program: the tool in use at every block, and the radii that profile and program give.
 class MillCycles {
  public:
@@ -23,6 +26,17 @@ class MillCycles {
                                                    const Facts& facts, std::optional<double> height,
                                                    std::optional<double> defined_at, std::optional<SpindleState> sense,
                                                    std::string* error) const;
+  /// A pocket as a cycle of the target that leaves the same part by other passes, when the options ask for it; nullopt
+  /// with a sentence: none. `last_resort`: without being asked for too, unless they forbid the target's cycles.
+  struct Similar {
+    Body blocks;
+    std::optional<double> end_height;  ///< mm
+    std::string differs;
+  };
+  [[nodiscard]] std::optional<Similar> similar(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                               const Facts& facts, std::optional<double> defined_at,
+                                               std::optional<SpindleState> sense, bool last_resort,
+                                               std::string* why) const;
   /// Ids of the blocks that the contours of cycles which have been read stand in.
   [[nodiscard]] const std::set<std::uint32_t>& contour_blocks() const { return contour_blocks_; }
 

@@ -1,0 +1,271 @@
+#include "verifier/similar_pocket.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/text.h"
+
+namespace cnctrans::verifier {
+
+using interpreter::CycleRun;
+using interpreter::Event;
+using interpreter::EventKind;
+
+namespace {
+
+constexpr std::size_t directions = 720;  ///< in which the walls are looked at
+constexpr std::size_t cells = 240;       ///< along the longer side, in which the floor is looked at
+constexpr double sagitta = 2e-4;         ///< of the chords that stand for an arc, mm
+constexpr double full = 6.283185307179586;
+
+/// Middle of the tool: in the plane, and over the floor (upward from the material).
+struct Point {
+  double u = 0, v = 0, w = 0;
+};
+struct Move {
+  const Event* event = nullptr;
+  std::vector<Point> points;
+};
+
+bool cuts(const Event& e) {
+  return e.kind == EventKind::linear || e.kind == EventKind::arc;
+}
+
+class Side {
+ public:
+  Side(const CyclePasses& passes, const CycleRun& run) : run_(run), axes_(ir::plane_axes(run.plane)) {
+    Point at = of(passes.start);
+    for (const Event* e : passes.events) {
+      if (e->kind != EventKind::rapid && !cuts(*e)) continue;
+      Move m;
+      m.event = e;
+      m.points.push_back(at);
+      const Point to = of(e->to);
+      if (e->kind == EventKind::arc && e->plane == run.plane) arc(m, at, to, *e);
+      m.points.push_back(to);
+      at = to;
+      if (cuts(*e)) lowest_ = std::min(lowest_, to.w);
+      moves_.push_back(std::move(m));
+    }
+  }
+  [[nodiscard]] const std::vector<Move>& moves() const { return moves_; }
+  [[nodiscard]] double lowest() const { return lowest_; }
+  [[nodiscard]] double radius() const { return run_.radius; }
+  [[nodiscard]] double surface() const { return run_.surface * run_.out; }
+
+  /// How far the part is cut in each direction; `floor`: at the floor only.
+  [[nodiscard]] std::array<double, directions> reach(bool floor, double room) const {
+    std::array<double, directions> out{};
+    out.fill(-std::numeric_limits<double>::infinity());
+    for (const auto& m : moves_) {
+      if (!cuts(*m.event)) continue;
+      for (std::size_t k = 1; k < m.points.size(); ++k) {
+        for (const Point& p : {m.points[k - 1], m.points[k]}) {
+          if (floor ? p.w > lowest_ + room : p.w > surface() - room) continue;
+          for (std::size_t d = 0; d < directions; ++d) {
+            const double angle = full * static_cast<double>(d) / directions;
+            out[d] = std::max(out[d], p.u * std::cos(angle) + p.v * std::sin(angle) + radius());
+          }
+        }
+      }
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] Point of(const interpreter::Position& p) const {
+    return {p.value[axes_.u], p.value[axes_.v], p.value[axes_.w] * run_.out};
+  }
+  void arc(Move& m, const Point& from, const Point& to, const Event& e) const {
+    const double r = std::hypot(from.u - e.center_u, from.v - e.center_v);
+    const double start = std::atan2(from.v - e.center_v, from.u - e.center_u);
+    double sweep = std::atan2(to.v - e.center_v, to.u - e.center_u) - start;
+    if (!e.cw && sweep <= 1e-9) sweep += full;
+    if (e.cw && sweep >= -1e-9) sweep -= full;
+    sweep += (e.cw ? -full : full) * e.turns;
+    const double step = r > sagitta ? 2 * std::acos(1 - sagitta / r) : full;
+    const double n = std::min(std::ceil(std::fabs(sweep) / step), 1e5);
+    for (double k = 1; k < n; ++k) {
+      const double a = start + sweep * k / n;
+      m.points.push_back(
+          {e.center_u + r * std::cos(a), e.center_v + r * std::sin(a), from.w + (to.w - from.w) * k / n});
+    }
+  }
+  const CycleRun& run_;
+  ir::PlaneAxes axes_;
+  std::vector<Move> moves_;
+  double lowest_ = std::numeric_limits<double>::infinity();
+};
+
+/// The material in cells, each as high as it still stands.
+class Grid {
+ public:
+  Grid(double u0, double v0, double u1, double v1, double top) : u_(u0), v_(v0) {
+    size_ = std::max({u1 - u0, v1 - v0, 1e-3}) / static_cast<double>(cells);
+    nu_ = static_cast<std::size_t>(std::ceil((u1 - u0) / size_)) + 1;
+    nv_ = static_cast<std::size_t>(std::ceil((v1 - v0) / size_)) + 1;
+    height_.assign(nu_ * nv_, top);
+  }
+  [[nodiscard]] double size() const { return size_; }
+  [[nodiscard]] std::size_t count() const { return height_.size(); }
+  [[nodiscard]] double at(std::size_t k) const { return height_[k]; }
+  [[nodiscard]] Point place(std::size_t k) const {
+    return {u_ + size_ * static_cast<double>(k % nu_), v_ + size_ * static_cast<double>(k / nu_), 0};
+  }
+  /// Calls `f` with every cell within `r` of the way from a to b.
+  template <class F>
+  void along(const Point& a, const Point& b, double r, F f) {
+    if (r <= 0) return;
+    const auto first = [](double from, double by) {
+      return static_cast<std::size_t>(std::max(0.0, std::ceil(from / by)));
+    };
+    const auto last = [](double to, double by, std::size_t n) {
+      return static_cast<std::ptrdiff_t>(std::min(std::floor(to / by), static_cast<double>(n) - 1));
+    };
+    const double du = b.u - a.u, dv = b.v - a.v, whole = du * du + dv * dv;
+    for (std::ptrdiff_t j = static_cast<std::ptrdiff_t>(first(std::min(a.v, b.v) - r - v_, size_)),
+                        jn = last(std::max(a.v, b.v) + r - v_, size_, nv_);
+         j <= jn; ++j) {
+      for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(first(std::min(a.u, b.u) - r - u_, size_)),
+                          in = last(std::max(a.u, b.u) + r - u_, size_, nu_);
+           i <= in; ++i) {
+        const double pu = u_ + size_ * static_cast<double>(i) - a.u, pv = v_ + size_ * static_cast<double>(j) - a.v;
+        const double k = whole > 0 ? std::clamp((pu * du + pv * dv) / whole, 0.0, 1.0) : 0;
+        if (std::hypot(pu - k * du, pv - k * dv) <= r)
+          f(height_[static_cast<std::size_t>(j) * nu_ + static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  void cut(const Move& m, double r) {
+    for (std::size_t k = 1; k < m.points.size(); ++k) {
+      const double w = std::max(m.points[k - 1].w, m.points[k].w);
+      along(m.points[k - 1], m.points[k], r, [w](double& h) { h = std::min(h, w); });
+    }
+  }
+  /// Some cell under the way stands higher than the tool comes.
+  bool hits(const Move& m, double r, double room) {
+    bool hit = false;
+    for (std::size_t k = 1; k < m.points.size() && !hit; ++k) {
+      const double w = std::min(m.points[k - 1].w, m.points[k].w);
+      along(m.points[k - 1], m.points[k], r, [&](const double& h) { hit = hit || h > w + room; });
+    }
+    return hit;
+  }
+
+ private:
+  double u_, v_, size_ = 1;
+  std::size_t nu_ = 0, nv_ = 0;
+  std::vector<double> height_;
+};
+
+class Pockets {
+ public:
+  Pockets(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances)
+      : a_(source, *source.run), b_(target, *target.run), t_(tolerances) {}
+  double apart = 0;
+
+  std::string difference() {
+    if (std::fabs(a_.lowest() - b_.lowest()) > t_.contour)
+      return fmt::format("the floors of the two pockets are {} mm apart", rounded(a_.lowest() - b_.lowest(), 4));
+    if (std::fabs(a_.surface() - b_.surface()) > t_.contour) return "the two pockets begin at other heights";
+    std::string what = walls(true);
+    if (what.empty()) what = walls(false);
+    if (what.empty()) what = feeds();
+    if (what.empty()) what = material();
+    return what;
+  }
+
+ private:
+  std::string walls(bool floor) {
+    const auto there = a_.reach(floor, t_.contour), here = b_.reach(floor, t_.contour);
+    double most = 0;
+    for (std::size_t d = 0; d < directions; ++d) {
+      if (std::isinf(there[d]) != std::isinf(here[d])) return "one of the two pockets has no walls";
+      if (!std::isinf(there[d])) most = std::max(most, std::fabs(there[d] - here[d]));
+    }
+    if (most > t_.contour) return fmt::format("the walls of the two pockets are {} mm apart", rounded(most, 4));
+    apart = std::max(apart, most);
+    return {};
+  }
+  [[nodiscard]] std::string feeds() const {
+    for (const auto& m : b_.moves()) {
+      if (!cuts(*m.event)) continue;
+      const bool known = std::any_of(a_.moves().begin(), a_.moves().end(), [&](const Move& o) {
+        return cuts(*o.event) && o.event->feed_mode == m.event->feed_mode &&
+               std::fabs(o.event->feed - m.event->feed) <= t_.feed_relative * std::max(1.0, o.event->feed);
+      });
+      if (!known)
+        return fmt::format("a pass of the translation's cycle has the feed {} ({}), none of the source's has",
+                           shortest(m.event->feed), ir::name(m.event->feed_mode));
+    }
+    return {};
+  }
+  /// Both cut the same cells down to the floor, and the translation makes no rapid move through what stands.
+  [[nodiscard]] std::string material() const {
+    double u0 = std::numeric_limits<double>::infinity(), v0 = u0, u1 = -u0, v1 = -u0;
+    for (const auto& m : a_.moves()) {
+      if (!cuts(*m.event)) continue;
+      for (const auto& p : m.points) {
+        u0 = std::min(u0, p.u - a_.radius());
+        v0 = std::min(v0, p.v - a_.radius());
+        u1 = std::max(u1, p.u + a_.radius());
+        v1 = std::max(v1, p.v + a_.radius());
+      }
+    }
+    if (u1 < u0) return {};
+    const double top = a_.surface();
+    Grid surely_a(u0, v0, u1, v1, top), perhaps_a = surely_a, surely_b = surely_a, perhaps_b = surely_a;
+    const double room = 0.75 * surely_a.size();
+    for (const auto& m : a_.moves()) {
+      if (!cuts(*m.event)) continue;
+      surely_a.cut(m, a_.radius() - room);
+      perhaps_a.cut(m, a_.radius() + room);
+    }
+    for (const auto& m : b_.moves()) {
+      if (!cuts(*m.event)) {
+        if (perhaps_b.hits(m, b_.radius() - room, t_.contour))
+          return "a rapid move of the translation's cycle goes through material that is not cut yet, at " + said(m);
+        continue;
+      }
+      surely_b.cut(m, b_.radius() - room);
+      perhaps_b.cut(m, b_.radius() + room);
+    }
+    for (std::size_t k = 0; k < surely_a.count(); ++k) {
+      const Point p = surely_a.place(k);
+      if (surely_a.at(k) < perhaps_b.at(k) - t_.contour)
+        return fmt::format("the translation's cycle leaves more than the source's, at {} {}", rounded(p.u, 2),
+                           rounded(p.v, 2));
+      if (surely_b.at(k) < perhaps_a.at(k) - t_.contour)
+        return fmt::format("the translation's cycle takes more than the source's, at {} {}", rounded(p.u, 2),
+                           rounded(p.v, 2));
+    }
+    return {};
+  }
+  static std::string said(const Move& m) {
+    const Point& p = m.points.back();
+    return fmt::format("{} {}", rounded(p.u, 3), rounded(p.v, 3));
+  }
+
+  Side a_, b_;
+  const Tolerances& t_;
+};
+
+}  // namespace
+
+std::string pocket_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances,
+                              double& max_length) {
+  const CycleRun &a = *source.run, &b = *target.run;
+  if (!a.comparable || !b.comparable || a.plane != b.plane || a.out * b.out < 0)
+    return "the pockets lie in planes that can't be compared";
+  Pockets pockets(source, target, tolerances);
+  std::string what = pockets.difference();
+  max_length = std::max(max_length, pockets.apart);
+  return what;
+}
+
+}  // namespace cnctrans::verifier
