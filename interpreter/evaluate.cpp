@@ -35,6 +35,15 @@ bool equal_numbers(double a, double b, ir::Compare how) {
   return how == ir::Compare::relative_1e12 && std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
 }
 
+bool Evaluator::equal(double a, double b, ir::Compare how) {
+  if (equal_numbers(a, b, how)) return true;
+  if (!(std::abs(a - b) <= equal_within_)) return false;
+  const Span& here = failure_.where;
+  const auto same = [&here](const Span& s) { return s.file == here.file && s.line == here.line; };
+  if (std::none_of(nearly_equal_.begin(), nearly_equal_.end(), same)) nearly_equal_.push_back(here);
+  return true;
+}
+
 double Evaluator::checked(double value, std::string_view what) {
   if (std::isfinite(value)) return value;
   failure_.fail(code::number_range, "the result of " + std::string(what) + " is out of the range of numbers");
@@ -133,8 +142,8 @@ double Evaluator::binary(const Node& n) {
         return 0;
       }
       return checked(std::pow(a, b), "a power");
-    case ir::BinaryOp::eq: return equal_numbers(a, b, how) ? 1 : 0;
-    case ir::BinaryOp::ne: return equal_numbers(a, b, how) ? 0 : 1;
+    case ir::BinaryOp::eq: return equal(a, b, how) ? 1 : 0;
+    case ir::BinaryOp::ne: return equal(a, b, how) ? 0 : 1;
     case ir::BinaryOp::lt: return a < b && (how == ir::Compare::exact || !equal_numbers(a, b, how)) ? 1 : 0;
     case ir::BinaryOp::gt: return a > b && (how == ir::Compare::exact || !equal_numbers(a, b, how)) ? 1 : 0;
     case ir::BinaryOp::le: return a < b || equal_numbers(a, b, how) ? 1 : 0;

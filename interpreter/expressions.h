@@ -53,6 +53,10 @@ class Evaluator final : public ValueSource {
  public:
   Evaluator(Variables& variables, Failure& failure) : variables_(variables), failure_(failure) {}
   void set_system(SystemData* system) { system_ = system; }
+  /// Numbers that differ by no more than this are equal for = and <> (machine profile, compare.equal_within).
+  void set_equal_within(double difference) { equal_within_ = difference; }
+  /// Statements at which two numbers were equal by that difference only, each once, in order.
+  [[nodiscard]] const std::vector<Span>& nearly_equal() const { return nearly_equal_; }
   /// The routine now running: names are looked up there, its locals read.
   void enter(const NameScope* scope, Locals* locals) {
     scope_ = scope;
@@ -115,6 +119,7 @@ class Evaluator final : public ValueSource {
   bool node_place(const Node& n, Place& out);
   double binary(const Node& n);
   double compare_text(const Node& n);
+  bool equal(double a, double b, ir::Compare how);
   double function(const Node& n);
   double text_function(const Node& n);
   Frame frame_call(const ir::Call& c);
@@ -142,6 +147,8 @@ class Evaluator final : public ValueSource {
   std::vector<CacheEntry> cache_;
   std::size_t cached_ = 0;
   std::vector<double> arguments_;
+  double equal_within_ = 0;
+  std::vector<Span> nearly_equal_;
 };
 
 /// Number as a message shows it: at most 10 decimals, no trailing zeros.

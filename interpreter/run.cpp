@@ -32,6 +32,7 @@ Runner::Runner(const ir::Program& program, const machine::Profile& profile, cons
       machine_(profile, emitter_, failure_, &evaluator_),
       routines_(program, options, &variables_) {
   evaluator_.set_system(&machine_);
+  evaluator_.set_equal_within(parse_decimal(profile.option("compare.equal_within")).value_or(0));
   machine_.keep_cycles(options.cycles);
   local_levels_ = static_cast<std::size_t>(parse_decimal(profile.option("calls.local_levels")).value_or(0));
 }
@@ -65,6 +66,11 @@ Result Runner::run() {
     diagnostics_.warning(code::contour_chosen, s,
                          "several contours fit the data of these elements; the one nearest to its start was run",
                          "say which point is meant (E+ or E-)");
+  }
+  for (const Span& s : evaluator_.nearly_equal()) {
+    diagnostics_.warning(code::nearly_equal, s,
+                         "two computed numbers are equal here but for rounding, and are taken for equal",
+                         "count with whole numbers where you can, or ask for < and >");
   }
   machine_.tell_path(diagnostics_);
   for (const auto& datum : machine_.assumed()) {

@@ -49,6 +49,7 @@ inline constexpr std::string_view value_limits = "RUN-055";
 inline constexpr std::string_view corner_left_out = "RUN-075";
 inline constexpr std::string_view text_cut = "RUN-056";
 inline constexpr std::string_view surface = "RUN-050";
+inline constexpr std::string_view nearly_equal = "RUN-080";
 // Found before anything moves.
 inline constexpr std::string_view unknown_label = "RUN-101";
 inline constexpr std::string_view unknown_routine = "RUN-102";

@@ -65,6 +65,8 @@ constexpr std::array specs{
         "a preset of the zero point stands by itself, or belongs to the work offset and is out of force with it"},
     OptionSpec{"frame.rotation_centre", "as_written|scaled_and_mirrored", "as_written",
                "whether the centre of a rotation goes through scale and mirror"},
+    OptionSpec{"compare.equal_within", "number", "0",
+               "two numbers that differ by no more than this are equal for = and <>; 0: exactly equal"},
     OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",
                "a helix whose pitch does not fit its travel: refused, or run with the nearest pitch"},
     OptionSpec{"machine_data.units", "modal|machine", "machine",

@@ -114,9 +114,11 @@ void Writer::motion(const ir::Motion& m) {
     const auto text = motion_tracker().text();
     if (!text || is_straight(*text)) own().kind = ir::MotionKind::modal;
   }
-  // So does every point under a cycle; the arc or the thread that was in force before it stays out of the text.
+  // So does every point under a cycle; the arc or the thread that was in force before it stays out of the text, and a
+  // G1 that a label makes doubtful is not said again.
   const ir::Facts* f = has_cycles_ && m.kind == ir::MotionKind::modal && m.moves() ? facts() : nullptr;
-  if (f != nullptr && f->cycle_active_known && f->cycle_active && f->motion && !is_straight(*f->motion)) {
+  if (f != nullptr && f->cycle_active_known && f->cycle_active && f->motion != ir::MotionKind::rapid &&
+      (!f->motion || !is_straight(*f->motion) || motion_tracker().text() != f->motion)) {
     own().kind = ir::MotionKind::rapid;
     own().keeps_modal = false;
   }

@@ -56,4 +56,13 @@ inline constexpr std::array m_codes{
     MRow{999, machine::MMeaning::machine_function, ir::Order::before, 0, "inhibit edit, MDI and PLC calls"},
 };
 
+/// Decoded M functions that no neutral meaning tells from those of the machine builder; any number may stand together.
+constexpr bool is_decoded_m(std::int64_t code) {
+  return code == 10 || code == 11 || code >= 997;
+}
+/// Coded M functions that stay in force: the control takes one of them and one that does not per block.
+constexpr bool is_modal_coded_m(std::int64_t code) {
+  return code >= 61 && code <= 69;
+}
+
 }  // namespace cnctrans::dialects::num

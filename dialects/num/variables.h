@@ -106,6 +106,7 @@ inline constexpr std::array e_parameters{
     EParameter{90000, 99999, 1, 0, EMeaning::machine, EUnit::none, true, "machine data of axes"},
 };
 
+inline constexpr std::int64_t e_parameter_max = 99999;
 /// The row of a parameter number; nullptr when the control has none.
 constexpr const EParameter* e_parameter(std::int64_t number) {
   for (const auto& p : e_parameters) {

@@ -30,6 +30,14 @@ std::optional<std::uint8_t> set_in(const ir::Block& b, ir::Setting s) {
   return value;
 }
 
+/// ED.
+bool turns_frame(const ir::Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    const auto* f = std::get_if<ir::FrameOp>(&a.data);
+    return f != nullptr && f->change && f->change->slot == ir::FrameSlot::rotation;
+  });
+}
+
 bool worth_a_look(const ir::Program& program) {
   bool found = false;
   for (const auto& r : program.routines) {
@@ -84,6 +92,10 @@ class Judge {
     if ((own ? *own != 0 : on) && stops) say(s, "M00 or M01 while radius compensation is on", "write G40 before it");
     if (stays && moves && b.motion.frame == ir::FrameUse::machine)
       say(s, "G52 while radius compensation is on", "write G40 before it");
+    if (stays && turns_frame(b))
+      diagnostics_.warning("NUM-058", s.line.span,
+                           "ED turns the coordinates while radius compensation is on; it belongs before G41 or G42",
+                           "write G40 before it");
     auto mode = before.settings[static_cast<std::size_t>(ir::Setting::feed_mode)];
     if (const auto here = set_in(b, ir::Setting::feed_mode)) mode = here;
     if (arc && mode == static_cast<std::uint8_t>(ir::FeedMode::inverse_time))
@@ -126,8 +138,8 @@ bool CompensationWatch::suspects(const ir::Block& b) {
   const bool arc = moves && is_arc(motion_);
   const bool stops = std::any_of(b.actions.begin(), b.actions.end(),
                                  [](const ir::Action& a) { return std::holds_alternative<ir::Stop>(a.data); });
-  const bool under =
-      (was_on || on_) && (stops || set_in(b, ir::Setting::plane) || (moves && b.motion.frame == ir::FrameUse::machine));
+  const bool under = (was_on || on_) && (stops || turns_frame(b) || set_in(b, ir::Setting::plane) ||
+                                         (moves && b.motion.frame == ir::FrameUse::machine));
   const bool suspicious = under || (arc && (begins_ || inverse_time_));
   if (moves) begins_ = false;
   return suspicious;

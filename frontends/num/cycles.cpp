@@ -216,6 +216,13 @@ void Lowering::define_cycle(const Word& g) {
   put_cycle(g, std::make_shared<const ir::HoleCycle>(std::move(cycle)), true);
 }
 
+bool Lowering::moves_cycle_axis() const {
+  for (const auto& c : out_->motion.coords) {
+    if (c.axis == cycle_axis()) return true;
+  }
+  return false;
+}
+
 /// A word of the tool axis while a cycle is active.
 bool Lowering::refuses_new_depth() {
   for (const auto& c : out_->motion.coords) {

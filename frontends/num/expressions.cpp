@@ -178,12 +178,26 @@ std::optional<ir::VarRef> Expressions::symbol(const syntax::Expr& e) {
   return ref;
 }
 
+/// An E parameter that no list names is a variable of the program [22].
+bool Expressions::user_parameter(const syntax::Expr& e, std::int64_t n) {
+  const std::string name = "E" + (e.args.empty() ? std::string() : e.args[0].text);
+  if (n < 0 || n > facts::e_parameter_max) {
+    report_.refuse("NUM-018", e.pos, "there is no parameter " + name);
+    return false;
+  }
+  if (unlisted_.insert(n).second)
+    report_.warn("NUM-018", e.pos,
+                 "no list of the control names " + name + "; it is taken for a variable of the program",
+                 "use E80000 to E80050, or L variables");
+  return true;
+}
+
 ir::ExprPtr Expressions::parameter(const syntax::Expr& e) {
   const std::int64_t n = variable_number(e);
   const facts::EParameter* row = facts::e_parameter(n);
   if (row == nullptr) {
-    report_.refuse("NUM-018", e.pos, "there is no parameter E" + (e.args.empty() ? "" : e.args[0].text));
-    return nullptr;
+    if (!user_parameter(e, n)) return nullptr;
+    return ir::at(ir::variable(e_variable(n), ir::Type::integer), e.pos);
   }
   if (is_memory(*row)) return ir::at(ir::variable(e_variable(n), ir::Type::integer), e.pos);
   auto found = neutral(*row, n, settings_);
@@ -323,8 +337,13 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
   const facts::EParameter* row = facts::e_parameter(n);
   const std::string name = "E" + (target.args.empty() ? std::string() : target.args[0].text);
   if (row == nullptr) {
-    report_.refuse("NUM-018", target.pos, "there is no parameter " + name);
-    return false;
+    if (!user_parameter(target, n)) return false;
+    ir::Assign::Item own;
+    own.pos = pos;
+    own.target = e_variable(n);
+    own.value = integer_part(std::move(value));
+    items.push_back(std::move(own));
+    return true;
   }
   if (!row->writable) {
     report_.refuse("NUM-020", target.pos, name + " (" + std::string(row->title) + ") can only be read");

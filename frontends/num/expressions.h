@@ -44,6 +44,8 @@ class Expressions {
     std::string name;
     Span span;
   };
+  /// E parameters of the program that no list names: user variables.
+  [[nodiscard]] const std::set<std::int64_t>& unlisted() const { return unlisted_; }
   [[nodiscard]] const std::vector<Use>& undeclared() const { return undeclared_; }
   void forget_symbols() {
     declared_.clear();
@@ -55,6 +57,7 @@ class Expressions {
   ir::ExprPtr parameter(const syntax::Expr& e);
   std::optional<ir::VarRef> symbol(const syntax::Expr& e);
   std::optional<ir::VarRef> l_variable(const syntax::Expr& e);
+  bool user_parameter(const syntax::Expr& e, std::int64_t n);
   bool assign_parameter(const syntax::Expr& target, ir::ExprPtr value, std::vector<ir::Assign::Item>& items,
                         WordPos pos);
   [[nodiscard]] bool is_memory(const dialects::num::EParameter& row) const;
@@ -64,6 +67,7 @@ class Expressions {
   Report& report_;
   std::set<std::string> declared_;
   std::vector<Use> undeclared_;
+  std::set<std::int64_t> unlisted_;
   std::vector<ir::FrameWord> shifts_;
 };
 

@@ -9,6 +9,8 @@
 #include "frontends/common/word_scanner.h"
 #include "frontends/num/compensation.h"
 #include "frontends/num/cycle_changes.h"
+#include "frontends/num/cycle_moves.h"
+#include "frontends/num/jumps.h"
 #include "frontends/num/lines.h"
 #include "frontends/num/surfaces.h"
 
@@ -52,8 +54,8 @@ class NumStream : public StreamReader {
     if (syntax_.number.size() > 5 || (syntax_.number.size() == 5 && syntax_.number > "32767"))
       return StreamLine::needs_program;
     const bool good = lower_.words(syntax_, span, line.text, std::get<ir::Block>(out.node), flow_);
-    if (!good || flow_.code != nullptr || flow_.linear_after || flow_.probes || !flow_.preset.empty() ||
-        !ignored_.empty()) {
+    if (!good || flow_.code != nullptr || flow_.linear_after || flow_.probes || flow_.in_cycle ||
+        !flow_.preset.empty() || !ignored_.empty()) {
       (void)diagnostics;  // the whole-program path reports
       return StreamLine::needs_program;
     }
@@ -105,6 +107,8 @@ class NumFrontend : public Frontend {
     ReadStats own;
     ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
     judge_cycle_changes(program, options.profile->power_on, diagnostics);
+    judge_cycle_moves(program, options.profile->power_on, diagnostics);
+    judge_jumps(program, diagnostics);
     judge_surfaces(program, options.profile->power_on, diagnostics);
     judge_compensation(program, options.profile->power_on, diagnostics);
     return program;

@@ -113,6 +113,8 @@ ir::Program FileReader::read() {
   for (const SourceLine& l : lines) line(l);
   if (!open_ && program_.routines.empty()) begin_routine({}, {}, {});
   end_routine();
+  for (const std::int64_t n : lower_.expressions().unlisted())
+    program_.spaces[facts::space_e].segments.push_back({n, n, ir::Scope::global, true, false, true});
   program_.files[0].archive = program_.routines.size() > 1;
   return std::move(program_);
 }

@@ -51,6 +51,7 @@ struct Flow {
   std::size_t label_count = 0;
   bool end = false;
   std::string_view end_text;
+  bool in_cycle = false;                      ///< a motion function or a depth under the cycle of the text
   bool linear_after = false;                  ///< G23 leaves G01 in force
   bool probes = false;                        ///< a G10 block
   std::vector<ir::AxisId> preset;             ///< axes of a G92, where PREF is kept as a number
@@ -104,6 +105,7 @@ class Lowering {
   void face_words();
   void motion_code(const Word& w, ir::MotionKind kind);
   void machine_function(const Word& w);
+  void coded_function(const Word& w);
   void coordinate(const Word& w, ir::AxisId axis);
   template <class Data>
   ir::Action& act(const Word& w, Step step, Data data, ir::Order order = ir::Order::before);
@@ -156,6 +158,7 @@ class Lowering {
   void change_cycle();
   void pocket(const Word& g);  // pockets.cpp
   bool pocket_levels(ir::HoleCycle& cycle);
+  [[nodiscard]] bool moves_cycle_axis() const;
   bool refuses_new_depth();
   bool cycle_words(ir::HoleCycle& cycle, int number);
   bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);
@@ -208,6 +211,7 @@ class Lowering {
     bool distance_after = false;  ///< the mode changes after the move: words stand before its code
     ir::Distance distance_before = ir::Distance::absolute;  ///< in force before the block
     bool unsorted = false;                                  ///< actions don't stand in the order of their steps
+    std::uint8_t coded_m = 0, modal_coded_m = 0;            ///< M functions that the machine builder codes
     std::uint8_t distance_count = 0;                        ///< G90 and G91 words
     std::array<const Word*, 4> distances{};
   };

@@ -79,13 +79,14 @@ void Lowering::resolve_motion() {
   auto& m = out_->motion;
   if (marks_.cycle != nullptr) return define_cycle(*marks_.cycle);
   if (state_.cycle) {
-    if (marks_.motion && marks_.dwell == nullptr) {
+    const bool own_motion = marks_.motion && marks_.dwell == nullptr, words = (present_ & cycle_slots) != 0;
+    if (own_motion && words) {
       report_.refuse("NUM-026", m.code_pos, "a motion function while a drilling cycle is active",
                      "write G80 before it");
       return;
     }
-    if ((present_ & cycle_slots) != 0) return change_cycle();
-    if (refuses_new_depth()) return;
+    if (words) return change_cycle();
+    flow_->in_cycle = own_motion || moves_cycle_axis();  // the ways through the program say whether it is in force here
   }
   if (marks_.three_points != nullptr) return through_points();
   if (marks_.thread != nullptr) return thread_segment();
@@ -118,6 +119,9 @@ void Lowering::resolve_dwell() {
   if (!f->is_expression && (f->number < 0 || f->number > facts::dwell_max)) {
     return report_.refuse("NUM-008", f->pos, "a dwell lasts from 0.01 to 99.99 seconds");
   }
+  if (!f->is_expression && f->number < facts::dwell_min)
+    report_.warn("NUM-059", f->pos, "a dwell lasts from 0.01 to 99.99 seconds; this one counts for nothing here",
+                 "leave it out");
   ir::Dwell dwell;
   dwell.value = value(*f);
   act(g, Step::special, std::move(dwell));

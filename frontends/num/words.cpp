@@ -5,6 +5,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
+#include "dialects/num/mcodes.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/lower.h"
 
@@ -357,6 +358,21 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
   }
 }
 
+/// One modal and one other coded M function in a block [4.1]; which those of the builder are only the machine knows.
+void Lowering::coded_function(const Word& w) {
+  const bool modal = facts::is_modal_coded_m(integer(w));
+  ++marks_.coded_m;
+  if (modal) ++marks_.modal_coded_m;
+  const bool too_many = marks_.coded_m > 2 || marks_.modal_coded_m > 1;
+  if (!too_many && (marks_.coded_m < 2 || marks_.modal_coded_m == 1)) return;
+  report_.warn("NUM-057", w.pos,
+               "`" + std::string(text_of(w)) +
+                   (too_many ? "`: one coded M function too many for a block: the control refuses it"
+                             : "`: a second coded M function in the block; the control takes two only if one of them "
+                               "is modal"),
+               "write it in a block of its own");
+}
+
 void Lowering::machine_function(const Word& w) {
   const std::int64_t n = integer(w);
   if (n < 0 || n > facts::m_max) return unknown(w, "no M function");
@@ -403,6 +419,7 @@ void Lowering::machine_function(const Word& w) {
                  "`" + std::string(text_of(w)) +
                      "` gives the commands that follow to another spindle; they are read as of spindle 1");
   }
+  if (!facts::is_decoded_m(n)) coded_function(w);
   ir::MachineFunction f;
   f.code = static_cast<std::int32_t>(n);
   put(std::move(f));

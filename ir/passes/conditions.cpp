@@ -16,6 +16,10 @@ double band_of(const Capabilities& target) {
   return std::pow(10, -std::min(6, target.constant_decimals));
 }
 
+double equal_within(const machine::Profile& machine) {
+  return parse_decimal(machine.option("compare.equal_within")).value_or(0);
+}
+
 bool is_whole(const ExprPtr& e) {
   const auto* n = as_number(e);
   return e->type == Type::integer || (n != nullptr && std::nearbyint(n->value) == n->value);
@@ -261,7 +265,11 @@ namespace {
 class ConditionPass {
  public:
   ConditionPass(Program& program, const LegaliseContext& context)
-      : context_(context), band_(band_of(context.target)), integers_(program, 1), parts_(program, 1024) {}
+      : context_(context),
+        band_(band_of(context.target)),
+        near_(equal_within(context.source_machine) > 0 && equal_within(context.target_machine) == 0),
+        integers_(program, 1),
+        parts_(program, 1024) {}
 
   void routine(Program& program, Routine& r) {
     Editor editor(program, r, context_);
@@ -309,7 +317,9 @@ class ConditionPass {
     visit.expression = [&](const ExprPtr& e) {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* b = std::get_if<Binary>(&x->node);
-        if (b == nullptr || !is_comparison(b->op) || b->compare == Compare::exact) return x;
+        if (b == nullptr || !is_comparison(b->op)) return x;
+        if (near_ && b->compare == Compare::exact && equality(b->op)) return nearly(s, x);
+        if (b->compare == Compare::exact) return x;
         if (b->left->type == Type::string || (exact(b->left) && exact(b->right)))
           return binary(b->op, b->left, b->right);
         if (zero(b->left) || zero(b->right)) return binary(b->op, b->left, b->right);  // relative: only 0 equals 0
@@ -318,6 +328,15 @@ class ConditionPass {
       });
     };
     visit_statement(s, visit);
+  }
+  static bool equality(BinaryOp op) { return op == BinaryOp::eq || op == BinaryOp::ne; }
+  /// The source takes what differs by rounding for equal (compare.equal_within), the target does not.
+  ExprPtr nearly(const Statement& s, const ExprPtr& x) {
+    const auto& b = std::get<Binary>(x->node);
+    if (b.left->type == Type::string || (exact(b.left) && exact(b.right))) return x;
+    if (!computed(b.left) && !computed(b.right)) return x;
+    warn(s);
+    return within(b);
   }
   static bool zero(const ExprPtr& side) { return constant_value(side) == 0.0; }
   /// The target takes values within 1e-12 of their size for equal, the source does not: a difference compared with 0 is
@@ -328,6 +347,7 @@ class ConditionPass {
       return map_expr(e, [&](const ExprPtr& x) {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op) || b->compare != Compare::exact) return x;
+        if (near_ && equality(b->op)) return x;  // what rounding leaves is equal on both
         if (b->left->type == Type::string || zero(b->left) || zero(b->right)) return x;
         if (exact(b->left) && exact(b->right)) return x;
         if (!computed(b->left) && !computed(b->right)) return x;
@@ -367,14 +387,16 @@ class ConditionPass {
   void warn(const Statement& s) {
     context_.diagnostics.warning(
         "TRN-115", s.line.span,
-        std::string("the source takes values that differ by less than 1e-12 of their size for equal, the target "
-                    "compares exactly: written so that values within ") +
-            shortest(band_) + " count as equal",
+        std::string(near_ ? "the source takes values that differ by rounding only for equal, the target "
+                          : "the source takes values that differ by less than 1e-12 of their size for equal, the "
+                            "target ") +
+            "compares exactly: written so that values within " + shortest(band_) + " count as equal",
         "count with whole numbers where you can");
   }
 
   const LegaliseContext& context_;
   double band_;
+  bool near_;                          ///< equality of the source has a tolerance that the target lacks
   IntegerVariables integers_, parts_;  ///< whole numbers, and multiples of 1/1024
 };
 

@@ -7,6 +7,7 @@
 
 #include "ir/cycles/pattern.h"
 #include "ir/passes/blocks.h"
+#include "ir/passes/cycle_ranges.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/written_data.h"
@@ -444,11 +445,7 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
   put_group(out, std::move(pieces), main);
 }
 
-void lower_cycles(Program& program, const LegaliseContext& context) {
-  if (!uses_cycles(program)) return leave_out_data(program, context);
-  if (program.dialect == context.target.dialect && !program.dialect.empty() &&
-      context.options.cycles != CycleWriting::explode)
-    return;
+static void carry_out_cycles(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   const FeedsBefore feeds(program, context);
   std::set<std::uint32_t> profiles;
@@ -464,6 +461,15 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
   keep_used(program, uses, profiles);
   retire_profiles(program, profiles, facts);
   label_profiles(program, uses);
+}
+
+void lower_cycles(Program& program, const LegaliseContext& context) {
+  if (!uses_cycles(program)) return leave_out_data(program, context);
+  if (program.dialect == context.target.dialect && !program.dialect.empty() &&
+      context.options.cycles != CycleWriting::explode)
+    return;
+  separate_cycle_ranges(program, context, carry_out_cycles);
+  carry_out_cycles(program, context);
   leave_out_data(program, context);
 }
 
