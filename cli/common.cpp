@@ -3,19 +3,18 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
+
+#include "translator/option_words.h"
 
 namespace cnctrans::cli {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A verification keeps both traces in memory: about 0.5 kB an event.
-constexpr std::uint64_t kept_events = 2'000'000;
 
 /// What is taken as given but is most often a slip.
 void say_doubts(const Arguments& a) {
@@ -38,38 +37,17 @@ void say_doubts(const Arguments& a) {
 }
 
 bool run_limits(const Arguments& a, interpreter::Options& run) {
-  const auto* dialect = translator::find_dialect(a.dialect.empty() ? a.from : a.dialect);
   if (a.max_events) run.max_events = *a.max_events;
   run.max_steps = a.max_steps;
   for (const auto& item : a.set) {
-    const auto equals = item.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      usage_error(a, "--set wants NAME=VALUE, not '" + item + "'");
-      return false;
-    }
-    run.set.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    if (translator::add_setting(run, item)) continue;
+    usage_error(a, "--set wants NAME=VALUE, not '" + item + "'");
+    return false;
   }
   say_doubts(a);
-  std::string_view levels = a.skip;
-  while (!levels.empty()) {
-    unsigned level = 0;
-    const auto [end, error] = std::from_chars(levels.data(), levels.data() + levels.size(), level);
-    if (error != std::errc{} || level > 15) {
-      usage_error(a, "--skip wants levels such as 0,3 and not '" + a.skip + "'");
-      return false;
-    }
-    // A mark without a number is that of the first switch, whatever its number: 0 always means it.
-    const unsigned first = dialect != nullptr ? static_cast<unsigned>(dialect->first_skip_switch) : 0;
-    run.skip_mask = static_cast<std::uint16_t>(run.skip_mask | (1U << (level > first ? level - first : 0)));
-    levels.remove_prefix(static_cast<std::size_t>(end - levels.data()));
-    if (!levels.empty() && levels.front() == ',') levels.remove_prefix(1);
-  }
-  return true;
-}
-
-frontends::Reader reader_of(const Arguments& a) {
-  if (a.reader == "antlr") return frontends::Reader::antlr;
-  return a.reader == "both" ? frontends::Reader::both : frontends::Reader::scanner;
+  if (translator::add_skips(run, a.skip, translator::find_dialect(a.dialect.empty() ? a.from : a.dialect))) return true;
+  usage_error(a, "--skip wants levels such as 0,3 and not '" + a.skip + "'");
+  return false;
 }
 
 }  // namespace
@@ -80,32 +58,26 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   out.machine = a.machine;
   out.target_machine = a.target_machine;
   out.libraries = a.libraries;
-  out.reader = reader_of(a);
   out.verify = a.verify || a.explore;
   if (a.explore) out.explore = static_cast<std::size_t>(a.replays);
   out.annotate = a.annotate;
   out.number_step = a.number_step;
-  if (a.unsupported == "warn") out.unsupported = backends::Unsupported::warn;
-  if (a.unsupported == "comment") out.unsupported = backends::Unsupported::comment;
-  if (a.numbering == "none") out.numbering = backends::Numbering::none;
-  if (a.numbering == "renumber") out.numbering = backends::Numbering::renumber;
-  if (a.cycles == "explode") out.cycles = ir::CycleWriting::explode;
-  if (a.cycles == "similar") out.cycles = ir::CycleWriting::similar;
-  out.raise_structure = a.structure == "raise";
-  if (a.encoding == "utf-8") out.encoding = Encoding::utf8;
-  if (a.encoding == "windows-1252") out.encoding = Encoding::windows1252;
-  if (a.eol == "lf") out.eol = Eol::lf;
-  if (a.eol == "crlf") out.eol = Eol::crlf;
-  if (a.eol == "cr") out.eol = Eol::cr;
-  out.run.max_events = kept_events;
+  const std::pair<std::string_view, std::string_view> words[] = {
+      {"reader", a.reader}, {"unsupported", a.unsupported}, {"numbering", a.numbering},
+      {"cycles", a.cycles}, {"structure", a.structure},     {"encoding", a.encoding},
+      {"eol", a.eol}};
+  for (const auto& [option, word] : words) translator::set_word(out, option, word);  // the command line was checked
+  out.run.max_events = translator::kept_events;
   return run_limits(a, out.run);
 }
 
 bool run_options(const Arguments& a, translator::RunOptions& out) {
+  translator::TranslateOptions words;
+  translator::set_word(words, "reader", a.reader);
   out.dialect = a.dialect;
   out.machine = a.machine;
   out.libraries = a.libraries;
-  out.reader = reader_of(a);
+  out.reader = words.reader;
   return run_limits(a, out.run);
 }
 

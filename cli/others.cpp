@@ -12,7 +12,7 @@ int verify(const Arguments& a) {
   translator::TranslateOptions options;
   if (!translate_options(a, options)) return usage;
   if (a.inputs.size() < 2) return usage_error(a, "verify takes the source program and its translation");
-  const std::vector<std::string> targets(a.inputs.begin() + 1, a.inputs.end());
+  const std::vector<translator::Input> targets(a.inputs.begin() + 1, a.inputs.end());
   const auto result = translator::verify(a.inputs.front(), targets, options);
   if (!result.error.empty()) return usage_error(a, result.error);
   a.messages->add(result.source_diagnostics, result.source_files);

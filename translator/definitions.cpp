@@ -107,7 +107,7 @@ void declare_names(ir::Program& program, const std::vector<const ir::Program*>& 
       const bool in_use = used.count({d.space, item.name}) != 0;
       const bool starts = in_use && reads(index, ir::VarRef{d.space, item.name, nullptr, {}});
       if (starts) {
-        diagnostics.warning("SIN-062", s.line.span,
+        diagnostics.warning("TRN-463", s.line.span,
                             item.name + " is read before the program writes it: it starts with " + value_text(d, item) +
                                 "; the control keeps the value that an earlier program has left",
                             "--set " + item.name + "=VALUE gives a run another one");

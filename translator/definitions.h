@@ -15,7 +15,7 @@ std::vector<std::string> definition_files(const Dialect& dialect, const std::vec
 
 /// Puts the definitions of the names that the program uses at the head of its main program (of its first routine when
 /// it has none), with the value that one starts with where the program reads it before it writes it: a warning
-/// (SIN-062), since the machine keeps the value of an earlier program. `all`: also names that only called programs of
+/// (TRN-463), since the machine keeps the value of an earlier program. `all`: also names that only called programs of
 /// other files may use. The statements are numbered again.
 void declare_names(ir::Program& program, const std::vector<const ir::Program*>& definitions, bool all,
                    Diagnostics& diagnostics);

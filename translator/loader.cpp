@@ -139,12 +139,15 @@ void note_encoding(std::string_view text, std::uint32_t first_line, FileId file,
 }
 
 Loader::Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
-               std::vector<std::string> libraries)
+               std::vector<std::string> libraries, const std::vector<SourcePtr>& texts)
     : dialect_(dialect),
       profile_(profile),
       reader_(reader),
       folders_(libraries),
-      definition_places_(std::move(libraries)) {}
+      definition_places_(std::move(libraries)) {
+  for (const auto& text : texts)
+    candidates_.push_back({text->name(), to_upper_ascii(text->stem()), text, nullptr, Diagnostics{}, false});
+}
 
 const ir::Program* Loader::read_main(const SourcePtr& source, Diagnostics& diagnostics, frontends::ReadStats* stats) {
   const std::string& path = source->name();

@@ -31,8 +31,9 @@ void note_encoding(std::string_view text, std::uint32_t first_line, FileId file,
 /// Owns the files of one job. Programs found in libraries are read once.
 class Loader {
  public:
+  /// `texts`: programs in memory that may be called; they come before every folder.
   Loader(const Dialect& dialect, const machine::Profile& profile, frontends::Reader reader,
-         std::vector<std::string> libraries);
+         std::vector<std::string> libraries, const std::vector<SourcePtr>& texts = {});
 
   /// Reads the main file, which has been opened: its folder is searched first. A pipe has no folder: the current one.
   const ir::Program* read_main(const SourcePtr& source, Diagnostics& diagnostics,

@@ -21,11 +21,34 @@ namespace cnctrans::translator {
 /// Progress of long jobs: part done 0..1. May be empty.
 using Progress = std::function<void(double)>;
 
-struct TranslateOptions {
-  std::string from, to;                 ///< registry names
-  std::string machine, target_machine;  ///< built-in name or file; empty: chosen
-  std::vector<std::string> libraries;
+/// A program to work on: a file, or a text in memory. A text has no folder of its own that would be searched for what
+/// it calls.
+class Input {
+ public:
+  Input(std::string path) : path_(std::move(path)) {}  // NOLINT(google-explicit-constructor): a path is an input
+  Input(SourcePtr text) : text_(std::move(text)) {}    // NOLINT(google-explicit-constructor): so is a text
+
+  [[nodiscard]] bool in_memory() const { return text_ != nullptr; }
+  [[nodiscard]] const std::string& path() const { return path_; }  ///< empty for a text
+  /// nullptr, and why in `error`: it can't be read.
+  SourcePtr open(std::string* error) const;
+
+ private:
+  std::string path_;
+  SourcePtr text_;
+};
+
+/// How programs are found and read.
+struct InputOptions {
+  std::string machine;                 ///< built-in name or file; empty: chosen
+  std::vector<std::string> libraries;  ///< folders and files
+  std::vector<SourcePtr> texts;        ///< programs in memory that may be called; they come before every folder
   frontends::Reader reader = frontends::Reader::scanner;
+};
+
+struct TranslateOptions : InputOptions {
+  std::string from, to;        ///< registry names
+  std::string target_machine;  ///< as `machine`
   backends::Unsupported unsupported = backends::Unsupported::error;
   backends::Numbering numbering = backends::Numbering::keep;
   std::int32_t number_step = 10;
@@ -70,22 +93,19 @@ struct TranslateResult {
 };
 
 /// Translates one program in memory, with what it calls.
-TranslateResult translate(const std::string& path, const TranslateOptions& options);
+TranslateResult translate(const Input& input, const TranslateOptions& options);
 
-/// Compares a source with a translation made by anyone.
+/// Compares a source with a translation made by anyone: its main program, and what else it calls.
 struct VerifyResult {
   Diagnostics source_diagnostics, target_diagnostics;
   FileTable source_files, target_files;
   verifier::Verdict verdict;
   std::string error;
 };
-VerifyResult verify(const std::string& source, const std::vector<std::string>& targets,
-                    const TranslateOptions& options);
+VerifyResult verify(const Input& source, const std::vector<Input>& targets, const TranslateOptions& options);
 
-struct RunOptions {
-  std::string dialect, machine;
-  std::vector<std::string> libraries;
-  frontends::Reader reader = frontends::Reader::scanner;
+struct RunOptions : InputOptions {
+  std::string dialect;
   interpreter::Options run;
   bool may_stream = false;  ///< straight-line programs may run in flat memory (the sink must not keep or print events)
 };
@@ -96,10 +116,10 @@ struct RunResult {
   std::vector<std::string> axis_names;
   std::string error;
 };
-/// `make_sink` gets the file table and axis names that events refer to. Straight-line programs stream.
-RunResult run(const std::string& path, const RunOptions& options,
-              const std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&,
-                                                                          const std::vector<std::string>&)>& make_sink);
+/// Makes the receiver of the events; gets the file table and the axis names that events refer to.
+using MakeSink =
+    std::function<std::unique_ptr<interpreter::TraceSink>(const FileTable&, const std::vector<std::string>&)>;
+RunResult run(const Input& input, const RunOptions& options, const MakeSink& make_sink);
 
 /// Reads a program and writes it in its own language, without any pass: identity tests, and tidy-up of own programs.
 struct RewriteResult {
@@ -116,6 +136,6 @@ struct CheckResult {
   frontends::ReadStats stats;
   std::string error;
 };
-CheckResult check(const std::string& path, const RunOptions& options);
+CheckResult check(const Input& input, const RunOptions& options);
 
 }  // namespace cnctrans::translator

@@ -1,0 +1,66 @@
+# The library that others link: libcnctrans with the headers of include/cnctrans, a CMake package and a pkg-config file.
+# Static by default: one archive of every floor and of ANTLR's runtime, so that who links it needs only libfmt.
+include(GNUInstallDirs)
+
+# cnc_static_libraries(target out): the static libraries that a target links, itself first, each once.
+function(cnc_static_libraries target out)
+  set(found ${${out}})
+  if(NOT TARGET ${target} OR target IN_LIST found)
+    return()
+  endif()
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL STATIC_LIBRARY)
+    list(APPEND found ${target})
+  endif()
+  get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+  foreach(link IN LISTS links)
+    if(link MATCHES "^cnc_")
+      cnc_static_libraries(${link} found)
+    endif()
+  endforeach()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+if(CNCTRANS_SHARED)
+  file(GLOB api_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/translator/api/*.cpp)
+  add_library(cnctrans_library SHARED ${api_sources})
+  target_link_libraries(cnctrans_library PRIVATE cnc_translator)
+  set_target_properties(cnctrans_library PROPERTIES OUTPUT_NAME cnctrans VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+  target_link_options(cnctrans_library PRIVATE -Wl,--exclude-libs,ALL)
+  install(TARGETS cnctrans_library LIBRARY)
+  set(CNCTRANS_LIBRARY_TYPE SHARED)
+  set(CNCTRANS_LIBRARY_FILE libcnctrans.so)
+  set(CNCTRANS_LIBRARY_NEEDS "")
+  set(CNCTRANS_PKG_LIBS "")
+else()
+  set(archives "")
+  cnc_static_libraries(cnc_translator archives)
+  set(library_file ${CMAKE_BINARY_DIR}/lib/libcnctrans.a)
+  set(script "create ${library_file}\n")
+  foreach(archive IN LISTS archives)
+    string(APPEND script "addlib $<TARGET_FILE:${archive}>\n")
+  endforeach()
+  string(APPEND script "addlib ${ANTLR4_RUNTIME_STATIC}\nsave\nend\n")
+  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/lib/archive.mri CONTENT "${script}")
+  add_custom_command(OUTPUT ${library_file}
+    COMMAND ${CMAKE_COMMAND} -E rm -f ${library_file}
+    COMMAND ${CMAKE_AR} -M < ${CMAKE_BINARY_DIR}/lib/archive.mri
+    DEPENDS ${archives} COMMENT "Joining libcnctrans.a" VERBATIM)
+  add_custom_target(cnctrans_library ALL DEPENDS ${library_file})
+  install(FILES ${library_file} DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
+  set(CNCTRANS_LIBRARY_TYPE STATIC)
+  set(CNCTRANS_LIBRARY_FILE libcnctrans.a)
+  set(CNCTRANS_LIBRARY_NEEDS "fmt::fmt;Threads::Threads")
+  set(CNCTRANS_PKG_LIBS "-lfmt -lstdc++ -lm -pthread")
+endif()
+
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/cnctrans DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/cnctrans.pc.in ${CMAKE_BINARY_DIR}/lib/cnctrans.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/lib/cnctrans.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+include(CMakePackageConfigHelpers)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/cnctransConfig.cmake.in ${CMAKE_BINARY_DIR}/lib/cnctransConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cnctrans PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/lib/cnctransConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/lib/cnctransConfig.cmake ${CMAKE_BINARY_DIR}/lib/cnctransConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cnctrans)
