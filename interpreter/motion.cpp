@@ -43,8 +43,8 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   } else if (m.keeps_modal) {
     modal_.motion = left_in_force(kind);
   }
-  if (m.explicit_code && ir::is_spline(kind)) curve_broken_ = false;
   if (curve_ && !leave_curve(kind)) return false;
+  if (m.explicit_code && ir::is_spline(kind)) curve_broken_ = false;
   if (kind == ir::MotionKind::reference_point) return reference_move(m);
   if (kind == ir::MotionKind::fixed_point) return fixed_point_move(m);
   if (!m.moves()) return true;

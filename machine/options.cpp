@@ -130,6 +130,9 @@ constexpr std::array specs{
                "PRAD and AP1 of CYCLE77: radii, or diameters (a spigot that is taken for a diameter is cut smaller)"},
     OptionSpec{"sinumerik.undefined_names", "error|global", "error",
                "a name that nothing defines: refused, or a global user variable (GUD) that starts at 0"},
+    OptionSpec{
+        "sinumerik.geometry_axes", "XYZ|YZX|ZXY", "XYZ",
+        "which axis is the first, second and third geometry axis (MD20050): G17 to G19 and I, J, K go by this order"},
     OptionSpec{"sinumerik.r_count", "number", "100", "number of R parameters"},
     OptionSpec{"sinumerik.pud_visible", "no|yes", "no",
                "variables of the main program are seen in subprograms (MD11120)"},

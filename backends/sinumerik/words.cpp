@@ -171,6 +171,11 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
   if (m.setting == Setting::units && !m.feed_too) {
     return add(m.value == code_value(ir::Units::inch) ? "G70" : "G71", Rank::setting, a.pos);
   }
+  if (m.setting == Setting::plane) {
+    ir::ModalSet usual = m;
+    usual.value = code_value(geometry().usual(static_cast<ir::Plane>(m.value)));
+    return ProgramWriter::modal_set(a, usual);
+  }
   ProgramWriter::modal_set(a, m);
 }
 
@@ -387,10 +392,9 @@ void Writer::polynomial(const ir::Motion& m, const ir::PolynomialWord& p) {
 }
 
 void Writer::center(const ir::Motion& m, const ir::CenterWord& w) {
-  constexpr std::string_view letters = "IJK";
   if (w.axis > ir::axis::z)
     return refuse("TRN-202", w.pos, "the centre of an arc on this axis has no counterpart here");
-  const std::string_view address = letters.substr(w.axis, 1);
+  const std::string_view address = geometry().letter(w.axis);
   const bool absolute = w.mode == ir::CenterMode::absolute;
   const bool lathe_x = program().lathe && w.axis == ir::axis::x;
   const bool modal = absolute && !radius_on_face(w.axis);
@@ -443,7 +447,6 @@ std::optional<double> Writer::travel(const ir::CoordWord& w) {
 }
 
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
-  constexpr std::string_view letters = "IJK";
   if (e.has_pitch) return refuse("TRN-202", m.code_pos, "a helix by its pitch has no counterpart here");
   if (e.opening_signed) return refuse("TRN-202", m.code_pos, "an arc by a signed angle has no counterpart here");
   const auto extra = [&](std::string_view address, const ir::Value& v) {
@@ -472,7 +475,7 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (e.has_fixed_point) extra("FP", e.fixed_point);
   for (const ir::CenterWord& w : e.through) {
     if (w.axis > ir::axis::z) return refuse("TRN-202", w.pos, "this point of an arc has no counterpart here");
-    const std::string address = std::string(letters.substr(w.axis, 1)) + '1';
+    const std::string address = std::string(geometry().letter(w.axis)) + '1';
     const bool absolute = w.mode == ir::CenterMode::absolute;
     add(absolute ? attribute_word(address, "AC", w.value, w.pos) : word(address, w.value, w.pos), Rank::center, w.pos);
   }
@@ -484,7 +487,7 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (!e.has_lead) return;
   const ir::AxisId lead = e.lead_axis == ir::axis::none ? main_axis(m) : e.lead_axis;
   if (lead > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
-  extra(letters.substr(lead, 1), e.lead);
+  extra(geometry().letter(lead), e.lead);
   if (!e.lead_change.is(0))
     extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);
   const bool in_force = same_dialect() && e.start_angle.literal() && e.start_angle.text.empty();  // not written there

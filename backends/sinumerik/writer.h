@@ -8,6 +8,7 @@
 
 #include "backends/common/program_writer.h"
 #include "backends/sinumerik/expressions.h"
+#include "dialects/sinumerik/geometry.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -20,6 +21,9 @@ class Writer final : public ProgramWriter {
   Writer(const ir::Program& program, const WriteOptions& options, Diagnostics& diagnostics);
 
  protected:
+  [[nodiscard]] cnctrans::sinumerik::GeometryAxes geometry() const {
+    return cnctrans::sinumerik::GeometryAxes(profile());
+  }
   // frame (writer.cpp)
   void write_program() override;
   ExpressionPrinter& expressions() override { return expressions_; }

@@ -178,6 +178,9 @@ constexpr DatumRow data[] = {
     {"$MN_*", "beside.data"},
     {"$MA_*", "beside.data"},
     {"$MD_*", "beside.data"},
+    {"$SNS_MEA_*", "beside.data"},
+    {"$SCS_MEA_*", "beside.data"},
+    {"$MNS_MEA_*", "beside.data"},
     {"$AN_CEC*", "beside.compensation"},
     {"$AA_ENC_COMP*", "beside.compensation"},
     {"$AA_QEC*", "beside.compensation"},
@@ -248,6 +251,7 @@ const BesideRow* beside(std::string_view name, BesideForm form) {
 }
 
 std::string_view beside_datum(std::string_view capitals) {
+  if (capitals.starts_with("$$")) capitals.remove_prefix(1);  // the same datum, read or set in the main run
   if (std::find(std::begin(of_the_path), std::end(of_the_path), capitals) != std::end(of_the_path)) return {};
   if (capitals.starts_with("$M")) {
     for (const auto& part : machine_data_of_the_path) {

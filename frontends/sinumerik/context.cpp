@@ -5,7 +5,7 @@
 
 namespace cnctrans::sinumerik {
 
-MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p) {
+MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p), geometry(p) {
   axis_of.fill(ir::axis::none);
   for (const auto& a : p.axes) {
     if (a.name.size() == 1 && a.name[0] >= 'A' && a.name[0] <= 'Z')

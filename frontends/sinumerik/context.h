@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "dialects/sinumerik/geometry.h"
 #include "dialects/sinumerik/variables.h"
 #include "ir/program.h"
 #include "machine/profile.h"
@@ -30,6 +31,7 @@ struct MachineFacts {
   bool undefined_names_are_global = false;               ///< undeclared names are global user variables
   std::int32_t r_count = 0;                              ///< parameters from R0 on
   std::array<bool, ir::axis::count_max> rotary{};        ///< axes that turn
+  GeometryAxes geometry;                                 ///< order of X, Y and Z
   double default_edge = 0;                               ///< D that a tool change selects; 0: none
 
   [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis

@@ -141,8 +141,8 @@ ir::ExprPtr ExprLowering::frame_function(const Expr& e) {
       c_.keep("SIN-008", e.pos, "CRPL() is carried with the number of a plane (1, 2 or 3) and an angle only");
       return nullptr;
     }
-    constexpr std::array normal{ir::axis::z, ir::axis::y, ir::axis::x};
-    auto axis = make_expr(ir::AxisName{normal[static_cast<std::size_t>(e.args[0].number) - 1]}, ir::Type::axis, e.pos);
+    const ir::AxisId normal = c_.machine.geometry.of(3 - static_cast<std::size_t>(e.args[0].number));
+    auto axis = make_expr(ir::AxisName{normal}, ir::Type::axis, e.pos);
     auto angle = lower_as(e.args[1], ir::Type::real);
     if (!angle) return nullptr;
     return make_expr(ir::Call{ir::Function::frame_turn, {std::move(axis), std::move(angle)}}, ir::Type::frame, e.pos);

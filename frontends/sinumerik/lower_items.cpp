@@ -55,6 +55,17 @@ void StatementLowering::emit(ir::LineInfo& info, decltype(ir::Statement::node) n
 
 // --- assignments ------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// AX1, AX2 and so on: the machine's own name of an axis, which the program's list of axes need not have.
+bool machine_axis_name(const ir::Expr& e) {
+  const auto* s = std::get_if<ir::SystemRef>(&e.node);
+  return s != nullptr && s->datum == ir::Datum::other && s->args.empty() && s->text.size() > 2 &&
+         s->text.starts_with("AX") && s->text.find_first_not_of("0123456789", 2) == std::string::npos;
+}
+
+}  // namespace
+
 bool StatementLowering::assign_system(const Expr& target, const Expr& value, WordPos pos, Parts& parts) {
   const std::uint32_t before = c_.errors;
   ir::Assign::Item item;
@@ -81,7 +92,7 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   const bool number = item.value->type != ir::Type::string && item.value->type != ir::Type::axis;
   const bool named = std::any_of(item.system.args.begin(), item.system.args.end(),
                                  [](const ir::ExprPtr& a) { return a->type == ir::Type::string; });
-  if (!beside_path.empty() && (!number || named)) {
+  if (!beside_path.empty() && (!number || named || machine_axis_name(*item.value))) {
     put_beside(beside_path, pos, parts);
     return true;
   }

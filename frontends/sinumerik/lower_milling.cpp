@@ -129,8 +129,7 @@ bool modes(const MillingCycle& cycle, const Arguments& a, ir::HoleCycle& hole, F
     c.warning("SIN-021", pos,
               "this value of GMODE is taken as the whole machining, dimensioned from the middle of the shape");
   const auto mode = digits_of(a.get("AMODE")).value_or(0), plane = digits_of(a.get("DMODE")).value_or(0) % 10;
-  constexpr ir::AxisId normals[] = {ir::axis::none, ir::axis::z, ir::axis::y, ir::axis::x};
-  hole.axis = normals[plane];
+  hole.axis = plane == 0 ? ir::axis::none : c.machine.geometry.of(static_cast<std::size_t>(3 - plane));
   if (mode % 10 == 1 && hole.bottom.base == ir::LevelBase::absolute) hole.bottom = depth_by_amount(a);
   each_name(kept_milling_modes, [&](std::string_view own) {
     if (a.given(own)) keep(own, a.get(own), hole);

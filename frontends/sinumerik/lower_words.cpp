@@ -150,9 +150,14 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       c_.motion = m.kind;
       break;
     case GUse::setting:
-      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane && static_cast<ir::Plane>(g.b) != ir::Plane::xy)
-        c_.other_plane = true;
-      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane) c_.plane = static_cast<ir::Plane>(g.b);
+      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane) {
+        const ir::Plane plane = c_.machine.geometry.plane(static_cast<ir::Plane>(g.b));
+        if (plane != ir::Plane::xy) c_.other_plane = true;
+        c_.plane = plane;
+        push(ir::ModalSet{ir::Setting::plane, u(plane), true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
+             pos);
+        break;
+      }
       push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting,
            ir::Order::before, pos);
       break;
@@ -268,7 +273,7 @@ void WordLowering::letter(const syntax::Block& block, const Word& w, char addres
   ir::Value value = exprs_.value(block, w, attribute);
   const bool centre_letter = address == 'I' || address == 'J' || address == 'K';
   const ir::AxisId axis =
-      centre_letter ? static_cast<ir::AxisId>(ir::axis::x + (address - 'I')) : c_.machine.axis(address);
+      centre_letter ? c_.machine.geometry.of(static_cast<std::size_t>(address - 'I')) : c_.machine.axis(address);
   if (centre_letter) return center(axis, w, std::move(value), attribute);
   const bool vector = w.extension >= 2 && w.extension <= 8 && address >= 'A' && address <= 'C';
   if (vector && w.equals) return orientation(w);

@@ -107,7 +107,7 @@ ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
   }
   constexpr std::string_view geometry_axes[] = {"$P_AXN1", "$P_AXN2", "$P_AXN3"};
   for (ir::AxisId a = 0; a < std::size(geometry_axes); ++a) {
-    if (e.text == geometry_axes[a]) return make_expr(ir::AxisName{a}, ir::Type::axis, e.pos);
+    if (e.text == geometry_axes[a]) return make_expr(ir::AxisName{c_.machine.geometry.of(a)}, ir::Type::axis, e.pos);
   }
   if (e.text == "$P_SUBPAR" && e.args.size() == 1) {  // counted from 1
     ir::SystemRef given;
@@ -153,6 +153,8 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
     if (g.use == GUse::setting) {
       setting = g.a;
       value = g.b;
+      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane)
+        value = static_cast<double>(c_.machine.geometry.plane(static_cast<ir::Plane>(g.b)));
     }
     if (g.use == GUse::motion) setting = static_cast<int>(ir::setting_count);
     if (g.use == GUse::work_offset) setting = static_cast<int>(ir::setting_count) + 1;

@@ -56,6 +56,14 @@ TEST(Curve, ItsCodeAloneBeginsAnotherCurve) {
       ElementsAre("linear X10", "linear X12", "linear X20"));
 }
 
+TEST(Curve, ASplineOfAnotherKindFollowsAtOnce) {
+  EXPECT_THAT(lines_of("block spline_b coded X 10 Y 10\nblock modal X 20 Y 0\nblock spline_akima coded X 30\n"
+                       "block modal X 40\nblock linear coded X 50",
+                       coarse()),
+              ElementsAre("linear X5 Y3.75", "linear X10 Y5", "linear X15 Y3.75", "linear X20 Y0", "linear X30",
+                          "linear X40", "linear X50"));
+}
+
 TEST(Curve, CurvesWithANumber) {
   const std::string points =
       "jump N90\nN10 block modal X 0 Y 0\nblock modal X 10 Y 10\nN20 block modal X 20 Y 0\nN90 label\n";
