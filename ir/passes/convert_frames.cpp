@@ -7,6 +7,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/frame_rebuild.h"
+#include "ir/passes/frame_variables.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
 
@@ -37,6 +38,9 @@ class FramePass {
       block(editor, std::move(s), states_.before(s), out);
     });
   }
+
+  /// Statements whose frame depends on the path.
+  [[nodiscard]] const std::set<std::uint32_t>& lost() const { return lost_; }
 
  private:
   /// A preset is in force somewhere where it is taken back, on another language than the target's own.
@@ -91,7 +95,9 @@ class FramePass {
       return;
     }
     std::vector<Action> actions;
-    for (auto& a : b.actions) {
+    std::optional<FrameState> first;  // before several changes in a row that build one frame
+    for (std::size_t n = 0; n < b.actions.size(); ++n) {
+      Action& a = b.actions[n];
       if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
         const FrameState before = state;
         state.select(*w, context_.source_machine);
@@ -116,8 +122,13 @@ class FramePass {
           out.push_back(std::move(s));
           return;
         }
-        const FrameState before = state;
+        const FrameState before = first ? *first : state;
         state.apply(*f->change, facts_.before(s), b, context_.source_machine);
+        if (composed(b, n + 1)) {
+          if (!first) first = before;
+          continue;
+        }
+        first.reset();
         const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
         const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
         auto same = pending_ ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
@@ -149,6 +160,14 @@ class FramePass {
     tell_mirror(s, state);
     settle(s);
     editor.put(out, {}, std::move(s));
+  }
+
+  /// The action goes on with the chain that the one before it began.
+  bool composed(const Block& b, std::size_t n) const {
+    if (n >= b.actions.size() || program_.dialect == context_.target.dialect || target_.chains()) return false;
+    const auto* f = std::get_if<FrameOp>(&b.actions[n].data);
+    return f != nullptr && f->change && f->change->slot == FrameSlot::chain &&
+           f->change->combine == FrameCombine::compose;
   }
 
   /// A mirror beside what the manual of one of the two controls leaves open.
@@ -314,6 +333,7 @@ class FramePass {
     const std::string what = result == Result::foreign
                                  ? "a scale of single axes, a rotation in space or a preset that is not carried over"
                                  : "what the programmable frame holds here depends on the path that leads here";
+    if (result == Result::unknown) lost_.insert(s.id);
     refuse(s, program_, context_, "TRN-325", "frame: " + what, "set the whole frame in one place", a.pos);
     return false;
   }
@@ -377,7 +397,7 @@ class FramePass {
   const FactsOf& facts_;
   const FrameStates states_;
   const FrameTarget target_;
-  std::set<std::uint32_t> waiting_;
+  std::set<std::uint32_t> waiting_, lost_;
   bool pending_ = false;  ///< statements before this one wait to be said here
   bool mirror_told_ = false;
 };
@@ -397,10 +417,44 @@ bool uses_frames(const Program& program) {
   return found;
 }
 
+/// Some statement adds to the frame that it finds.
+bool adds_frames(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* f = std::get_if<FrameOp>(&a.data);
+        found = found || (f != nullptr && f->change &&
+                          (f->change->by_distance_mode || f->change->combine == FrameCombine::compose ||
+                           f->change->combine == FrameCombine::add));
+      }
+    });
+  }
+  return found;
+}
+
+/// A try on a copy: statements that the pass would refuse because the frame depends on the path.
+std::set<std::uint32_t> lost_frames(Program copy, const LegaliseContext& context) {
+  Diagnostics unheard;
+  const LegaliseContext quiet{context.target, context.source_machine, context.target_machine, context.options, unheard,
+                              nullptr,        context.source_numbers, context.names};
+  const FactsOf facts(copy, quiet);
+  FramePass pass(copy, quiet, facts);
+  for (auto& r : copy.routines) pass.routine(r);
+  return pass.lost();
+}
+
 }  // namespace
 
 void convert_frames(Program& program, const LegaliseContext& context) {
   if (!uses_frames(program)) return;
+  if (program.dialect != context.target.dialect && adds_frames(program)) {
+    number_statements(program);
+    const auto lost = lost_frames(program, context);
+    if (!lost.empty()) keep_frames_in_variables(program, context, lost);
+  }
   const FactsOf facts(program, context);
   FramePass pass(program, context, facts);
   for (auto& r : program.routines) pass.routine(r);

@@ -150,7 +150,8 @@ FrameTarget::Result FrameTarget::rebuild(const FrameChange& c, const std::option
   if (after.foreign) return Result::foreign;
   if (!after.known()) {
     const bool done = before && !before->foreign &&
-                      (chains() ? inside(*before, after, kept, plane, out) : beside(*before, after, kept, plane, out));
+                      (chains() ? inside(*before, after, kept, plane, out)
+                                : added(c, *before, plane, out) || beside(*before, after, kept, plane, out));
     return done ? Result::done : Result::unknown;
   }
   const std::size_t first = out.size();
@@ -189,6 +190,34 @@ bool FrameTarget::inside(const PlanarFrame& before, const PlanarFrame& after, co
   if (after.mirrors())
     out.push_back(
         make(FrameSlot::chain, FrameKind::mirror, FrameCombine::compose, mirror_words(*after.mirror, *after.mirror)));
+  return true;
+}
+
+/// A rotation or a shift inside a frame that is not known as a whole, on a target that adds it to what its slot holds.
+bool FrameTarget::added(const FrameChange& c, const PlanarFrame& before, std::optional<Plane> plane,
+                        std::vector<Action>& out) const {
+  if (c.slot != FrameSlot::chain || c.combine != FrameCombine::compose || before.mirrors() || before.scales())
+    return false;
+  const auto& order = context_.target_machine.frame_order;
+  const auto shift = std::find(order.begin(), order.end(), FrameSlot::shift);
+  if (std::find(order.begin(), shift, FrameSlot::rotation) != shift) return false;
+  if (c.kind == FrameKind::rotate && can(FrameSlot::rotation, FrameCombine::add) && plane) {
+    const AxisId normal = plane_axes(*plane).w;
+    const bool by_word = !c.has_angle && c.words.size() == 1 && c.words[0].axis == normal;
+    const bool by_angle =
+        c.has_angle && c.words.empty() && (c.rotation_axis == axis::none || c.rotation_axis == normal);
+    if ((!by_word && !by_angle) || (before.turns() && before.angle && before.plane != *plane)) return false;
+    auto change = std::make_shared<FrameChange>();
+    change->slot = FrameSlot::rotation;
+    change->kind = FrameKind::rotate;
+    change->combine = FrameCombine::add;
+    change->has_angle = true;
+    change->angle = by_word ? c.words[0].value : c.angle;
+    out.push_back(action(FrameOp{std::move(change)}));
+    return true;
+  }
+  if (c.kind != FrameKind::translate || before.turns() || !can(FrameSlot::shift, FrameCombine::add)) return false;
+  out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::add, c.words));
   return true;
 }
 

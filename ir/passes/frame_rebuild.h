@@ -52,6 +52,8 @@ class FrameTarget {
                 std::vector<Action>& out) const;
   bool inside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept, std::optional<Plane> plane,
               std::vector<Action>& out) const;
+  bool added(const FrameChange& c, const PlanarFrame& before, std::optional<Plane> plane,
+             std::vector<Action>& out) const;
   bool beside(const PlanarFrame& before, const PlanarFrame& after, const Parts& kept, std::optional<Plane> plane,
               std::vector<Action>& out) const;
   bool shift_slot(const PlanarFrame* before, const PlanarFrame& f, std::vector<Action>& out) const;

@@ -36,6 +36,8 @@ class FrameState {
   void forget(const VarRef& v);
   /// Values that are expressions: their variables may mean something else now.
   void forget_expressions();
+  /// A slot as another analysis knows it.
+  void put(FrameSlot s, const PlanarFrame& frame) { at(s) = frame; }
   void limit(const SlotUses& uses) { uses_ = uses; }
   void join(const FrameState& other);
   bool operator==(const FrameState& other) const { return slots_ == other.slots_ && preset_off_ == other.preset_off_; }
