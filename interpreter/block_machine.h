@@ -19,6 +19,7 @@
 #include "interpreter/frame.h"
 #include "interpreter/open_curve.h"
 #include "ir/block.h"
+#include "ir/block_coordinate.h"
 #include "ir/contour.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
@@ -86,6 +87,8 @@ class BlockMachine final : public SystemData {
     program_ = program;
     routine_ = routine;
   }
+  /// Where programs that are not at hand are found; null: nowhere.
+  void find_programs(const ir::ProgramFinder* library) { library_ = library; }
   /// From now on the cycles of a lathe that are carried out are added there.
   void keep_cycles(std::vector<CycleRun>* runs) { cycle_runs_ = runs; }
   /// Without frames, tool and cycles, ready to read the blocks of a profile.
@@ -169,7 +172,7 @@ class BlockMachine final : public SystemData {
   bool read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
-  bool read_of_run(const ir::SystemRef& ref, const std::string& name, double& out);
+  bool read_of_run(const ir::SystemRef& ref, std::span<const double> args, const std::string& name, double& out);
   bool read_at_rest(const std::string& name, double& out);
   void assume(const std::string& name, double value, const std::string& hint = {});
 
@@ -407,6 +410,7 @@ class BlockMachine final : public SystemData {
   std::size_t next_point_ = 0;
 
   const ir::Program* program_ = nullptr;
+  const ir::ProgramFinder* library_ = nullptr;
   const ir::Routine* routine_ = nullptr;
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices

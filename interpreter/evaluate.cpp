@@ -141,6 +141,10 @@ double Evaluator::binary(const Node& n) {
         failure_.fail(code::function_domain, "a negative number to a power that is not whole");
         return 0;
       }
+      if (a == 0 && b <= 0) {
+        failure_.fail(code::function_domain, "zero to the power zero or to a negative power");
+        return 0;
+      }
       return checked(std::pow(a, b), "a power");
     case ir::BinaryOp::eq: return equal(a, b, how) ? 1 : 0;
     case ir::BinaryOp::ne: return equal(a, b, how) ? 0 : 1;

@@ -86,14 +86,15 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
   }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
   const std::string name = datum_key(ref, args);
-  if (read_of_run(ref, name, out) || read_at_rest(name, out)) return true;
+  if (read_of_run(ref, args, name, out) || read_at_rest(name, out)) return true;
   return failure_.fail(
       code::no_datum,
       "the value of " + name + " is known to the machine only; the profile's \"data\" or --set gives it one");
 }
 
 /// Data that the run follows, which the profile names.
-bool BlockMachine::read_of_run(const ir::SystemRef& ref, const std::string& name, double& out) {
+bool BlockMachine::read_of_run(const ir::SystemRef& ref, std::span<const double> args, const std::string& name,
+                               double& out) {
   const auto answer = machine::data_of_run(profile_, name);
   if (!answer) return false;
   const auto& s = spindles_[static_cast<std::size_t>(answer->spindle)];
@@ -128,8 +129,14 @@ bool BlockMachine::read_of_run(const ir::SystemRef& ref, const std::string& name
     }
     case machine::RunDatum::program_number: {
       const auto* main = program_ != nullptr ? program_->main() : nullptr;
-      out = main != nullptr ? static_cast<double>(main->name.number) : -1;
+      out = main != nullptr ? ir::main_number(*main).value_or(-1) : -1;
       return out >= 0;
+    }
+    case machine::RunDatum::block_coordinate: {
+      const auto found =
+          args.size() == 2 ? ir::block_coordinate(program_, library_, ref.axis, args[0], args[1]) : std::nullopt;
+      out = found.value_or(0);
+      return found.has_value();
     }
     case machine::RunDatum::last_label: {
       const auto number = parse_decimal(last_label);

@@ -34,6 +34,8 @@ Runner::Runner(const ir::Program& program, const machine::Profile& profile, cons
   evaluator_.set_system(&machine_);
   evaluator_.set_equal_within(parse_decimal(profile.option("compare.equal_within")).value_or(0));
   machine_.keep_cycles(options.cycles);
+  machine_.find_programs(&options_.library);
+  machine_.belongs_to(&program, nullptr);
   local_levels_ = static_cast<std::size_t>(parse_decimal(profile.option("calls.local_levels")).value_or(0));
 }
 

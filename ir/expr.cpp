@@ -135,7 +135,7 @@ std::optional<double> constant_binary(BinaryOp op, double a, double b) {
     case BinaryOp::divide: return b == 0 ? std::nullopt : std::optional(a / b);
     case BinaryOp::modulo: return b == 0 ? std::nullopt : std::optional(a - std::trunc(a / b) * b);
     case BinaryOp::int_divide: return b == 0 ? std::nullopt : std::optional(std::trunc(a / b));
-    case BinaryOp::power: return std::pow(a, b);
+    case BinaryOp::power: return a == 0 && b <= 0 ? std::nullopt : std::optional(std::pow(a, b));
     default: break;
   }
   // Numbers that are nearly equal compare differently on different controls.

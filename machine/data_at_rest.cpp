@@ -25,7 +25,8 @@ constexpr std::array<std::pair<RunDatum, std::string_view>, run_datum_count> run
      {RunDatum::turning_speed, "turning_speed"},
      {RunDatum::plane_normal, "plane_normal"},
      {RunDatum::program_number, "program_number"},
-     {RunDatum::last_label, "last_label"}}};
+     {RunDatum::last_label, "last_label"},
+     {RunDatum::block_coordinate, "block_coordinate"}}};
 
 bool fits(std::string_view pattern, std::string_view name) {
   if (pattern.empty()) return name.empty();

@@ -197,6 +197,20 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
   return true;
 }
 
+namespace {
+/// A tool and its offset, without the change.
+bool tool_and_offset_only(const ir::Block& b) {
+  bool tool = false, offset = false;
+  for (const ir::Action& a : b.actions) {
+    if (std::holds_alternative<ir::ToolChange>(a.data)) return false;
+    const auto* t = std::get_if<ir::ToolSelect>(&a.data);
+    tool = tool || (t != nullptr && !t->changes);
+    offset = offset || std::holds_alternative<ir::ToolOffset>(a.data);
+  }
+  return tool && offset;
+}
+}  // namespace
+
 bool PlainStreamWriter::collect(const ir::Block& b, Words& words) const {
   if (b.repeat_given != 0) return false;
   const bool moves = b.has_motion && b.motion.moves();
@@ -204,6 +218,7 @@ bool PlainStreamWriter::collect(const ir::Block& b, Words& words) const {
   for (const ir::Action& a : b.actions) {
     if (!add_action(a, moves, words)) return false;
   }
+  if (table_.offset_waits && tool_and_offset_only(b)) return false;
   return !words.alone || words.count == 1;
 }
 

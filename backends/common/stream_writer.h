@@ -35,6 +35,7 @@ struct PlainTable {
   std::string_view end_program;                    ///< M30
   std::string_view dwell;                          ///< "G4 F", alone in its line
   double dwell_unit = 1;                           ///< seconds of one unit of it
+  bool offset_waits = false;                       ///< an offset beside a T counts from the change of the tool on
   bool select_changes_too = false;                 ///< a T that also carries out the change is a plain T there
   bool units_with_feed = true;                     ///< the codes of `units` change F words as well
   bool zero_feed = true;                           ///< F0 is a plain word there, not one with a meaning of its own

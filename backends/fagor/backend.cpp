@@ -5,6 +5,7 @@
 #include "backends/fagor/stream.h"
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
+#include "dialects/fagor/axis_exchange.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -29,6 +30,24 @@ bool uses_inches(const ir::Program& program) {
   return found;
 }
 
+bool exchanges_axes(const ir::Program& program) {
+  bool found = false;
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(
+        r.body, [&](const ir::Statement& s) { found = found || dialects::fagor::axis_exchange(s).has_value(); });
+  }
+  return found;
+}
+
+/// Behind G28 the IR names the axes that move; the text names the ones that were exchanged for them.
+ir::Program with_written_axes(const ir::Program& program) {
+  ir::Program out = program;
+  ir::passes::exchange_axes(
+      out, dialects::fagor::axis_exchange, [](ir::Statement& /*s*/, ir::passes::ExchangeFault /*f*/) {},
+      [](ir::Statement& /*s*/) {});
+  return out;
+}
+
 class FagorBackend : public Backend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return dialect_name; }
@@ -41,6 +60,7 @@ class FagorBackend : public Backend {
     const bool foreign = program.dialect != dialect_name;
     const Style style = make_style(is_lathe(*options.profile), uses_inches(program), foreign);
     std::optional<ir::Program> relabelled;
+    if (!foreign && exchanges_axes(program)) relabelled = with_written_axes(program);
     if (foreign)
       relabelled = with_file_labels(program, file_groups(program, file_order(program, false), options), diagnostics);
     return Writer(relabelled ? *relabelled : program, options, style, diagnostics).write();

@@ -225,7 +225,9 @@ std::string Printer::variable(const ExprPtr& e, const ir::VarRef& v) {
   }
   if (const auto n = ir::constant_value(v.index)) {
     constexpr double most = 1e6;  // no control has so many; what is larger need not fit an integer
-    if (*n != std::floor(*n) || std::fabs(*n) > most || !facts::valid_parameter(saturate<std::int64_t>(*n))) {
+    const bool whole = *n == std::floor(*n) && std::fabs(*n) <= most;
+    const bool own = program_.dialect == dialect_name && whole && facts::unlisted_parameter(saturate<std::int64_t>(*n));
+    if (!own && (!whole || !facts::valid_parameter(saturate<std::int64_t>(*n)))) {
       problem(e, "the control has no parameter P" + shortest(*n));
     }
     const std::size_t at = e->pos.column;
@@ -247,6 +249,8 @@ std::string Printer::system(const ExprPtr& e, const ir::SystemRef& s) {
   }
   if (s.args.empty()) return name;
   if (s.datum == Datum::active_modal || s.datum == Datum::spindle_state) return name + index(s.args[0]);
+  const auto program = s.args.size() == 2 ? ir::constant_value(s.args[1]) : std::nullopt;
+  if (program && name.starts_with("GPOS")) return name + " N" + index(s.args[0]) + " P" + shortest(*program);
   if (s.args.size() > 1) {
     name += '(';
     name += arguments(s.args);

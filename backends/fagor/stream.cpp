@@ -44,6 +44,7 @@ PlainTable table_of(const Style& style, const machine::Profile& profile, bool la
   t.dwell = "G04 K";
   t.dwell_unit = 0.01;
   const std::string how = profile.option("fagor.tool_change");
+  t.offset_waits = how.empty() || how == "m6";
   t.select_changes_too = !how.empty() && how != "m6";
   t.zero_feed = false;
   t.axes_in_order = true;

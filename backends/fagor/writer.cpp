@@ -46,6 +46,8 @@ Writer::Writer(const ir::Program& program, const WriteOptions& options, const St
   has_cycles_ = !same_dialect() && ir::any_action(program, [](const ir::Action& a) {
     return std::holds_alternative<ir::CycleDefine>(a.data);
   });
+  has_tool_changes_ =
+      ir::any_action(program, [](const ir::Action& a) { return std::holds_alternative<ir::ToolChange>(a.data); });
 }
 
 // ---- file frame ----------------------------------------------------------------------------------------------------

@@ -133,6 +133,7 @@ class Writer : public ProgramWriter {
   const ir::Block* block_ = nullptr;
   bool has_surfaces_ = false;
   bool has_cycles_ = false;  ///< of another control
+  bool has_tool_changes_ = false;
   bool rotary_told_ = false;
   ir::Block surface_block_;                  ///< the block at hand in the words of the face or the cylinder
   ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written

@@ -93,7 +93,8 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& op) {
 /// G49 and its words: the origin, then the turns by their letters; what the block does not say turns by 0.
 void Writer::inclined_plane(const ir::Action& a, const ir::FrameChange& f) {
   if (f.kind == ir::FrameKind::translate) {
-    add(std::string(g(Use::inclined_plane)), Rank::setting, a.pos);
+    const bool by_tool = !a.text.empty() && (a.text.back() == 'T' || a.text.back() == 't');
+    add(std::string(g(Use::inclined_plane)) + (by_tool ? " T" : ""), Rank::setting, a.pos);
     return frame_words(f, a.pos);
   }
   constexpr std::string_view letters = "ABCQRS";

@@ -7,6 +7,7 @@
 #include "backends/fagor/writer.h"
 #include "base/text.h"
 #include "dialects/fagor/cycles.h"
+#include "ir/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -134,9 +135,16 @@ ir::Order Writer::target_order(const ir::Action& a) const {
   return ProgramWriter::target_order(a);
 }
 
+/// A tool that is only selected: a D beside it would wait for its M06 (9.3).
+static bool waits_for_change(const ir::Block& b) {
+  const auto* t = ir::action_in<ir::ToolSelect>(b);
+  return t != nullptr && !t->changes && ir::action_in<ir::ToolChange>(b) == nullptr;
+}
+
 bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
   const bool others = b.actions.size() > 1 || b.has_motion;
   if (others && stands_alone(a) && !(same_dialect() && !a.text.empty())) return true;
+  if (holds<ir::ToolOffset>(a) && !same_dialect() && has_tool_changes_ && waits_for_change(b)) return true;
   return ProgramWriter::own_line(a, b);
 }
 

@@ -44,6 +44,11 @@ inline constexpr bool valid_parameter(std::int64_t n) {
   }
   return false;
 }
+/// In no list of the manual, but in programs of its own (22: P80 and P88 beside GPOS).
+inline constexpr ParameterRange unlisted_parameters{26, 99, false, false};
+inline constexpr bool unlisted_parameter(std::int64_t n) {
+  return n >= unlisted_parameters.lo && n <= unlisted_parameters.hi;
+}
 /// Written by canned cycles and probing cycles: not for temporaries.
 inline constexpr std::int32_t first_cycle_parameter = 294, last_cycle_parameter = 299;
 

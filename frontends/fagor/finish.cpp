@@ -4,6 +4,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "dialects/fagor/limits.h"
+#include "frontends/fagor/finish_parts.h"
 #include "frontends/fagor/program_reader.h"
 #include "ir/cycles/pattern.h"
 #include "ir/dataflow.h"
@@ -349,6 +351,11 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_executed(program, state);
   judge_patterns(program, state);
   drop_inclined_ends(program, state);
+  if (facts.unlisted_parameters) {
+    const auto& range = dialects::fagor::unlisted_parameters;
+    program.spaces[parameter_space].segments.push_back({range.lo, range.hi, ir::Scope::global, true});
+  }
+  offsets_with_change(program, state);
   // A part zero set by G92 ends with the next G53..G57, G159; it may come from a routine of another file.
   const bool clear_preset = facts.preset || !program.main() || calls_outside(program);
   const bool both = facts.table_shift && facts.shift;
@@ -361,6 +368,7 @@ void finish_program(ir::Program& program, LowerState& state) {
     }
   }
   judge_turned_plane(program, state);
+  resolve_exchanges(program, state);
   if (both && !in_order_of_text(program)) {
     state.set_line(facts.first_table_shift);
     state.error(
@@ -379,6 +387,14 @@ void finish_program(ir::Program& program, LowerState& state) {
     state.error("FAG-027", {},
                 "an inclined plane (G49) and a shift, mirror image, scale or rotation in one program are not carried",
                 "transform the coordinates of the part");
+  }
+  for (const Span& where : facts.tool_planes) {
+    if (!facts.turned_by_axes) break;
+    state.set_line(where);
+    state.error("FAG-054", {},
+                "the plane across the tool (G49 T) in a program that moves A, B or C: where the tool points "
+                "depends on the head of the machine",
+                "write the angles (A B C or Q R S)");
   }
   const bool inch_machine = state.profile().power_on.units == ir::Units::inch;
   if (facts.first_machine_move.known() && facts.units[inch_machine ? 0 : 1]) {

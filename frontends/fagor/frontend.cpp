@@ -44,7 +44,8 @@ class FagorStream : public StreamReader {
     if (!std::holds_alternative<ir::Block>(out.node)) out.node = ir::Block{};
     BlockResult result;
     lowerer_.lower(block_, std::get<ir::Block>(out.node), result);
-    if (result.needs_program || result.call || !result.opaque.empty()) return StreamLine::needs_program;
+    if (state_.facts.unlisted_parameters || result.needs_program || result.call || !result.opaque.empty())
+      return StreamLine::needs_program;
     if (!result.end) return StreamLine::statement;
     end_word_ = cnctrans::fagor::word_text(*result.end);
     return StreamLine::program_end;
@@ -70,7 +71,8 @@ class FagorStream : public StreamReader {
     add(state_.comp_by_text);
     add(state_.units_by_text);
     add(state_.motion_by_text);
-    add(static_cast<int>(state_.motion_sure) + 2 * static_cast<int>(state_.comp_begins));
+    add(static_cast<int>(state_.motion_sure) + 2 * static_cast<int>(state_.comp_begins) +
+        4 * static_cast<int>(state_.plane_changed) + 8 * static_cast<int>(state_.comp_sure));
     add(state_.facts.rotary);
     add(state_.facts.preset);
     add(state_.facts.table_shift);

@@ -56,6 +56,7 @@ class BlockLowerer {
   void apply_offset(const GWord& g);
   void apply_frame(const GWord& g);
   void inclined_plane(const GWord& g);
+  void along_the_tool(const GWord& g, bool by_axes);
   [[nodiscard]] bool full_retract(int code) const;
   void apply_special(const GWord& g);
   void setting(const GWord& g, ir::Order order);
@@ -127,6 +128,7 @@ class BlockLowerer {
   [[nodiscard]] const Word* has_use(dialects::fagor::Use use) const;
   void check_compensation(bool arc, bool moves);
   void check_arc_end();
+  void check_tangent();
   void check_centre(ir::MotionKind kind);
   void refuse_under_arc(const GWord& g);
   ir::MotionExtra& extra();

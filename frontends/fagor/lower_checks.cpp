@@ -33,6 +33,7 @@ void BlockLowerer::check_block() {
   const bool arc = moves && is_arc(kind);
   if (motion_code_ != nullptr) state_.motion_sure = true;
   check_centre(kind);
+  if (state_.plane_changed && moves) check_tangent();
   const bool only_motion = g_count_ == 0 || (g_count_ == 1 && motion_code_ != nullptr);
   if (only_motion && !arc && !state_.comp_begins) return;  // most blocks
   check_compensation(arc, moves);
@@ -44,6 +45,20 @@ void BlockLowerer::check_block() {
                  "write the coordinates of the machine");
   if (const Word* dwell = has_use(Use::dwell); dwell != nullptr && in_->words.size() > 1 && (seen_ & bit('K')) == 0)
     state_.error(code, dwell->pos, "G04 without K stands alone in its block [11]", "put the other words behind it");
+}
+
+/// G08 takes its tangent from the path before it, which has to lie in the same plane.
+void BlockLowerer::check_tangent() {
+  if (tangent_arc_ != nullptr)
+    state_.error(code, tangent_arc_->pos,
+                 "G08 behind a change of the plane: there is no path in this plane before it [1010]",
+                 "move in the plane first");
+  const ir::PlaneAxes plane = ir::plane_axes(state_.plane_now());
+  const auto& m = out_->motion;
+  const bool in_plane = std::any_of(m.coords.begin(), m.coords.end(), [&plane](const ir::CoordWord& c) {
+    return c.axis == plane.u || c.axis == plane.v;
+  });
+  if (in_plane || m.extra || !m.centers.empty()) state_.plane_changed = false;
 }
 
 /// I, J, K of a block without a code belong to the arc in force; under G00 and G01 there is none.

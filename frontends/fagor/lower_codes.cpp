@@ -164,6 +164,7 @@ void BlockLowerer::compensation(const GWord& g) {
   set.setting = ir::Setting::comp;
   set.value = g.row->value;
   state_.comp_by_text = static_cast<ir::CompSide>(set.value);
+  state_.comp_sure = true;
   if (state_.turned() && state_.comp_by_text != ir::CompSide::off) {  // left seen from behind is right
     const bool left = state_.comp_by_text == ir::CompSide::left;
     state_.comp_by_text = left ? ir::CompSide::right : ir::CompSide::left;
@@ -201,7 +202,13 @@ void BlockLowerer::end_cycle() {
 
 void BlockLowerer::plane(const GWord& g, ir::Plane p, bool turned) {
   if (!surface_here_) leave_surface();
-  if (p != state_.plane_now()) end_cycle();
+  if (p != state_.plane_now()) {
+    end_cycle();
+    state_.plane_changed = true;
+    if (state_.comp_sure && state_.comp_by_text != ir::CompSide::off)
+      state_.error("FAG-046", g.word->pos, "another plane while radius compensation is in force [1071]",
+                   "write G40 and a straight move before it");
+  }
   const bool arc = state_.motion_by_text == ir::MotionKind::arc_cw || state_.motion_by_text == ir::MotionKind::arc_ccw;
   if (turned != state_.turned() && (arc || state_.comp_by_text != ir::CompSide::off)) {
     state_.error("FAG-026", g.word->pos,
@@ -379,10 +386,24 @@ void BlockLowerer::longitudinal_axis(const GWord& g) {
   marker(g, "block.word");
 }
 
-/// G28 and G29 alone choose the spindle of the blocks that follow (5.4); with axes they exchange them (7.8).
+/// G28 and G29 alone choose the spindle of the blocks that follow (5.4); with axes they exchange them (7.8), which the
+/// words of the blocks that follow say: resolve_exchanges().
 void BlockLowerer::choose_spindle(const GWord& g) {
   if (coord_count_ != 0) {
-    keep(g, g.row->feature, the_function(*g.word) + " with axes (" + std::string(g.row->title) + ") is kept as text");
+    if (g.row->code == 28 && coord_count_ != 2) {
+      state_.error("FAG-014", g.word->pos, "G28 with axes exchanges two of them [47]");
+      return;
+    }
+    for (std::size_t i = 0; i < coord_count_; ++i) {
+      if (coords_[i]->has_value)
+        state_.error("FAG-004", coords_[i]->pos, "the axes of G28 and G29 have no value [4]");
+      else if (!state_.has_axis(axis_of(*coords_[i])))
+        state_.warning("FAG-051", coords_[i]->pos, std::string("the machine has no axis ") + word_letter(*coords_[i]),
+                       "choose a machine profile that has it");
+    }
+    coords_taken_ = true;
+    state_.facts.axes_exchanged = true;
+    marker(g, g.row->feature);
     return;
   }
   state_.spindle_code(g.row->value);

@@ -34,7 +34,13 @@ ir::VarRef parameter(const Expr& e, LowerState& state) {
   const Expr& index = e.args.front();
   if (index.kind != ExprKind::number) return {parameter_space, {}, lower_expr(index, state), {}};
   const double n = index.number;
-  if (n != std::floor(n) || n > 1e6 || !facts::valid_parameter(saturate<std::int64_t>(n))) {
+  if (n == std::floor(n) && n >= 0 && n < 100 && facts::unlisted_parameter(saturate<std::int64_t>(n))) {
+    state.facts.unlisted_parameters = true;
+    state.warning(
+        "FAG-018", e.pos, "the manuals list no parameter P" + index.text,
+        "the control may stop here (error 72); it is read as a global parameter. Listed are P0-P25, P100-P299, "
+        "P1000-P1255 and P2000-P2255");
+  } else if (n != std::floor(n) || n > 1e6 || !facts::valid_parameter(saturate<std::int64_t>(n))) {
     state.error("FAG-018", e.pos, "the parameter P" + index.text + " does not exist",
                 "parameters are P0-P25, P100-P299, P1000-P1255 and P2000-P2255");
   } else if (n >= facts::first_oem_parameter && !state.attributes.empty() &&
@@ -175,7 +181,7 @@ std::optional<ir::SystemRef> system_variable(const Expr& e, LowerState& state, b
   ref.datum = known_datum(*info, e);
   ref.axis = axis != ir::axis::none ? axis : tool_axis(info->name);
   arguments(e, state, ref);
-  if (ref.datum == Datum::other) note_machine_datum(e, state);
+  if (ref.datum == Datum::other && info->name != "GPOS") note_machine_datum(e, state);
   if (!written && info->stops_preparation && state.comp_by_text != ir::CompSide::off) {  // 13.6
     state.warning("FAG-028", e.pos,
                   "reading " + e.text +

@@ -130,13 +130,32 @@ void BlockLowerer::apply_offset(const GWord& g) {
 
 // --- mirror, scale, rotation, pole ----------------------------------------------------------------------------------
 
+/// G49 T: the plane across the tool. A tool that no rotary axis has turned points along Z, and the plane is not
+/// inclined.
+void BlockLowerer::along_the_tool(const GWord& g, bool by_axes) {
+  if (by_axes) state_.error("FAG-014", g.word->pos, "G49 T takes X Y Z and S [27]");
+  state_.facts.tool_planes.push_back(word_span(state_.line(), g.word->pos));
+  if (state_.longitudinal_given() != ir::axis::none || state_.plane_now() != ir::Plane::xy)
+    state_.error("FAG-014", g.word->pos, "G49 T with another tool axis than Z is not carried", "write G17 before it");
+  state_.warning(
+      "FAG-054", g.word->pos,
+      "the plane across the tool (G49 T): the tool is taken to point along Z, as on a head that no axis turns",
+      "write the angles (A B C or Q R S) for a head that is swivelled by hand");
+}
+
 /// G49 X Y Z A B C turns about X, the new Y and the new Z, with Q R S about Z, the new Y and the new Z (25.6); alone it
 /// ends the plane. All three turns stand in the IR, 0 with the place of the code where the word is missing.
 void BlockLowerer::inclined_plane(const GWord& g) {
   constexpr std::array<char, 3> letters{'Q', 'R', 'S'};
   const auto written = [this](char c) { return c == 'R' ? radius_count_ != 0 : letter(c) != nullptr; };
   const bool spherical = std::any_of(letters.begin(), letters.end(), written);
-  if (written('I') || written('J') || written('K') || written('T')) return give_up(g);
+  if (written('I') || written('J') || written('K')) return give_up(g);
+  const Word* tool = take('T');
+  const bool by_tool = tool != nullptr;
+  if (by_tool && (written('Q') || written('R') || tool->has_value || spelling(*g.word, *tool).size() > 8)) {
+    state_.error("FAG-014", g.word->pos, "G49 T is followed by X Y Z and S [27]");
+    return;
+  }
   result_->needs_program = true;
   ir::FrameChange origin;
   origin.slot = ir::FrameSlot::chain;
@@ -154,8 +173,10 @@ void BlockLowerer::inclined_plane(const GWord& g) {
   const bool by_axes = std::any_of(turned.begin(), turned.end(), [](const Word* w) { return w != nullptr; });
   if (by_axes && spherical) state_.error("FAG-014", g.word->pos, "G49 takes A B C or Q R S, not both [27]");
   coords_taken_ = true;
-  const bool alone = coord_count_ == 0 && !spherical;
+  const bool alone = coord_count_ == 0 && !spherical && !by_tool;
+  if (by_tool) along_the_tool(g, by_axes);
   act(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(origin))}, g.word);
+  if (by_tool) out_->actions.back().text = spelling(*g.word, *tool);
   if (alone) {
     state_.facts.inclined_ends.push_back(word_span(state_.line(), g.word->pos));
     return;

@@ -41,7 +41,10 @@ void BlockLowerer::coordinates(ir::Motion& m) {
     }
     c.pos = w.pos;
     if (surface && surface_coordinate(c, w)) continue;
-    if (ir::is_rotary_letter(axis)) rotary(c, w);
+    if (ir::is_rotary_letter(axis)) {
+      state_.facts.turned_by_axes = true;
+      rotary(c, w);
+    }
   }
 }
 

@@ -59,7 +59,7 @@ void LowerState::start_routine(bool subroutine) {
   surface_by_text = ir::Surface::none;
   surface_plane_by_text = false;
   motion_by_text = ir::MotionKind::modal;
-  motion_sure = comp_begins = false;
+  motion_sure = comp_begins = comp_sure = plane_changed = false;
   constants_.clear();
   constants_known_ = true;
   spindle_ = 1;

@@ -50,6 +50,8 @@ struct FileFacts {
   bool inner_frames = false;        ///< G10 to G14, G72, G73, G158
   Span first_inclined_plane;        ///< G49 with words
   std::vector<Span> inclined_ends;  ///< G49 alone
+  std::vector<Span> tool_planes;    ///< G49 T
+  bool turned_by_axes = false;      ///< a word of A, B or C
   Span first_table_shift, first_machine_move, first_axis_scale;
   Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;
@@ -59,6 +61,8 @@ struct FileFacts {
   std::vector<std::pair<Span, std::int64_t>> executed;  ///< EXEC and MEXEC, with the number of the program
   std::vector<TextUse> text_uses;                       ///< of the spindle and of the longitudinal axis
   bool longitudinal = false;                            ///< G15 of the mill
+  bool unlisted_parameters = false;                     ///< P26 to P99
+  bool axes_exchanged = false;                          ///< G28 with axes
   std::set<std::string> machine_data;                   ///< variables reported as known to the machine only
 };
 
@@ -105,7 +109,7 @@ class LowerState {
   [[nodiscard]] ir::AxisId longitudinal_given() const { return longitudinal_; }
   /// A block that can be reached from elsewhere: what the text said before may not hold.
   void labelled() {
-    spindle_sure_ = longitudinal_sure_ = motion_sure = comp_begins = false;
+    spindle_sure_ = longitudinal_sure_ = motion_sure = comp_begins = comp_sure = plane_changed = false;
     constants_.clear();
   }
   /// Parameters that hold a fixed number here, whatever way leads to the block.
@@ -124,6 +128,8 @@ class LowerState {
   ir::MotionKind motion_by_text = ir::MotionKind::modal;
   bool motion_sure = false;                            ///< no other way leads here since the last motion code
   bool comp_begins = false;                            ///< G40, G41 or G42 since the last move in the plane
+  bool comp_sure = false;                              ///< no other way leads here since G40, G41, G42
+  bool plane_changed = false;                          ///< another plane since the last move in the plane
   std::string attributes;                              ///< of the header; empty: a file without one
   std::shared_ptr<const ir::HoleCycle> cycle_by_text;  ///< the hole cycle in force
   int cycle_code_by_text = 0;                          ///< its G number

@@ -124,6 +124,10 @@ Node StatementLowerer::condition(const syntax::Statement& s) {
   ir::If node;
   node.one_line = true;
   node.condition = lower_expr(s.args.at(0), state_);
+  if (node.condition->type != ir::Type::boolean)
+    state_.warning("FAG-053", s.args.at(0).pos,
+                   "the condition is no relation (EQ, NE, GT, GE, LT, LE): the manual gives it no meaning",
+                   "it is read as met by every value but 0; write NE 0 behind it");
   node.then_body = body_of(s.children.at(0));
   if (s.children.size() > 1) {
     node.has_else = true;
@@ -331,6 +335,7 @@ void remember(const ir::Assign& a, bool skipped, LowerState& state) {
 void lower_statement(const syntax::Block& block, std::string_view text, LowerState& state, ir::Statement& out) {
   const syntax::Statement& s = block.statements.front();
   if (s.keyword != "=" && s.keyword != "MSG") state.forget_constants();
+  if (s.keyword != "=" && s.keyword != "MSG" && s.keyword != "GOTO") state.comp_sure = state.plane_changed = false;
   if (s.keyword == "MCALL" || s.keyword == "MEXEC") state.no_constants();
   if (!block.words.empty() && s.keyword != "RPT") {
     state.error("FAG-016", block.words.front().pos, "a repeat count after a ( ) statement is for RPT only");

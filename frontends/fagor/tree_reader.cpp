@@ -163,7 +163,8 @@ Expr TreeReader::variable(Parser::VariableContext* c) {
   e.pos = pos(c);
   e.text = folded(pos(c->getStart()));
   if (auto* i = c->indexValue()) e.args.push_back(index(i));
-  if (c->GPOS()) e.args.push_back(parameter(c->PARAM()->getSymbol()));
+  if (c->GPOS())
+    e.args.push_back(std::move(parameter(c->PARAM()->getSymbol()).args.front()));  // a program, no parameter
   for (auto* x : c->expr()) e.args.push_back(expr(x));
   return e;
 }

@@ -5,9 +5,11 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "ir/block_coordinate.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/frame_state.h"
 #include "ir/passes/rewrite.h"
+#include "machine/data_at_rest.h"
 
 namespace cnctrans::ir::passes {
 
@@ -20,7 +22,7 @@ const SystemRef* datum_in(const ExprPtr& e) {
 class KnownData {
  public:
   KnownData(Program& program, const LegaliseContext& context)
-      : context_(context), facts_(program, context), frames_(program, facts_, context) {}
+      : program_(program), context_(context), facts_(program, context), frames_(program, facts_, context) {}
 
   void statement(Statement& s) {
     diameter_switch(s);
@@ -149,8 +151,18 @@ class KnownData {
       case Datum::scale_factor:
       case Datum::axis_scale:
       case Datum::rotation_angle: return framed(frames_.before(s), ref);
+      case Datum::other: return written_elsewhere(ref);
       default: return std::nullopt;
     }
+  }
+
+  /// The word of an axis in a block of this program.
+  [[nodiscard]] std::optional<double> written_elsewhere(const SystemRef& ref) const {
+    if (ref.args.size() != 2) return std::nullopt;
+    const auto answer = machine::data_of_run(context_.source_machine, ref.text + "[0]");
+    const auto block = constant_value(ref.args[0]), number = constant_value(ref.args[1]);
+    if (!answer || answer->datum != machine::RunDatum::block_coordinate || !block || !number) return std::nullopt;
+    return block_coordinate(&program_, nullptr, ref.axis, *block, *number);
   }
 
   /// args: the source's own number, the setting, the value asked for; motion and offset stand behind the settings.
@@ -225,6 +237,7 @@ class KnownData {
     return bits;
   }
 
+  const Program& program_;
   const LegaliseContext& context_;
   FactsOf facts_;
   FrameStates frames_;

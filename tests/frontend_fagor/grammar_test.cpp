@@ -133,7 +133,7 @@ TEST(FagorGrammar, Operands) {
   EXPECT_EQ(read_expr("TOX3+TORP1+TOR(P1)"), "(+ (+ TOX[3] TOR[P[1]]) TOR[P[1]])");
   EXPECT_EQ(read_expr("ASINX+ASIN X"), "(+ ASINX (ASIN X))");  // the variable when the letters touch
   EXPECT_EQ(read_expr("PLCMM 150"), "PLCMM[150]");
-  EXPECT_EQ(read_expr("GPOSX N99 P100"), "GPOSX[99 P[100]]");
+  EXPECT_EQ(read_expr("GPOSX N99 P100"), "GPOSX[99 100]");
   EXPECT_EQ(read_expr("ATJSTAT AND $FF"), "(AND ATJSTAT $FF)");  // a name that is in no table
   EXPECT_EQ(read("(P1EQ=3)").substr(0, 5), "error");
 }

@@ -138,7 +138,9 @@ TEST(FagorBlock, Refusals) {
   EXPECT_EQ(test::read("G1 X5 L3").codes(), "FAG-004");
   EXPECT_EQ(test::read("O0001").codes(), "FAG-004");
   EXPECT_EQ(test::read("X100000").codes(), "FAG-013");
-  EXPECT_EQ(test::read("G28 YA").codes(), "FAG-007");
+  EXPECT_EQ(test::read("G28 YA").codes(), "FAG-008");
+  EXPECT_EQ(test::read("G28 Y").codes(), "FAG-014");
+  EXPECT_EQ(test::read("G28 Y1 A").codes(), "FAG-004 FAG-008");
   EXPECT_EQ(test::read("G36 X5").codes(), "FAG-014");
   EXPECT_EQ(test::read("G6 G2 X5").codes(), "FAG-014");
   EXPECT_EQ(test::read("G33 Z-5").codes(), "FAG-014");
@@ -185,7 +187,7 @@ TEST(FagorBlock, HoleCyclesOfTheMill) {  // 25.3, 28.6
 }
 
 TEST(FagorBlock, KeptAsText) {  // understood, not carried out: no error, and the text is whole
-  EXPECT_EQ(line("G29 X ; back"), "opaque \"G29 X\" feature \"language.synchronised\" ; \" back\" | FAG-007");
+  EXPECT_EQ(line("G29 X ; back"), "opaque \"G29 X\" feature \"language.synchronised\" harmless ; \" back\" | FAG-008");
   EXPECT_EQ(line("M45 SP1"), "opaque \"M45 SP1\" feature \"block.word\" | FAG-007");
   EXPECT_EQ(line("GP101 X5"), "opaque \"GP101 X5\" feature \"block.word\" | FAG-012");
   EXPECT_EQ(line("( WKEY ) ; waits"), "opaque \"( WKEY )\" feature \"beside.data\" ; \" waits\" | FAG-022");

@@ -72,7 +72,7 @@ std::string support(const facts::GCode& g) {
                                       : "") +
              reason(g.feature);
     case Use::no_path: return "kept as text: no effect on the path (FAG-008)";
-    case Use::spindle_choice: return "spindles: carried; with axes " + reason(g.feature);
+    case Use::spindle_choice: return "spindles: carried; with axes: carried for straight moves (FAG-051)";
     case Use::spindle_couple:
       return "spindles: kept as text (FAG-037)" + (g.code == 30 ? "" : "; axes " + reason("beside.coupling"));
     case Use::soft_corner:
@@ -80,7 +80,8 @@ std::string support(const facts::GCode& g) {
     case Use::c_axis: return "alone kept as text: C in degrees (FAG-008); with R carried (FAG-045)";
     case Use::plane_axes:
       return "carried for XY, ZX, YZ, on the lathe also XC and ZC (FAG-045); others " + reason("motion.transformation");
-    case Use::inclined_plane: return "carried with A B C and with Q R S; others " + reason(g.feature);
+    case Use::inclined_plane:
+      return "carried with A B C, with Q R S and with T (FAG-054); with I J K " + reason(g.feature);
     case Use::home: return "carried with axes; alone " + reason("block.word");
     default: return "carried";
   }

@@ -1,0 +1,15 @@
+// Parts of finish_program (program_reader.h) that have a file of their own.
+#pragma once
+
+#include "frontends/fagor/lower_state.h"
+#include "ir/program.h"
+
+namespace cnctrans::fagor {
+
+/// G28 and G29 with axes (7.8): from here on every word names the axis that moves. FAG-051 where that can't be told.
+void resolve_exchanges(ir::Program& program, LowerState& state);
+
+/// T and D before the M06 of a tool changer (5.6): the offset comes with the tool. FAG-052 where the M06 can't be told.
+void offsets_with_change(ir::Program& program, LowerState& state);
+
+}  // namespace cnctrans::fagor

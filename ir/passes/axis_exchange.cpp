@@ -1,0 +1,186 @@
+#include "ir/passes/axis_exchange.h"
+
+#include <algorithm>
+#include <array>
+
+#include "ir/passes/flow_states.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+using Mask = std::uint32_t;
+constexpr Mask bit(AxisId a) {
+  return Mask{1} << a;
+}
+
+/// Which axes the words of each axis may move, and what may be in force besides.
+struct Exchanged {
+  std::array<Mask, axis::count_max> moves{};
+  bool arc = false, comp = false, cycle = false;
+
+  Exchanged() {
+    for (std::size_t a = 0; a < moves.size(); ++a) moves[a] = bit(static_cast<AxisId>(a));
+  }
+  [[nodiscard]] bool own(AxisId a) const { return moves[a] == bit(a); }
+  [[nodiscard]] bool sure(AxisId a) const { return (moves[a] & (moves[a] - 1)) == 0; }
+  [[nodiscard]] AxisId partner(AxisId a) const {
+    AxisId p = 0;
+    while ((moves[a] & bit(p)) == 0) ++p;
+    return p;
+  }
+  [[nodiscard]] bool any() const {
+    for (std::size_t a = 0; a < moves.size(); ++a) {
+      if (!own(static_cast<AxisId>(a))) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool any_of_space() const { return !own(axis::x) || !own(axis::y) || !own(axis::z); }
+};
+
+bool is_arc(MotionKind k) {
+  return k == MotionKind::arc_cw || k == MotionKind::arc_ccw || k == MotionKind::arc_tangent ||
+         k == MotionKind::arc_through_point;
+}
+
+struct Domain {
+  using State = Exchanged;
+  const ReadExchange* read;
+
+  static State start(const Routine& /*r*/, bool /*called*/) { return {}; }
+  [[nodiscard]] bool touches(const Routine& /*r*/) const { return true; }
+  static void unknown(State& /*s*/) {}  // told at the call
+  void transfer(const Statement& s, State& state) const {
+    if (const auto exchange = (*read)(s)) {
+      for (const AxisId a : exchange->ends) end(state, a);
+      for (const auto& [a, b] : exchange->pairs) {
+        state.moves[a] = bit(b);
+        state.moves[b] = bit(a);
+      }
+      return;
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    if (b->has_motion && b->motion.kind != MotionKind::modal && b->motion.keeps_modal)
+      state.arc = is_arc(b->motion.kind);
+    for (const auto& a : b->actions) {
+      if (const auto* set = std::get_if<ModalSet>(&a.data); set != nullptr && set->setting == Setting::comp)
+        state.comp = set->value != static_cast<std::uint8_t>(CompSide::off);
+      if (const auto* d = std::get_if<CycleDefine>(&a.data)) state.cycle = d->modal;
+      if (std::holds_alternative<CycleCancel>(a.data)) state.cycle = false;
+    }
+  }
+  static bool join(State& state, const State& other) {
+    bool changed = false;
+    for (std::size_t a = 0; a < state.moves.size(); ++a) {
+      const Mask both = state.moves[a] | other.moves[a];
+      changed = changed || both != state.moves[a];
+      state.moves[a] = both;
+    }
+    const auto also = [&changed](bool& mine, bool theirs) {
+      changed = changed || (theirs && !mine);
+      mine = mine || theirs;
+    };
+    also(state.arc, other.arc);
+    also(state.comp, other.comp);
+    also(state.cycle, other.cycle);
+    return changed;
+  }
+
+ private:
+  static void end(State& state, AxisId a) {
+    const Mask partners = state.moves[a] & ~bit(a);
+    state.moves[a] = bit(a);
+    for (AxisId p = 0; p < axis::count_max; ++p) {
+      if ((partners & bit(p)) == 0) continue;
+      state.moves[p] &= ~bit(a);
+      if (state.moves[p] == 0) state.moves[p] = bit(p);
+    }
+  }
+};
+
+class Rewriter {
+ public:
+  Rewriter(const Exchanged& state, Statement& s) : state_(state), statement_(s) {}
+
+  /// nullopt: done, or nothing to do.
+  std::optional<ExchangeFault> rewrite(bool& changed) {
+    auto* b = std::get_if<Block>(&statement_.node);
+    if (b == nullptr || !state_.any()) return std::nullopt;
+    bool named = false, sure = true;
+    const auto look = [&](AxisId a) {
+      if (a >= axis::count_max || state_.own(a)) return;
+      named = true;
+      sure = sure && state_.sure(a);
+    };
+    bool other = false;  // something besides the end points of straight moves
+    for (const auto& a : b->actions) {
+      if (const auto* f = std::get_if<FrameOp>(&a.data)) {
+        for (const auto& w : f->change->words) look(w.axis);
+        other = other || named || (f->change->kind != FrameKind::translate && state_.any_of_space());
+      }
+      other = other || ((std::holds_alternative<PoleSet>(a.data) || std::holds_alternative<CycleDefine>(a.data) ||
+                         std::holds_alternative<Corner>(a.data) || std::holds_alternative<TangentialEnd>(a.data)) &&
+                        state_.any_of_space());
+    }
+    const Motion& m = b->motion;
+    if (b->has_motion) {
+      for (const auto& w : m.coords) look(w.axis);
+      const bool arc = is_arc(m.kind) || (m.kind == MotionKind::modal && state_.arc);
+      const bool curved = m.moves() && (arc || state_.comp || state_.cycle || m.extra || !m.centers.empty());
+      other = other || (state_.any_of_space() && curved) || (named && m.kind == MotionKind::reference_point);
+    }
+    if (other) return ExchangeFault::not_said;
+    if (!named) return std::nullopt;
+    if (!sure) return ExchangeFault::unsure;
+    for (auto& w : b->motion.coords) {
+      if (!state_.own(w.axis)) w.axis = state_.partner(w.axis);
+    }
+    changed = true;
+    return std::nullopt;
+  }
+
+ private:
+  const Exchanged& state_;
+  Statement& statement_;
+};
+
+bool at_hand(const Program& program, const Statement& s) {
+  const auto* c = std::get_if<CallRoutine>(&s.node);
+  const auto* m = std::get_if<ModalCall>(&s.node);
+  if (m != nullptr && !m->off && !m->cycle) c = &m->call;
+  return c == nullptr || (!c->computed && program.find(c->routine) != nullptr);
+}
+
+}  // namespace
+
+bool exchange_axes(Program& program, const ReadExchange& read, const TellExchange& fault, const TellExchanged& done) {
+  bool any = false;
+  for (const auto& r : program.routines)
+    for_each_statement(r.body, [&](const Statement& s) { any = any || read(s).has_value(); });
+  if (!any) return false;
+  number_statements(program);
+  const Domain domain{&read};
+  const FlowStates<Domain> states(program, domain);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      const Exchanged* before = states.before(s);
+      if (before == nullptr) return;
+      if (const auto exchange = read(s)) {
+        const bool again = std::any_of(exchange->pairs.begin(), exchange->pairs.end(), [before](const auto& p) {
+          return !before->own(p.first) || !before->own(p.second);
+        });
+        if (again) fault(s, ExchangeFault::twice);
+        return;
+      }
+      if (before->any() && !at_hand(program, s)) fault(s, ExchangeFault::outside);
+      bool changed = false;
+      const auto why = Rewriter(*before, s).rewrite(changed);
+      if (why) fault(s, *why);
+      if (changed) done(s);
+    });
+  }
+  return true;
+}
+
+}  // namespace cnctrans::ir::passes
