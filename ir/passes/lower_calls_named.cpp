@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "base/saturate.h"
+#include "ir/passes/handed_variables.h"
+#include "ir/passes/kept_values.h"
 #include "ir/passes/lower_calls.h"
 
 namespace cnctrans::ir::passes {
@@ -16,7 +18,11 @@ namespace {
 class NamedLocals {
  public:
   NamedLocals(Program& program, const LegaliseContext& context, const CallGraph& calls)
-      : program_(program), context_(context), calls_(calls), reads_first_(program, calls, false) {
+      : program_(program),
+        context_(context),
+        calls_(calls),
+        reads_first_(program, calls, false),
+        handed_(program, context, calls) {
     levels_ = has_numbered_levels(context.target.spaces);
     for (const auto& s : context.target.spaces) {
       for (const auto& g : s.segments) {
@@ -28,11 +34,11 @@ class NamedLocals {
   void run() {
     infos_.resize(program_.routines.size());
     for (std::size_t r = 0; r < infos_.size(); ++r) collect(r);
-    for (std::size_t r = 0; r < infos_.size(); ++r) find_handed_arrays(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) place(r);
-    for (std::size_t r = 0; r < infos_.size(); ++r) place_handed_arrays(r);
+    for (std::size_t r = 0; r < infos_.size(); ++r) place_handed(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) rename(r);
     find_changed();
+    writes_.emplace(program_);
     for (std::size_t r = 0; r < infos_.size(); ++r) rewrite(r);
     for (std::size_t r = 0; r < infos_.size(); ++r) finish_signature(r);
   }
@@ -44,15 +50,11 @@ class NamedLocals {
     std::map<std::string, VarRef> places;              ///< where each goes (without array indices)
     std::set<std::string> arrays, by_reference, zero;  ///< zero: must be set to 0 where it is defined
     std::set<std::string> declared;
-    std::vector<Parameter> parameters;                             ///< as the source had them
-    bool has_levels = false;                                       ///< some go to the target's levels
-    std::map<std::string, std::pair<std::size_t, VarRef>> handed;  ///< array parameters: the caller's array, by routine
+    std::vector<Parameter> parameters;  ///< as the source had them
+    bool has_levels = false;            ///< some go to the target's levels
   };
 
-  bool is_local_space(SpaceId s) const {
-    return s < program_.spaces.size() && program_.spaces[s].named() && program_.spaces[s].scope == Scope::routine &&
-           program_.spaces[s].prefix.empty();
-  }
+  bool is_local_space(SpaceId s) const { return is_routine_space(program_, s); }
 
   void add(Info& info, const VarRef& v) {
     if (!is_local_space(v.space) || v.name.empty()) return;
@@ -91,41 +93,12 @@ class NamedLocals {
     }
   }
 
-  /// An array handed over by reference is the caller's own; the parameter stands for it where all calls hand over one.
-  void find_handed_arrays(std::size_t r) {
-    Info& info = infos_[r];
-    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-      const Parameter& p = info.parameters[i];
-      if (!p.by_reference || p.name.find('[') == std::string::npos) continue;
-      std::optional<std::pair<std::size_t, VarRef>> from;
-      bool one = true;
-      for (const auto& site : calls_.sites()) {
-        if (site.callee != r) continue;
-        const auto* call = std::get_if<CallRoutine>(&site.statement->node);
-        const Argument* a = call != nullptr && i < call->arguments.size() ? &call->arguments[i] : nullptr;
-        const VarRef* v = a == nullptr ? nullptr : a->value ? as_variable(a->value) : &a->reference;
-        one = one && v != nullptr && !v->name.empty() && v->indices.empty() &&
-              (!from || (from->first == site.caller && same_variable(from->second, *v)));
-        if (one) from.emplace(site.caller, *v);
-      }
-      if (from && one) {
-        info.handed.emplace(p.variable.name, *from);
-        continue;
-      }
-      context_.diagnostics.error(
-          "TRN-461", program_.routines[r].header.span,
-          "the array parameter " + p.name +
-              (from ? ": its calls hand over different arrays, and " : ": nothing at hand calls the subprogram, and ") +
-              "the target has no arrays that a name can stand for",
-          "write a subprogram for each array, or use one array");
-    }
-  }
-  void place_handed_arrays(std::size_t r) {
-    for (const auto& [name, from] : infos_[r].handed) {
+  void place_handed(std::size_t r) {
+    for (const auto& [name, from] : handed_.of(r)) {
       std::pair<std::size_t, VarRef> at = from;
       for (std::size_t steps = 0; steps < infos_.size(); ++steps) {  // a parameter handed on
-        const auto further = infos_[at.first].handed.find(at.second.name);
-        if (further == infos_[at.first].handed.end()) break;
+        const auto further = handed_.of(at.first).find(at.second.name);
+        if (further == handed_.of(at.first).end()) break;
         at = further->second;
       }
       const auto place = infos_[at.first].places.find(at.second.name);
@@ -138,14 +111,14 @@ class NamedLocals {
     const Routine& routine = program_.routines[r];
     std::size_t used = 0;
     for (const auto& n : info.names) {
-      if (info.handed.count(n) != 0) continue;
+      if (handed_.of(r).count(n) != 0) continue;
       if (info.declared.count(n) == 0 && routine.kind == RoutineKind::sub && infos_[0].declared.count(n) != 0) {
         info.places[n] = frame_variable(program_, n, program_.routines[0]);  // the main program's, seen below
         infos_[0].places[n] = info.places[n];
         continue;
       }
       const bool own_level = levels_ && info.arrays.count(n) == 0 && info.by_reference.count(n) == 0 &&
-                             used < level_size_ && infos_[r].places.count(n) == 0;
+                             !handed_.hands_on(r, n) && used < level_size_ && infos_[r].places.count(n) == 0;
       if (own_level) {
         info.places[n] = VarRef{level_space(program_), n, nullptr, {}};
         info.has_levels = true;
@@ -182,6 +155,7 @@ class NamedLocals {
   }
 
   void rewrite(std::size_t r) {
+    caller_ = r;
     rewrite_body(program_.routines[r].body, [&](Statement&& s, Body& out) {
       if (const auto* d = std::get_if<Declare>(&s.node); d != nullptr && is_local_space(d->space)) {
         const Declare copy = *d;
@@ -327,11 +301,11 @@ class NamedLocals {
   void pass_arguments(Statement&& s, CallRoutine& call, std::size_t callee, bool modal, Body& out) {
     const Info& info = infos_[callee];
     std::vector<std::pair<VarRef, ExprPtr>> before;
-    Body behind;
+    Body behind, taken_once;
     std::vector<Argument> letters;
     for (std::size_t i = 0; i < info.parameters.size(); ++i) {
       const Parameter& p = info.parameters[i];
-      if (info.handed.count(p.variable.name) != 0) continue;
+      if (handed_.of(callee).count(p.variable.name) != 0) continue;
       const Argument* a = i < call.arguments.size() && (call.arguments[i].value || call.arguments[i].by_reference)
                               ? &call.arguments[i]
                               : nullptr;
@@ -360,9 +334,25 @@ class NamedLocals {
     }
     const bool changed = std::any_of(before.begin(), before.end(),
                                      [this](const auto& item) { return changed_.count(item.first.name) != 0; });
-    if (call.count && (changed || !behind.empty())) {
-      return each_pass(std::move(s), call, std::move(before), std::move(behind), out);
+    const bool by_pass = call.count && (changed || !behind.empty());
+    if (call.count) {  // the source computes an argument once, for all passes
+      const auto run = reached_from(calls_, callee);
+      const auto once = [&](ExprPtr& value) {
+        const bool computed = value && value->type != Type::string && !constant_value(value);
+        if (computed && writes_->may_change(value, caller_, run))
+          value = kept(program_, s.line, value, "arguments", kept_, taken_once);
+      };
+      for (auto& letter : call.arguments) once(letter.value);
+      for (auto& [place, value] : before) {
+        const bool back = std::any_of(behind.begin(), behind.end(), [&place](const Statement& b) {
+          return same_variable(*as_variable(std::get<Assign>(b.node).items.front().value), place);
+        });
+        if (by_pass && !back) once(value);  // by reference it goes over anew
+      }
+      if (!taken_once.empty()) move_head(s.line, taken_once.front().line);
+      for (auto& t : taken_once) out.push_back(std::move(t));
     }
+    if (by_pass) return each_pass(std::move(s), call, std::move(before), std::move(behind), out);
     const LineInfo like = s.line;
     surround(out, assign_in_parallel(program_, like, std::move(before)), std::move(s), std::move(behind));
   }
@@ -431,12 +421,15 @@ class NamedLocals {
   const LegaliseContext& context_;
   const CallGraph& calls_;
   ReadFirst reads_first_;
+  const HandedVariables handed_;
   bool levels_ = false;
   std::size_t level_size_ = 0;
   std::vector<Info> infos_;
   std::map<std::string, std::vector<std::int64_t>> sizes_;
   std::set<std::string> changed_;
-  int passes_ = 0;
+  std::optional<Writes> writes_;  ///< in the target's variables
+  std::size_t caller_ = 0;        ///< the routine that is rewritten
+  int passes_ = 0, kept_ = 0;
 };
 
 }  // namespace

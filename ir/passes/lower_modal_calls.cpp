@@ -1,11 +1,14 @@
 // Modal calls of subprograms (equivalences 21.2): where the target has none, runs them at other blocks, or starts them
 // otherwise.
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "ir/passes/call_graph.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/flow_states.h"
+#include "ir/passes/kept_values.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
@@ -52,9 +55,12 @@ class ModalCalls {
         calls_(calls),
         facts_(facts),
         in_force_(program, InForce{}),
-        reads_first_(program, calls, false) {
+        reads_first_(program, calls, false),
+        writes_(program) {
     for (const auto& r : program.routines) {
       for_each_statement(r.body, [this](const Statement& s) {
+        const auto* state = in_force_.before(s);
+        if (state != nullptr && *state != 0) under_.emplace(s.id, *state);
         const auto* m = std::get_if<ModalCall>(&s.node);
         by_calls_ = by_calls_ || (m != nullptr && m->cycle != nullptr);
         some_written_out_ = some_written_out_ || (m != nullptr && !m->off && !m->cycle && !stays_modal(*m));
@@ -71,6 +77,7 @@ class ModalCalls {
     Editor editor(program_, routine, context_);
     editor_ = &editor;
     uses_ = label_uses(program_, routine);
+    routine_ = static_cast<std::size_t>(&routine - program_.routines.data());
     walk(routine.body);
   }
 
@@ -325,6 +332,7 @@ class ModalCalls {
       out.push_back(made(like, std::move(m)));
       return;
     }
+    keep_arguments(m.call, s, out);
     active_ = m.call;
     if (m.here) {
       s.node = m.call;
@@ -332,6 +340,27 @@ class ModalCalls {
     } else {
       leave_line(std::move(s), out);
     }
+  }
+  /// The arguments are taken once, where the call becomes modal; written out it would compute them at each block.
+  void keep_arguments(CallRoutine& call, Statement& s, Body& out) {
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    const std::set<std::size_t> run = callee ? reached_from(calls_, *callee) : std::set<std::size_t>();
+    const auto changes = [&](const ExprPtr& value) {
+      if (Writes::reads_machine(value)) return true;
+      return std::any_of(writes_.all().begin(), writes_.all().end(), [&](const Writes::Write& w) {
+        const auto under = under_.find(w.at);
+        const bool meanwhile = under != under_.end() && (under->second == s.id || under->second == InForce::several);
+        return (meanwhile || run.count(w.routine) != 0) && writes_.touches(w, value, routine_);
+      });
+    };
+    Body before;
+    for (auto& a : call.arguments) {
+      if (a.by_reference || !a.value || a.value->type == Type::string || constant_value(a.value) || !changes(a.value))
+        continue;
+      a.value = kept(program_, s.line, a.value, "modal", kept_, before);
+    }
+    if (!before.empty()) move_head(s.line, before.front().line);
+    for (auto& b : before) out.push_back(std::move(b));
   }
   /// A modal subprogram ends a modal cycle; written out it leaves no word that would.
   void end_cycle(Statement& s, bool stays_modal, Body& out) const {
@@ -360,6 +389,10 @@ class ModalCalls {
   const FactsOf& facts_;
   const FlowStates<InForce> in_force_;
   ReadFirst reads_first_;
+  const Writes writes_;
+  std::map<std::uint32_t, std::uint32_t> under_;  ///< what is in force before a statement, by ids
+  std::size_t routine_ = 0;                       ///< that is rewritten
+  int kept_ = 0;
   Editor* editor_ = nullptr;
   LabelUses uses_;
   std::optional<CallRoutine> active_;   ///< written out after each block

@@ -5,6 +5,7 @@
 
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
+#include "ir/passes/head_constants.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/passes.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 class RepeatPass {
  public:
-  RepeatPass(Editor& editor) : editor_(editor), target_(editor.target()) {}
+  RepeatPass(Editor& editor, const HeadConstants& constants)
+      : editor_(editor), target_(editor.target()), constants_(constants) {}
 
   void run() {
     order_ranges();
@@ -93,6 +95,7 @@ class RepeatPass {
     const auto n = constant_value(node.count);
     const auto most = static_cast<double>(target_.repeat_max);
     constexpr double most_statements = 10;
+    if (node.count && !n && !at_least_one(node.count, s)) return put_guarded<Node>(std::move(s), out);
     if (!node.count || !n || *n <= most || *n > most_statements * most || s.line.joined) {
       check_count(s, node.count);
       return out.push_back(std::move(s));
@@ -107,6 +110,36 @@ class RepeatPass {
       pieces.push_back(made(like, std::move(further)));
     }
     editor_.put_group(out, std::move(pieces), 0);
+  }
+
+  /// It follows from what the head of the program sets.
+  bool at_least_one(const ExprPtr& count, const Statement& s) const {
+    const auto* rounded = std::get_if<Call>(&count->node);
+    const bool whole = rounded != nullptr && rounded->function == Function::to_integer && !rounded->args.empty();
+    const Value v = constants_.fold(Value(whole ? rounded->args.front() : count), editor_.routine, s);
+    const auto n = v.literal() ? std::optional(v.number) : constant_value(v.expr);
+    return n && *n >= 1;
+  }
+
+  /// A count that only the run knows may be 0: the targets' counts begin with 1.
+  template <class Node>
+  void put_guarded(Statement&& s, Body& out) {
+    ExprPtr& count = std::get<Node>(s.node).count;
+    const LineInfo like = s.line;
+    const LabelRef end = editor_.fresh_label();
+    Body pieces;
+    if (as_variable(count) == nullptr) {  // computed once, for both
+      const auto t = editor_.take(like);
+      if (t) {
+        pieces.push_back(make_assign(like, *t, count));
+        count = variable(*t, Type::integer);
+      }
+    }
+    pieces.push_back(make_jump(like, end, binary(BinaryOp::lt, count, number(1))));
+    pieces.push_back(std::move(s));
+    pieces.push_back(make_label(like, end, editor_.program));
+    const std::size_t main = pieces.size() - 2;
+    editor_.put_group(out, std::move(pieces), main);
   }
 
   /// The part ends just before the statement: the block there gets a label.
@@ -257,14 +290,16 @@ class RepeatPass {
 
   Editor& editor_;
   const Capabilities& target_;
+  const HeadConstants& constants_;
 };
 
 }  // namespace
 
 void lower_repeats(Program& program, const LegaliseContext& context) {
+  const HeadConstants constants(program);
   for (auto& r : program.routines) {
     Editor editor(program, r, context);
-    RepeatPass(editor).run();
+    RepeatPass(editor, constants).run();
   }
 }
 

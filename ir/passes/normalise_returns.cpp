@@ -1,7 +1,11 @@
 // Returns and program ends (equivalences 21.1): early returns become jumps to the last one, a program end inside a
 // subprogram is carried up to the main program where the target's end word only returns.
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "ir/passes/call_graph.h"
 #include "ir/passes/editor.h"
@@ -135,6 +139,40 @@ void ends_that_return(Program& program) {
   }
 }
 
+/// A return inside of a part that is repeated ends the repetition there; a jump to the end would leave the routine.
+void refuse_in_repeated_parts(Program& program, Routine& routine, const LegaliseContext& context) {
+  std::map<std::string, std::size_t> places;
+  std::vector<std::pair<std::size_t, std::size_t>> parts;
+  std::size_t at = 0;
+  for_each_statement(routine.body, [&](const Statement& s) {
+    ++at;
+    for (const auto& l : labels_on(s.line)) places.emplace(l.text, at);
+  });
+  at = 0;
+  for_each_statement(routine.body, [&](const Statement& s) {
+    ++at;
+    const auto* r = std::get_if<Repeat>(&s.node);
+    if (r == nullptr || r->has_program || r->first.computed || r->last.computed) return;
+    const auto first = places.find(r->first.text), last = places.find(r->last.text);
+    if (first == places.end()) return;
+    std::size_t end = at - 1;  // without an end label: up to here
+    if (last != places.end()) end = last->second;
+    parts.emplace_back(std::min(first->second, end), std::max(first->second, end));
+  });
+  if (parts.empty()) return;
+  at = 0;
+  for_each_statement(routine.body, [&](Statement& s) {
+    ++at;
+    const bool inside = std::any_of(parts.begin(), parts.end(),
+                                    [at](const auto& part) { return part.first <= at && at <= part.second; });
+    if (!inside || !std::holds_alternative<Return>(s.node)) return;
+    refuse(s, program, context, "TRN-521",
+           "a return inside of a repeated part: it ends the repetition when it comes there by one, and leaves the "
+           "subprogram when not; the target only leaves",
+           "jump to a label behind the repetition");
+  });
+}
+
 /// One return, at the end of the routine.
 void single_return(Program& program, Routine& routine, const LegaliseContext& context) {
   if (routine.kind != RoutineKind::sub) return;
@@ -143,6 +181,7 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
   for_each_statement(body, [&count](const Statement& s) { count += std::holds_alternative<Return>(s.node) ? 1 : 0; });
   const bool last_is_return = !body.empty() && std::holds_alternative<Return>(body.back().node);
   if (count == 0 || (count == 1 && last_is_return && body.back().line.skip_mask == 0)) return;
+  refuse_in_repeated_parts(program, routine, context);
   Editor editor(program, routine, context);
   if (!last_is_return || body.back().line.skip_mask != 0) {
     Statement s;
