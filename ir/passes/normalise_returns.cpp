@@ -168,7 +168,7 @@ void refuse_in_repeated_parts(Program& program, Routine& routine, const Legalise
     if (!inside || !std::holds_alternative<Return>(s.node)) return;
     refuse(s, program, context, "TRN-521",
            "a return inside of a repeated part: it ends the repetition when it comes there by one, and leaves the "
-           "subprogram when not; the target only leaves",
+           "subprogram when not; whether the target does so is not known",
            "jump to a label behind the repetition");
   });
 }
@@ -181,7 +181,6 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
   for_each_statement(body, [&count](const Statement& s) { count += std::holds_alternative<Return>(s.node) ? 1 : 0; });
   const bool last_is_return = !body.empty() && std::holds_alternative<Return>(body.back().node);
   if (count == 0 || (count == 1 && last_is_return && body.back().line.skip_mask == 0)) return;
-  refuse_in_repeated_parts(program, routine, context);
   Editor editor(program, routine, context);
   if (!last_is_return || body.back().line.skip_mask != 0) {
     Statement s;
@@ -209,6 +208,11 @@ void normalise_returns(Program& program, const LegaliseContext& context) {
     ends_that_return(program);
   else
     EndInSub(program, context).run();
+  if (program.dialect != context.target.dialect) {
+    for (auto& r : program.routines) {
+      if (r.kind == RoutineKind::sub) refuse_in_repeated_parts(program, r, context);
+    }
+  }
   if (context.target.early_return) return;
   for (auto& r : program.routines) single_return(program, r, context);
 }
