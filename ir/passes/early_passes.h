@@ -17,6 +17,8 @@ void check_compensation_ends(Program& program, const LegaliseContext& context);
 void number_tools(Program& program, const LegaliseContext& context);
 /// The end of a repeated range stands on the last statement that its source line became.
 void mark_range_ends(Program& program, const LegaliseContext& context);
+/// The marks of `mark_range_ends` behind what stayed one line go.
+void fold_range_ends(Program& program, const LegaliseContext& context);
 /// A routine that saves the modal state of its caller writes it back before its returns, for a target without that.
 void restore_modals(Program& program, const LegaliseContext& context);
 

@@ -67,6 +67,7 @@ constexpr std::array pipeline{
     Pass{"order", passes::split_blocks, true},
     Pass{"skips", passes::check_skips, true},
     Pass{"messages", passes::convert_messages, false},
+    Pass{"end_marks", passes::fold_range_ends, false},
     Pass{"labels", passes::resolve_labels, false},
     Pass{"routines", passes::name_routines, false},
     Pass{"call_limits", passes::check_call_limits, false},
