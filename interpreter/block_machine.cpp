@@ -130,7 +130,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   } else if (hole_ && with_cycle) {
     const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
     if (runs && !run_cycle()) return false;
-    if (once_) hole_.reset();
+    if (once_) end_single_cycle();
   }
   if (feed_stop_) emitter_.emit(plain(EventKind::feed_stop));
   return actions(b, true) && !failure_.set;

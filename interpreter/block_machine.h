@@ -297,7 +297,9 @@ class BlockMachine final : public SystemData {
   bool run_machining(const ir::NamedCycle& c);
   bool machining_moves(const ir::cycles::MachiningCycle& cycle, const std::vector<ir::cycles::TurnMove>& moves,
                        bool taps);
-  void keep_pocket(std::uint64_t first, double radius);
+  /// `level`: of the surface or of the reference plane. `kind`: CycleRun::radius.
+  void keep_place(std::uint64_t first, std::string_view family, double level, double kind);
+  void keep_tap(std::uint64_t first, bool left_hand);
   void keep_contours(const ir::cycles::LeftContours& left, CycleRun& run) const;
   bool machining_numbers(const ir::NamedCycle& c, ir::cycles::TurnNumbers& out);
   bool machining_move(const ir::cycles::TurnMove& m, ir::SpindleState sense);
@@ -403,6 +405,15 @@ class BlockMachine final : public SystemData {
   bool hole_follows_plane_ = false;  ///< a modal call works along the normal of the plane at each point
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
   bool once_ = false;
+  struct ModalHole {
+    ir::cycles::HoleNumbers hole;
+    ir::cycles::MillNumbers mill;
+    ir::AxisId axis = ir::axis::z;
+    bool follows_plane = false;
+    ir::CycleTrigger trigger = ir::CycleTrigger::plane_axis_word;
+  };
+  std::optional<ModalHole> modal_hole_;  ///< the modal cycle while another one runs once
+  void end_single_cycle();
   const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
   const ir::NamedCycle* pattern_ = nullptr;    ///< the pattern in work
   bool pattern_here_ = false;                  ///< it stands in the block at hand

@@ -24,6 +24,7 @@ struct CycleRun {
   double out = 1;           ///< sense of X (with `face`: of Z) that leads away from the part
   bool comparable = false;  ///< the frame keeps the two axes: what stands above is right
   /// Of a pocket: the plane in which it lies, the radius of the tool, and where the material begins, mm of the machine.
+  /// Of a tap: `radius` is -1 for a left-hand thread, else 1; `surface` is its reference plane.
   ir::Plane plane = ir::Plane::xy;
   double radius = 0, surface = 0;
 };

@@ -70,6 +70,7 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   if (block_again && c.modal && hole_) return true;
   std::optional<ir::cycles::HoleNumbers> numbers;
   ir::AxisId axis = ir::axis::z;
+  auto mill_before = c.modal ? ir::cycles::MillNumbers{} : mill_;
   if (!resolve_cycle(c.cycle, numbers, axis)) return false;
   const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
   const auto* own = profile_.axis(axis);
@@ -81,6 +82,9 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
     return failure_.fail(code::bad_cycle,
                          "the tool stands between the reference plane and the depth where the cycle is called");
   }
+  modal_hole_.reset();
+  if (!c.modal && hole_)
+    modal_hole_ = ModalHole{*hole_, std::move(mill_before), hole_axis_, hole_follows_plane_, trigger_};
   hole_ = numbers;
   hole_axis_ = axis;
   hole_follows_plane_ = c.trigger == ir::CycleTrigger::path_motion && hole != nullptr && hole->axis == ir::axis::none;
@@ -89,6 +93,18 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   cycle_defined_here_ = true;
   cycle_waits_ = !c.here;
   return true;
+}
+
+/// The modal cycle goes on behind a cycle that was called by itself.
+void BlockMachine::end_single_cycle() {
+  hole_.reset();
+  if (!modal_hole_) return;
+  hole_ = modal_hole_->hole;
+  mill_ = std::move(modal_hole_->mill);
+  hole_axis_ = modal_hole_->axis;
+  hole_follows_plane_ = modal_hole_->follows_plane;
+  trigger_ = modal_hole_->trigger;
+  modal_hole_.reset();
 }
 
 bool BlockMachine::modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here) {
@@ -159,10 +175,17 @@ bool BlockMachine::run_cycle() {
   if (taps && !turns_itself && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
   const auto sense = spindle.state;
   const Axes hole = p_;
+  const std::uint64_t first = emitter_.seen();
   for (const auto& m : moves) {
     if (!cycle_move(m, hole, sense)) return false;
   }
+  if (cycle_runs_ != nullptr && taps)
+    keep_tap(first, hole_->pitch < 0 || (!turns_itself && sense == ir::SpindleState::ccw));
   return true;
+}
+
+void BlockMachine::keep_tap(std::uint64_t first, bool left_hand) {
+  keep_place(first, "tap", hole_->reference, left_hand ? -1 : 1);
 }
 
 bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, ir::SpindleState sense) {

@@ -87,27 +87,27 @@ bool BlockMachine::run_milling() {
   }
   using ir::cycles::MillKind;
   const bool pocket = mill_.shape->kind == MillKind::rectangle || mill_.shape->kind == MillKind::circle;
-  if (cycle_runs_ != nullptr && pocket) keep_pocket(first, context.tool_radius);
+  if (cycle_runs_ != nullptr && pocket) keep_place(first, "pocket", hole_->surface, context.tool_radius);
   return true;
 }
 
-void BlockMachine::keep_pocket(std::uint64_t first, double radius) {
+void BlockMachine::keep_place(std::uint64_t first, std::string_view family, double level, double kind) {
   const auto plane = ir::plane_axes(modal_.plane);
   CycleRun run;
-  run.family = "pocket";
+  run.family = family;
   run.first = first;
   run.last = emitter_.seen();
   run.plane = modal_.plane;
-  run.radius = radius;
+  run.radius = kind;
   Axes low = p_, high = p_;
-  low[plane.w] = hole_->surface;
-  high[plane.w] = hole_->surface + 1;
+  low[plane.w] = level;
+  high[plane.w] = level + 1;
   low = frame_.apply(low);
   high = frame_.apply(high);
   run.surface = low[plane.w];
   run.out = (high[plane.w] - low[plane.w]) * hole_->up;
   const auto stays = [&](ir::AxisId axis) { return std::abs(high[axis] - low[axis]) < 1e-9; };
-  run.comparable = std::abs(std::abs(run.out) - 1) < 1e-9 && stays(plane.u) && stays(plane.v);
+  run.comparable = std::abs(std::abs(run.out) - 1) < 1e-9 && stays(plane.u) && stays(plane.v) && plane.w == hole_axis_;
   cycle_runs_->push_back(std::move(run));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "verifier/normalise.h"
 
 namespace cnctrans::verifier {
@@ -30,6 +31,15 @@ std::string comp_after(const std::vector<const Event*>& events) {
     if (e->kind == EventKind::comp) state = e->state;
   }
   return state;
+}
+
+/// Sense and speed; empty: no command.
+std::string spindle_after(const std::vector<const Event*>& events) {
+  std::string said;
+  for (const Event* e : events) {
+    if (e->kind == EventKind::spindle) said = e->state + (e->state == "off" ? "" : " " + shortest(e->value));
+  }
+  return said;
 }
 
 }  // namespace
@@ -60,19 +70,25 @@ bool CyclePairs::about(const CycleRun& run, const PairPlace& start, const PairPl
 
 const CycleRun* CyclePairs::next_run(std::size_t k, bool source) const {
   const auto& events = source ? a_ : b_;
-  for (std::size_t n = 0; k < events.size() && n <= most_moves_around; ++k, ++n) {
+  for (std::size_t n = 0; k < events.size() && n <= most_moves_around; ++k) {
     if (const auto* found = run_at(k, source); found != nullptr) return found;
-    if (events[k]->kind != EventKind::rapid) return nullptr;
+    if (events[k]->kind == EventKind::rapid)
+      ++n;
+    else if (is_barrier(events[k]->kind))
+      return nullptr;
   }
   return nullptr;
 }
 
-bool CyclePairs::finishes_apart(const CyclePasses& target, const PairPlace& at) const {
-  if (target.run->family != "pocket") return false;
+bool CyclePairs::goes_on(const CyclePasses& target, const PairPlace& at) const {
+  const bool tap = target.run->family == "tap";
+  if (target.run->family != "pocket" && !tap) return false;
   const auto axes = ir::plane_axes(target.run->plane);
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   bool any = false;
-  const auto cuts = [](const Event* e) { return e->kind == EventKind::linear || e->kind == EventKind::arc; };
+  const auto cuts = [](const Event* e) {
+    return e->kind == EventKind::linear || e->kind == EventKind::arc || e->kind == EventKind::thread;
+  };
   for (const Event* e : target.events) {
     if (!cuts(e)) continue;
     const double u = e->to.value[axes.u], v = e->to.value[axes.v];
@@ -90,7 +106,7 @@ bool CyclePairs::finishes_apart(const CyclePasses& target, const PairPlace& at) 
     while (k < events.size() && (number(events[k], source) < next->first || !cuts(events[k]))) ++k;
     if (k == events.size()) return false;
     const double u = events[k]->to.value[axes.u], v = events[k]->to.value[axes.v];
-    const double by = target.run->radius;
+    const double by = tap ? options_.tolerances.length : target.run->radius;
     return u > u0 - by && u < u1 + by && v > v0 - by && v < v1 + by;
   };
   return here(at.j, false) && !here(at.i, true);
@@ -116,19 +132,33 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   while (at.j < b_.size() && (at.j < first || number(b_[at.j], false) < target.run->last))
     take(b_[at.j], target, at.from_b, at.j);
   const double by = options_.tolerances.length;
-  if (finishes_apart(target, at)) {  // roughing and finishing are two of its cycles
+  std::uint64_t last_of_target = target.run->last;
+  while (goes_on(target, at)) {  // roughing and finishing, or the pecks of a tap, are cycles of their own
     while (run_at(at.j, false) == nullptr) take(b_[at.j], target, at.from_b, at.j);
     const auto* second = run_at(at.j, false);
     while (at.j < b_.size() && number(b_[at.j], false) < second->last) take(b_[at.j], target, at.from_b, at.j);
+    last_of_target = second->last;
   }
   for (std::size_t k = 0; k < most_moves_around && !together(at.from_a, at.from_b, by); ++k) {
     if (!rapid(at.j) || run_at(at.j, false) != nullptr) break;
     take(b_[at.j], target, at.from_b, at.j);
   }
+  // The sense that a tap leaves stands behind the moves that follow it.
+  const auto spindle = [&](bool of_source, std::size_t k, std::uint64_t last) {
+    const auto& events = of_source ? a_ : b_;
+    return run.family == "tap" && k < events.size() && events[k]->kind == EventKind::spindle &&
+           number(events[k], of_source) < last;
+  };
+  while (spindle(true, at.i, run.last)) take(a_[at.i], source, at.from_a, at.i);
+  while (spindle(false, at.j, last_of_target)) take(b_[at.j], target, at.from_b, at.j);
   what = similar_difference(source, target, options_.tolerances, max_length);
   if (!what.empty()) return std::nullopt;
   if (!together(at.from_a, at.from_b, by)) {
     what = "the tool stands elsewhere behind the cycle";
+    return std::nullopt;
+  }
+  if (run.family == "tap" && spindle_after(source.events) != spindle_after(target.events)) {
+    what = "the spindle stands otherwise behind the tap";
     return std::nullopt;
   }
   if (comp_after(source.events) != comp_after(target.events)) {

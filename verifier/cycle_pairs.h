@@ -38,8 +38,8 @@ class CyclePairs {
   }
   /// The cycle to which rapid moves lead from there; null: none.
   [[nodiscard]] const interpreter::CycleRun* next_run(std::size_t k, bool source) const;
-  /// The translation's next cycle finishes the pocket that `target` has roughed.
-  [[nodiscard]] bool finishes_apart(const CyclePasses& target, const PairPlace& at) const;
+  /// The translation's next cycle finishes the pocket that `target` has roughed, or is the next peck of its tap.
+  [[nodiscard]] bool goes_on(const CyclePasses& target, const PairPlace& at) const;
   [[nodiscard]] const interpreter::CycleRun* run_at(std::size_t j, bool source) const;
 
   const std::vector<const interpreter::Event*>&a_, &b_;

@@ -82,6 +82,8 @@ class Taps {
     return out > 0 && back > 0 && dot < 0 && dot * dot > out * back * (1 - 1e-9);
   }
   void flush() {
+    if (held_ == nullptr && tap_) held_ = orient_;  // the spindle stands as it stood for the tap
+    orient_ = nullptr;
     const bool taps = (held_ != nullptr && tap_) || between_ != nullptr;
     for (const std::size_t i : starts_) order[i] = taps ? nullptr : order[i];
     if (taps) starts_.clear();
@@ -118,7 +120,7 @@ class Taps {
       between_at_ = order.size();
       tap_ = false;
     } else if (thread && held_ != nullptr && held_->state == "oriented" && (stroke_ == nullptr || tap_)) {
-      held_ = nullptr;
+      orient_ = std::exchange(held_, nullptr);
       tap_ = false;
     } else if (!(e.kind == EventKind::dwell && stroke_ != nullptr) && !(e.kind == EventKind::rapid && tap_)) {
       flush();
@@ -138,6 +140,7 @@ class Taps {
   const Event* from_ = nullptr;      ///< the motion before the stroke
   const Event* stroke_ = nullptr;    ///< the last thread
   const Event* held_ = nullptr;      ///< a command of the spindle that waits
+  const Event* orient_ = nullptr;    ///< the orientation before the first stroke
   const Event* between_ = nullptr;   ///< one that waits for the thread behind it to be run back
   std::size_t between_at_ = 0;       ///< its place in `order`
   bool tap_ = false;                 ///< the thread was run back

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "verifier/similar_pocket.h"
+#include "verifier/similar_tap.h"
 #include "verifier/similar_thread.h"
 
 namespace cnctrans::verifier {
@@ -396,6 +397,7 @@ std::string beside_the_moves(const CyclePasses& a, const CyclePasses& b) {
 std::string similar_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances,
                                double& max_length) {
   if (source.run->family != target.run->family) return "the cycles are of different kinds";
+  if (source.run->family == "tap") return tap_difference(source, target, tolerances);
   const std::string what = beside_the_moves(source, target);
   if (!what.empty()) return what;
   if (source.run->family == "pocket") return pocket_difference(source, target, tolerances, max_length);

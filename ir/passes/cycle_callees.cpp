@@ -12,7 +12,8 @@ bool moves_anywhere(const Body& body) {
   bool found = false;
   for_each_statement(body, [&found](const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);
-    found = found || (b != nullptr && b->has_motion) || std::holds_alternative<CallRoutine>(s.node);
+    found = found || (b != nullptr && (b->has_motion || pattern_in(*b) != nullptr)) ||
+            std::holds_alternative<CallRoutine>(s.node);
   });
   return found;
 }
@@ -24,8 +25,10 @@ bool touches_cycle(const Body& body) {
     found = found || std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
+    const bool points = pattern_in(*b) != nullptr;
     for (const auto& a : b->actions)
-      found = found || std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<CycleCancel>(a.data);
+      found = found || (std::holds_alternative<CycleDefine>(a.data) && !points) ||
+              std::holds_alternative<CycleCancel>(a.data);
   });
   return found;
 }

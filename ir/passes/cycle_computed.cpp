@@ -48,8 +48,8 @@ void ComputedHole::pecks() {
   set(*rest, subtract(left, peck_));
   feed(height(left));
   dwell(p.dwell);
+  after_first();  // the lift of a chip is driven at the usual feed
   between(left, gap);
-  after_first();
   law_next(left);
   loop_ = nullptr;
   While node;

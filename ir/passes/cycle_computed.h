@@ -200,8 +200,9 @@ class ComputedHole {
   }
   void feed_word(const Value& f) { body().push_back(make_block(like_, action(SetFeed{f, false}))); }
   Value usual_feed() {
-    if (!feed_.value) fail("the feed after the cycle's own one is not known here");
-    return Value(feed_.value.value_or(0));
+    const auto word = feed_.word();
+    if (!word) fail("the feed after the cycle's own one is not known here");
+    return word.value_or(Value(0.0));
   }
   void dwell(const Value& v) {
     if (zero_value(v)) return;

@@ -192,7 +192,7 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
       if (auto form = accepted(h)) return form;
     }
   }
-  return std::nullopt;
+  return without_dwell(*hole, b, facts, context, initial, sense, needs);
 }
 
 bool disturbs_call(const Block& b) {
@@ -320,7 +320,7 @@ class Writer {
  public:
   Writer(const LineInfo& like, AxisId axis, Plane plane, double unit, const FeedBefore& feed,
          std::optional<SpindleState> sense)
-      : like_(like), axis_(axis), plane_(plane), unit_(unit), feed_(feed.value), no_feed_(feed.none), sense_(sense) {}
+      : like_(like), axis_(axis), plane_(plane), unit_(unit), feed_(feed.word()), no_feed_(feed.none), sense_(sense) {}
 
   /// The feed in force goes on behind the hole.
   bool finish(std::string* error) {
@@ -329,7 +329,7 @@ class Writer {
       *error = "the feed after the cycle's own one is not known here";
       return false;
     }
-    blocks.push_back(make_block(like_, action(SetFeed{Value{*feed_}, false})));
+    blocks.push_back(make_block(like_, action(SetFeed{*feed_, false})));
     return true;
   }
 
@@ -380,15 +380,15 @@ class Writer {
       return false;
     }
     if (own_feed) {
-      const double f = m.has_feed ? m.feed / unit_ : *feed_ * m.feed_factor;
-      b.actions.push_back(action(SetFeed{Value{f}, false}));
+      const Value f = m.has_feed ? Value{m.feed / unit_} : scale(*feed_, m.feed_factor);
+      b.actions.push_back(action(SetFeed{f, false}));
       changed_ = true;
     } else if (changed_ && m.step == cycles::CycleStep::feed) {
       if (!feed_) {
         *error = "the feed after the cycle's own one is not known here";
         return false;
       }
-      b.actions.push_back(action(SetFeed{Value{*feed_}, false}));
+      b.actions.push_back(action(SetFeed{*feed_, false}));
       changed_ = false;
     }
     last = m.w;
@@ -423,7 +423,7 @@ class Writer {
   AxisId axis_;
   Plane plane_;
   double unit_;
-  std::optional<double> feed_;
+  std::optional<Value> feed_;
   bool no_feed_ = false;
   std::optional<SpindleState> sense_;
   double du_ = 0, dv_ = 0;

@@ -85,6 +85,7 @@ class CyclePass {
     std::optional<AxisId> axis;        ///< of the tool at the definition
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
+    std::optional<Units> units;        ///< of its words
   };
 
   void walk(Body& body, Body& out) {
@@ -175,9 +176,10 @@ class CyclePass {
     leave_while_off(s);
     if (auto* m = std::get_if<ModalCall>(&s.node)) {
       if (m->off && active_) return cancel_statement(std::move(s), out);
-      if (m->off && !by_call_ && !context_.target.modal_call && facts_.before(s).modal_call == 0) {
-        // Only a cycle can be meant, or nothing.
-        const bool nothing = facts_.before(s).cycle_active_known && !facts_.before(s).cycle_active;
+      // Only a cycle can be meant, or nothing.
+      const bool nothing = facts_.before(s).cycle_active_known && !facts_.before(s).cycle_active;
+      const bool no_call = facts_.before(s).modal_call == 0 && !(nothing && context_.target.modal_call);
+      if (m->off && !by_call_ && no_call) {
         const bool bare = s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
         if (nothing && bare) return;
         if (nothing) {
@@ -235,6 +237,7 @@ class CyclePass {
 
   Active define(const CyclePtr& cycle, CycleTrigger trigger, const Block& b, const Facts& facts) const {
     Active a;
+    a.units = setting_in<Units>(b, facts, Setting::units);
     a.source = with_fixed_bases(cycle, setting_in<Distance>(b, facts, Setting::distance));
     a.trigger = trigger;
     if (const auto* hole = std::get_if<HoleCycle>(&cycle->node); hole != nullptr && hole->keeps_initial) {
@@ -319,29 +322,7 @@ class CyclePass {
   }
 
   /// `MCALL CYCLE..`: the cycle runs at later points.
-  void modal_call(Statement&& s, Body& out) {
-    const ModalCall m = std::get<ModalCall>(s.node);
-    const bool ends_old = old_may_run(facts_.before(s));
-    active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_for_tap(s, Block{}));
-    active_->from = s.id;
-    active_->deferred = true;
-    lacking_ = lacking_ || !active_->native;
-    if (by_call_ && active_->native) {
-      std::get<ModalCall>(s.node).cycle = active_->native;
-      active_->on_target = true;
-      out.push_back(std::move(s));
-      return;
-    }
-    // The target defines and runs in one: each point gets its own. The way there must not run the cycle before.
-    if (ends_old) {
-      const LineInfo like = std::move(s.line);
-      s = off_statement(like, by_call_);
-      s.line = like;
-      out.push_back(std::move(s));
-      return;
-    }
-    leave_line(std::move(s), out);
-  }
+  void modal_call(Statement&& s, Body& out);
 
   // --- blocks ---------------------------------------------------------------------------------------------------
 
@@ -381,37 +362,7 @@ class CyclePass {
   }
 
   /// The move to a point without the cycle.
-  void position(Statement&& s, Body& out) {
-    auto& b = std::get<Block>(s.node);
-    b.repeat_given = 0;
-    b.repeat = Value{};
-    const Facts& facts = facts_.before(s);
-    const bool none = facts.cycle_active_known && !facts.cycle_active;
-    if (!active_ && !none) {
-      refuse(s, program_, context_, "TRN-199",
-             "a block that only positions and leaves the active cycle out: which cycle that is can't be seen here",
-             "cancel the cycle before the block");
-      out.push_back(std::move(s));
-      return;
-    }
-    if (active_ && !sure(facts)) {
-      refuse_other_ways(s);
-      out.push_back(std::move(s));
-      return;
-    }
-    Body pieces;
-    const LineInfo like = s.line;
-    const bool on = active_ && active_->on_target;
-    if (active_) follow_retract_plane(b, facts);
-    if (on) pieces.push_back(off_statement(like, by_call_));
-    const std::size_t main = pieces.size();
-    pieces.push_back(std::move(s));
-    if (on && by_call_ && active_->native)
-      pieces.push_back(on_statement(like, active_->native));
-    else if (on)
-      active_->on_target = false;  // the next point defines it again
-    put_group(out, std::move(pieces), main);
-  }
+  void position(Statement&& s, Body& out);
 
   void cancel(const Statement& s, Block& b, bool defines_again, Body& pieces);
 
@@ -419,6 +370,9 @@ class CyclePass {
   [[nodiscard]] bool below_retract_plane(const Block& b, const Facts& facts) const;
   std::optional<Value> leave_by_own_move(CyclePtr& cycle, const Active& a) const;
   void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
+  void define_here(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
+  /// The unit of lengths has changed since the definition: the cycle is said in the new one. True: refused.
+  bool follow_units(Statement& s, const Block& b, const Facts& facts, Body& pieces, Body& out);
   void define_by_call(Statement&& s, const CycleDefine& d, Active&& a, bool point_here, Body&& pieces, Body& out);
 
   bool triggers(const Block& b, const Facts& facts) const {
@@ -460,6 +414,11 @@ class CyclePass {
   void write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out);
   void add_copies(Body& out);
   void own_labels(SimilarForm& form);
+  /// What the target's tap does not do.
+  void tell_tap(const Active& a, const LineInfo& where) const;
+  /// A tap in pecks as one tap a peck, each back to the reference plane; nullopt: the target has none. `differs`: what
+  /// is not the same.
+  std::optional<Explosion> tap_strokes(const HoleCycle& c, const Statement& s, const Block& b, std::string* differs);
   /// A pocket as the target's own cycle, by other passes. True: done.
   bool put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
                           bool last_resort, Body& out);

@@ -116,13 +116,28 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
   h.spindle_after_retract = h.orient_first = h.has_speed = h.has_speed_out = false;
   h.orient_angle = h.speed = h.speed_out = Value{};
   h.rigid = h.kind == HoleKind::tap;
-  if (h.rigid && (!c.pitch.literal() || c.pitch.number > 0)) {  // its own word for the pitch
+  if (h.rigid) {  // its own word for the pitch; the sense of the spindle is the hand
     forms.push_back(f);
+    if (c.pitch.literal()) forms.back().cycle.pitch = Value{std::fabs(c.pitch.number)};
     if (c.has_speed) forms.back().needs.bound = true;
   }
   if (!pitch_as_feed(f, b, facts)) return forms;
   forms.push_back(std::move(f));
   return forms;
+}
+
+std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const Facts& facts,
+                                      const LegaliseContext& context, std::optional<double> initial,
+                                      std::optional<SpindleState> sense, TapNeeds* needs) {
+  const bool tap = c.kind == HoleKind::tap || c.kind == HoleKind::tap_floating;
+  if (!tap || needs == nullptr || c.dwell_bottom.is(0)) return std::nullopt;
+  auto made = std::make_shared<Cycle>();
+  HoleCycle plain = c;
+  plain.dwell_bottom = Value{};
+  made->node = std::move(plain);
+  auto form = native_form(made, b, facts, context, initial, sense, needs);
+  if (form) needs->differs = "it has no dwell at the bottom of the hole";
+  return form;
 }
 
 void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const LegaliseContext& context) {

@@ -47,10 +47,53 @@ class GivenDomain {
   }
 };
 
+/// A domain of FlowStates: the last F, as long as what it was computed from is what it was.
+class WordDomain {
+ public:
+  struct State {
+    std::optional<Value> word;
+  };
+  [[nodiscard]] static State start(const Routine&, bool) { return {}; }
+  static void transfer(const Statement& s, State& state) {
+    if (std::holds_alternative<Opaque>(s.node)) state.word.reset();
+    if (state.word && !state.word->literal()) {
+      each_target(s, [&state](const VarRef& v) {
+        if (state.word && reads(state.word->expr, v)) state.word.reset();
+      });
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      const auto* f = std::get_if<SetFeed>(&a.data);
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      const auto* set = std::get_if<ModalSet>(&a.data);
+      const bool mode = set != nullptr && (set->setting == Setting::units || set->setting == Setting::feed_mode);
+      if (mode || (d != nullptr && leaves_feed(d->cycle))) state.word.reset();
+      if (f == nullptr || f->block_only) continue;
+      state.word = s.line.skip_mask == 0 ? std::optional(f->value) : std::nullopt;
+      if (state.word) state.word->text = {};
+    }
+  }
+  static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      found = found || GivenDomain::gives(s);
+      each_target(s, [&found](const VarRef&) { found = true; });
+    });
+    return found;
+  }
+  static void unknown(State& state) { state.word.reset(); }
+  static bool join(State& a, const State& b) {
+    const bool same = !a.word || (b.word && equal(*a.word, *b.word));
+    if (!same) a.word.reset();
+    return !same;
+  }
+};
+
 }  // namespace
 
 struct FeedsBefore::Analysis {
-  Analysis(const Program& program, double at_power_on) : states(program, domain) {
+  Analysis(const Program& program, double at_power_on) : states(program, domain), words(program, word_domain) {
     const CallGraph calls(program);
     for (const auto& site : calls.sites()) given = given || !site.callee;
     given = given || std::none_of(program.routines.begin(), program.routines.end(),
@@ -62,6 +105,8 @@ struct FeedsBefore::Analysis {
   }
   GivenDomain domain;
   FlowStates<GivenDomain> states;
+  WordDomain word_domain;
+  FlowStates<WordDomain> words;
   bool given = false;              ///< F stands in the program, or may in what it calls or is called by
   std::optional<double> power_on;  ///< a feed to go back to, in a program that has F
 };
@@ -71,15 +116,19 @@ FeedsBefore::FeedsBefore(const Program& program, const LegaliseContext& context)
 FeedsBefore::~FeedsBefore() = default;
 
 FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& facts) const {
-  FeedBefore feed{facts.feed, false};
+  FeedBefore feed{facts.feed, false, {}};
   bool own = false;
   for (const auto& a : b.actions) {
     const auto* f = std::get_if<SetFeed>(&a.data);
     if (f == nullptr || f->block_only || a.order == Order::after) continue;
     own = true;
     feed.value = f->value.literal() ? std::optional(f->value.number) : constant_value(f->value.expr);
+    feed.computed = f->value;
+    feed.computed->text = {};
   }
-  if (!own && !analysis_->given) return {std::nullopt, true};
+  if (const auto* state = own || feed.value ? nullptr : analysis_->words.before(s); state != nullptr)
+    feed.computed = state->word;
+  if (!own && !analysis_->given) return {std::nullopt, true, {}};
   const auto* state = own || feed.value ? nullptr : analysis_->states.before(s);
   if (state == nullptr || state->maybe) return feed;
   if (setting_in<Units>(b, facts, Setting::units) == Units::metric) feed.value = analysis_->power_on;

@@ -9,8 +9,10 @@
 namespace cnctrans::ir::passes {
 
 struct FeedBefore {
-  std::optional<double> value;  ///< program units, when it is known
-  bool none = false;            ///< surely none has been given: there is nothing to restore
+  std::optional<double> value;    ///< program units, when it is known
+  bool none = false;              ///< surely none has been given: there is nothing to restore
+  std::optional<Value> computed;  ///< the word that gave it, when that is no number and still says the same
+  [[nodiscard]] std::optional<Value> word() const { return value ? std::optional(Value{*value}) : computed; }
 };
 
 /// Of the whole program as it is when this is made; statements must have ids.

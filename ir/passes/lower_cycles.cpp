@@ -18,6 +18,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   check_tap(s);
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
+  if (triggers(b, facts) && follow_units(s, b, facts, pieces, out)) return;
   if (sure(facts) && triggers(b, facts)) turn(b, facts, s.line, pieces);
   const bool was_on = active_->on_target;
   const bool changed = follow_retract_plane(b, facts);
@@ -210,7 +211,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-  std::string error;
+  std::string error, differs;
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;
   const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
@@ -226,6 +227,8 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
                                sense_.now(), &error);
   else if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
+  else if ((moves = tap_strokes(*hole, s, b, &differs)))
+    error.clear();
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
     moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
                     active_->defined_at.value_or(height.value_or(1e6)), sense_.or_off(), &error);
@@ -240,6 +243,9 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
                                    "the hole is taken to go downward: how deep it is only the run knows");
   }
   if (!moves) return no_moves(std::move(s), error, out);
+  if (!differs.empty())
+    context_.diagnostics.warning("TRN-423", s.line.span, "the target's tap takes the place of this one: " + differs,
+                                 "the thread is the same; check the tap on the target");
   if (milling)
     context_.diagnostics.note("TRN-333", s.line.span,
                               "the cycle is written out as its " + std::to_string(moves->blocks.size()) +
@@ -254,14 +260,22 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
-void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
-  refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + why,
-         "give the cycle's words and the place before it as numbers");
-  late_.clear();
-  out.push_back(std::move(s));
+void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
+  const auto* change = std::get_if<HoleCycle>(&d.cycle->node);
+  if (change != nullptr && change->keeps_initial && active_ &&
+      follow_units(s, std::get<Block>(s.node), facts_.before(s), pieces, out))
+    return;
+  // The modal cycle goes on behind one that is called by itself; the target defines it again at its next point.
+  std::optional<Active> goes_on;
+  if (change != nullptr && !d.modal && d.here) goes_on = active_;
+  define_here(std::move(s), d, std::move(pieces), out);
+  if (!goes_on) return;
+  active_ = std::move(goes_on);
+  active_->on_target = active_->maybe_on_target = false;
+  active_->height.reset();
 }
 
-void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
+void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   if (const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
@@ -287,6 +301,7 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
   if (refuse_unknown_plane(s, d.cycle, out)) return;
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
+  tell_tap(a, s.line);
   a.from = s.id;
   lacking_ = lacking_ || (d.modal && !a.native);
   if (d.here) ran_ = a;
@@ -339,7 +354,10 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
       out.push_back(std::move(s));
       return;
     }
-    if (comes_in_two_moves(a.native, context_)) position_rapid(b, context_);
+    if (comes_in_two_moves(a.native, context_)) {
+      position_rapid(b, context_);
+      if (old_may && b.has_motion && b.motion.moves()) pieces.push_back(off_statement(s.line, false));
+    }
     if (auto code = code_before_cycle(b, facts, context_)) {
       if (old_may) pieces.push_back(off_statement(s.line, false));
       pieces.push_back(made(s.line, *std::move(code)));

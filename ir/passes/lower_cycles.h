@@ -21,6 +21,7 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
 struct TapNeeds {
   std::optional<double> feed;  ///< F while the cycle is in force, program units: it gives the pitch
   bool bound = false;          ///< a new F or S under the cycle would change the pitch on one of the two controls
+  std::string differs;         ///< for people: what the target's tap does not do; empty: nothing
 };
 struct TapForm {
   HoleCycle cycle;
@@ -33,6 +34,10 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
 /// The words of a tap that the target lacks, said in another way: see cycle_taps.cpp. Best first.
 std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
                                std::optional<SpindleState> sense);
+/// native_form() of a tap without the dwell in its hole, where the target's has none.
+std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const Facts& facts,
+                                      const LegaliseContext& context, std::optional<double> initial,
+                                      std::optional<SpindleState> sense, TapNeeds* needs);
 /// The sense in which the spindle turns, by the text; a stopped one is started clockwise by a tap.
 class SpindleSense {
  public:

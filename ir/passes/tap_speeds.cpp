@@ -24,39 +24,45 @@ SpindleState state_of(SpindleStep s) {
   return s == SpindleStep::ccw ? SpindleState::ccw : s == SpindleStep::cw ? SpindleState::cw : SpindleState::off;
 }
 
-/// A right-hand tap in one stroke whose speeds are numbers.
+/// A tap whose hand is seen and whose speeds, where it has some, are numbers.
 bool candidate(const HoleCycle& c) {
-  const bool numbers = c.pitch.literal() && c.pitch.number > 0 && c.has_speed && c.speed.literal() &&
-                       c.speed.number > 0 && (!c.has_speed_out || c.speed_out.literal());
-  const bool said =
-      c.spindle_after == SpindleStep::cw || c.spindle_after == SpindleStep::ccw || c.spindle_after == SpindleStep::off;
-  return c.kind == HoleKind::tap && c.orient_first && numbers && said && c.pecks.law == PeckLaw::none &&
+  const bool numbers = c.pitch.literal() && c.pitch.number != 0 &&
+                       (!c.has_speed || (c.speed.literal() && c.speed.number > 0)) &&
+                       (!c.has_speed_out || (c.has_speed && c.speed_out.literal()));
+  return c.kind == HoleKind::tap && c.orient_first && numbers && c.spindle_after != SpindleStep::usual &&
          c.spindle_bottom == SpindleStep::none;
 }
 
-std::optional<Around> split(const CyclePtr& cycle, const Facts& facts) {
+std::optional<Around> split(const CyclePtr& cycle, const Facts& facts, std::optional<SpindleState> sense) {
   const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
   if (c == nullptr || !candidate(*c)) return std::nullopt;
-  const double in = c->speed.number, out = c->has_speed_out ? c->speed_out.number : in;
-  const bool same_in = facts.spindle && std::fabs(*facts.spindle - in) < 1e-9;
-  if (same_in && std::fabs(out - in) < 1e-9 && c->spindle_after == SpindleStep::cw) return std::nullopt;
+  const double in = c->has_speed ? c->speed.number : facts.spindle.value_or(0);
+  const double out = c->has_speed_out ? c->speed_out.number : in;
+  const bool same_in = !c->has_speed || (facts.spindle && std::fabs(*facts.spindle - in) < 1e-9);
+  const SpindleState hand = c->pitch.number < 0 ? SpindleState::ccw : SpindleState::cw;
+  const bool goes_on = state_of(c->spindle_after) == hand && c->spindle_after != SpindleStep::none;
+  if (same_in && std::fabs(out - in) < 1e-9 && goes_on && sense == hand) return std::nullopt;
   Around a;
   HoleCycle plain = *c;
   plain.spindle_after = plain.spindle_bottom = SpindleStep::usual;
   plain.spindle_after_retract = plain.orient_first = plain.has_speed = plain.has_speed_out = false;
   plain.orient_angle = plain.speed = plain.speed_out = Value{};
+  plain.pitch = Value{std::fabs(c->pitch.number)};
   plain.rigid = true;
   auto made = std::make_shared<Cycle>();
   made->node = std::move(plain);
   a.cycle = std::move(made);
   if (!same_in) a.before.actions.push_back(action(SetSpindle{1, c->speed}));
-  a.before.actions.push_back(action(SpindleRun{1, SpindleState::cw}));
+  a.before.actions.push_back(action(SpindleRun{1, hand}));
   const bool other_speed = std::fabs(out - in) > 1e-9;
   if (other_speed) a.slower = out;
-  if (other_speed || c->spindle_after != SpindleStep::cw) {
+  if (other_speed || !goes_on) {
     a.after.emplace();
     if (other_speed) a.after->actions.push_back(action(SetSpindle{1, c->speed_out}));
-    a.after->actions.push_back(action(SpindleRun{1, state_of(c->spindle_after)}));
+    if (c->spindle_after == SpindleStep::none)  // it stands where the cycle has left it
+      a.after->actions.push_back(action(SpindleOrient{1, c->orient_angle}));
+    else
+      a.after->actions.push_back(action(SpindleRun{1, state_of(c->spindle_after)}));
   }
   return a;
 }
@@ -64,7 +70,13 @@ std::optional<Around> split(const CyclePtr& cycle, const Facts& facts) {
 class TapSpeeds {
  public:
   TapSpeeds(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
-      : context_(context), facts_(facts), editor_(program, routine, context), uses_(label_uses(program, routine)) {}
+      : context_(context),
+        facts_(facts),
+        editor_(program, routine, context),
+        uses_(label_uses(program, routine)),
+        sense_(program) {
+    if (routine.kind != RoutineKind::main) sense_.forget();
+  }
 
   void run() { walk(editor_.routine.body); }
 
@@ -73,8 +85,16 @@ class TapSpeeds {
     Body out;
     std::optional<Block> behind;  // the modal call in force
     for (std::size_t i = 0; i < body.size(); ++i) {
-      each_body(body[i], [this](Body& inner) { walk(inner); });
+      each_body(body[i], [this](Body& inner) {
+        sense_.forget();
+        walk(inner);
+      });
+      for (const auto& l : labels_on(body[i].line)) {
+        if (uses_.is_target(l)) sense_.forget();
+      }
+      const Statement seen = body[i];
       one(body, i, behind, out);
+      sense_.follow(seen, std::holds_alternative<Block>(seen.node) || ToolHeight::keeps(seen));
     }
     body = std::move(out);
   }
@@ -84,13 +104,13 @@ class TapSpeeds {
     auto* b = std::get_if<Block>(&s.node);
     std::optional<Around> around;
     if (m != nullptr && m->cycle && ends_in_sight(body, i)) {
-      around = split(m->cycle, facts_.before(s));
+      around = split(m->cycle, facts_.before(s), sense_.now());
       if (around) m->cycle = around->cycle;
     }
     for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
       auto* d = std::get_if<CycleDefine>(&b->actions[k].data);
       if (d == nullptr || d->modal || !d->here) continue;
-      around = split(d->cycle, facts_.before(s));
+      around = split(d->cycle, facts_.before(s), sense_.now());
       if (around) d->cycle = around->cycle;
     }
     const LineInfo like = s.line;
@@ -142,6 +162,7 @@ class TapSpeeds {
   const FactsOf& facts_;
   Editor editor_;
   LabelUses uses_;
+  SpindleSense sense_;
 };
 
 bool has_candidate(const Program& program) {
