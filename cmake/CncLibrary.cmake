@@ -1,5 +1,6 @@
 # The library that others link: libcnctrans with the headers of include/cnctrans, a CMake package and a pkg-config file.
-# Static by default: one archive of every floor and of ANTLR's runtime, so that who links it needs only libfmt.
+# Static by default: one archive of every floor and of ANTLR's runtime, so that who links it needs only libfmt
+# and libpolyclipping.
 include(GNUInstallDirs)
 
 # cnc_static_libraries(target out): the static libraries that a target links, itself first, each once.
@@ -53,6 +54,10 @@ else()
   set(CNCTRANS_LIBRARY_FILE libcnctrans.a)
   set(CNCTRANS_LIBRARY_NEEDS "fmt::fmt;Threads::Threads")
   set(CNCTRANS_PKG_LIBS "-lfmt -lstdc++ -lm -pthread")
+  if(CNCTRANS_POLYCLIPPING AND CNCTRANS_POLYCLIPPING_INCLUDE)
+    list(APPEND CNCTRANS_LIBRARY_NEEDS polyclipping)
+    string(PREPEND CNCTRANS_PKG_LIBS "-lpolyclipping ")
+  endif()
 endif()
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/cnctrans DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")

@@ -89,12 +89,15 @@ class BlockMachine final : public SystemData {
   }
   /// Where programs that are not at hand are found; null: nowhere.
   void find_programs(const ir::ProgramFinder* library) { library_ = library; }
+  /// Where the contours of milling cycles stand that are programs of their own.
+  using ContourHomes = std::vector<std::pair<ir::RoutineName, const ir::Program*>>;
+  void contour_homes(ContourHomes homes) { contour_homes_ = std::move(homes); }
   /// From now on the cycles of a lathe that are carried out are added there.
   void keep_cycles(std::vector<CycleRun>* runs) { cycle_runs_ = runs; }
   /// Without frames, tool and cycles, ready to read the blocks of a profile.
   void stand_for_contour(const ir::ModalState& state, std::optional<ir::cycles::TurnPoint> from);
   /// The same in the plane in force; where the tool stands is not known.
-  void stand_for_mill_contour(const ir::ModalState& state);
+  void stand_for_mill_contour(const ir::ModalState& state, bool with_height);
 
   bool read(const ir::SystemRef& ref, std::span<const double> args, double& out) override;
   bool write(const ir::SystemRef& ref, std::span<const double> args, double value) override;
@@ -315,8 +318,12 @@ class BlockMachine final : public SystemData {
   // cycles (cycles.cpp)
   bool run_cycle();
   bool turn_hole();
+  bool run_hole();
   bool read_mill_contours(const ir::HoleCycle& hole);
+  bool mill_context(ir::cycles::MillContext& context);
   bool run_milling();
+  bool run_pocket(const ir::NamedCycle& call);
+  bool find_pocket_entries();
   bool milling_move(const ir::cycles::MillMove& m, double speed);
   /// Of the tool in use, mm; 0: not known.
   [[nodiscard]] double tool_radius();
@@ -401,6 +408,9 @@ class BlockMachine final : public SystemData {
   std::optional<ir::cycles::HoleNumbers> hole_;
   ir::cycles::MillNumbers mill_;  ///< with a hole of kind `mill`
   std::vector<ir::cycles::MillContour> mill_contours_;
+  ContourHomes contour_homes_;
+  std::vector<std::pair<double, double>> hole_entries_;  ///< places of a hole cycle that finds them itself
+  std::vector<Span> pocket_orders_;                      ///< contour pockets carried out
   ir::AxisId hole_axis_ = ir::axis::z;
   bool hole_follows_plane_ = false;  ///< a modal call works along the normal of the plane at each point
   ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;

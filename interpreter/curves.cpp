@@ -33,6 +33,12 @@ bool apart(const ir::curves::Point& a, const ir::curves::Point& b) {
 void BlockMachine::tell_path(Diagnostics& diagnostics) const {
   for (const auto& [where, why] : corners_left_out_)
     diagnostics.warning(code::corner_left_out, where, why + ": the corner is left out, as the control does");
+  if (!pocket_orders_.empty())
+    diagnostics.warning(
+        code::pocket_order, pocket_orders_.front(),
+        "the maker states what a pocket with islands clears, not the way of the tool in it: the control's own path "
+        "inside the pocket may differ; the same volume is cleared (told once)",
+        "compare with the control where the way matters");
   if (curves_assumed_.empty()) return;
   diagnostics.warning(
       code::curve_assumed, curves_assumed_.front(),

@@ -3,6 +3,7 @@
 
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "ir/cycles/pocket_call.h"
 
 namespace cnctrans::interpreter {
 
@@ -42,7 +43,8 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
   }
   std::string error;
   out = ir::cycles::resolve(*hole, context, evaluate, &error);
-  if (out && hole->kind == ir::HoleKind::mill) {
+  hole_entries_.clear();
+  if (out && (hole->kind == ir::HoleKind::mill || !hole->mill.shape.empty())) {
     const auto plane = ir::plane_axes(modal_.plane);
     if (axis != plane.w) return failure_.fail(code::bad_cycle, "a milling cycle works along the normal of the plane");
     const ir::cycles::MillUnits units{axis_[plane.u].scale_absolute, axis_[plane.v].scale_absolute, unit(),
@@ -52,6 +54,7 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
     if (!mill) return false;
     mill_ = std::move(*mill);
     if (!read_mill_contours(*hole)) return false;
+    if (hole->kind != ir::HoleKind::mill && !find_pocket_entries()) return false;
   }
   if (out) return true;
   return failure_.fail(code::bad_cycle, error);
@@ -59,7 +62,8 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
 
 bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   const auto* named = c.cycle ? std::get_if<ir::NamedCycle>(&c.cycle->node) : nullptr;
-  if (named != nullptr && !c.modal && c.here && ir::cycles::find_machining(named->name) != nullptr) {
+  const bool pocket = named != nullptr && ir::cycles::is_pocket_cycle(named->name);
+  if (named != nullptr && !c.modal && c.here && (pocket || ir::cycles::find_machining(named->name) != nullptr)) {
     machining_ = named;
     return true;
   }
@@ -165,6 +169,22 @@ bool BlockMachine::run_cycle() {
   }
   if (hole_follows_plane_ && !turn_hole()) return false;
   if (hole_->kind == ir::HoleKind::mill) return run_milling();
+  if (hole_entries_.empty()) return run_hole();
+  const auto plane = ir::plane_axes(modal_.plane);
+  for (const auto& [u, v] : hole_entries_) {
+    Move move = move_from_here();
+    move.kind = Move::Kind::rapid;
+    move.to[plane.u] = u;
+    move.to[plane.v] = v;
+    if (!emit_move(move, false)) return false;
+    p_ = move.to;
+    if (!run_hole()) return false;
+  }
+  return true;
+}
+
+/// The hole at the place where the tool stands.
+bool BlockMachine::run_hole() {
   std::string error;
   const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);
   if (!error.empty()) return failure_.fail(code::not_carried, error);

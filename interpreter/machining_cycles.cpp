@@ -6,6 +6,7 @@
 #include "interpreter/profile_contour.h"
 #include "interpreter/run_codes.h"
 #include "ir/cycles/machining.h"
+#include "ir/cycles/pocket_call.h"
 #include "ir/cycles/profile_blocks.h"
 #include "machine/tool_data.h"
 #include "machine/turning_tool.h"
@@ -53,6 +54,7 @@ std::optional<ir::cycles::TurnProfile> BlockMachine::machining_profile(const ir:
 }
 
 bool BlockMachine::run_machining(const ir::NamedCycle& c) {
+  if (ir::cycles::is_pocket_cycle(c.name)) return run_pocket(c);
   const auto* cycle = ir::cycles::find_machining(c.name);
   if (cycle == nullptr) return failure_.fail(code::not_carried, "the cycle " + c.name + " is not carried out yet");
   if (pending_) {

@@ -6,6 +6,7 @@
 #include "interpreter/block_machine.h"
 #include "interpreter/profile_contour.h"
 #include "interpreter/run_codes.h"
+#include "ir/cycles/pocket_moves.h"
 #include "machine/tool_data.h"
 
 namespace cnctrans::interpreter {
@@ -38,26 +39,31 @@ double BlockMachine::tool_radius() {
 
 bool BlockMachine::read_mill_contours(const ir::HoleCycle& hole) {
   mill_contours_.clear();
-  for (const auto& named : ir::cycles::contours_named(hole)) {
+  const auto names = ir::cycles::contours_named(hole);
+  const bool several = names.size() == 1 && hole.mill.shape.starts_with("pocket.");
+  for (const auto& named : names) {
     std::string error;
     if (program_ == nullptr)
       return failure_.fail(code::needs_whole_program, "a cycle with a contour needs the whole program");
-    const auto blocks = ir::cycles::profile_blocks(*program_, *routine_, named, &error);
+    const auto routine = ir::cycles::profile_routine(named);
+    const auto home = std::find_if(contour_homes_.begin(), contour_homes_.end(),
+                                   [&routine](const auto& h) { return routine && h.first == *routine; });
+    const ir::Program& program = home == contour_homes_.end() ? *program_ : *home->second;
+    const auto blocks = ir::cycles::profile_blocks(program, *routine_, named, &error);
     if (blocks.empty()) return failure_.fail(code::bad_cycle, error);
-    auto contour = mill_contour_of(profile_, modal_, blocks, values_, &error);
-    if (!contour) return failure_.fail(code::bad_cycle, error);
-    mill_contours_.push_back(*std::move(contour));
+    auto contours = mill_contours_of(profile_, modal_, blocks, several, values_, &error);
+    if (!contours) return failure_.fail(code::bad_cycle, error);
+    for (auto& contour : *contours) mill_contours_.push_back(std::move(contour));
   }
   return true;
 }
 
-bool BlockMachine::run_milling() {
+bool BlockMachine::mill_context(ir::cycles::MillContext& context) {
   const auto plane = ir::plane_axes(modal_.plane);
   if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
   if (modal_.comp != ir::CompSide::off)
     return failure_.fail(code::bad_cycle,
                          "a milling cycle runs without radius compensation: it goes by the radius itself");
-  ir::cycles::MillContext context;
   context.u = p_[plane.u];
   context.v = p_[plane.v];
   context.w = p_[plane.w];
@@ -65,6 +71,13 @@ bool BlockMachine::run_milling() {
   context.spindle_ccw = spindles_[1].state == ir::SpindleState::ccw;
   context.plane = modal_.retract_plane;
   context.contours = &mill_contours_;
+  ir::cycles::pocket_habits([this](std::string_view name) { return profile_.option(name); }, context);
+  return true;
+}
+
+bool BlockMachine::run_milling() {
+  ir::cycles::MillContext context;
+  if (!mill_context(context)) return false;
   const auto need = ir::cycles::needs_radius(mill_);
   if (context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::lead)
     assume("TOOL_RADIUS", 0,
@@ -80,6 +93,7 @@ bool BlockMachine::run_milling() {
   if (!moves) {
     return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
   }
+  if (mill_.shape->kind == ir::cycles::MillKind::contour_pocket) pocket_orders_.push_back(failure_.where);
   const double speed = spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
   const std::uint64_t first = emitter_.seen();
   for (const auto& m : *moves) {

@@ -1,5 +1,6 @@
 #include "interpreter/profile_contour.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter/block_machine.h"
@@ -38,7 +39,7 @@ class ElementSink final : public TraceSink {
 /// The same in any plane; the way to the first point belongs to no contour.
 class MillSink final : public TraceSink {
  public:
-  explicit MillSink(ir::Plane plane) : plane_(plane) {}
+  MillSink(ir::Plane plane, bool several) : plane_(plane), several_(several) {}
   void on_event(const Event& e) override {
     const bool rapid = e.kind == EventKind::rapid;
     if (!rapid && e.kind != EventKind::linear && e.kind != EventKind::arc) {
@@ -46,25 +47,28 @@ class MillSink final : public TraceSink {
       return;
     }
     const auto axes = ir::plane_axes(plane_);
-    const double u = e.to.value[axes.u], v = e.to.value[axes.v];
+    const double u = e.to.value[axes.u], v = e.to.value[axes.v], w = e.to.value[axes.w];
     const bool arc = e.kind == EventKind::arc;
-    if (!begun) {
+    if (!begun || (several_ && rapid)) {
       strange = strange || arc;
       open = open || u > nowhere / 2 || v > nowhere / 2;
+      out.emplace_back();
+      if (several_ && w < nowhere / 2) out.back().surface = w;
     } else if (arc || std::hypot(u - u_, v - v_) > 1e-9) {
       strange = strange || rapid || (arc && (e.plane != plane_ || e.turns != 0));
-      out.elements.push_back({u_, v_, u, v, arc, !e.cw, e.center_u, e.center_v});
+      out.back().elements.push_back({u_, v_, u, v, arc, !e.cw, e.center_u, e.center_v});
     }
     u_ = u;
     v_ = v;
     begun = true;
   }
-  ir::cycles::MillContour out;
+  std::vector<ir::cycles::MillContour> out;
   bool begun = false, strange = false;
   bool open = false;  ///< a coordinate of the first point is missing
 
  private:
   ir::Plane plane_;
+  bool several_;
   double u_ = 0, v_ = 0;
 };
 
@@ -81,6 +85,21 @@ ir::Block geometry_of(const ir::Block& b) {
   });
   out.repeat_given = 0;
   return out;
+}
+
+/// The contours of a pocket know no frame, and the first point of all is absolute.
+bool fits_pocket(const ir::Block& b, bool must_be_absolute, std::string* error) {
+  bool absolute = false;
+  for (const auto& a : b.actions) {
+    if (std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::WorkOffset>(a.data))
+      return *error = "the contour of a pocket holds a shift, mirror image, scale or rotation", false;
+    const auto* set = std::get_if<ir::ModalSet>(&a.data);
+    absolute = absolute || (set != nullptr && set->setting == ir::Setting::distance &&
+                            set->value == static_cast<std::uint8_t>(ir::Distance::absolute));
+  }
+  if (must_be_absolute && !absolute)
+    return *error = "the contour of the pocket begins under incremental coordinates; write absolute ones", false;
+  return true;
 }
 
 }  // namespace
@@ -104,24 +123,30 @@ void BlockMachine::stand_for_contour(const ir::ModalState& state, std::optional<
   p_[ir::axis::z] = from->z;
 }
 
-void BlockMachine::stand_for_mill_contour(const ir::ModalState& state) {
+void BlockMachine::stand_for_mill_contour(const ir::ModalState& state, bool with_height) {
   const auto plane = ir::plane_axes(state.plane);
   stand_for_contour(state, std::nullopt);
   modal_.plane = state.plane;
   p_[plane.u] = p_[plane.v] = nowhere;
   path_event_.to.value[plane.u] = path_event_.to.value[plane.v] = nowhere;
+  if (with_height) p_[plane.w] = path_event_.to.value[plane.w] = nowhere;
 }
 
-std::optional<ir::cycles::MillContour> mill_contour_of(const machine::Profile& machine, const ir::ModalState& modal,
-                                                       const std::vector<const ir::Statement*>& blocks,
-                                                       ValueSource* values, std::string* error) {
-  MillSink sink(modal.plane);
+std::optional<std::vector<ir::cycles::MillContour>> mill_contours_of(const machine::Profile& machine,
+                                                                     const ir::ModalState& modal,
+                                                                     const std::vector<const ir::Statement*>& blocks,
+                                                                     bool several, ValueSource* values,
+                                                                     std::string* error) {
+  MillSink sink(modal.plane, several);
   Emitter emitter(sink, most_elements);
   Failure failure;
   BlockMachine reader(machine, emitter, failure, values);
-  reader.stand_for_mill_contour(modal);
+  reader.stand_for_mill_contour(modal, several);
   for (const auto* s : blocks) {
-    const auto b = geometry_of(std::get<ir::Block>(s->node));
+    const auto& whole = std::get<ir::Block>(s->node);
+    if (several && !fits_pocket(whole, s == blocks.front() && modal.distance == ir::Distance::incremental, error))
+      return std::nullopt;
+    const auto b = geometry_of(whole);
     if (b.has_motion && b.motion.frame != ir::FrameUse::normal)
       return *error = "a machine position in the contour is not carried out", std::nullopt;
     if (!reader.block(b, s->line.span)) break;
@@ -131,7 +156,10 @@ std::optional<ir::cycles::MillContour> mill_contour_of(const machine::Profile& m
   if (sink.open) return *error = "the first block of the contour names both axes of the plane", std::nullopt;
   if (sink.strange) return *error = "its contour holds a motion that is no line or arc in the plane", std::nullopt;
   if (emitter.limit_reached()) return *error = "its contour is too long", std::nullopt;
-  if (sink.out.elements.empty()) return *error = "its contour has no elements", std::nullopt;
+  if (several && !sink.out.empty() && !sink.out.front().surface)
+    return *error = "the first block of the contour names the height of the surface too", std::nullopt;
+  const bool empty = std::any_of(sink.out.begin(), sink.out.end(), [](const auto& c) { return c.elements.empty(); });
+  if (sink.out.empty() || empty) return *error = "its contour has no elements", std::nullopt;
   return std::move(sink.out);
 }
 

@@ -21,8 +21,11 @@ std::optional<ir::cycles::TurnProfile> contour_of(const machine::Profile& machin
                                                   std::string* error);
 
 /// The same for a milling cycle, in the plane that `modal` names; the first block says where the contour begins.
-std::optional<ir::cycles::MillContour> mill_contour_of(const machine::Profile& machine, const ir::ModalState& modal,
-                                                       const std::vector<const ir::Statement*>& blocks,
-                                                       ValueSource* values, std::string* error);
+/// `several`: each block in rapid begins another contour, and the first one may name the height of the surface.
+std::optional<std::vector<ir::cycles::MillContour>> mill_contours_of(const machine::Profile& machine,
+                                                                     const ir::ModalState& modal,
+                                                                     const std::vector<const ir::Statement*>& blocks,
+                                                                     bool several, ValueSource* values,
+                                                                     std::string* error);
 
 }  // namespace cnctrans::interpreter

@@ -46,6 +46,7 @@ inline constexpr std::string_view curve_assumed = "RUN-045";
 inline constexpr std::string_view curve_place = "RUN-046";
 inline constexpr std::string_view curve_data = "RUN-047";
 inline constexpr std::string_view value_limits = "RUN-055";
+inline constexpr std::string_view pocket_order = "RUN-090";
 inline constexpr std::string_view corner_left_out = "RUN-075";
 inline constexpr std::string_view text_cut = "RUN-056";
 inline constexpr std::string_view surface = "RUN-050";

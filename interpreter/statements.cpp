@@ -6,6 +6,7 @@
 #include "interpreter/run_codes.h"
 #include "interpreter/runner.h"
 #include "ir/cycles/mill_contour.h"
+#include "ir/cycles/pocket_call.h"
 
 namespace cnctrans::interpreter {
 
@@ -35,9 +36,15 @@ void Runner::block(Instruction& in) {
   for (const auto& a : b.actions) {  // a cycle whose profile is a program of its own
     const auto* d = std::get_if<ir::CycleDefine>(&a.data);
     if (d == nullptr || !d->cycle) continue;
-    for (const auto& profile : ir::cycles::contour_routines(*d->cycle)) {
-      if (const Flow* other = routines_.find(profile, *flow_)) home = other;
+    const auto* named = std::get_if<ir::NamedCycle>(&d->cycle->node);
+    BlockMachine::ContourHomes homes;
+    for (auto& profile : ir::cycles::contour_routines(*d->cycle)) {
+      const Flow* other = routines_.find(profile, *flow_);
+      if (other == nullptr) continue;
+      if (named != nullptr && !ir::cycles::is_pocket_cycle(named->name)) home = other;
+      homes.emplace_back(std::move(profile), other->program);
     }
+    machine_.contour_homes(std::move(homes));
   }
   machine_.belongs_to(home->program, home->routine);
   machine_.block_again = again;

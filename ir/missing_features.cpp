@@ -21,8 +21,10 @@ constexpr std::array features{
     MissingFeature{"block.word", "a word whose meaning is not carried", "no IR action for it yet"},
     MissingFeature{"cycle.hole", "parameters of hole cycles whose meaning is not sure",
                    "the cycles are carried; these words are not described where the project looks them up"},
-    MissingFeature{"cycle.milling", "milling cycles along contours, pockets with islands, engraving",
-                   "pockets, slots, faces, spigots, milled threads and paths along a contour are carried"},
+    MissingFeature{"cycle.milling",
+                   "pockets by words that are not known, depth profiles, threads by single points, engraving",
+                   "pockets (with islands too), slots, faces, spigots, milled threads and paths along a contour are "
+                   "carried"},
     MissingFeature{"cycle.pattern", "free lists of hole positions", "lines, circles and grids are carried"},
     MissingFeature{"cycle.turning", "turning cycles whose moves are not described (parting, contour grooves)",
                    "read and kept; their sequence is not in the references"},

@@ -4,6 +4,7 @@
 #include "base/saturate.h"
 #include "ir/contour.h"
 #include "ir/cycles/machining.h"
+#include "ir/cycles/pocket_call.h"
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
 #include "ir/missing_features.h"
@@ -39,6 +40,13 @@ class Transfer {
     if (runs_here_) cycle_moves();
     if (follows_) forget_positions();  // the end follows from the next element
     if (machining_ != nullptr) machined();
+    if (pocket_) {  // its operations have tools, feeds and functions of their own
+      f_.forget();
+      f_.motion = MotionKind::rapid;
+      for (const auto& a : b.actions) {
+        if (a.order == Order::after) std::visit(*this, a.data);
+      }
+    }
     if (not_understood_) f_.forget();
   }
 
@@ -93,6 +101,7 @@ class Transfer {
     if (x.here && plain_hole) hole_here_ = hole;  // its retract plane may stand behind it in the block
     const auto* named = x.cycle ? std::get_if<NamedCycle>(&x.cycle->node) : nullptr;
     const auto* cycle = named != nullptr && !x.modal && x.here ? cycles::find_machining(named->name) : nullptr;
+    pocket_ = pocket_ || (named != nullptr && named->name == cycles::pocket::call);
     if (cycle != nullptr) {
       runs_here_ = false;
       machining_ = named;
@@ -287,6 +296,7 @@ class Transfer {
   bool here_is_hole_ = false;
   const HoleCycle* hole_here_ = nullptr;  ///< the hole of this block
   bool not_understood_ = false, follows_ = false;
+  bool pocket_ = false;
 };
 
 /// Data of a tool: programmed positions are those of its tip, whatever they are.

@@ -39,6 +39,13 @@ constexpr std::array specs{
                "a hole cycle called while the tool stands between its reference plane and its depth"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
+    OptionSpec{"cycle.pocket_entry", "arc|straight", "arc",
+               "finishing of a pocket with islands: onto the wall and off it on a quadrant, or straight down onto it"},
+    OptionSpec{"cycle.pocket_links", "at_depth|over", "at_depth",
+               "from one ring of such a pocket to the next: through the pocket where no wall lies between, or always "
+               "over the reference plane"},
+    OptionSpec{"cycle.pocket_tolerance", "number", "0.001",
+               "mm by which chords may leave the arcs of such a pocket where its area is computed: 0.00001 to 0.1"},
     OptionSpec{
         "cycle.relief_edge", "usual|refused", "usual",
         "an undercut whose side follows from a tool of which the profile gives no nose 1 to 4: outside (DIN 76 C "

@@ -99,14 +99,16 @@ void read_mill(ir::HoleCycle& cycle, const ir::Program& program, const ir::Routi
     return ir::cycles::put_contour_fault(cycle, "the modes in force are known only when the program runs");
   modes->plane = *plane;
   std::vector<ir::cycles::MillContour> contours;
-  for (const auto& named : ir::cycles::contours_named(cycle)) {
+  const auto names = ir::cycles::contours_named(cycle);
+  const bool several = names.size() == 1 && cycle.mill.shape.starts_with("pocket.");
+  for (const auto& named : names) {
     std::string error;
     Folded folded(named, constants, routine, s);
     const auto blocks = ir::cycles::profile_blocks(program, routine, named, &error);
     if (blocks.empty()) return ir::cycles::put_contour_fault(cycle, error);
-    auto contour = interpreter::mill_contour_of(machine, *modes, folded.with(blocks), nullptr, &error);
-    if (!contour) return ir::cycles::put_contour_fault(cycle, error);
-    contours.push_back(*std::move(contour));
+    auto read = interpreter::mill_contours_of(machine, *modes, folded.with(blocks), several, nullptr, &error);
+    if (!read) return ir::cycles::put_contour_fault(cycle, error);
+    for (auto& contour : *read) contours.push_back(std::move(contour));
     if (!folded.used.empty())
       cycle.mill.words.emplace_back("contour_values", ir::Value(ir::string_literal(ir::passes::listed(folded.used))));
   }

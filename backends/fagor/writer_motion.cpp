@@ -8,6 +8,7 @@
 #include "dialects/fagor/cycles.h"
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/patterns.h"
+#include "dialects/fagor/pockets.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -343,6 +344,7 @@ bool Writer::machining_cycle(const ir::Action& a, const ir::CycleDefine& c) {
   const auto* row = named == nullptr ? nullptr
                     : lathe_         ? dialects::fagor::find_cycle(named->name)
                                      : dialects::fagor::find_pattern(named->name);
+  if (row == nullptr && named != nullptr && !lathe_) row = dialects::fagor::find_pocket(named->name);
   if (row == nullptr) return false;
   std::string text = same_dialect() && !a.text.empty() ? std::string(a.text) : "G" + std::to_string(row->code);
   for (const auto& [parameter, v] : named->words) {

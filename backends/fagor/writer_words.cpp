@@ -7,6 +7,7 @@
 #include "backends/fagor/writer.h"
 #include "base/text.h"
 #include "dialects/fagor/cycles.h"
+#include "dialects/fagor/pockets.h"
 #include "ir/search.h"
 
 namespace cnctrans::backends::fagor {
@@ -177,7 +178,8 @@ bool Writer::implied(const ir::Action& a) {
   const auto machining = [](const ir::Action& other) {
     const auto* d = std::get_if<ir::CycleDefine>(&other.data);
     const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
-    return named != nullptr && dialects::fagor::find_cycle(named->name) != nullptr;
+    return named != nullptr && (dialects::fagor::find_cycle(named->name) != nullptr ||
+                                dialects::fagor::find_pocket(named->name) != nullptr);
   };
   if (std::any_of(block_->actions.begin(), block_->actions.end(), machining))
     return sets(a, ir::Setting::comp) || sets(a, ir::Setting::distance);  // ch. 9: how the cycle leaves

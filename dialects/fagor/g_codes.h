@@ -74,6 +74,7 @@ enum class Use : std::uint8_t {
   cycle_change,  ///< G79
   machining,     ///< a cycle of the lathe; letters in cycle_rows
   pattern,       ///< multiple machining of the mill; letters in pattern_rows
+  pocket,        ///< irregular pockets of the mill; letters in pocket_rows
   call,          ///< G180..G189, G380..G399: subroutine of the same number
   no_path,       ///< no effect on the path: carried with a note; `feature`
   refused        ///< not translated yet; `feature` is the key in the missing-features registry

@@ -10,6 +10,7 @@
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/m_codes.h"
 #include "dialects/fagor/patterns.h"
+#include "dialects/fagor/pockets.h"
 #include "frontends/fagor/letters.h"
 #include "frontends/fagor/lower_expr.h"
 
@@ -25,7 +26,7 @@ using ir::Order;
 bool has_own_words(const facts::GCode& row) {
   return row.use == Use::refused || row.use == Use::no_path || row.use == Use::call || row.use == Use::hole_cycle ||
          row.use == Use::cycle_change || row.use == Use::machining || row.use == Use::pattern ||
-         row.use == Use::inclined_plane;
+         row.use == Use::pocket || row.use == Use::inclined_plane;
 }
 
 std::string word_name(const syntax::Word& w) {
@@ -91,6 +92,7 @@ void BlockLowerer::gather_g(const Word& w) {
   }
   if (row->use == Use::machining) cycle_row_ = facts::find_cycle(row->code);
   if (row->use == Use::pattern) cycle_row_ = facts::find_pattern(row->code);
+  if (row->use == Use::pocket) cycle_row_ = facts::find_pocket(row->code);
   g_[g_count_++] = {row, &w};
 }
 

@@ -73,6 +73,8 @@ class BlockLowerer {
   void hole_cycle(const GWord& g);
   void machining_cycle(const GWord& g);
   void pattern(const GWord& g);
+  void pocket_cycle(const GWord& g);
+  bool pocket_value(const Word& w, std::string_view parameter);
   void change_cycle(const GWord& g);
   void end_cycle();
   bool change_pecks(ir::HoleCycle& c, bool& changed);

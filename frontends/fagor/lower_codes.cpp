@@ -29,6 +29,7 @@ bool needs_straight_plane(const dialects::fagor::GCode& row) {
   switch (row.use) {
     case Use::hole_cycle: return row.code == 87 || row.code == 88;
     case Use::machining:
+    case Use::pocket:
     case Use::pattern: return true;
     default: return false;
   }
@@ -98,6 +99,7 @@ void BlockLowerer::apply_special(const GWord& g) {
     case Use::hole_cycle: hole_cycle(g); return;
     case Use::machining: machining_cycle(g); return;
     case Use::pattern: pattern(g); return;
+    case Use::pocket: pocket_cycle(g); return;
     case Use::cycle_change: change_cycle(g); return;
     case Use::cycle_cancel:
       state_.cycle_by_text = nullptr;

@@ -12,7 +12,8 @@ namespace cnctrans::ir::cycles {
 namespace {
 
 constexpr std::size_t numbers_per_element = 8;
-constexpr std::string_view data_word = "contour", fault_word = "contour_fault", role_word = "contour_role";
+constexpr std::string_view data_word = "contour", fault_word = "contour_fault", role_word = "contour_role",
+                           surface_word = "contour_surface";
 
 bool whole_circle(const MillElement& e) {
   return e.arc && std::abs(e.u1 - e.u0) < 1e-9 && std::abs(e.v1 - e.v0) < 1e-9;
@@ -34,7 +35,7 @@ bool is_contour_word(std::string_view word) {
 std::vector<NamedCycle> contours_named(const HoleCycle& cycle) {
   std::vector<NamedCycle> out;
   for (const auto& [word, v] : cycle.mill.words) {
-    if (!is_contour_word(word) || word == data_word || word == fault_word) continue;
+    if (!is_contour_word(word) || word == data_word || word == fault_word || word == surface_word) continue;
     if (out.empty() || word == role_word) out.push_back({cycle.mill.shape, {}});
     out.back().words.emplace_back(word, v);
   }
@@ -54,6 +55,8 @@ std::vector<RoutineName> contour_routines(const Cycle& cycle) {
 }
 
 void put_contours(HoleCycle& cycle, const std::vector<MillContour>& contours) {
+  if (!contours.empty() && contours.front().surface)
+    cycle.mill.words.emplace_back(std::string(surface_word), Value(*contours.front().surface));
   for (std::size_t i = 0; i < contours.size(); ++i) {
     for (const auto& e : contours[i].elements) {
       const double kind = e.arc ? (e.ccw ? 2 : 1) : 0;
@@ -69,8 +72,10 @@ void put_contour_fault(HoleCycle& cycle, const std::string& why) {
 
 std::optional<std::vector<MillContour>> contours_in(const HoleCycle& cycle, std::string* error) {
   std::vector<double> n;
+  std::optional<double> surface;
   for (const auto& [name, v] : cycle.mill.words) {
     if (name == data_word && v.literal()) n.push_back(v.number);
+    if (name == surface_word && v.literal()) surface = v.number;
     if (const auto* why = text_of(v); why != nullptr && name == fault_word) return *error = *why, std::nullopt;
   }
   if (n.empty()) return *error = "its contour has not been read", std::nullopt;
@@ -81,6 +86,7 @@ std::optional<std::vector<MillContour>> contours_in(const HoleCycle& cycle, std:
     out[at].elements.push_back(
         {n[i + 2], n[i + 3], n[i + 4], n[i + 5], n[i + 1] != 0, n[i + 1] == 2, n[i + 6], n[i + 7]});
   }
+  out.front().surface = surface;
   return out;
 }
 

@@ -21,6 +21,7 @@ struct MillElement {
 };
 struct MillContour {
   std::vector<MillElement> elements;
+  std::optional<double> surface;  ///< coordinate along the normal of the plane that its first block names, mm
 };
 
 /// The word of a milling cycle belongs to its contours, and is no number of the cycle.

@@ -71,6 +71,7 @@ class MillPath {
   /// The same with infeed at the plunge feed.
   void plunge_to(double p, double q, double w);
   void plunge_circle(double cp, double cq, double w, bool ccw);
+  void plunge_arc_to(double p, double q, double w, double cp, double cq, bool ccw);
   void mill_circle(double cp, double cq, double w, bool ccw);  ///< with infeed, at the feed of milling
   /// The feed of milling is times `factor` from here on.
   void scale_feed(double factor) { scale_ = factor; }
@@ -105,5 +106,6 @@ bool face(MillPath& path, std::string* error);
 bool boss(MillPath& path, bool circle, std::string* error);
 bool milled_thread(MillPath& path, std::string* error);
 bool contour_path(MillPath& path, const std::vector<MillContour>* contours, std::string* error);
+bool contour_pocket(MillPath& path, const MillContext& context, std::string* error);
 
 }  // namespace cnctrans::ir::cycles::detail

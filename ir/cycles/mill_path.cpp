@@ -207,6 +207,14 @@ void MillPath::mill_arc_to(double p, double q, double w, double cp, double cq, b
   moves_.back().cv = cv;
   moves_.back().ccw = ccw;
 }
+void MillPath::plunge_arc_to(double p, double q, double w, double cp, double cq, bool ccw) {
+  const auto [u, v] = to_plane(p, q);
+  const auto [cu, cv] = to_plane(cp, cq);
+  put(MillStep::arc, u, v, w, true);
+  moves_.back().cu = cu;
+  moves_.back().cv = cv;
+  moves_.back().ccw = ccw;
+}
 void MillPath::plunge_circle(double cp, double cq, double w, bool ccw) {
   const auto [cu, cv] = to_plane(cp, cq);
   put(MillStep::arc, u_, v_, w, true);

@@ -65,6 +65,13 @@ constexpr std::array parameters = {
     MillParameter{"link_feed", feed, "between the end of the contour and its start; left out: mill_feed"},
     MillParameter{"overrun", length, "of a face pass beyond the part, along the pass"},
     MillParameter{"overrun_across", length, "of the last face pass beyond the part, across"},
+    MillParameter{"pass_angle", plain, "of parallel passes, degrees; left out: rings along the contour"},
+    MillParameter{"plunge_angle", plain, "of the ramp into the material, degrees; left out, 0 or 90: straight down"},
+    MillParameter{"along", plain, "1 in the sense in which the outer contour is programmed, -1 in the opposite one"},
+    MillParameter{"outside", plain, "of several contours: 0 the largest one, 1 the first one"},
+    MillParameter{"tool", plain, "number of the tool that mills"},
+    MillParameter{"offset", plain, "number of its offset"},
+    MillParameter{"apart", plain, "1: contours that cross each other are refused"},
 };
 
 constexpr std::array shapes = {
@@ -106,6 +113,14 @@ constexpr std::array shapes = {
         "infeed,wall_stock,floor_stock,mill_feed,plunge_feed,variant,side,approach,approach_length,link_feed,leave,"
         "leave_length",
         "path along a contour"},
+    MillShape{"pocket.contour", MillKind::contour_pocket,
+              "infeed,signed_infeed,step,step_factor,wall_stock,floor_stock,mill_feed,plunge_feed,plunge_factor,"
+              "sense,operation,pass_angle,plunge_angle,along,outside,apart",
+              "pocket along contours, with islands"},
+    MillShape{"pocket.entries", MillKind::contour_pocket,
+              "infeed,signed_infeed,step,step_factor,wall_stock,floor_stock,mill_feed,plunge_feed,plunge_factor,"
+              "sense,operation,pass_angle,plunge_angle,along,outside,apart,tool,offset",
+              "holes where the roughing of such a pocket begins"},
     MillShape{"thread.mill", MillKind::thread, "u,v,diameter,core,pitch,mill_feed,sense,external",
               "thread milled on a helix"},
 };
@@ -147,7 +162,7 @@ const MillShape* find_mill_shape(std::string_view name) {
 }
 
 bool has_sense(const MillNumbers& mill) {
-  return mill.shape != nullptr && in_list(mill.shape->parameters, "sense");
+  return mill.shape != nullptr && in_list(mill.shape->parameters, "sense") && !mill.words.contains("along");
 }
 
 RadiusNeed needs_radius(const MillNumbers& mill) {
@@ -201,6 +216,7 @@ std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleN
     case MillKind::thread: done = detail::milled_thread(path, error); break;
     case MillKind::face: done = detail::face(path, error); break;
     case MillKind::path: done = detail::contour_path(path, context.contours, error); break;
+    case MillKind::contour_pocket: done = detail::contour_pocket(path, context, error); break;
   }
   if (done && path.too_many()) {
     *error = "the cycle has too many passes";

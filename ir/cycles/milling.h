@@ -42,7 +42,8 @@ enum class MillKind : std::uint8_t {
   boss,
   round_boss,
   thread,
-  path
+  path,
+  contour_pocket
 };
 struct MillShape {
   std::string_view name;  ///< `MillWords::shape`
@@ -110,6 +111,9 @@ struct MillContext {
   bool spindle_ccw = false;    ///< climb milling goes the other way round
   RetractPlane plane = RetractPlane::initial;
   const std::vector<MillContour>* contours = nullptr;  ///< of the shapes that have some
+  double tolerance = 0.001;                            ///< mm: of arcs in the area of a contour pocket
+  bool links_at_depth = true;  ///< contour pocket: from ring to ring through the area, not over the reference plane
+  bool entry_on_arc = true;    ///< contour pocket: onto the wall and off it on a quadrant
 };
 /// The moves of one machining; nullopt with a sentence in `error` when it makes no sense (tool too large, no size,
 /// nothing to take away) or is not carried. Moves to where the tool already stands are not listed.

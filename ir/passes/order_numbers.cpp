@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "ir/cycles/pocket_call.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 
@@ -68,7 +69,7 @@ class NumberPass {
           const auto* named = d != nullptr && d->cycle ? std::get_if<NamedCycle>(&d->cycle->node) : nullptr;
           if (named == nullptr) continue;
           for (const auto& [w, v] : named->words) {
-            if ((w == "first_label" || w == "last_label") && v.literal()) found.insert(std::lround(v.number));
+            if (cycles::is_label_word(w) && v.literal()) found.insert(std::lround(v.number));
           }
         }
       });

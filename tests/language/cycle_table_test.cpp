@@ -35,7 +35,7 @@ std::vector<CycleEntry> fagor_cycles() {
   std::vector<CycleEntry> out;
   for (const auto& g : facts::g_codes()) {
     const bool cycle = g.use == facts::Use::hole_cycle || g.use == facts::Use::machining ||
-                       g.use == facts::Use::pattern || g.feature.starts_with("cycle.");
+                       g.use == facts::Use::pattern || g.use == facts::Use::pocket || g.feature.starts_with("cycle.");
     if (!cycle) continue;
     for (const auto model : {facts::Model::mill, facts::Model::lathe}) {
       if (g.model != model && g.model != facts::Model::both) continue;
