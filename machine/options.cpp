@@ -97,6 +97,11 @@ constexpr std::array specs{
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
     OptionSpec{"thread.pitch", "each_block|modal", "each_block", "how long the pitch of a thread (G33) stays in force"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
+    OptionSpec{"tool.bare_offset", "kept|table|edge", "kept",
+               "offset of a tool that comes without a D: the one in force stays, the one that the tool table has for "
+               "the tool, or an edge that machine data name"},
+    OptionSpec{"tool.length_axis", "tool|plane", "tool",
+               "axis of the tool's length on a mill: that of the tool, or the one across the plane in force"},
     OptionSpec{"tool.offset", "row|edge", "row",
                "what a D number names: a row of one table for all tools, or an edge of the tool in force"},
     OptionSpec{"tool.radius_data", "text", "",

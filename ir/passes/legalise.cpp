@@ -59,6 +59,7 @@ constexpr std::array pipeline{
     Pass{"conditions", passes::lower_conditions, false},
     Pass{"expressions", passes::lower_expressions, false},
     Pass{"tool_names", passes::number_tools, false},
+    Pass{"tool_lengths", passes::check_tool_lengths, false},
     Pass{"tools", passes::convert_tools, true},
     Pass{gear_pass, passes::choose_gears, false},
     Pass{offset_pass, passes::check_offset_tables, false},

@@ -25,10 +25,11 @@ void convert_units(Program& program, const LegaliseContext& context);
 /// The coordinates of the face and the cylinder of work with the C axis, as the target says them.
 void convert_surfaces(Program& program, const LegaliseContext& context);
 void convert_diameters(Program& program, const LegaliseContext& context);
-void lower_conditions(Program& program, const LegaliseContext& context);   ///< AND, OR, NOT, tolerance
-void lower_expressions(Program& program, const LegaliseContext& context);  ///< operators and functions
-void convert_tools(Program& program, const LegaliseContext& context);      ///< tool change, length compensation
-void choose_gears(Program& program, const LegaliseContext& context);       ///< a gear range where the target needs one
+void lower_conditions(Program& program, const LegaliseContext& context);    ///< AND, OR, NOT, tolerance
+void lower_expressions(Program& program, const LegaliseContext& context);   ///< operators and functions
+void check_tool_lengths(Program& program, const LegaliseContext& context);  ///< T without D, length in other planes
+void convert_tools(Program& program, const LegaliseContext& context);       ///< tool change, length compensation
+void choose_gears(Program& program, const LegaliseContext& context);        ///< a gear range where the target needs one
 void check_offset_tables(Program& program, const LegaliseContext& context);  ///< what a D number names
 void check_compensation(Program& program, const LegaliseContext& context);   ///< rapid moves under compensation
 void convert_feed(Program& program, const LegaliseContext& context);         ///< F after a change of feed mode

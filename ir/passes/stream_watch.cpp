@@ -47,7 +47,9 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")),
       rapid_differs_(source.option("comp.rapid") != target_machine.option("comp.rapid")),
       needs_gear_(target.gear_needed && source.dialect != target.dialect),
-      tables_differ_(passes::offset_tables_differ(source, target_machine)) {
+      tables_differ_(passes::offset_tables_differ(source, target_machine)),
+      bare_differs_(source.dialect != target.dialect && passes::bare_offsets_differ(source, target_machine)),
+      lengths_differ_(source.dialect != target.dialect && passes::length_axes_differ(source, target_machine)) {
   const bool source_on = source.power_on.length_comp == OnOff::on;
   const bool target_on = target_machine.power_on.length_comp == OnOff::on;
   adds_length_ = target.length_comp_switch && source_on && !target_on;
@@ -77,7 +79,7 @@ bool StreamWatch::take_head(const Block& block) {
     const bool once = feed != nullptr || set_of(a, Setting::path_mode) != nullptr;
     if (units == nullptr && !once && action_needs_whole(block, a)) return false;
   }
-  if (block.has_motion && motion_needs_whole(block)) return false;
+  if ((block.has_motion && motion_needs_whole(block)) || moves_bare_tool(block)) return false;
   if (cuts_without_feed(block)) return false;
   follow_head(block);
   follow(block);
@@ -116,6 +118,8 @@ void StreamWatch::follow_head(const Block& block) {
 bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const {
   if (std::holds_alternative<MachineFunction>(a.data) || std::holds_alternative<FrameOp>(a.data)) return true;
   const auto* plane = set_of(a, Setting::plane);
+  if (lengths_differ_ && plane != nullptr && plane->value != static_cast<std::uint8_t>(source_.power_on.plane))
+    return true;
   if (state_.comp != CompSide::off && in_block(block, Setting::comp, state_.comp) != CompSide::off &&
       (std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
        std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
@@ -186,6 +190,14 @@ bool StreamWatch::gear_is_new(const Block& block) const {
   });
 }
 
+/// Moves a tool that has come without a D: the target gives it another offset, and the program is to be told so.
+bool StreamWatch::moves_bare_tool(const Block& block) const {
+  if (!bare_differs_) return false;
+  passes::BareTool tool = bare_tool_;
+  tool.follow(block);
+  return tool.waiting() && passes::has_motion(block);
+}
+
 /// A D number of another table, the first one.
 bool StreamWatch::offset_is_new(const Block& block) const {
   if (!tables_differ_ || offset_said_) return false;
@@ -214,7 +226,7 @@ bool StreamWatch::rapid_under_compensation(const Block& block) const {
 }
 
 StreamWatch::Verdict StreamWatch::look(const Block& block) const {
-  if (needs_whole(block)) return Verdict::whole;
+  if (needs_whole(block) || moves_bare_tool(block)) return Verdict::whole;
   if (gear_is_new(block) || offset_is_new(block)) return Verdict::local;
   if (adds_length_ && takes_length(block)) return Verdict::local;
   if (rapid_differs_ && rapid_under_compensation(block)) return Verdict::local;
@@ -238,6 +250,7 @@ void StreamWatch::follow(const Block& block) {
     }
   }
   offset_said_ = offset_said_ || offset_is_new(block);
+  bare_tool_.follow(block);
   for (const auto& a : block.actions) {
     const auto* run = std::get_if<SpindleRun>(&a.data);
     gear_said_ = gear_said_ || std::holds_alternative<SpindleGear>(a.data) ||
@@ -261,8 +274,9 @@ void StreamWatch::follow(const Block& block) {
 std::uint64_t StreamWatch::key() const {
   std::uint64_t key = static_cast<std::uint64_t>(state_.motion);
   for (std::size_t s = 0; s < setting_count; ++s) key = key << 2U | state_.get(static_cast<Setting>(s));
-  for (const bool flag : {long_word_, offset_changed_, length_wanted_, length_switched_, gear_said_, offset_said_,
-                          comp_begins_, offset_numbers_.differs(ToolOffset{Value{1.0}})})
+  for (const bool flag :
+       {long_word_, offset_changed_, length_wanted_, length_switched_, gear_said_, offset_said_, bare_tool_.waiting(),
+        bare_tool_.given(), comp_begins_, offset_numbers_.differs(ToolOffset{Value{1.0}})})
     key = key << 1U | (flag ? 1U : 0U);
   return key;
 }

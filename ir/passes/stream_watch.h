@@ -4,6 +4,7 @@
 
 #include "ir/passes/legalise.h"
 #include "ir/passes/offset_tables.h"
+#include "ir/passes/tool_lengths.h"
 
 namespace cnctrans::ir {
 
@@ -51,6 +52,7 @@ class StreamWatch {
   [[nodiscard]] bool takes_length(const Block& block) const;
   [[nodiscard]] bool gear_is_new(const Block& block) const;
   [[nodiscard]] bool offset_is_new(const Block& block) const;
+  [[nodiscard]] bool moves_bare_tool(const Block& block) const;
   [[nodiscard]] bool too_long(const Value& value) const;
   void follow_head(const Block& block);
 
@@ -69,6 +71,9 @@ class StreamWatch {
   bool gear_said_ = false;    ///< a range, or the start of the spindle that gets one
   bool offset_said_ = false;  ///< a D number that has been warned of
   passes::OffsetNumbers offset_numbers_{};
+  passes::BareTool bare_tool_{};
+  bool bare_differs_;       ///< a tool without a D has another offset on the target
+  bool lengths_differ_;     ///< another plane has the tool's length along another axis on the target
   bool head_done_ = false;  ///< from here on the head's
   bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;
   bool long_word_ = false;        ///< a coordinate so far has more places than the target writes

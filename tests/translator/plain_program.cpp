@@ -235,7 +235,11 @@ class Generator {
     if (machine_ && chance(10)) return block({std::string(pick(language_.m_words))});
     if (machine_ && chance(6))
       return block({"S" + std::to_string(number(0, 60) * 100), std::string(chance(50) ? "M3" : "M4")});
-    if (machine_ && chance(5)) return block({"T" + std::to_string(number(0, 12)), chance(40) ? "M6" : "D1"});
+    if (machine_ && chance(5)) {
+      const std::string tool = "T" + std::to_string(number(0, 12));
+      if (!chance(40)) return block({tool, "D1"});
+      return chance(80) ? block({tool, "D2", "M6"}) : block({tool, "M6"});  // a tool without a D gets a warning
+    }
     if (planes_ && chance(8)) {
       plane_ = number(0, 2);
       return block({"G" + std::to_string(17 + plane_)});

@@ -1,0 +1,94 @@
+#include "ir/passes/tool_lengths.h"
+
+#include <string>
+
+#include "ir/passes/blocks.h"
+#include "ir/passes/passes.h"
+
+namespace cnctrans::ir::passes {
+
+void BareTool::follow(const Block& block) {
+  bool changes = false;
+  for (const auto& a : block.actions) {
+    if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
+      given_ = false;
+      changes = changes || t->changes;
+    } else if (std::holds_alternative<ToolChange>(a.data)) {
+      changes = true;
+    }
+  }
+  for (const auto& a : block.actions) given_ = given_ || std::holds_alternative<ToolOffset>(a.data);
+  if (changes) waiting_ = true;
+  if (given_) waiting_ = false;
+}
+
+namespace {
+
+std::string bare_offset(const machine::Profile& machine) {
+  const std::string how = machine.option("tool.bare_offset");
+  if (how == "table") return "the offset that its tool table has for the tool";
+  return how == "edge" ? "the edge that the machine data name" : "the offset in force before, or none";
+}
+
+/// Warns once a program, where a tool without a D is used.
+void check_bare_tools(const Program& program, const LegaliseContext& context) {
+  bool said = false;
+  for (const auto& r : program.routines) {
+    BareTool tool;
+    Span change;
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (said || std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();
+      if (said || b == nullptr) return;
+      const bool before = tool.waiting();
+      tool.follow(*b);
+      if (!before && tool.waiting()) change = s.line.span;
+      if (!tool.waiting() || !has_motion(*b)) return;
+      said = true;
+      context.diagnostics.warning("TRN-522", change,
+                                  "a tool without a D: the source takes " + bare_offset(context.source_machine) +
+                                      ", the target " + bare_offset(context.target_machine) +
+                                      "; the tool may stand off by its length (said once a program)",
+                                  "write the D beside the T, D0 for no offset");
+    });
+  }
+}
+
+/// Warns once a program, at the first other plane.
+void check_planes(const Program& program, const LegaliseContext& context) {
+  const Plane usual = context.source_machine.power_on.plane;
+  bool said = false, offset = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || said) return;
+      for (const auto& a : b->actions) {
+        offset = offset || std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<ToolSelect>(a.data);
+        const auto* set = std::get_if<ModalSet>(&a.data);
+        if (said || !offset || set == nullptr || set->setting != Setting::plane ||
+            set->value == static_cast<std::uint8_t>(usual))
+          continue;
+        said = true;
+        const bool follows = context.target_machine.option("tool.length_axis") == "plane";
+        context.diagnostics.warning(
+            "TRN-523", word_span(s.line.span, a.pos),
+            follows
+                ? "another plane: the length of the tool stays along its axis on the source's machine, on the target's "
+                  "it goes to the axis across the plane (said once a program)"
+                : "another plane: the length of the tool goes to the axis across the plane on the source's machine, "
+                  "on the target's it stays along the axis of the tool (said once a program)",
+            "check along which axis the tool stands, and select its axis on the target");
+      }
+    });
+  }
+}
+
+}  // namespace
+
+void check_tool_lengths(Program& program, const LegaliseContext& context) {
+  if (program.dialect == context.target.dialect) return;
+  if (bare_offsets_differ(context.source_machine, context.target_machine)) check_bare_tools(program, context);
+  if (length_axes_differ(context.source_machine, context.target_machine)) check_planes(program, context);
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,35 @@
+// The length of a tool (equivalences 15): which offset a tool gets that comes without a D, and along which axis its
+// length lies in another plane.
+#pragma once
+
+#include "ir/block.h"
+#include "machine/profile.h"
+
+namespace cnctrans::ir::passes {
+
+/// The machines give other offsets to a tool without a D (option `tool.bare_offset`).
+inline bool bare_offsets_differ(const machine::Profile& source, const machine::Profile& target) {
+  return source.option("tool.bare_offset") != target.option("tool.bare_offset");
+}
+/// On mills the length follows the plane on one of the machines only (option `tool.length_axis`).
+inline bool length_axes_differ(const machine::Profile& source, const machine::Profile& target) {
+  return source.kind == machine::Kind::mill && source.option("tool.length_axis") != target.option("tool.length_axis");
+}
+
+/// Follows a program block by block: has the tool in the spindle come without a D?
+class BareTool {
+ public:
+  void follow(const Block& block);
+  /// The D may have been given where it can't be seen.
+  void forget() { waiting_ = false; }
+  /// No D has come since the change.
+  [[nodiscard]] bool waiting() const { return waiting_; }
+  /// A D has come since the last T.
+  [[nodiscard]] bool given() const { return given_; }
+
+ private:
+  bool given_ = false;    ///< a D since the last T
+  bool waiting_ = false;  ///< changed without one
+};
+
+}  // namespace cnctrans::ir::passes
