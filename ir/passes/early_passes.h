@@ -24,6 +24,8 @@ void restore_modals(Program& program, const LegaliseContext& context);
 
 /// A work offset that the program writes counts at once on some controls: others are told to select it again.
 void select_written_offsets(Program& program, const LegaliseContext& context);
+/// The other way round: a writing that counts from the next selection on stands right before it.
+void hold_written_offsets(Program& program, const LegaliseContext& context);
 /// Points of a contour that follow from its angles, tangency and intersections, written out.
 void solve_contours(Program& program, const LegaliseContext& context);
 /// Splines and polynomials as straight steps within the tolerance of the source's profile.

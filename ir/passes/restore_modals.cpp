@@ -183,7 +183,10 @@ class Restore {
       const bool back = std::holds_alternative<Return>(s.node) || (end != nullptr && end->returns_from_sub);
       Body pieces;
       if (back) written_back(s.line, changes, entry, facts_.before(s), pieces);
+      const bool of_its_own = !pieces.empty();  // not in the block of a move that the return stands in
+      const std::size_t at = out.size();
       editor.put(out, std::move(pieces), std::move(s));
+      if (of_its_own) out[at].line.joined = false;
     });
     if (std::holds_alternative<Return>(r.body.back().node) || std::holds_alternative<End>(r.body.back().node)) return;
     Body pieces;

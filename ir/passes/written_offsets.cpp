@@ -110,7 +110,10 @@ class Pass {
 }  // namespace
 
 void select_written_offsets(Program& program, const LegaliseContext& context) {
-  if (context.source_machine.option(option) != at_once || context.target_machine.option(option) == at_once) return;
+  const bool from_once = context.source_machine.option(option) == at_once;
+  const bool to_once = context.target_machine.option(option) == at_once;
+  if (to_once && !from_once) return hold_written_offsets(program, context);
+  if (to_once || !from_once) return;
   Pass pass(program, context);
   for (auto& r : program.routines) pass.routine(r);
 }
