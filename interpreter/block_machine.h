@@ -435,6 +435,8 @@ class BlockMachine final : public SystemData {
   const ir::Routine* routine_ = nullptr;
 
   std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
+  [[nodiscard]] double unit_of_written(const std::string& name) const;
+  std::set<std::string> written_in_mm_;  ///< of written_
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
   std::vector<Assumed> assumed_;
   Axes travelled_{};  ///< way of the axes since the start, or since the program set it

@@ -37,6 +37,9 @@ int frame_slot(std::span<const double> args) {
   const int n = args.size() == 3 ? saturate<int>(args[1]) - static_cast<int>(ir::setting_count) - 2 : -1;
   return n >= 0 && n <= static_cast<int>(ir::FrameSlot::chain) ? n : -1;
 }
+bool tool_length_unit(Datum d) {
+  return d == Datum::tool_radius || d == Datum::tool_length || d == Datum::tool_wear || d == Datum::tool_nose_width;
+}
 double value_of(const ir::ModalState& state, int setting) {
   if (setting == static_cast<int>(ir::setting_count)) return static_cast<double>(state.motion);
   if (setting == static_cast<int>(ir::setting_count) + 1) return state.work_offset;
@@ -46,6 +49,11 @@ double value_of(const ir::ModalState& state, int setting) {
 }
 
 }  // namespace
+
+/// A length that the program wrote is kept in mm, whatever unit is in force when it is read.
+double BlockMachine::unit_of_written(const std::string& name) const {
+  return written_in_mm_.contains(name) ? unit() : 1;
+}
 
 /// What the program wrote, what --set gave, what the profile says; a name with an index may be set without brackets.
 const double* BlockMachine::given_datum(const ir::SystemRef& ref, std::span<const double> args) const {
@@ -64,7 +72,7 @@ const double* BlockMachine::given_datum(const ir::SystemRef& ref, std::span<cons
 
 bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
   if (const double* given = given_datum(ref, args)) {
-    out = *given;
+    out = *given / unit_of_written(datum_key(ref, args));
     if (!unread_.empty()) {
       unread_.erase(datum_key(ref, args));
       if (!args.empty()) unread_.erase(ref.text + shortest(args[0]));
@@ -80,7 +88,7 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
     // Another name of the control may have written the same datum.
     const auto it = written_tools_.find({ref.datum, ref.axis, {args.begin(), args.end()}});
     if (it != written_tools_.end()) {
-      out = it->second;
+      out = it->second / (policy_.data_modal ? unit() : 1);
       return true;
     }
   }
@@ -439,7 +447,12 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
     travel_given_ |= 1U << ref.axis;
     return true;
   }
-  written_[datum_key(ref, args)] = v;
+  const std::string key = datum_key(ref, args);
+  if (policy_.data_modal && tool_length_unit(ref.datum)) {
+    v *= unit();
+    written_in_mm_.insert(key);
+  }
+  written_[key] = v;
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length)
     written_tools_[{ref.datum, ref.axis, {args.begin(), args.end()}}] = v;
   return true;

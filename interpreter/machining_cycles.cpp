@@ -73,7 +73,8 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
     const bool by_program = written != written_.end();
     if (!by_program && given == profile_.data.end()) continue;
     if (by_program) unread_.erase(name);
-    context.nose_width = (by_program ? written->second : given->second) * (policy_.data_modal ? unit() : 1);
+    context.nose_width = (by_program ? written->second : given->second) *
+                         (policy_.data_modal && !written_in_mm_.contains(name) ? unit() : 1);
     break;
   }
   std::optional<ir::cycles::TurnProfile> contour;

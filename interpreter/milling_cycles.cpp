@@ -25,13 +25,13 @@ double BlockMachine::tool_radius() {
     const double length = policy_.data_modal ? unit() : 1;
     if (const auto it = written_.find(name); it != written_.end()) {
       unread_.erase(name);
-      return it->second * length;
+      return it->second * (written_in_mm_.contains(name) ? 1 : length);
     }
     if (const auto it = profile_.data.find(name); it != profile_.data.end()) return it->second * length;
   }
   const std::vector<double> row{static_cast<double>(offset_)};
   const auto written = written_tools_.find({ir::Datum::tool_radius, ir::axis::none, row});
-  if (written != written_tools_.end()) return written->second * (policy_.data_modal ? unit() : 1);
+  if (written != written_tools_.end()) return written->second;
   const auto tool = std::find_if(profile_.tools.begin(), profile_.tools.end(),
                                  [number](const auto& t) { return t.number == number; });
   return tool == profile_.tools.end() ? 0 : tool->radius;

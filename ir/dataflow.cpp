@@ -107,7 +107,7 @@ class Analysis {
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
-      if (const auto* c = std::get_if<CycleDefine>(&a.data)) note_cycle(c->cycle);
+      if (const auto* c = std::get_if<CycleDefine>(&a.data); c != nullptr && c->modal) note_cycle(c->cycle);
     }
   }
 

@@ -206,8 +206,27 @@ class Transfer {
     if (m.kind != MotionKind::modal && m.keeps_modal) f_.motion = left_in_force(m.kind);
     const bool plain = ends_at_words(kind) && m.frame == FrameUse::normal;
     if (!plain && m.coords.empty() && kind != std::nullopt && !ends_at_words(kind)) return forget_positions();
+    const auto before = f_.position;
     for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);
     if (m.extra) extra(*m.extra, m);
+    if (m.extra && m.extra->has_line_angle && plain && b.repeat_given == 0) by_angle(*m.extra, m, before);
+  }
+
+  /// The other end of a line by its angle and one coordinate of the plane.
+  void by_angle(const MotionExtra& x, const Motion& m, const decltype(Facts::position)& before) {
+    const auto plane = setting(Setting::plane);
+    const auto angle = known(x.line_angle);
+    if (!plane || !angle || x.has_polar_radius || x.has_polar_angle || x.has_angle) return;
+    const PlaneAxes axes = plane_axes(static_cast<Plane>(*plane));
+    const bool first = has_word(m, axes.u);
+    if (first == has_word(m, axes.v)) return;
+    const AxisId given = first ? axes.u : axes.v, other = first ? axes.v : axes.u;
+    const auto from = before[given], to = f_.position[given], start = before[other];
+    if (!from || !to || !start) return;
+    const double radians = *angle * std::acos(-1.0) / 180;
+    const double along = first ? std::cos(radians) : std::sin(radians);
+    if (std::fabs(along) < 1e-9) return;
+    set_position(other, *start + (*to - *from) * (first ? std::sin(radians) : std::cos(radians)) / along);
   }
 
   static bool has_word(const Motion& m, AxisId id) {

@@ -383,7 +383,12 @@ void Writer::cycle_change(const ir::Action& a, const ir::HoleCycle& change) {
   add("G79", Rank::frame, a.pos);
   if (change.reference.given) add(word(axis_name(ir::plane_axes(*plane).w), now->reference, a.pos), Rank::center);
   const bool nothing = !change.reference.given && !depth && !count && !dwell;
-  bool other = false;
+  std::vector<std::pair<char, ir::Value>> ended;  // words that say nothing any more
+  for (const auto& [letter, v] : before->more) {
+    if (letter_of(*now, letter) == nullptr && (letter == 'D' || letter == 'R'))
+      ended.emplace_back(letter, ir::Value(letter == 'R' && before->code == "G69" ? 1 : 0));
+  }
+  bool other = !ended.empty();
   for (const auto& [letter, v] : now->more) {
     const auto* old = letter_of(*before, letter);
     other = other || old == nullptr || !ir::equal(*old, v);
@@ -393,6 +398,7 @@ void Writer::cycle_change(const ir::Action& a, const ir::HoleCycle& change) {
     const auto* old = letter_of(*before, letter);
     if (old == nullptr || !ir::equal(*old, v)) add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
   }
+  for (const auto& [letter, v] : ended) add(word(std::string(1, letter), v, a.pos), Rank::motion_extra);
   if (dwell || (nothing && !other && now->dwell)) add(word("K", *now->dwell, a.pos), Rank::motion_extra);
   if (count) add(word("J", *now->count, a.pos), Rank::motion_extra);
 }

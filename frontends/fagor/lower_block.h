@@ -77,6 +77,7 @@ class BlockLowerer {
   bool pocket_value(const Word& w, std::string_view parameter);
   void change_cycle(const GWord& g);
   void end_cycle();
+  bool change_further(const GWord& g, int code, ir::HoleCycle& c, bool& changed);
   bool change_pecks(ir::HoleCycle& c, bool& changed);
   bool change_equal_pecks(const GWord& g, const Word* i, const Word* j, ir::HoleCycle& c);
   bool cycle_parameters(const GWord& g, const std::array<const Word*, 26>& words, ir::HoleCycle& c);

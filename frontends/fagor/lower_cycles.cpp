@@ -188,6 +188,12 @@ void BlockLowerer::change_cycle(const GWord& g) {
   bool more = false;
   if (code == 69 && !change_pecks(c, more)) return;
   if (pocket && !change_pocket(code, c, more)) return;
+  if (i) c.bottom.value = value(*i);
+  if (z) {
+    c.reference.value = value(*z);
+    c.reference.base = ir::LevelBase::distance_mode;
+  }
+  if (!change_further(g, code, c, more)) return;
   if (coord_count_ != 0) {
     state_.error("FAG-014", g.word->pos, "G79 takes no point (error 163)");
     return;
@@ -199,14 +205,9 @@ void BlockLowerer::change_cycle(const GWord& g) {
       state_.error("FAG-014", g.word->pos, "G79 needs a parameter of the cycle (error 71)");
     return;
   }
-  if (z) {
-    c.reference.value = value(*z);
-    c.reference.base = ir::LevelBase::distance_mode;
-  }
   if (code == 83) {
+    c.bottom.value = state_.cycle_by_text->bottom.value;
     if (!change_equal_pecks(g, i, j, c)) return;
-  } else if (i) {
-    c.bottom.value = value(*i);
   }
   state_.cycle_by_text = std::make_shared<const ir::HoleCycle>(c);
   c.keeps_initial = true;
@@ -218,6 +219,41 @@ void BlockLowerer::change_cycle(const GWord& g) {
   act(std::move(define), g.word);
 }
 
+/// R of G69 and G84, D of G69 and the pockets; they are no polar radius and no tool offset here (25.2).
+bool BlockLowerer::change_further(const GWord& g, int code, ir::HoleCycle& c, bool& changed) {
+  for (const char kept : letters_of(code).kept) {
+    if (letter(kept) == nullptr) continue;
+    keep(g, "cycle.hole", std::string("the change of the word ") + kept + " of this cycle is kept as text");
+    return false;
+  }
+  if (radius_count_ != 0 && (code == 69 || code == 84)) {
+    const Word& r = *radii_[0];
+    radii_taken_ = 1;
+    changed = true;
+    const bool neutral = r.expr < 0 && (r.number == 0 || r.number == (code == 69 ? 1 : 0));
+    if (code == 69) {
+      c.pecks.law = neutral ? ir::PeckLaw::constant : ir::PeckLaw::geometric;
+      c.pecks.degression = neutral ? ir::Value{} : value(r);
+      c.pecks.minimum = neutral ? ir::Value{} : state_.cycle_minimum_by_text;
+    } else if (r.expr >= 0 || (r.number != 0 && r.number != 1)) {
+      keep(g, "cycle.hole", "another R than 0 or 1 of G84 is kept as text");
+      return false;
+    } else {
+      c.kind = neutral ? ir::HoleKind::tap_floating : ir::HoleKind::tap;
+      c.rigid = !neutral;
+    }
+  }
+  if (code != 69 && facts::find_milling(code) == nullptr) return true;
+  const Word* d = take('D');
+  if (d == nullptr) return true;
+  changed = true;
+  c.surface = {};
+  const bool none = d->expr < 0 && d->number == 0;
+  if (!none) surface_below(g, *d, c);
+  if (code == 69) c.pecks.first_from_surface = !none;
+  return true;
+}
+
 /// B C L of G69.
 bool BlockLowerer::change_pecks(ir::HoleCycle& c, bool& changed) {
   for (const char letter : std::string_view("BCL")) {
@@ -227,6 +263,11 @@ bool BlockLowerer::change_pecks(ir::HoleCycle& c, bool& changed) {
     if (letter != 'L' && w->expr < 0 && w->number <= 0) {
       state_.error("FAG-013", w->pos, std::string("the ") + letter + " of G69 must be greater than zero (error 1042)");
       return false;
+    }
+    if (letter == 'L') state_.cycle_minimum_by_text = value(*w);
+    if (letter == 'L' && c.pecks.law != ir::PeckLaw::geometric) {  // counts with R only
+      changed = true;
+      continue;
     }
     (letter == 'B' ? c.pecks.first : letter == 'C' ? c.pecks.reapproach : c.pecks.minimum) = value(*w);
     changed = true;
@@ -312,6 +353,7 @@ bool BlockLowerer::variable_pecks(const GWord& g, const std::array<const Word*, 
     }
   }
   c.kind = ir::HoleKind::peck_full;
+  state_.cycle_minimum_by_text = word('L') ? value(*word('L')) : ir::Value{};
   c.pecks.law = ir::PeckLaw::constant;
   c.pecks.first = value(*word('B'));
   if (const Word* r = word('R'); r && (r->expr >= 0 || (r->number != 0 && r->number != 1))) {

@@ -132,6 +132,7 @@ class LowerState {
   bool plane_changed = false;                          ///< another plane since the last move in the plane
   std::string attributes;                              ///< of the header; empty: a file without one
   std::shared_ptr<const ir::HoleCycle> cycle_by_text;  ///< the hole cycle in force
+  ir::Value cycle_minimum_by_text;                     ///< L of G69, which counts with R only
   int cycle_code_by_text = 0;                          ///< its G number
   FileFacts facts;
 
