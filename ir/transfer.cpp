@@ -55,7 +55,11 @@ class Transfer {
     auto& setting = f_.settings[static_cast<std::size_t>(x.setting)];
     const auto before = setting;
     setting = x.value;
-    if (before == x.value) return;
+    if (before == x.value) {
+      // Inches may hold for lengths alone or for F too: the same number may be another feed now.
+      if (x.setting == Setting::units && static_cast<Units>(x.value) == Units::inch) f_.feed.reset();
+      return;
+    }
     if (x.setting == Setting::units) {
       if (before)
         scale_positions(static_cast<Units>(x.value) == Units::inch ? 1 / 25.4 : 25.4);

@@ -3,42 +3,81 @@
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
 
-class UnitPass {
+/// A domain of FlowStates: whether the unit in force holds for F too.
+class FeedUnits {
  public:
-  UnitPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
-
-  void block(Statement& s, Block& b) {
-    for (auto& a : b.actions) {
-      auto* m = std::get_if<ModalSet>(&a.data);
+  struct State {
+    std::optional<bool> feed_too;
+  };
+  explicit FeedUnits(bool at_power_on) : at_power_on_(at_power_on) {}
+  [[nodiscard]] State start(const Routine&, bool) const { return {at_power_on_}; }
+  static void transfer(const Statement& s, State& state) {
+    const auto* b = std::get_if<Block>(&s.node);
+    for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+      const auto* m = std::get_if<ModalSet>(&b->actions[i].data);
       if (m == nullptr || m->setting != Setting::units) continue;
-      const bool legal = m->feed_too ? context_.target.units_with_feed : context_.target.units_geometry_only;
-      last_feed_too_ = m->feed_too;
-      if (legal) {
-        convert_ = false;
-        continue;
-      }
-      convert_ = true;
-      source_feed_too_ = m->feed_too;
-      m->feed_too = !m->feed_too;
-      a.text = {};
+      state.feed_too =
+          s.line.skip_mask == 0 || state.feed_too == m->feed_too ? std::optional(m->feed_too) : std::nullopt;
     }
-    if (convert_) feeds(s, b);
+  }
+  static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      State before{true}, after{false};
+      transfer(s, before);
+      transfer(s, after);
+      found = found || before.feed_too == after.feed_too;
+    });
+    return found;
+  }
+  static void unknown(State& state) { state.feed_too.reset(); }
+  static bool join(State& a, const State& b) {
+    if (!a.feed_too || a.feed_too == b.feed_too) return false;
+    a.feed_too.reset();
+    return true;
   }
 
  private:
-  void feeds(Statement& s, Block& b) {
+  bool at_power_on_;
+};
+
+class UnitPass {
+ public:
+  UnitPass(const LegaliseContext& context, const FactsOf& facts, const FlowStates<FeedUnits>& units)
+      : context_(context), facts_(facts), units_(units) {}
+
+  void block(Statement& s, Block& b) {
+    const auto* state = units_.before(s);
+    std::optional<bool> feed_too = state != nullptr ? state->feed_too : std::nullopt;
+    for (auto& a : b.actions) {
+      auto* m = std::get_if<ModalSet>(&a.data);
+      if (m == nullptr || m->setting != Setting::units) continue;
+      feed_too = m->feed_too;
+      if (legal(m->feed_too)) continue;
+      m->feed_too = !m->feed_too;
+      a.text = {};
+    }
+    if (state != nullptr && (!feed_too || !legal(*feed_too))) feeds(s, b, feed_too);
+  }
+
+ private:
+  [[nodiscard]] bool legal(bool feed_too) const {
+    return feed_too ? context_.target.units_with_feed : context_.target.units_geometry_only;
+  }
+  void feeds(Statement& s, Block& b, std::optional<bool> feed_too) {
     const auto units = setting_in<Units>(b, facts_.before(s), Setting::units);
     if (units == Units::metric) return;
     for (auto& a : b.actions) {
       auto* f = std::get_if<SetFeed>(&a.data);
       if (f == nullptr) continue;
-      if (!units) {
+      if (!units || !feed_too) {
         context_.diagnostics.error(
             "TRN-171", word_span(s.line.span, a.pos),
             "the unit in force is not known here, and the unit of F differs between the controls",
@@ -47,14 +86,14 @@ class UnitPass {
       }
       const auto mode = setting_in<FeedMode>(b, facts_.before(s), Setting::feed_mode);
       if (mode == FeedMode::inverse_time) continue;
-      f->value = ir::scale(f->value, source_feed_too_ ? 25.4 : 1 / 25.4);  // F in mm where the switch leaves it alone
+      f->value = ir::scale(f->value, *feed_too ? 25.4 : 1 / 25.4);  // F in mm where the switch leaves it alone
       a.text = {};
     }
   }
 
   const LegaliseContext& context_;
   const FactsOf& facts_;
-  bool convert_ = false, source_feed_too_ = true, last_feed_too_ = true;
+  const FlowStates<FeedUnits>& units_;
 };
 
 bool has_illegal_switch(const Program& program, const Capabilities& target) {
@@ -104,8 +143,10 @@ void convert_units(Program& program, const LegaliseContext& context) {
   machine_moves(program, context);
   if (!has_illegal_switch(program, context.target)) return;
   const FactsOf facts(program, context);
+  const FeedUnits domain(context.source_machine.power_on.units_feed_too);
+  const FlowStates<FeedUnits> units(program, domain);
+  UnitPass pass(context, facts, units);
   for (auto& r : program.routines) {
-    UnitPass pass(context, facts);
     for_each_statement(r.body, [&pass](Statement& s) {
       if (auto* b = std::get_if<Block>(&s.node)) pass.block(s, *b);
     });

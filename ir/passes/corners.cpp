@@ -105,6 +105,7 @@ class CornerPass {
     }
     const Statement* next = following(body, at);
     if (next == nullptr || !contour(*next) || plane_at(s) != plane_at(*next)) return std::nullopt;
+    if (cycle_before(body, at, *next)) return std::nullopt;
     if (along_one_axis(s, *next)) return std::nullopt;
     if (const auto angle = angle_at(body, at); angle && *angle < 1e-4) return std::nullopt;  // the path turns back
     Action a;
@@ -114,6 +115,18 @@ class CornerPass {
     a.order = Order::before;
     block->actions.push_back(std::move(a));
     return single(body, at, block->actions.size() - 1);
+  }
+
+  /// A cycle runs before the next element: the contour ends there.
+  static bool cycle_before(const Body& body, std::size_t at, const Statement& next) {
+    for (std::size_t j = at + 1; j < body.size(); ++j) {
+      const auto* b = std::get_if<Block>(&body[j].node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        if (std::holds_alternative<CycleDefine>(b->actions[i].data)) return true;
+      }
+      if (&body[j] == &next) return false;
+    }
+    return false;
   }
 
   /// Two lines along the same axis: straight on or back, and nothing to insert in either case.

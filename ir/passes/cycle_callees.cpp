@@ -7,13 +7,14 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-/// Something in the routine could be a point of the cycle.
+/// Something in the routine could be a point of the cycle, or runs another one.
 bool moves_anywhere(const Body& body) {
   bool found = false;
   for_each_statement(body, [&found](const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);
-    found = found || (b != nullptr && (b->has_motion || pattern_in(*b) != nullptr)) ||
-            std::holds_alternative<CallRoutine>(s.node);
+    found = found || (b != nullptr && b->has_motion) || std::holds_alternative<CallRoutine>(s.node);
+    for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i)
+      found = found || std::holds_alternative<CycleDefine>(b->actions[i].data);
   });
   return found;
 }

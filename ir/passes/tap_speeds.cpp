@@ -1,5 +1,6 @@
 // Taps that orient and turn the spindle by themselves (a speed of their own, a sense behind them), for targets whose
 // taps take the spindle as it runs: speed and sense are said before the tap, and what it leaves behind it.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -140,17 +141,33 @@ class TapSpeeds {
         if (uses_.is_target(l)) return false;
       }
       if (const auto* m = std::get_if<ModalCall>(&s.node)) return m->off && s.line.skip_mask == 0;
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr && !ToolHeight::keeps(s)) return false;
-      if (b != nullptr && b->motion.kind != MotionKind::modal && b->motion.kind != MotionKind::rapid) return false;
-      for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
-        const auto& a = b->actions[k].data;
-        if (std::holds_alternative<SetSpindle>(a) || std::holds_alternative<SpindleRun>(a) ||
-            std::holds_alternative<SetFeed>(a))
-          return false;
+      if (const auto* call = std::get_if<CallRoutine>(&s.node)) {
+        if (!calls_points(*call)) return false;
+        continue;
       }
+      if (!point(s)) return false;
     }
     return false;
+  }
+  static bool point(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return ToolHeight::keeps(s);
+    if (b->motion.kind != MotionKind::modal && b->motion.kind != MotionKind::rapid) return false;
+    return std::none_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+      return std::holds_alternative<SetSpindle>(a.data) || std::holds_alternative<SpindleRun>(a.data) ||
+             std::holds_alternative<SetFeed>(a.data);
+    });
+  }
+  /// A subprogram that has nothing but points, in a row.
+  bool calls_points(const CallRoutine& call) const {
+    if (call.computed || call.has_range || call.tail || call.optional) return false;
+    const auto& all = editor_.program.routines;
+    const auto r = std::find_if(all.begin(), all.end(), [&call](const Routine& x) { return x.name == call.routine; });
+    if (r == all.end() || r->kind == RoutineKind::main) return false;
+    return std::all_of(r->body.begin(), r->body.end(), [](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      return std::holds_alternative<Return>(s.node) || (m == nullptr && point(s));
+    });
   }
   void tell(const LineInfo& where, double out) const {
     context_.diagnostics.warning("TRN-422", where.span,
