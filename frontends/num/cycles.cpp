@@ -1,4 +1,5 @@
 // Hole cycles G81..G89 (reference 11).
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -6,6 +7,7 @@
 #include "dialects/num/limits.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/lower.h"
+#include "ir/passes/rewrite.h"
 
 namespace cnctrans::frontends::num {
 
@@ -33,6 +35,8 @@ void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cy
   ir::Action& action = act(at, Step::special, std::move(define));
   if (&at != marks_.cycle) action.text = {};
   state_.cycle = std::move(cycle);
+  state_.cycle_inch = state_.inch;
+  state_.cycle_stale.clear();
 }
 
 /// Words that all cycles share, into `cycle`; what is not given stays.
@@ -234,9 +238,53 @@ bool Lowering::refuses_new_depth() {
   return false;
 }
 
+namespace {
+
+/// The words of a cycle in another unit.
+void rescale(ir::HoleCycle& cycle, double factor) {
+  for (ir::Value* v : {&cycle.retract.value, &cycle.reference.value, &cycle.bottom.value, &cycle.pecks.first,
+                       &cycle.pecks.minimum, &cycle.pecks.reapproach, &cycle.shift_u, &cycle.shift_v, &cycle.pitch}) {
+    if (v->is(0)) continue;
+    *v = v->literal() ? ir::Value(std::round(v->number * factor * 1e12) / 1e12) : ir::scale(*v, factor);
+  }
+}
+
+}  // namespace
+
+/// The words that a block with ER, EH, P .. leaves alone keep their values: they are read when the cycle is defined.
+bool Lowering::refuses_stale_words(const ir::HoleCycle& before, const Word& at) {
+  const bool plane = has(e('R')), impact = has(e('H')) || (plane && !state_.cycle_has_impact_plane);
+  const bool pecks = has(letter('P')) || has(letter('Q')) || has(e('S'));
+  const std::pair<const ir::Value*, bool> words[] = {
+      {&before.bottom.value, false},       {&before.retract.value, plane},     {&before.reference.value, impact},
+      {&before.pecks.first, pecks},        {&before.pecks.minimum, pecks},     {&before.pecks.reapproach, has(e('P'))},
+      {&before.dwell_bottom, has(e('F'))}, {&before.pecks.dwell, has(e('F'))}, {&before.orient_angle, false}};
+  for (const auto& [word, anew] : words) {
+    if (anew || word->literal()) continue;
+    const auto& changed = state_.cycle_stale;
+    if (std::none_of(changed.begin(), changed.end(),
+                     [w = word](const auto& v) { return ir::passes::reads(w->expr, v); }))
+      continue;
+    report_.refuse("NUM-026", at.pos,
+                   "the other words of the cycle keep the values of its definition, and a variable that they read has "
+                   "changed since",
+                   "write the cycle again");
+    return true;
+  }
+  return false;
+}
+
+void Lowering::note_assigned(const std::vector<ir::Assign::Item>& items) {
+  if (!state_.cycle) return;
+  for (const auto& item : items) {
+    if (!item.to_system) state_.cycle_stale.push_back(item.target);
+  }
+}
+
 /// ER, EH, P, Q ... while a cycle is active.
 void Lowering::change_cycle() {
   ir::HoleCycle cycle = *state_.cycle;
+  if (state_.cycle_inch != state_.inch) rescale(cycle, state_.cycle_inch ? 25.4 : 1 / 25.4);
   const Word* at = nullptr;
   for (const int s : {e('R'), e('H'), e('F'), e('P'), e('S'), letter('P'), letter('Q')}) {
     if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
@@ -247,6 +295,7 @@ void Lowering::change_cycle() {
                    "write the cycle again");
     return;
   }
+  if (refuses_stale_words(cycle, *at)) return;
   const bool plane_given = has(e('R'));
   const bool to_plane = plane_given && out_->motion.coords.empty();
   if (!cycle_words(cycle, state_.cycle_code)) return;

@@ -75,6 +75,7 @@ bool FileReader::assignments() {
                   "write the shift in a block of its own", "language.system_variable");
   }
   if (report.refused()) return false;
+  lower_.note_assigned(assign.items);
   if (!assign.items.empty()) put_node(std::move(assign));
   if (!shifts.empty()) put_shift(std::move(shifts));
   if (text != nullptr) message(*text);

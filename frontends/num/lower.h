@@ -30,6 +30,8 @@ struct TextState {
   std::shared_ptr<const ir::HoleCycle> cycle;  ///< the hole cycle in force
   int cycle_code = 0;                          ///< its G number
   bool cycle_has_impact_plane = false;         ///< EH was given: the plane stays when ER changes (11.1)
+  bool cycle_inch = false;                     ///< the unit of its words
+  std::vector<ir::VarRef> cycle_stale;         ///< variables written since its definition
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
   bool contour_open = false;                   ///< the last element's end follows from the next one
   bool inch = false;                           ///< G70
@@ -89,6 +91,8 @@ class Lowering {
   [[nodiscard]] Report& report() { return report_; }
   [[nodiscard]] Expressions& expressions() { return expressions_; }
   [[nodiscard]] TextState& state() { return state_; }
+  /// Variables are written while a hole cycle may be in force.
+  void note_assigned(const std::vector<ir::Assign::Item>& items);
   [[nodiscard]] const Settings& settings() const { return settings_; }
 
  private:
@@ -160,6 +164,7 @@ class Lowering {
   bool pocket_levels(ir::HoleCycle& cycle);
   [[nodiscard]] bool moves_cycle_axis() const;
   bool refuses_new_depth();
+  bool refuses_stale_words(const ir::HoleCycle& before, const Word& at);
   bool cycle_words(ir::HoleCycle& cycle, int number);
   bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);
   void oriented_clearance(ir::HoleCycle& cycle);

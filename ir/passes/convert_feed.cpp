@@ -22,25 +22,30 @@ class FeedPass {
     const auto* before = b != nullptr ? states_.before(s) : nullptr;
     if (before == nullptr) return;
     const Facts& facts = facts_.before(s);
-    if (!FeedDomain::cuts(*b, facts)) return;
+    const auto point = FeedDomain::cuts(*b, facts) ? FeedPoint::none : domain_.point(*b, facts);
+    const bool cuts = point == FeedPoint::none;
+    if (cuts && !FeedDomain::cuts(*b, facts)) return;
     FeedState now = *before;
     domain_.settle(*b, facts, now);
     const auto mode = setting_in<std::uint8_t>(*b, facts, Setting::feed_mode);
-    bool same = true, none = false;
+    bool same = true, none = false, differs = false;
     std::optional<double> value;
     for (std::size_t i = 0; i < now.slots.size(); ++i) {
       if (mode && *mode != i) continue;
       same = same && now.slots[i].same;
       none = none || now.slots[i].maybe_none;
+      differs = differs || (!now.slots[i].same && !now.slots[i].maybe_none);
       value = mode ? now.slots[i].value : std::nullopt;
     }
+    if (!cuts && !differs) return;
     if (none && !motion_in(*b, facts) && context_.diagnostics.error_count() != 0) return;  // a refused block before it
-    if (none) return no_feed(s, value.has_value());
+    if (none && !differs) return no_feed(s, value.has_value());
     if (same) return;
     if (value) {
       b->actions.insert(b->actions.begin(), action(SetFeed{Value{*value}, false}));
       return;
     }
+    if (point == FeedPoint::perhaps) return;
     context_.diagnostics.error(
         "TRN-158", s.line.span,
         mode == static_cast<std::uint8_t>(FeedMode::inverse_time)
@@ -86,7 +91,7 @@ void drop_implied(Block& b, const Facts& before) {
 void convert_feed(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect && !program.dialect.empty()) return;
   const FactsOf facts(program, context);
-  const FeedDomain domain(context, facts, true);
+  const FeedDomain domain(program, context, facts, true);
   const FlowStates<FeedDomain> states(program, domain);
   FeedPass pass(context, facts, domain, states);
   for (auto& r : program.routines) {

@@ -7,6 +7,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/polar_radius.h"
 #include "ir/passes/polar_words.h"
 #include "ir/passes/words.h"
 
@@ -23,6 +24,7 @@ class PolePass {
     target_stays_ = context.target_machine.option("polar.pole_stays") == "yes";
     stays_ = context.source_machine.option("polar.pole_stays") == "yes";
     radius_stays_ = context.source_machine.option("polar.radius") == "programmed";
+    target_radius_stays_ = context.target.polar && context.target_machine.option("polar.radius") == "programmed";
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
   }
 
@@ -59,7 +61,8 @@ class PolePass {
     return true;
   }
 
-  void routine(Routine& r, const FlowStates<PolePass>& states) {
+  void routine(Routine& r, const FlowStates<PolePass>& states, const FlowStates<RadiusDomain>& radii) {
+    radii_ = &radii;
     uses_ = label_uses(program_, r);
     states_ = &states;
     forget_point();
@@ -76,15 +79,10 @@ class PolePass {
            std::any_of(b->actions.begin(), b->actions.end(), [this](const Action& a) {
              const auto* m = std::get_if<ModalSet>(&a.data);
              return std::holds_alternative<PoleSet>(a.data) || (zero_counts() && moves_zero(a)) ||
-                    (m != nullptr && m->setting == Setting::plane);
+                    (m != nullptr && (m->setting == Setting::plane || m->setting == Setting::units));
            });
   }
   bool zero_counts() const { return stays_ != target_stays_; }
-  static bool moves_zero(const Action& a) {
-    const auto* f = std::get_if<FrameOp>(&a.data);
-    return std::holds_alternative<WorkOffset>(a.data) ||
-           (f != nullptr && f->change && f->change->kind == FrameKind::translate);
-  }
   void forget_point() {
     at_.reset();
     radius_.reset();
@@ -131,6 +129,8 @@ class PolePass {
         if (!plane_code(actions)) problem = "where the pole of the polar words behind this plane function lies";
         continue;
       }
+      if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::units)
+        in_other_units(setting<Units>(facts, Setting::units), static_cast<Units>(m->value));
       if (zero_counts() && moves_zero(a) && pole_ && pole_->set) pole_->stale = true;
       if (const auto* p = std::get_if<PoleSet>(&a.data)) {
         place = a.pos;
@@ -149,19 +149,25 @@ class PolePass {
     const bool about = is_polar_line(b, facts) || (polar_arc_done_ && b.motion.centers.empty());
     const auto whole = factors(b, facts, Distance::absolute);
     if (about && pole_ && pole_->stale && !stays_ && whole) {  // the target's stayed behind
-      if (context_.target.polar) b.actions.push_back(action(PoleSet{absolute(*pole_, whole->u, whole->v)}));
+      if (context_.target.polar) b.actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, whole->u, whole->v)}));
       pole_->stale = false;
     } else if (about && pole_ && pole_->stale)
       problem = "the pole, which stays in its place when the zero point moves,";
     if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts))
       problem = "the start or the centre of this arc by polar words";
     if (is_polar_line(b, facts)) {
+      const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
+      say_radius_ = step != nullptr && !step->same;
       const bool takes_over = radius_stays_ && !b.motion.extra->has_polar_radius && !radius_;
       if (takes_over && problem.empty()) problem = "the radius that these polar words take over";
       const bool done = polar_words(b, facts);
+      if (problem.empty() && !done && say_radius_ && !says_radius(b, facts))
+        problem = "the distance from the pole that these polar words keep";
       if (problem.empty() && !done && !stays_polar(b))
         problem = "the pole of these polar words, or the point before them,";
     } else if (!polar_arc_done_) {
+      const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
+      if (step != nullptr && !step->same && angle_alone(b)) problem = "the distance from the pole of this arc's end";
       follow_point(b, facts);
     }
     settle(s);
@@ -172,6 +178,17 @@ class PolePass {
       return;
     }
     if (follows_arc_ && b.has_motion && !b.motion.centers.empty()) pole_.reset();
+  }
+
+  /// What is kept is counted in the unit of the program.
+  void in_other_units(std::optional<Units> before, Units now) {
+    if (before == now) return;
+    const double factor = now == Units::inch ? 1 / 25.4 : 25.4;
+    if (!before) pole_.reset();
+    if (pole_) pole_->u = clean(pole_->u * factor), pole_->v = clean(pole_->v * factor);
+    if (!before || (radius_ && !radius_->literal())) return forget_point();
+    if (at_) at_ = Point2{clean(at_->u * factor), clean(at_->v * factor)};
+    if (radius_) radius_ = Value{clean(radius_->number * factor)};
   }
 
   /// The point of the polar words over a block without such words: moves along other axes leave it where it is.
@@ -214,23 +231,16 @@ class PolePass {
     if (!context_.target.polar) return true;
     if (source_resets_ == target_resets_ || at_zero) return true;
     if (!pole_) return false;
-    actions.push_back(action(PoleSet{absolute(*pole_, 1, 1)}));
+    actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, 1, 1)}));
     return true;
-  }
-
-  std::shared_ptr<const FrameChange> absolute(Point2 at, double fu, double fv) const {
-    const PlaneAxes axes = plane_axes(*plane_);
-    auto change = std::make_shared<FrameChange>();
-    change->words.push_back({axes.u, Value{at.u / fu}, WordScale::modal, {}});
-    change->words.push_back({axes.v, Value{at.v / fv}, WordScale::modal, {}});
-    return change;
   }
 
   /// False: not known.
   bool pole_set(const PoleSet& p, Action& a, const Block& b, const Facts& facts) {
     const bool relative = p.at && (p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose);
     const bool from_last = relative && p.at->combine == FrameCombine::add;
-    const auto at = place_of(p, b, facts, from_last ? std::optional<Point2>(pole_) : here(facts));
+    const auto base = from_last ? std::optional<Point2>(pole_) : here(facts);
+    const auto at = plane_ ? place_of(p, *plane_, base, pole_, b, facts, context_.source_machine) : std::nullopt;
     pole_ = at ? State(Pole{*at, true}) : std::nullopt;
     if (!relative) return true;
     bool zero = true;
@@ -239,7 +249,7 @@ class PolePass {
     if (!from_last && zero) {
       a.data = PoleSet{};
     } else if (pole_ && f) {
-      a.data = PoleSet{absolute(*pole_, f->u, f->v)};
+      a.data = PoleSet{pole_words(*plane_, *pole_, f->u, f->v)};
     } else {
       return false;
     }
@@ -261,31 +271,6 @@ class PolePass {
     const PlaneAxes axes = plane_axes(*plane_);
     const auto u = to_radius(axes.u, WordScale::modal, d, b, facts, context_.source_machine);
     const auto v = to_radius(axes.v, WordScale::modal, d, b, facts, context_.source_machine);
-    if (!u || !v) return std::nullopt;
-    return Point2{*u, *v};
-  }
-
-  std::optional<Point2> place_of(const PoleSet& p, const Block& b, const Facts& facts,
-                                 std::optional<Point2> base) const {
-    if (!plane_) return std::nullopt;
-    if (!p.at) return base;
-    const bool relative = p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose;
-    if (!relative && p.at->words.empty()) base = Point2{};
-    if (!relative && !p.at->words.empty()) base = pole_;
-    const PlaneAxes axes = plane_axes(*plane_);
-    std::optional<double> u, v;
-    if (base) u = base->u, v = base->v;
-    for (const auto& w : p.at->words) {
-      auto* slot = w.axis == axes.u ? &u : w.axis == axes.v ? &v : nullptr;
-      if (slot == nullptr) continue;
-      const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, b, facts,
-                               context_.source_machine);
-      if (!w.value.literal() || !f || (relative && !*slot)) {
-        slot->reset();
-        continue;
-      }
-      *slot = w.value.number * *f + (relative ? **slot : 0);
-    }
     if (!u || !v) return std::nullopt;
     return Point2{*u, *v};
   }
@@ -398,6 +383,17 @@ class PolePass {
       u = around(r, q, Function::cos, pole_->u, f->u);
       v = around(r, q, Function::sin, pole_->v, f->v);
     }
+    if (stays_polar(b) && say_radius_ && !says_radius(b, facts)) {  // the target would take its last one
+      x.has_polar_radius = true;
+      x.polar_radius = r;
+      if (adds) {
+        x.has_polar_angle = true;
+        x.polar_angle = q;
+        x.polar_mode = WordMode::absolute;
+      }
+      b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
+      return true;
+    }
     if (stays_polar(b)) {  // only followed
       if (modal || context_.target.distance_per_word || distance != Distance::absolute) return true;
       x.has_polar_radius = x.has_polar_angle = true;
@@ -480,11 +476,13 @@ class PolePass {
   std::optional<Point2> at_;             ///< where polar words have led, when the dataflow does not know it
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
+  const FlowStates<RadiusDomain>* radii_ = nullptr;
+  bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
   bool polar_arc_done_ = false;
   bool quiet_ = false;  ///< only following
   std::optional<Plane> plane_;
   bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false, target_stays_ = false,
-       radius_stays_ = false;
+       radius_stays_ = false, target_radius_stays_ = false;
 };
 
 }  // namespace
@@ -494,7 +492,9 @@ void convert_poles(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   PolePass pass(program, context, facts);
   const FlowStates<PolePass> states(program, pass);
-  for (auto& r : program.routines) pass.routine(r, states);
+  const RadiusDomain radius(facts);
+  const FlowStates<RadiusDomain> radii(program, radius);
+  for (auto& r : program.routines) pass.routine(r, states, radii);
 }
 
 }  // namespace cnctrans::ir::passes

@@ -56,8 +56,9 @@ void each_word(const CyclePtr& cycle, const std::function<void(const ExprPtr&)>&
       changed);
 }
 
-/// Every call has variables of its own there.
-bool local(const Program& program, const VarRef& v) {
+}  // namespace
+
+bool local_variable(const Program& program, const VarRef& v) {
   if (v.space >= program.spaces.size()) return true;
   const auto& space = program.spaces[v.space];
   if (space.named()) return space.scope != Scope::global;
@@ -65,24 +66,6 @@ bool local(const Program& program, const VarRef& v) {
   return std::any_of(space.segments.begin(), space.segments.end(), [&](const SpaceSegment& part) {
     return (!n || (*n >= part.lo && *n <= part.hi)) && part.scope != Scope::global;
   });
-}
-
-}  // namespace
-
-/// The words of the cycle are read at each of its points, or at the first: they must be what they were.
-void CyclePass::check_words(const Statement& s) {
-  if (!active_ || (active_->native && active_->on_target)) return;
-  const auto written = [&](const VarRef& v) {
-    bool reads_it = false;
-    each_word(active_->source, [&](const ExprPtr& e) { reads_it = reads_it || reads(e, v); });
-    if (!reads_it) return;
-    context_.diagnostics.error(
-        "TRN-330", s.line.span,
-        "a variable that the words of the active cycle read is changed, and the cycle is written "
-        "behind that place",
-        "end the cycle before the change");
-  };
-  each_target(s, written);
 }
 
 std::optional<std::size_t> CyclePass::callee_of(const CallRoutine& call) const {
@@ -110,7 +93,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
   bool own = false;
   each_word(active_->source, [&](const ExprPtr& e) {
     map_expr(e, [&](const ExprPtr& n) {
-      if (const auto* v = as_variable(n)) own = own || local(program_, *v);
+      if (const auto* v = as_variable(n)) own = own || local_variable(program_, *v);
       return n;
     });
   });

@@ -56,4 +56,60 @@ std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active&
   return std::nullopt;
 }
 
+bool CyclePass::rises_first(const Active& a, const Block& b, const Facts& facts) const {
+  const auto* hole = a.native ? std::get_if<HoleCycle>(&a.native->node) : nullptr;
+  if (hole == nullptr || context_.target_machine.option("cycle.below_reference") != "refused") return false;
+  if (!hole->reference.given || hole->reference.base != LevelBase::absolute || comes_in_two_moves(a.native, context_))
+    return false;
+  const auto height = in_units(a.height, b, facts);
+  if (!hole->reference.value.literal()) return old_may_run(facts);  // another cycle left the tool somewhere
+  if (!height) return false;
+  const double reference = hole->reference.value.number;
+  const bool upward =
+      hole->bottom.value.literal() && hole->bottom.base == LevelBase::absolute && hole->bottom.value.number > reference;
+  return !upward && reference - *height > 1e-9;
+}
+
+void CyclePass::rise_and_define(Statement&& s, const Active& a, bool modal, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
+  const auto& hole = std::get<HoleCycle>(a.native->node);
+  const LineInfo like = s.line;
+  if (old_may_run(facts)) pieces.push_back(off_statement(like, false));
+  position_rapid(b, context_);
+  const auto late = take_after(b);
+  late_.insert(late_.end(), late.begin(), late.end());
+  Block up;
+  up.has_motion = true;
+  up.motion.kind = MotionKind::rapid;
+  up.motion.explicit_code = true;
+  up.motion.keeps_modal = false;
+  CoordWord z;
+  z.axis = cycle_axis(hole, b, facts).value_or(axis::z);
+  z.mode = WordMode::absolute;
+  z.value = hole.reference.value;
+  z.value.text = {};
+  up.motion.coords.push_back(z);
+  const bool apart = levels_by_mode(a.native, b, facts);
+  const std::size_t main = pieces.size();
+  if (b.empty()) {
+    s.node = std::move(up);
+    pieces.push_back(std::move(s));
+  } else {
+    pieces.push_back(std::move(s));
+    pieces.push_back(made(like, std::move(up)));
+  }
+  Statement define = make_block(like, action(CycleDefine{a.native, modal, true, CycleTrigger::plane_axis_word}));
+  auto& words = std::get<Block>(define.node);
+  if (apart)
+    words.actions.insert(words.actions.begin(),
+                         action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::absolute)}));
+  feed_for_tap(words, a);
+  pieces.push_back(std::move(define));
+  if (apart)
+    pieces.push_back(
+        make_block(like, action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::incremental)})));
+  put_group(out, std::move(pieces), main);
+}
+
 }  // namespace cnctrans::ir::passes

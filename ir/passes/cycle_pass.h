@@ -14,6 +14,9 @@
 
 namespace cnctrans::ir::passes {
 
+/// Every call has variables of its own there.
+bool local_variable(const Program& program, const VarRef& v);
+
 /// Routines that are called while a cycle is active whose points lie in them: a copy for each cycle.
 struct CycleCallees {
   struct Copy {
@@ -55,6 +58,7 @@ class CyclePass {
         if (!is_end) first_use_.emplace(std::pair{l.is_number, l.text}, s.id);
       });
     });
+    look_for_writes();
     Body out;
     walk(editor_.routine.body, out);
     add_copies(out);
@@ -86,6 +90,7 @@ class CyclePass {
     std::optional<double> defined_at;  ///< height of the tool at the definition, mm
     std::optional<double> height;      ///< of the tool over the holes, mm
     std::optional<Units> units;        ///< of its words
+    std::vector<VarRef> stale;         ///< read by its words and changed since its definition
   };
 
   void walk(Body& body, Body& out) {
@@ -171,46 +176,7 @@ class CyclePass {
     for (const auto& l : labels_on(s.line)) branch = branch || uses_.is_target(l);
     active_->single = active_->single || branch;
   }
-  void lower(Statement&& s, Body& out) {
-    check_words(s);
-    leave_while_off(s);
-    if (auto* m = std::get_if<ModalCall>(&s.node)) {
-      if (m->off && active_) return cancel_statement(std::move(s), out);
-      // Only a cycle can be meant, or nothing.
-      const bool nothing = facts_.before(s).cycle_active_known && !facts_.before(s).cycle_active;
-      const bool no_call = facts_.before(s).modal_call == 0 && !(nothing && context_.target.modal_call);
-      if (m->off && !by_call_ && no_call) {
-        const bool bare = s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
-        if (nothing && bare) return;
-        if (nothing) {
-          s.node = Label{};
-        } else {
-          Block b;
-          b.actions.push_back(action(CycleCancel{}));
-          s.node = std::move(b);
-        }
-        out.push_back(std::move(s));
-        return;
-      }
-      if (!m->off && m->cycle) return modal_call(std::move(s), out);
-    }
-    if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
-    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) callee_sets_plane(*call, s);
-    if (auto* call = std::get_if<CallRoutine>(&s.node);
-        call != nullptr && active_ && call_with_cycle(*call, s.line, facts_.before(s))) {
-      out.push_back(std::move(s));
-      return;
-    }
-    if (active_ && !active_->native &&
-        (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
-      context_.diagnostics.error(
-          "TRN-331", s.line.span,
-          "a call or a repeated part while a cycle is active that the target lacks: which holes it drills "
-          "can't be seen here",
-          "cancel the cycle before the call");
-    }
-    out.push_back(std::move(s));
-  }
+  void lower(Statement&& s, Body& out);
 
   void put(Body& out, Body&& pieces, Statement&& s) {
     const std::size_t main = pieces.size();
@@ -329,7 +295,10 @@ class CyclePass {
   void block(Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     WordPos pos;
-    if (position_only(b)) return position(std::move(s), out);
+    if (position_only(b)) {
+      if (by_call_ && active_ && active_->on_target && refuse_stale(s, out)) return;
+      return position(std::move(s), out);
+    }
     check_axis_word(s, facts_.before(s), active_ ? active_->source : nullptr, context_);
     const bool cancelled = take_cancel(b);
     const auto definition = take_definition(b, pos);
@@ -369,6 +338,10 @@ class CyclePass {
   /// The tool stands below the plane to which the target's cycle would go first.
   [[nodiscard]] bool below_retract_plane(const Block& b, const Facts& facts) const;
   std::optional<Value> leave_by_own_move(CyclePtr& cycle, const Active& a) const;
+  /// The target's cycle may not be called between its reference plane and its depth, and the tool stands there.
+  [[nodiscard]] bool rises_first(const Active& a, const Block& b, const Facts& facts) const;
+  /// The point, the move up to the reference plane, then the cycle where the tool stands.
+  void rise_and_define(Statement&& s, const Active& a, bool modal, Body&& pieces, Body& out);
   void define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   void define_here(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   /// The unit of lengths has changed since the definition: the cycle is said in the new one. True: refused.
@@ -399,6 +372,15 @@ class CyclePass {
   /// goes to a copy of it for this cycle. False: the call stays as it is.
   bool call_with_cycle(CallRoutine& call, const LineInfo& where, const Facts& facts);
   void check_words(const Statement& s);
+  /// The cycle would be written once more, with words that mean something else by now. True: refused.
+  [[nodiscard]] bool refuse_stale(Statement& s, Body& out);
+  [[nodiscard]] bool refuse_stale_change(Statement& s, const CycleDefine& d, Body& out);
+  /// The variables that the statement writes, a routine that it calls included.
+  std::vector<VarRef> writes_of(const Statement& s, std::set<std::size_t>& called) const;
+  void look_for_writes();
+  void note_write(const VarRef& v);
+  void note_writes_of_loop(std::uint32_t first, std::uint32_t last);
+  void come_back_to(const Statement& s);
 
   /// Absolute levels that the target would take for increments in this block.
   [[nodiscard]] bool levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const;
@@ -436,6 +418,9 @@ class CyclePass {
   MillCycles milling_;
   std::vector<ProfileUse> uses_of_profiles_;
   std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
+  std::map<std::pair<bool, std::string>, std::uint32_t> last_use_;   ///< label: the last statement that leads to it
+  std::vector<std::pair<std::uint32_t, VarRef>> writes_;             ///< by the statements of this routine
+  std::uint32_t last_id_ = 0;
   ToolHeight height_;
   SpindleSense sense_;
   bool by_call_ = false;

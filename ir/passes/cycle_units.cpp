@@ -45,6 +45,7 @@ bool CyclePass::follow_units(Statement& s, const Block& b, const Facts& facts, B
     out.push_back(std::move(s));
     return true;
   }
+  if (refuse_stale(s, out)) return true;
   auto made = std::make_shared<Cycle>();
   made->node = in_unit(*hole, *now == Units::inch ? 1 / 25.4 : 25.4);
   active_->source = std::move(made);

@@ -1,5 +1,7 @@
 // A cycle is followed in the order of the text; control comes by other ways as well. Where they bring another cycle,
 // the text does not say which one a point runs.
+#include <algorithm>
+
 #include "ir/passes/cycle_pass.h"
 
 namespace cnctrans::ir::passes {
@@ -104,6 +106,7 @@ void CyclePass::turn(const Block& b, const Facts& facts, const LineInfo& like, B
   active_->from = before.from;
   active_->deferred = before.deferred;
   active_->single = before.single;
+  active_->stale = before.stale;
 }
 
 bool CyclePass::sure(const Facts& facts) const {
@@ -188,12 +191,19 @@ void CyclePass::report_unsure() const {
   }
 }
 
+static std::uint32_t last_inside(Body& body) {
+  std::uint32_t last = 0;
+  for_each_statement(body, [&last](const Statement& s) { last = std::max(last, s.id); });
+  return last;
+}
+
 /// Both branches begin with what is active before them; behind them holds what both say.
 void CyclePass::bodies(Statement& s) {
   auto* i = std::get_if<If>(&s.node);
   const auto before = active_;
   if (i == nullptr) {
-    each_body(s, [this](Body& inner) {
+    each_body(s, [&](Body& inner) {
+      if (!inner.empty()) note_writes_of_loop(s.id, last_inside(inner));
       sense_.forget();  // the next pass may begin with another sense
       walk_inside(inner);
     });
@@ -218,6 +228,7 @@ void CyclePass::bodies(Statement& s) {
   active_->was_on_target = active_->was_on_target || then->was_on_target;
   active_->maybe_on_target = either && !active_->on_target;
   if (active_->height != then->height) active_->height.reset();
+  active_->stale.insert(active_->stale.end(), then->stale.begin(), then->stale.end());
 }
 
 }  // namespace cnctrans::ir::passes

@@ -27,6 +27,36 @@ bool feeds_itself(const Cycle& c) {
 
 }  // namespace
 
+FeedDomain::FeedDomain(const Program& program, const LegaliseContext& context, const FactsOf& facts, bool head_feed)
+    : context_(context), facts_(facts), head_feed_(head_feed) {
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [this](const Statement& s) {
+      if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle)
+        cycles_[s.id] = !feeds_itself(*m->cycle);
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* d = std::get_if<CycleDefine>(&a.data);
+        if (d != nullptr && d->modal && d->cycle) cycles_[s.id] = !feeds_itself(*d->cycle);
+      }
+    });
+  }
+}
+
+FeedPoint FeedDomain::point(const Block& b, const Facts& facts) const {
+  if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return FeedPoint::none;
+  const bool ends = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<CycleCancel>(a.data) || std::holds_alternative<CycleDefine>(a.data);
+  });
+  if (ends) return FeedPoint::none;
+  if (facts.modal_call != 0) return facts.modal_call > 0 ? FeedPoint::point : FeedPoint::perhaps;
+  if (cycles_.empty() || (facts.cycle_active_known && !facts.cycle_active)) return FeedPoint::none;
+  const auto from = cycles_.find(facts.cycle_from);
+  if (facts.cycle_active_known && from != cycles_.end()) return from->second ? FeedPoint::point : FeedPoint::none;
+  const bool any = std::any_of(cycles_.begin(), cycles_.end(), [](const auto& c) { return c.second; });
+  return any ? FeedPoint::perhaps : FeedPoint::none;
+}
+
 FeedState FeedDomain::start(const Routine& r, bool called) const {
   FeedState s;
   if (r.kind != RoutineKind::main || called) return s;  // the caller sees to it
@@ -145,7 +175,7 @@ void FeedDomain::transfer(const Statement& s, FeedState& state) const {
   if (b == nullptr) return;
   const Facts& facts = facts_.before(s);
   settle(*b, facts, state);
-  if (!cuts(*b, facts)) return;
+  if (!cuts(*b, facts)) return after_point(*b, facts, state);
   // After the cut both controls have the same feed: the pass sees to it, or reports.
   const auto mode = setting_in<std::uint8_t>(*b, facts, Setting::feed_mode);
   for (std::size_t i = 0; i < state.slots.size(); ++i) {
@@ -157,9 +187,18 @@ void FeedDomain::transfer(const Statement& s, FeedState& state) const {
   if (mode == static_cast<std::uint8_t>(FeedMode::inverse_time)) state.slots[*mode].same = false;
 }
 
+/// Behind a point both controls have the same feed where it is known: the pass has said it.
+void FeedDomain::after_point(const Block& b, const Facts& facts, FeedState& state) const {
+  const auto kind = point(b, facts);
+  const auto mode = setting_in<std::uint8_t>(b, facts, Setting::feed_mode);
+  if (kind == FeedPoint::none || !mode || *mode >= state.slots.size()) return;
+  auto& slot = state.slots[*mode];
+  if (*mode != static_cast<std::uint8_t>(FeedMode::inverse_time) && slot.value) slot.same = true;
+}
+
 bool cuts_with_power_on_feed(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
   if (context.source_machine.power_on_feed <= 0) return false;
-  const FeedDomain domain(context, facts, false);
+  const FeedDomain domain(program, context, facts, false);
   const FlowStates<FeedDomain> states(program, domain);
   bool found = false;
   for (const auto& r : program.routines) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 
 #include "ir/passes/facts.h"
@@ -21,13 +22,19 @@ struct FeedState {
   std::array<Slot, 3> slots{};
 };
 
+/// What a block has to do with the feed beside its own motion.
+enum class FeedPoint : std::uint8_t {
+  none,
+  perhaps,  ///< which cycle is active, and whether one is, depends on the way
+  point     ///< a hole is drilled there at the feed in force, or a modal subprogram runs
+};
+
 /// A domain of FlowStates.
 class FeedDomain {
  public:
   using State = FeedState;
   /// `head_feed`: the translation says the source's power-on feed at its head.
-  FeedDomain(const LegaliseContext& context, const FactsOf& facts, bool head_feed)
-      : context_(context), facts_(facts), head_feed_(head_feed) {}
+  FeedDomain(const Program& program, const LegaliseContext& context, const FactsOf& facts, bool head_feed);
   [[nodiscard]] State start(const Routine& r, bool called) const;
   void transfer(const Statement& s, State& state) const;
   [[nodiscard]] static bool touches(const Routine& r);
@@ -38,12 +45,16 @@ class FeedDomain {
   void settle(const Block& b, const Facts& facts, State& state) const;
   /// The block cuts: it moves at feed, or runs a cycle.
   static bool cuts(const Block& b, const Facts& facts);
+  /// A later point of a modal cycle, or of a modal subprogram.
+  [[nodiscard]] FeedPoint point(const Block& b, const Facts& facts) const;
 
  private:
   void change_mode(const ModalSet& set, std::optional<std::uint8_t> before, State& state) const;
+  void after_point(const Block& b, const Facts& facts, FeedState& state) const;
   const LegaliseContext& context_;
   const FactsOf& facts_;
   bool head_feed_;
+  std::map<std::uint32_t, bool> cycles_;  ///< statement of a modal cycle: it runs at the feed in force
 };
 
 /// A cut with the power-on feed of the source may come before any F.

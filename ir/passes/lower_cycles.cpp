@@ -51,9 +51,11 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     pieces.push_back(on_statement(like, active_->native));
   } else if (changed && was_on) {
     active_->on_target = false;  // the next point defines it again
-    if (!hole_here) pieces.push_back(off_statement(like, false));
+    const bool apart = active_->native && comes_in_two_moves(active_->native, context_);
+    if (!hole_here || apart) pieces.push_back(off_statement(like, false));
   }
   if (hole_here) hold_back(b, active_->native != nullptr);
+  if (((changed && was_on && by_call_) || wrap || (hole_here && !active_->native)) && refuse_stale(s, out)) return;
   if (!active_->native) {
     if (hole_here)
       write_out(std::move(s), std::move(pieces), out);
@@ -89,8 +91,10 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   // The target would go up first, the source goes straight down.
-  if (!active_->on_target && !active_->maybe_on_target && sure(facts) && below_retract_plane(b, facts))
+  if (!active_->on_target && !active_->maybe_on_target && sure(facts) && below_retract_plane(b, facts)) {
+    if (refuse_stale(s, out)) return;
     return write_out(std::move(s), std::move(pieces), out);
+  }
   const auto w = tool_axis(active_->source, b, facts);
   const auto kind = way_to_hole(b, facts, context_);
   const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
@@ -119,10 +123,17 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     out.push_back(std::move(s));
     return;
   }
+  if (refuse_stale(s, out)) return;
   const bool maybe_on = active_->maybe_on_target && !active_->on_target;
   if (maybe_on) pieces.push_back(off_statement(like, false));  // else the way to the point would run it
   active_->maybe_on_target = false;
   const bool apart = levels_by_mode(active_->native, b, facts);  // the move first, then the cycle with its levels
+  if (as_is && rises_first(*active_, b, facts)) {
+    active_->defined_in = s.id;
+    rise_and_define(std::move(s), *active_, true, std::move(pieces), out);
+    active_->on_target = active_->was_on_target = true;
+    return;
+  }
   if (as_is && apart) {
     position_rapid(b, context_);
     late_ = take_after(b);
@@ -156,32 +167,6 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   pieces.push_back(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native));
   if (apart) pieces.push_back(make_block(like, distance_set(Distance::incremental)));
   put_group(out, std::move(pieces), main);
-}
-
-/// The plane function ends the target's own cycle: the next point defines it again.
-static bool sets_plane(const Block& b) {
-  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-    const auto* m = std::get_if<ModalSet>(&a.data);
-    return m != nullptr && m->setting == Setting::plane;
-  });
-}
-
-void CyclePass::plain(Statement&& s, Body&& pieces, Body& out) {
-  auto& b = std::get<Block>(s.node);
-  // A block that is no point, while the target's own cycle would make it one or take its words for the depth.
-  const bool plane_ends = !by_call_ && active_->native && (active_->on_target || active_->maybe_on_target) &&
-                          context_.target_machine.option("cycle.plane_function") == "ends" && sets_plane(b);
-  const bool refused_word = context_.target_machine.option("cycle.axis_word") == "refused" && active_->native &&
-                            (active_->on_target || active_->maybe_on_target) && !by_call_ && b.has_motion &&
-                            b.motion.moves() && b.motion.frame == FrameUse::normal;
-  if (refused_word || plane_ends) {
-    pieces.push_back(off_statement(s.line, false));
-    active_->on_target = active_->maybe_on_target = false;
-  }
-  const Facts& facts = facts_.before(s);
-  const auto w = tool_axis(active_->source, b, facts);
-  if (w && moves_along(b, *w)) active_->height = height_after(b, facts, *w);
-  put(out, std::move(pieces), std::move(s));
 }
 
 /// The plane to which the cycle goes back: that of its definition at `defined_at` counts where it goes back to the
@@ -298,7 +283,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     const NamedCycle cycle = *named;
     return write_out_machining(std::move(s), cycle, std::move(pieces), out);
   }
-  if (refuse_unknown_plane(s, d.cycle, out)) return;
+  if (refuse_unknown_plane(s, d.cycle, out) || refuse_stale_change(s, d, out)) return;
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
@@ -326,6 +311,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     if (!d.here) {  // the next point runs it
       if (old_may) pieces.push_back(off_statement(s.line, false));
       a.was_on_target = true;
+      if (w && moves_along(b, *w)) a.height = height_after(b, facts, *w);
       active_ = a;
       put(out, std::move(pieces), std::move(s));
       return;
@@ -352,6 +338,12 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
       refuse(s, program_, context_, "TRN-330", "a cycle in a plane that is not known here",
              "write the plane before it on every path");
       out.push_back(std::move(s));
+      return;
+    }
+    if (d.modal && rises_first(a, b, facts)) {
+      rise_and_define(std::move(s), a, true, std::move(pieces), out);
+      a.on_target = a.was_on_target = true;
+      active_ = a;
       return;
     }
     if (comes_in_two_moves(a.native, context_)) {

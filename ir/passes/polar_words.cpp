@@ -23,6 +23,34 @@ Value around(const Value& r, const Value& q, Function wave, double from, double 
   return add(scale(leg, 1 / factor), Value{from / factor});
 }
 
+bool says_radius(const Block& b, const Facts& facts) {
+  const MotionExtra& x = *b.motion.extra;
+  return x.has_polar_radius && polar_absolute(x, setting_in<Distance>(b, facts, Setting::distance));
+}
+
+std::optional<Point2> place_of(const PoleSet& p, Plane plane, std::optional<Point2> base, std::optional<Point2> pole,
+                               const Block& b, const Facts& facts, const machine::Profile& machine) {
+  if (!p.at) return base;
+  const bool relative = p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose;
+  if (!relative && p.at->words.empty()) base = Point2{};
+  if (!relative && !p.at->words.empty()) base = pole;
+  const PlaneAxes axes = plane_axes(plane);
+  std::optional<double> u, v;
+  if (base) u = base->u, v = base->v;
+  for (const auto& w : p.at->words) {
+    auto* slot = w.axis == axes.u ? &u : w.axis == axes.v ? &v : nullptr;
+    if (slot == nullptr) continue;
+    const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, b, facts, machine);
+    if (!w.value.literal() || !f || (relative && !*slot)) {
+      slot->reset();
+      continue;
+    }
+    *slot = w.value.number * *f + (relative ? **slot : 0);
+  }
+  if (!u || !v) return std::nullopt;
+  return Point2{*u, *v};
+}
+
 bool is_polar_arc(const Block& b, const Facts& facts) {
   if (!b.has_motion || !b.motion.extra) return false;
   const auto kind = motion_in(b, facts);
@@ -71,6 +99,20 @@ void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId n
   x.pitch = Value{clean(std::fabs(travel) / (x.turns.number + angle / 360))};
   x.has_turns = false;
   x.turns = Value{};
+}
+
+bool moves_zero(const Action& a) {
+  const auto* f = std::get_if<FrameOp>(&a.data);
+  return std::holds_alternative<WorkOffset>(a.data) ||
+         (f != nullptr && f->change && f->change->kind == FrameKind::translate);
+}
+
+std::shared_ptr<const FrameChange> pole_words(Plane plane, Point2 at, double fu, double fv) {
+  const PlaneAxes axes = plane_axes(plane);
+  auto change = std::make_shared<FrameChange>();
+  change->words.push_back({axes.u, Value{at.u / fu}, WordScale::modal, {}});
+  change->words.push_back({axes.v, Value{at.v / fv}, WordScale::modal, {}});
+  return change;
 }
 
 bool uses_polar(const Program& program) {

@@ -27,6 +27,18 @@ inline bool polar_absolute(const MotionExtra& x, std::optional<Distance> distanc
   return x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
 }
 
+/// The block says the radius by itself, whatever was before.
+bool says_radius(const Block& b, const Facts& facts);
+
+/// Polar words without a radius.
+inline bool angle_alone(const Block& b) {
+  return b.has_motion && b.motion.extra && b.motion.extra->has_polar_angle && !b.motion.extra->has_polar_radius;
+}
+
+/// The place that a pole function gives: from `base` where it is relative to the point before, or to the pole before.
+std::optional<Point2> place_of(const PoleSet& p, Plane plane, std::optional<Point2> base, std::optional<Point2> pole,
+                               const Block& b, const Facts& facts, const machine::Profile& machine);
+
 /// An arc, or a line, whose end stands in polar words.
 bool is_polar_arc(const Block& b, const Facts& facts);
 bool is_polar_line(const Block& b, const Facts& facts);
@@ -48,6 +60,12 @@ inline bool leaves_point(const CycleDefine& d) {
 /// not known.
 void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId normal, const ArcPoints& arc,
                     const machine::Profile& machine);
+
+/// The zero point moves: a pole may stay behind.
+bool moves_zero(const Action& a);
+
+/// The pole as words of the plane's axes; `fu`, `fv`: radius of one unit of them.
+std::shared_ptr<const FrameChange> pole_words(Plane plane, Point2 at, double fu, double fv);
 
 /// The program has polar words or sets a pole.
 bool uses_polar(const Program& program);
