@@ -206,6 +206,8 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
 }
 
 void BlockMachine::set_units() {
+  if (profile_.option("machine_data.units") == "with_feed")
+    policy_.data_modal = modal_.units == ir::Units::inch && modal_.units_feed_too;
   for (const auto a : axes_) {
     auto& axis = axis_[a];
     const double length = axis.rotary ? 1 : unit();

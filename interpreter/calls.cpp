@@ -277,19 +277,29 @@ bool Runner::enter(Flow& callee, const std::vector<Bound>& arguments, ir::CallLe
 }
 
 /// The values go to the parameters of the routine just entered; those not given get their defaults.
-bool Runner::hand_over(const std::vector<Bound>& arguments) {
+bool Runner::hand_over(const std::vector<Bound>& arguments, bool again) {
   for (const auto& b : arguments) {
     if (!set_parameter(b)) return false;
     if (b.position < 64) variables_.level().arguments |= std::uint64_t{1} << b.position;
   }
   for (const auto& p : flow_->routine->parameters) {
-    if (!p.default_value) continue;
     const bool given =
         std::any_of(arguments.begin(), arguments.end(), [&](const Bound& b) { return b.parameter == &p; });
     if (given) continue;
     Place place;
+    if (p.default_value) {
+      if (!evaluator_.place(p.variable, flow_->names, place)) return false;
+      if (!evaluator_.assign(place, evaluator_.id_of(p.default_value))) return false;
+      continue;
+    }
+    // Left out without a default: empty again in each repetition, whatever the pass before has written into it.
+    if (!again || p.by_reference || !flow_->names.locals.contains(p.variable.name)) continue;
     if (!evaluator_.place(p.variable, flow_->names, place)) return false;
-    if (!evaluator_.assign(place, evaluator_.id_of(p.default_value))) return false;
+    if (place.named != nullptr && place.named->is_text()) {
+      variables_.store(place, std::string{});
+    } else if (!variables_.store(place, 0.0)) {
+      return false;
+    }
   }
   return true;
 }
@@ -340,7 +350,7 @@ void Runner::leave(bool returned) {
   if (--a.left > 0) {  // what the last pass made of its parameters is gone
     enter_top();
     const std::vector<Bound> arguments = a.arguments;
-    if (hand_over(arguments)) at_ = a.entry;
+    if (hand_over(arguments, true)) at_ = a.entry;
     return;
   }
   go_to(close_call());

@@ -182,8 +182,9 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       return true;
     case Datum::machine_position:
       if (!has_axis) return false;
-      out = frame_.apply(p_)[ref.axis] /
-            (policy_.data_modal || policy_.position_as_words ? axis_[ref.axis].scale_absolute : 1);
+      out = frame_.apply(p_)[ref.axis] / (policy_.position_as_words ? axis_[ref.axis].scale_absolute
+                                          : axis_[ref.axis].rotary  ? 1
+                                                                    : length);
       return true;
     case Datum::work_offset: {
       const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]));

@@ -108,7 +108,7 @@ class Runner {
   bool bind_one(const ir::Argument& a, std::size_t position, Flow& callee, Bound& out);
   bool enter(Flow& callee, const std::vector<Bound>& arguments, ir::CallLevel level, std::uint32_t return_to,
              std::int64_t count);
-  bool hand_over(const std::vector<Bound>& arguments);
+  bool hand_over(const std::vector<Bound>& arguments, bool again = false);
   bool set_parameter(const Bound& b);
   void give_back(const ir::Return& r);
   void leave(bool returned);

@@ -76,8 +76,10 @@ constexpr std::array specs{
                "two numbers that differ by no more than this are equal for = and <>; 0: exactly equal"},
     OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",
                "a helix whose pitch does not fit its travel: refused, or run with the nearest pitch"},
-    OptionSpec{"machine_data.units", "modal|machine", "machine",
-               "lengths read from machine data: in the unit and diameter mode in force, or always mm and radius"},
+    OptionSpec{
+        "machine_data.units", "modal|machine|with_feed", "machine",
+        "lengths read from machine data: in the unit and diameter mode in force, always mm and radius, or in the "
+        "unit in force as long as it is that of F too"},
     OptionSpec{"machine_move.units", "modal|machine", "modal",
                "unit of machine coordinates: as the other words, or always millimetres"},
     OptionSpec{"machine_position.scale", "radius|words", "radius",

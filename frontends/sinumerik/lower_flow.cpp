@@ -41,7 +41,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.plane.reset();
   c_.css.reset();
   if (!sub) c_.plane = c_.machine.profile->power_on.plane;
-  if (!sub || !c_.uses_css) c_.css = false;
+  if (!sub) c_.css = false;
 }
 
 void StatementLowering::end_routine(const SourceText* source) {
@@ -155,6 +155,10 @@ bool is_structure(const Statement& s) {
 bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
   const auto defines = [](const Statement& s) { return s.keyword == "DEF" || s.keyword == "PROC"; };
   if (!std::all_of(block.statements.begin(), block.statements.end(), defines)) c_.interrupt_lasting();
+  constexpr std::string_view calls[] = {"CALL", "PCALL", "EXTCALL", "MCALL"};
+  for (const Statement& s : block.statements) {  // what the other text leaves behind is not known
+    if (std::find(std::begin(calls), std::end(calls), s.keyword) != std::end(calls)) c_.css.reset();
+  }
   bool ok = true;
   for (const Statement& s : block.statements) {
     const std::uint32_t before = c_.errors;

@@ -393,6 +393,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   call.routine = routine_name(name);
   c_.interrupt_lasting();
   c_.plane.reset();
+  c_.css.reset();
   if (!call_arguments(name, args, call)) return false;
   parts.calls.emplace_back(std::move(call));
   return true;

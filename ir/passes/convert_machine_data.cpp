@@ -27,7 +27,22 @@ bool is_length(Datum d) {
 
 class MachineDataPass {
  public:
-  MachineDataPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+  MachineDataPass(const Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context), facts_(facts) {
+    const auto& on = context.source_machine.power_on;
+    if (on.units == Units::inch) inches(on.units_feed_too);
+    for (const Routine& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        for (const Action& a : b->actions) {
+          const auto* m = std::get_if<ModalSet>(&a.data);
+          if (m != nullptr && m->setting == Setting::units && m->value == static_cast<std::uint8_t>(Units::inch))
+            inches(m->feed_too);
+        }
+      });
+    }
+  }
 
   void statement(Statement& s) {
     bool used = false;
@@ -55,6 +70,7 @@ class MachineDataPass {
   }
 
  private:
+  void inches(bool feed_too) { (feed_too ? with_feed_ : without_feed_) = true; }
   static const SystemRef* datum_of(const ExprPtr& e) {
     const auto* ref = e ? std::get_if<SystemRef>(&e->node) : nullptr;
     return ref != nullptr && is_length(ref->datum) ? ref : nullptr;
@@ -107,7 +123,8 @@ class MachineDataPass {
 
   /// Millimetres (radius) of the value 1; nullopt: not known here.
   std::optional<double> millimetres(const Statement& s, const SystemRef& ref, const machine::Profile& machine) const {
-    const bool modal = machine.option("machine_data.units") == "modal";
+    const std::string units = machine.option("machine_data.units");
+    const bool modal = units == "modal" || (units == "with_feed" && with_feed_);
     const bool position = ref.datum == Datum::machine_position;
     const auto* axis = machine.axis(ref.axis);
     if ((!modal && !(position && machine.option("machine_position.scale") == "words")) ||
@@ -119,6 +136,10 @@ class MachineDataPass {
     const auto unit = setting_in<Units>(block, facts_.before(s), Setting::units);
     if (!unit) return std::nullopt;
     const double length = *unit == Units::inch ? 25.4 : 1;
+    if (units == "with_feed") {
+      if (*unit == Units::inch && without_feed_) return std::nullopt;
+      return length;
+    }
     if (!position || axis == nullptr || !axis->diameter) return length;
     const auto mode = setting_in<DiameterMode>(block, facts_.before(s), Setting::diameter);
     if (!mode) return std::nullopt;
@@ -127,6 +148,7 @@ class MachineDataPass {
 
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  bool with_feed_ = false, without_feed_ = false;  ///< the program changes to inches of F too, of the lengths alone
 };
 
 }  // namespace
@@ -137,7 +159,7 @@ void convert_machine_data(Program& program, const LegaliseContext& context) {
   };
   if (same("machine_data.units") && same("machine_position.scale")) return;
   const FactsOf facts(program, context);
-  MachineDataPass pass(context, facts);
+  MachineDataPass pass(program, context, facts);
   for (auto& r : program.routines) {
     for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
   }
