@@ -140,6 +140,8 @@ class KnownData {
       }
       case Datum::active_plane: return plane(facts);
       case Datum::programmed_position: return position(facts, ref.axis);
+      case Datum::work_position:  // with radius compensation the tool stands beside the programmed point
+        return setting<CompSide>(facts, Setting::comp) == CompSide::off ? position(facts, ref.axis) : std::nullopt;
       case Datum::feed: return facts.feed;
       case Datum::feed_per_minute: return in_mode(facts.feed, facts, Setting::feed_mode, FeedMode::per_minute);
       case Datum::feed_per_rev: return in_mode(facts.feed, facts, Setting::feed_mode, FeedMode::per_rev);

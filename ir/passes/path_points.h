@@ -18,14 +18,18 @@ struct Path {
 class PathPoints {
  public:
   PathPoints(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
-  /// The programmed points of a plain line or arc, as far as they are numbers.
-  [[nodiscard]] std::optional<Path> path_of(const Statement& s) const;
+  /// The programmed points of a line or arc, as far as they are numbers; `by_three`: also of an arc by three points,
+  /// whose words set_end and set_centre don't take over.
+  [[nodiscard]] std::optional<Path> path_of(const Statement& s, bool by_three = false) const;
   /// Both words of the plane, absolute and as radius; the other words stay.
   void set_end(Motion& m, Plane plane, geometry::Vec to) const;
   /// The centre as seen from the start of the arc.
   static void set_centre(Motion& m, Plane plane, geometry::Vec from, geometry::Vec centre);
 
  private:
+  /// The point of an arc by three points that lies between its ends.
+  [[nodiscard]] std::optional<geometry::Vec> through(const Block& b, const Facts& facts, const PlaneAxes& axes,
+                                                     geometry::Vec start) const;
   const LegaliseContext& context_;
   const FactsOf& facts_;
 };

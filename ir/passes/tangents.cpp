@@ -50,7 +50,7 @@ class TangentPass {
       }
       if (b != nullptr && moves_frames(*b)) before.reset();
       if (b != nullptr && b->has_motion && b->motion.moves() && !arc) {
-        const auto path = points_.path_of(s);
+        const auto path = points_.path_of(s, true);
         if (!path || length(path->e.b - path->e.a) > tiny || path->e.arc) before = path;
       }
       if (arc) before = last_;
