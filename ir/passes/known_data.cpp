@@ -6,6 +6,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "ir/block_coordinate.h"
+#include "ir/passes/call_graph.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/frame_state.h"
 #include "ir/passes/rewrite.h"
@@ -22,8 +23,13 @@ const SystemRef* datum_in(const ExprPtr& e) {
 class KnownData {
  public:
   KnownData(Program& program, const LegaliseContext& context)
-      : program_(program), context_(context), facts_(program, context), frames_(program, facts_, context) {}
+      : program_(program),
+        context_(context),
+        calls_(program),
+        facts_(program, context),
+        frames_(program, facts_, context) {}
 
+  void in(const Routine& r) { routine_ = &r; }
   void statement(Statement& s) {
     diameter_switch(s);
     bool used = false;
@@ -154,8 +160,34 @@ class KnownData {
       case Datum::axis_scale:
       case Datum::rotation_angle: return framed(frames_.before(s), ref);
       case Datum::other: return written_elsewhere(ref);
+      case Datum::call_has_argument: return arguments_given(ref);
       default: return std::nullopt;
     }
+  }
+
+  /// One bit an argument, where all calls of the routine at hand give the same ones.
+  [[nodiscard]] std::optional<double> arguments_given(const SystemRef& ref) const {
+    if (!ref.args.empty() || routine_ == nullptr) return std::nullopt;
+    if (routine_->kind == RoutineKind::main) return 0;
+    std::optional<double> all;
+    for (const auto& site : calls_.sites()) {
+      if (!site.callee) {
+        const auto* c = std::get_if<CallRoutine>(&site.statement->node);
+        if (c == nullptr || c->computed) return std::nullopt;  // it may be this one
+        continue;
+      }
+      if (&program_.routines[*site.callee] != routine_) continue;
+      const auto* c = std::get_if<CallRoutine>(&site.statement->node);
+      if (c == nullptr || c->level != CallLevel::new_level || c->has_range) return std::nullopt;
+      double mask = 0;
+      for (const auto& a : c->arguments) {
+        if (a.name.size() != 1 || a.name[0] < 'A' || a.name[0] > 'Z' || !a.value) return std::nullopt;
+        mask += std::ldexp(1, a.name[0] - 'A');
+      }
+      if (all && *all != mask) return std::nullopt;
+      all = mask;
+    }
+    return all;
   }
 
   /// The word of an axis in a block of this program.
@@ -241,6 +273,8 @@ class KnownData {
 
   const Program& program_;
   const LegaliseContext& context_;
+  const CallGraph calls_;
+  const Routine* routine_ = nullptr;
   FactsOf facts_;
   FrameStates frames_;
 };
@@ -266,6 +300,7 @@ void write_known_data(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !reads_or_writes_data(program)) return;
   KnownData pass(program, context);
   for (auto& r : program.routines) {
+    pass.in(r);
     for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
   }
 }
