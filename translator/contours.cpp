@@ -10,6 +10,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/head_constants.h"
 #include "ir/passes/machining_moves.h"
+#include "ir/passes/pocket_calls.h"
 
 namespace cnctrans::translator {
 
@@ -118,6 +119,7 @@ void read_mill(ir::HoleCycle& cycle, const ir::Program& program, const ir::Routi
 }  // namespace
 
 void read_contours(ir::Program& program, const machine::Profile& source_machine) {
+  ir::passes::write_out_pocket_calls(program, source_machine.power_on);
   bool any = false;
   for (const auto& r : program.routines) {
     ir::for_each_statement(r.body, [&any](const ir::Statement& s) {

@@ -10,6 +10,7 @@
 #include "ir/passes/cycle_ranges.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/pocket_calls.h"
 #include "ir/passes/written_data.h"
 
 namespace cnctrans::ir::passes {
@@ -456,6 +457,7 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
 }
 
 static void carry_out_cycles(Program& program, const LegaliseContext& context) {
+  settle_pockets(program, context);
   const FactsOf facts(program, context);
   const FeedsBefore feeds(program, context);
   std::set<std::uint32_t> profiles;

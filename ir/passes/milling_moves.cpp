@@ -8,6 +8,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "ir/cycles/mill_contour.h"
+#include "ir/cycles/pocket_moves.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
 
@@ -37,7 +38,7 @@ bool has_milling(const Program& program) {
       for (const auto& a : b->actions) {
         const auto* d = std::get_if<CycleDefine>(&a.data);
         const auto* hole = d != nullptr && d->cycle ? std::get_if<HoleCycle>(&d->cycle->node) : nullptr;
-        found = found || (hole != nullptr && hole->kind == HoleKind::mill);
+        found = found || (hole != nullptr && (hole->kind == HoleKind::mill || !hole->mill.shape.empty()));
       }
     });
   }
@@ -340,6 +341,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     leads_by_middle = lead;
     context.tool_radius = r.value_or(0);
   }
+  cycles::pocket_habits([this](std::string_view name) { return context_.source_machine.option(name); }, context);
   std::vector<cycles::MillContour> contours;
   if (!cycles::contours_named(c).empty()) {
     auto read = cycles::contours_in(c, error);
@@ -376,6 +378,11 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     if (!writer.add(m, facts.spindle, error)) return std::nullopt;
   }
   if (!feed.none && !writer.finish(error)) return std::nullopt;
+  if (words->shape->kind == cycles::MillKind::contour_pocket)
+    context_.diagnostics.warning("TRN-511", s.line.span,
+                                 "the way in this pocket with islands is this program's own: the source's control may "
+                                 "go otherwise and clears the same volume",
+                                 "compare with the control where the way matters (RUN-090)");
   if (leads_by_middle) {
     context_.diagnostics.warning(
         "TRN-420", s.line.span,
@@ -386,6 +393,35 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   }
   if (!incremental) end_ = End{writer.u, writer.v, it->second.after};
   return Explosion{std::move(writer.blocks), writer.w};
+}
+
+std::vector<cycles::PocketPoint> MillCycles::entries(const HoleCycle& c, const Block& b, const Facts& facts,
+                                                     std::string* error) const {
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  if (!units) return *error = "the units are not known here", std::vector<cycles::PocketPoint>{};
+  const double unit = *units == Units::inch ? 25.4 : 1;
+  const auto words = cycles::resolve(
+      c.mill, {unit, unit, unit, unit}, [](const Value& v) { return known(v); }, error);
+  if (!words) {
+    if (error->empty()) *error = "its words are computed when the program runs";
+    return {};
+  }
+  Site site;
+  const auto number = [&words](std::string_view name) -> std::optional<std::int32_t> {
+    const auto it = words->words.find(name);
+    return it == words->words.end() ? std::nullopt : std::optional(saturate<std::int32_t>(it->second));
+  };
+  site.tool = number("tool");
+  site.offset = number("offset");
+  bool none = false;
+  const auto r = radius(site, unit, error, &none);
+  const auto contours = r ? cycles::contours_in(c, error) : std::nullopt;
+  if (!contours) return {};
+  cycles::MillContext context;
+  context.tool_radius = *r;
+  context.contours = &*contours;
+  cycles::pocket_habits([this](std::string_view name) { return context_.source_machine.option(name); }, context);
+  return cycles::pocket_entries(*words, context, error);
 }
 
 }  // namespace cnctrans::ir::passes

@@ -6,8 +6,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "ir/cycles/milling.h"
+#include "ir/cycles/pocket_area.h"
 #include "ir/passes/lower_cycles.h"
 
 namespace cnctrans::ir::passes {
@@ -37,6 +39,9 @@ class MillCycles {
                                                const Facts& facts, std::optional<double> defined_at,
                                                std::optional<SpindleState> sense, bool last_resort,
                                                std::string* why) const;
+  /// Where a hole cycle that finds its places in a pocket runs, mm; empty with a sentence: they can't be told here.
+  [[nodiscard]] std::vector<cycles::PocketPoint> entries(const HoleCycle& cycle, const Block& b, const Facts& facts,
+                                                         std::string* error) const;
   /// Ids of the blocks that the contours of cycles which have been read stand in.
   [[nodiscard]] const std::set<std::uint32_t>& contour_blocks() const { return contour_blocks_; }
 
