@@ -59,6 +59,7 @@ struct Style {
   CommentStyle comment = {};
   std::span<const ModalCode> modal_codes = {};
   std::span<const MotionCode> motion_codes = {};
+  std::string_view falling_thread = {};    ///< a thread whose lead becomes smaller ("G35"); empty: the sign says it
   int kept_decimals = 4;                   ///< a number text of the source with more places is rounded
   int made_decimals = 4;                   ///< places of numbers that passes made
   bool two_digit_m = false;                ///< M03

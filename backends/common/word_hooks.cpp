@@ -117,6 +117,17 @@ std::string_view own_motion(const ir::Motion& m) {
   return m.extra->has_fixed_point ? "a fixed point of the machine" : "";
 }
 
+/// The code of a move; a thread whose lead falls may have one of its own.
+std::string_view code_of(const Style& style, const ir::Motion& m) {
+  const bool falls = m.kind == ir::MotionKind::thread_variable && m.extra && m.extra->lead_change.literal() &&
+                     m.extra->lead_change.number < 0;
+  return falls && !style.falling_thread.empty() ? style.falling_thread : motion_code(style, m.kind);
+}
+bool unknown_fall(const Style& style, const ir::Motion& m) {
+  return m.kind == ir::MotionKind::thread_variable && !style.falling_thread.empty() && m.extra &&
+         !m.extra->lead_change.literal();
+}
+
 }  // namespace
 
 void ProgramWriter::motion(const ir::Motion& m) {
@@ -128,7 +139,12 @@ void ProgramWriter::motion(const ir::Motion& m) {
   if (m.kind != ir::MotionKind::modal) {
     const bool known_already = !m.explicit_code && tracker_.text() == m.kind;
     const std::string_view own = same_dialect_ ? m.code_text : std::string_view{};
-    const std::string_view code = own.empty() ? motion_code(style_, m.kind) : own;
+    const std::string_view code = own.empty() ? code_of(style_, m) : own;
+    if (unknown_fall(style_, m) && own.empty()) {
+      return refuse(no_word, m.code_pos,
+                    "a thread whose lead changes by a computed value: whether it rises or falls is another code here",
+                    "write the change as a number");
+    }
     if (code.empty()) {
       return refuse(no_word, m.code_pos, "a motion '" + std::string(ir::name(m.kind)) + "' has no counterpart here");
     }

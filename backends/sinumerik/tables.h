@@ -66,6 +66,7 @@ inline constexpr Style style{
     .comment = {.open = ";", .close = {}, .blank_after_open = true, .gap = 2},
     .modal_codes = modal_codes,
     .motion_codes = motion_codes,
+    .falling_thread = "G35",
     .kept_decimals = 15,  // words take any number of places
     .made_decimals = 6,
     .indent = 2,
