@@ -118,8 +118,9 @@ bool BlockMachine::use_frame(const Frame& f) {
   if (!invert(f, inverse)) return failure_.fail(code::frame, "a scale of zero");
   const Axes machine = frame_.apply(p_);
   const Axes seen = inverse.apply(machine);
+  const bool keeps = policy_.keeps_programmed && modal_.surface == ir::Surface::none;
   for (const auto a : axes_) {
-    if (policy_.keeps_programmed && std::abs(seen[a] - p_[a]) > 1e-12 && ((base_pending_ >> a) & 1U) == 0) {
+    if (keeps && std::abs(seen[a] - p_[a]) > 1e-12 && ((base_pending_ >> a) & 1U) == 0) {
       increment_base_[a] = p_[a];
       base_pending_ |= 1U << a;
     }

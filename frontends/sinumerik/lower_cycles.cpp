@@ -80,6 +80,17 @@ bool dwells(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
 /// The way back that breaks the chip: VRT, without it 1 mm, whatever the units of the program (18.1.1).
 ir::Value chip_lift(const Arguments& a, FileContext& c, WordPos pos) {
   if (a.says("VRT")) return a.get("VRT");
+  if (c.units_by_text && c.units_called) {  // what the called program leaves in force decides
+    ir::SystemRef inch;
+    inch.datum = ir::Datum::active_modal;
+    inch.text = "$P_GG";
+    inch.args = {ir::number(700), ir::number(static_cast<double>(ir::Setting::units)),
+                 ir::number(static_cast<double>(ir::Units::inch))};
+    auto in_force = std::make_shared<ir::Expr>();
+    in_force->node = std::move(inch);
+    return ir::Value(ir::binary(ir::BinaryOp::add, ir::number(1),
+                                ir::binary(ir::BinaryOp::multiply, ir::number(1 / 25.4 - 1), std::move(in_force))));
+  }
   if (c.units_by_text) return ir::Value(*c.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
   c.warning("SIN-080", pos,
             "the way back without VRT is 1 mm, and this subprogram does not say its units: it is taken to be called in "

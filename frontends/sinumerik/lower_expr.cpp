@@ -484,6 +484,8 @@ ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
     return ir::Value(inner->args[0].number, c_.slice(inner->pos));
   }
   ir::ExprPtr expr = lower(*inner);
+  const Symbol* symbol = inner->kind == ExprKind::name ? c_.symbol(inner->text) : nullptr;
+  if (expr && symbol != nullptr && symbol->character) expr = convert(std::move(expr), ir::Type::real, inner->pos);
   if (expr && (expr->type == ir::Type::string || expr->type == ir::Type::axis)) {
     c_.error("SIN-012", inner->pos, "a number is needed here");
     return ir::Value{};

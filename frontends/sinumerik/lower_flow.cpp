@@ -34,6 +34,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.motion = c_.machine.profile->power_on.motion;
   const bool sub = routine.kind == ir::RoutineKind::sub;
   c_.units_by_text = sub ? std::nullopt : std::optional(c_.machine.profile->power_on.units);
+  c_.units_called = false;
   c_.tool = {};
   if (sub) c_.tool.state = ToolDirection::State::unsure;
   c_.framed = sub;
@@ -157,7 +158,10 @@ bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
   if (!std::all_of(block.statements.begin(), block.statements.end(), defines)) c_.interrupt_lasting();
   constexpr std::string_view calls[] = {"CALL", "PCALL", "EXTCALL", "MCALL"};
   for (const Statement& s : block.statements) {  // what the other text leaves behind is not known
-    if (std::find(std::begin(calls), std::end(calls), s.keyword) != std::end(calls)) c_.css.reset();
+    if (std::find(std::begin(calls), std::end(calls), s.keyword) != std::end(calls)) {
+      c_.css.reset();
+      c_.units_called = true;
+    }
   }
   bool ok = true;
   for (const Statement& s : block.statements) {

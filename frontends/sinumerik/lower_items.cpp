@@ -394,6 +394,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   c_.interrupt_lasting();
   c_.plane.reset();
   c_.css.reset();
+  c_.units_called = true;
   if (!call_arguments(name, args, call)) return false;
   parts.calls.emplace_back(std::move(call));
   return true;

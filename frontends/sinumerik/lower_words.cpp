@@ -163,6 +163,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       break;
     case GUse::units:
       c_.units_by_text = static_cast<ir::Units>(g.a);
+      c_.units_called = false;
       push(ir::ModalSet{ir::Setting::units, g.a, g.b != 0, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
            pos);
       break;

@@ -330,7 +330,11 @@ class DistancePass {
   std::optional<double> base(AxisId a, const Block& b, const Facts& facts) const {
     if (facts.position[a]) return facts.position[a];
     if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
-    if (context_.source_machine.option("frame.change_keeps") == "programmed") return shifted_.at[a];
+    if (context_.source_machine.option("frame.change_keeps") == "programmed") {
+      const auto surface = facts.settings[static_cast<std::size_t>(Setting::surface)];
+      if (!surface) return std::nullopt;
+      if (*surface == static_cast<std::uint8_t>(Surface::none)) return shifted_.at[a];
+    }  // on the face and the cylinder the point itself counts
     const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
     const bool turned = shifted_.turned || (turned_ >> a & 1U) != 0;  // the old point was one of the turned frame
     if (turned || !shifted_.moved[a] || !metric) return std::nullopt;
