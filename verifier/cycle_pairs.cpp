@@ -151,6 +151,10 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   };
   while (spindle(true, at.i, run.last)) take(a_[at.i], source, at.from_a, at.i);
   while (spindle(false, at.j, last_of_target)) take(b_[at.j], target, at.from_b, at.j);
+  // A speed that the source's tap leaves is said behind the target's.
+  while (run.family == "tap" && at.j < b_.size() && b_[at.j]->kind == EventKind::spindle &&
+         spindle_after(source.events) != spindle_after(target.events))
+    take(b_[at.j], target, at.from_b, at.j);
   what = similar_difference(source, target, options_.tolerances, max_length);
   if (!what.empty()) return std::nullopt;
   if (!together(at.from_a, at.from_b, by)) {

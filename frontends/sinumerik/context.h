@@ -131,7 +131,7 @@ struct FileContext {
   std::set<std::string, std::less<>> unknown_names{};  ///< of those, the ones that the machine has given a value
 
   std::optional<ir::Units> units_by_text{};  ///< of the program, in the order of the text; none: the caller's
-  bool units_called = false;  ///< a call stands behind the code that `units_by_text` is from
+  bool units_called = false;                 ///< a call stands behind the code that `units_by_text` is from
   std::uint8_t master_spindle = 1;           ///< SETMS, in the order of the text
   bool offset_chosen = true;                 ///< a D was written since the last T, in the order of the text
 
