@@ -1,0 +1,65 @@
+// Values of words: numbers as they are written, expressions, and what AC, IC, DC and their like say of them.
+#include "frontends/sinumerik/lower_expr.h"
+
+namespace cnctrans::sinumerik {
+
+using syntax::Expr;
+using syntax::ExprKind;
+
+ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
+  out = Attribute::none;
+  const Expr* inner = &e;
+  if (e.kind == ExprKind::call) {
+    out = attribute(e.text);
+    if (e.text == "QU" && e.args.size() == 1) {  // quick output: the same value
+      out = Attribute::none;
+      return value_of(e.args[0], out);
+    }
+    if (e.text == "GP" && e.args.size() == 2 && e.args[1].kind == ExprKind::number) {  // the attribute by its number
+      const Attribute chosen = attribute(e.args[1].number);
+      if (chosen != Attribute::unsupported) {
+        const ir::Value v = value_of(e.args[0], out);
+        out = chosen;
+        return v;
+      }
+    }
+    if (out == Attribute::unsupported || e.text.empty()) {
+      c_.keep("SIN-008", e.pos,
+              "this way to give a position (" + (e.text.empty() ? "a list" : e.text) + ") is not carried yet");
+      return ir::Value{};
+    }
+    if (out != Attribute::none) {
+      if (e.args.size() != 1) {
+        c_.error("SIN-012", e.pos, e.text + "() takes one value");
+        return ir::Value{};
+      }
+      inner = &e.args[0];
+    }
+  }
+  if (inner->kind == ExprKind::number) return ir::Value(inner->number, c_.slice(inner->pos));
+  if (inner->kind == ExprKind::unary && inner->text == "-" && inner->args[0].kind == ExprKind::number &&
+      inner->pos.length == inner->args[0].pos.length + 1 &&
+      inner->args[0].text.find_first_of("XxHB'") == std::string::npos) {
+    return ir::Value(-inner->args[0].number, c_.slice(inner->pos));
+  }
+  if (inner->kind == ExprKind::unary && inner->text == "+" && inner->args[0].kind == ExprKind::number &&
+      inner->pos.length == inner->args[0].pos.length + 1) {
+    return ir::Value(inner->args[0].number, c_.slice(inner->pos));
+  }
+  ir::ExprPtr expr = lower(*inner);
+  const Symbol* symbol = inner->kind == ExprKind::name ? c_.symbol(inner->text) : nullptr;
+  if (expr && symbol != nullptr && symbol->character) expr = convert(std::move(expr), ir::Type::real, inner->pos);
+  if (expr && (expr->type == ir::Type::string || expr->type == ir::Type::axis)) {
+    c_.error("SIN-012", inner->pos, "a number is needed here");
+    return ir::Value{};
+  }
+  return ir::Value(std::move(expr));
+}
+
+ir::Value ExprLowering::value(const syntax::Block& block, const syntax::Word& word, Attribute& out) {
+  out = Attribute::none;
+  if (!word.is_expression) return ir::Value(word.number, word.number_text);
+  return value_of(block.exprs[static_cast<std::size_t>(word.expr)], out);
+}
+
+}  // namespace cnctrans::sinumerik
