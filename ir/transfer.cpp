@@ -35,7 +35,8 @@ class Transfer {
     if (b.has_motion) motion(b);
     if (runs_here_ || (b.has_motion && b.motion.moves())) cycle_moves();
     for (const auto& a : b.actions) {
-      if (a.order == Order::after) std::visit(*this, a.data);
+      // A word kept as text that acts behind the block says something of the tool, not of the path.
+      if (a.order == Order::after && !std::holds_alternative<OpaqueWord>(a.data)) std::visit(*this, a.data);
     }
     if (runs_here_) cycle_moves();
     if (follows_) forget_positions();  // the end follows from the next element

@@ -12,6 +12,7 @@
 #include "backends/fagor/cycles.h"
 #include "backends/fagor/expressions.h"
 #include "dialects/fagor/g_codes.h"
+#include "ir/rotary_places.h"
 
 namespace cnctrans::backends::fagor {
 
@@ -62,6 +63,8 @@ class Writer : public ProgramWriter {
   void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
   [[nodiscard]] bool rollover() const;
   void tell_rotary(const ir::CoordWord& w);
+  [[nodiscard]] std::optional<double> counted_place(const ir::CoordWord& w);
+  void tell_counted(const ir::CoordWord& w);
   void pole_set(const ir::Action& a, const ir::PoleSet& p) override;
   void dwell(const ir::Action& a, const ir::Dwell& d) override;
   void cycle_define(const ir::Action& a, const ir::CycleDefine& c) override;
@@ -135,11 +138,12 @@ class Writer : public ProgramWriter {
   bool has_cycles_ = false;  ///< of another control
   bool has_tool_changes_ = false;
   bool rotary_told_ = false;
-  ir::Block surface_block_;                  ///< the block at hand in the words of the face or the cylinder
-  ir::Plane plane_by_text_ = ir::Plane::xy;  ///< of the last plane function written
-  bool after_offset_ = false;                ///< the last thing written is a work offset
-  bool offset_before_ = false;               ///< the same, for the block at hand
-  std::optional<ir::HoleCycle> last_hole_;   ///< the last hole cycle written, for changes of it
+  std::optional<ir::RotaryPlaces> rotary_places_;  ///< made when the first word asks for it
+  ir::Block surface_block_;                        ///< the block at hand in the words of the face or the cylinder
+  ir::Plane plane_by_text_ = ir::Plane::xy;        ///< of the last plane function written
+  bool after_offset_ = false;                      ///< the last thing written is a work offset
+  bool offset_before_ = false;                     ///< the same, for the block at hand
+  std::optional<ir::HoleCycle> last_hole_;         ///< the last hole cycle written, for changes of it
 };
 
 }  // namespace cnctrans::backends::fagor

@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include <algorithm>
-
 #include "backends/num/style.h"
 #include "backends/num/writer.h"
 #include "base/text.h"
@@ -173,6 +171,17 @@ void Writer::motion(const ir::Motion& m) {
     thread.keeps_modal = false;
     return motion(thread);
   }
+  if (!same_dialect() && m.kind == ir::MotionKind::modal && m.moves() &&
+      begins_css()) {  // X beside G96 alone moves nothing
+    const ir::Facts* f = facts();
+    const auto kind = f != nullptr && f->reachable ? f->motion : motion_tracker().text();
+    if (!kind) return refuse("TRN-216", {}, "a move beside G96 needs its motion code, which is not known here");
+    ir::Motion said = m;
+    said.kind = *kind;
+    said.explicit_code = true;
+    said.keeps_modal = true;
+    return motion(said);
+  }
   // Positions of a cycle are reached in rapid without a code; one beside the cycle is an error of the control.
   bool in_cycle = cycle_here_;
   if (!in_cycle && !same_dialect()) {
@@ -189,6 +198,16 @@ void Writer::motion(const ir::Motion& m) {
   frame_use(m);
   for (const auto& w : m.coords) coordinate(m, w);
   if (m.extra) motion_extra(m, *m.extra);
+}
+
+/// The block switches to constant cutting speed.
+bool Writer::begins_css() const {
+  const auto* b = std::get_if<ir::Block>(&current().node);
+  return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const ir::Action& a) {
+           const auto* m = std::get_if<ir::ModalSet>(&a.data);
+           return m != nullptr && m->setting == ir::Setting::spindle_mode &&
+                  m->value == code_value(ir::SpindleMode::css);
+         });
 }
 
 /// G52 needs G90: the mode in force comes back behind the words.

@@ -68,6 +68,7 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] bool structured_allowed();
   std::string structured_condition(const ir::ExprPtr& e);
   [[nodiscard]] bool behind_words(WordPos pos) const;
+  [[nodiscard]] bool begins_css() const;
   [[nodiscard]] bool machine_frame_in_incremental(const ir::Motion& m);
   std::string decimals(const ir::Value& value);
   std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);

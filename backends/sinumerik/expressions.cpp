@@ -56,6 +56,7 @@ constexpr std::array system_names{SystemName{ir::Datum::programmed_position, "$P
                                   SystemName{ir::Datum::work_position, "$AA_IW", true},
                                   SystemName{ir::Datum::machine_position, "$AA_IM", true},
                                   SystemName{ir::Datum::work_offset, "$P_UIFR", true},
+                                  SystemName{ir::Datum::programmed_shift, "$P_PFRAME", true},
                                   SystemName{ir::Datum::tool_number, "$P_TOOLNO", false},
                                   SystemName{ir::Datum::offset_number, "$P_TOOL", false},
                                   SystemName{ir::Datum::tool_radius, "$P_TOOLR", false},
@@ -159,6 +160,9 @@ std::string Expressions::name(const ir::SystemRef& s) {
     for (const ir::ExprPtr& a : s.args) indices.push_back(index(a));
     indices.emplace_back(program_.axis_name(s.axis));
     indices.emplace_back(s.datum == ir::Datum::work_offset ? "TR" : "FI");
+  } else if (s.datum == ir::Datum::programmed_shift && !own_name) {
+    indices.emplace_back(program_.axis_name(s.axis));
+    indices.emplace_back("TR");
   } else {
     if (s.axis != ir::axis::none) indices.emplace_back(program_.axis_name(s.axis));
     for (const ir::ExprPtr& a : s.args) {

@@ -208,7 +208,6 @@ constexpr std::string_view missing_feature(const GCode& row) {
   switch (row.kind) {
     case GKind::turning_cycle: return row.code == 63 || row.code == 66 ? "cycle.turning" : "";
     case GKind::milling_cycle: return row.code == 45 ? "" : "cycle.milling";
-    case GKind::spatial_comp:
     case GKind::transform:
     case GKind::grinding_axis:
     case GKind::lathe_transform: return "motion.transformation";
@@ -231,7 +230,9 @@ inline constexpr std::array g_remarks{
     GRemark{6, "the curve between the points is not described"},
     GRemark{10, "a line at feed that a contact ends; not with a condition (NUM-045)"},
     GRemark{12, "left out with a warning (NUM-034)"},
-    GRemark{16, "R+ only; another tool axis is kept as text (NUM-038)"},
+    GRemark{16, "cycles work along it; a translation needs the plane whose normal it is (NUM-038)"},
+    GRemark{29, "lines; the run shows the programmed points, no translation carries the correction (NUM-060)"},
+    GRemark{43, "as G29"},
     GRemark{75, "left out with a warning (NUM-033)"},
     GRemark{76,
             "with H: kept as text, it changes another program (NUM-034); into this program: kept as text too, a run "

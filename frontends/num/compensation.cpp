@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text.h"
 #include "dialects/num/variables.h"
 #include "ir/dataflow.h"
 
@@ -35,6 +36,14 @@ bool turns_frame(const ir::Block& b) {
   return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
     const auto* f = std::get_if<ir::FrameOp>(&a.data);
     return f != nullptr && f->change && f->change->slot == ir::FrameSlot::rotation;
+  });
+}
+
+/// G16.
+bool turns_tool(const ir::Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    const auto* w = std::get_if<ir::OpaqueWord>(&a.data);
+    return w != nullptr && iequals_ascii(w->word.substr(0, 3), "G16");
   });
 }
 
@@ -92,6 +101,7 @@ class Judge {
     if ((own ? *own != 0 : on) && stops) say(s, "M00 or M01 while radius compensation is on", "write G40 before it");
     if (stays && moves && b.motion.frame == ir::FrameUse::machine)
       say(s, "G52 while radius compensation is on", "write G40 before it");
+    if (stays && turns_tool(b)) say(s, "G16 while radius compensation is on", "write G40 before it");
     if (stays && turns_frame(b))
       diagnostics_.warning("NUM-058", s.line.span,
                            "ED turns the coordinates while radius compensation is on; it belongs before G41 or G42",
@@ -138,7 +148,7 @@ bool CompensationWatch::suspects(const ir::Block& b) {
   const bool arc = moves && is_arc(motion_);
   const bool stops = std::any_of(b.actions.begin(), b.actions.end(),
                                  [](const ir::Action& a) { return std::holds_alternative<ir::Stop>(a.data); });
-  const bool under = (was_on || on_) && (stops || turns_frame(b) || set_in(b, ir::Setting::plane) ||
+  const bool under = (was_on || on_) && (stops || turns_frame(b) || turns_tool(b) || set_in(b, ir::Setting::plane) ||
                                          (moves && b.motion.frame == ir::FrameUse::machine));
   const bool suspicious = under || (arc && (begins_ || inverse_time_));
   if (moves) begins_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/text.h"
 #include "ir/dataflow.h"
 #include "ir/search.h"
 
@@ -13,6 +14,14 @@ namespace {
 const ir::HoleCycle* modal_cycle_in(const ir::Block& b) {
   const auto* d = ir::action_in<ir::CycleDefine>(b);
   return d != nullptr && d->modal && d->cycle ? std::get_if<ir::HoleCycle>(&d->cycle->node) : nullptr;
+}
+
+/// G16.
+bool turns_tool(const ir::Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    const auto* w = std::get_if<ir::OpaqueWord>(&a.data);
+    return w != nullptr && iequals_ascii(w->word.substr(0, 3), "G16");
+  });
 }
 
 bool moves_along(const ir::Block& b, ir::AxisId axis) {
@@ -51,6 +60,13 @@ void judge_cycle_moves(ir::Program& program, const ir::ModalState& power_on, Dia
   for (const auto& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b != nullptr && turns_tool(*b)) {
+        const ir::Facts& here = table.before(s.id);
+        if (ir::action_in<ir::CycleCancel>(*b) == nullptr && here.reachable && here.cycle_active_known &&
+            here.cycle_active)
+          diagnostics.error("NUM-026", s.line.span, "G16 while a drilling cycle is active", "write G80 before it");
+        return;
+      }
       if (b == nullptr || !b->has_motion || ir::action_in<ir::CycleDefine>(*b) != nullptr ||
           ir::action_in<ir::CycleCancel>(*b) != nullptr)
         return;

@@ -1,6 +1,7 @@
 // Origin shifts, preset, mirror, scale, tool axis (reference 8, 9.2), and which of G90 and G91 counts for a word.
 #include <utility>
 
+#include "base/text.h"
 #include "dialects/num/variables.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/slots.h"
@@ -197,6 +198,27 @@ void Lowering::scale(const Word& w, bool on) {
   act(w, Step::frame, frame_op(std::move(change)));
 }
 
+/// Another tool axis than +Z: holes and pockets lie along it. The length of the tool counts there, which no position
+/// shows: `natural`: other controls do the same in the plane of the text.
+void Lowering::other_tool_axis(const Word& g16, const Word& axis, bool natural) {
+  const auto order = natural ? ir::Order::with : ir::Order::after;  // `after`: a translation refuses it
+  const std::size_t from = g16.pos.column - 1, to = axis.pos.column - 1 + axis.pos.length;
+  const std::size_t end = g16.pos.column - 1 + g16.pos.length;
+  const bool beside = axis.pos.column - 1 >= end && trim(text_.substr(end, axis.pos.column - 1 - end)).empty();
+  const std::string_view words = beside ? text_.substr(from, to - from) : text_of(g16);
+  act(g16, Step::special, ir::OpaqueWord{words}, order).text = words;
+  if (!beside) act(axis, Step::special, ir::OpaqueWord{text_of(axis)}, order);
+  if (axis.address == "R" && natural)
+    return report_.note("NUM-034", g16.pos, "`G16` R+ names the tool axis that counts anyway");
+  report_.warn("NUM-038", g16.pos,
+               std::string("`G16 ") + std::string(text_of(axis)) +
+                   "`: cycles work along this axis, and the length of the tool counts along it, which no position of a "
+                   "run shows; " +
+                   (natural ? "other controls take the normal of the plane, which is the same here"
+                            : "other controls take the normal of the plane, which is another one"),
+               natural ? "" : "select the plane whose normal is the tool axis");
+}
+
 void Lowering::tool_axis(const Word& g16) {
   for (const auto& [name, axis] :
        {std::pair{'P', ir::axis::x}, std::pair{'Q', ir::axis::y}, std::pair{'R', ir::axis::z}}) {
@@ -205,12 +227,11 @@ void Lowering::tool_axis(const Word& g16) {
     used_ |= bit(s);
     const Word& w = *pending_[static_cast<std::size_t>(s)];
     const bool plus = w.number_text.empty() || w.number_text.back() == '+';
-    if (axis != ir::axis::z || !plus) {
-      return report_.keep("NUM-038", g16.pos, "a tool axis other than +Z is not carried yet", "motion.transformation");
-    }
     state_.tool_axis = axis;
-    leave_out(g16, "NUM-034", "R+ names the tool axis that counts anyway", 2);
-    return;
+    const bool alone = block_->words.size() == 2 && block_->statements.empty();
+    if (axis == ir::axis::z && plus && alone)
+      return leave_out(g16, "NUM-034", "R+ names the tool axis that counts anyway", 2);
+    return other_tool_axis(g16, w, plus && (axis == ir::axis::z || ir::plane_axes(state_.plane).w == axis));
   }
   unknown(g16, "G16 needs P, Q or R with a sign");
 }

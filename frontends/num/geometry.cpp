@@ -118,6 +118,34 @@ void Lowering::line_words() {
   out_->has_motion = true;
 }
 
+/// G29, G43: the correction of a mould along the normal (P Q R) of its surface, and the tool's axis (I J K) of five
+/// axes [9.5]. The positions are those of the program; what the control adds to them no trace shows.
+void Lowering::spatial_correction() {
+  const ir::MotionKind kind = marks_.motion ? out_->motion.kind : state_.motion;
+  const Word* g = marks_.spatial;
+  if (g != nullptr) {
+    if (state_.cycle || (marks_.motion && !is_straight(kind)))
+      return report_.refuse("NUM-060", g->pos, "3D correction takes lines, and no cycle", "", "beside.compensation");
+    state_.spatial = true;
+    act(*g, Step::special, ir::OpaqueWord{text_of(*g)}, ir::Order::after);  // a translation refuses it
+    report_.warn("NUM-060", g->pos,
+                 "`" + std::string(text_of(*g)) +
+                     "`: the run shows the programmed points; the machine adds the correction of the tool to them. No "
+                     "translation carries it");
+  }
+  if (!is_straight(kind)) {
+    if (out_->motion.moves())
+      report_.refuse("NUM-060", out_->motion.coords.front().pos, "an arc under 3D correction", "write G40 before it",
+                     "beside.compensation");
+    return;
+  }
+  for (const char c : {'P', 'Q', 'R', 'I', 'J', 'K'}) {
+    if (!has(letter(c))) continue;
+    const Word& w = *use(letter(c));
+    act(w, Step::special, ir::OpaqueWord{text_of(w)}, ir::Order::after);
+  }
+}
+
 /// G38: one line cut in step with the spindle, K per revolution.
 void Lowering::thread_segment() {
   auto& m = out_->motion;

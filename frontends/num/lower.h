@@ -33,6 +33,7 @@ struct TextState {
   bool cycle_inch = false;                     ///< the unit of its words
   std::vector<ir::VarRef> cycle_stale;         ///< variables written since its definition
   ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
+  bool spatial = false;                        ///< G29 or G43
   bool contour_open = false;                   ///< the last element's end follows from the next one
   bool inch = false;                           ///< G70
   ir::Surface surface = ir::Surface::none;     ///< G21, G22
@@ -141,6 +142,8 @@ class Lowering {
   void mirror(const Word& g51);
   void scale(const Word& w, bool on);
   void tool_axis(const Word& g16);
+  void other_tool_axis(const Word& g16, const Word& axis, bool natural);
+  void spatial_correction();
   void corner(const Word& eb);
   void through_points();
 
@@ -209,6 +212,7 @@ class Lowering {
     const Word* interruptible = nullptr;  ///< G10
     const Word* thread = nullptr;         ///< G38
     const Word* turning = nullptr;        ///< G33, G64, G65
+    const Word* spatial = nullptr;        ///< G29, G43
     const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above
     bool motion = false;                  ///< a motion code stands in the block

@@ -77,6 +77,8 @@ void Lowering::resolve_special() {
 
 void Lowering::resolve_motion() {
   auto& m = out_->motion;
+  if (marks_.spatial != nullptr || state_.spatial) spatial_correction();
+  if (report_.refused()) return;
   if (marks_.cycle != nullptr) return define_cycle(*marks_.cycle);
   if (state_.cycle) {
     const bool own_motion = marks_.motion && marks_.dwell == nullptr, words = (present_ & cycle_slots) != 0;

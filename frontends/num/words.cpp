@@ -289,7 +289,9 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::plane:
       state_.plane = static_cast<ir::Plane>(row.value);
       return setting(w, ir::Setting::plane, state_.plane);
-    case GKind::comp: return setting(w, ir::Setting::comp, static_cast<ir::CompSide>(row.value));
+    case GKind::comp:
+      state_.spatial = false;
+      return setting(w, ir::Setting::comp, static_cast<ir::CompSide>(row.value));
     case GKind::units:
       state_.inch = static_cast<ir::Units>(row.value) == ir::Units::inch;
       return setting(w, ir::Setting::units, static_cast<ir::Units>(row.value));
@@ -349,7 +351,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::milling_cycle:
       if (facts::missing_feature(row).empty()) return mark(marks_.cycle);
       return missing(facts::missing_feature(row));
-    case GKind::spatial_comp:
+    case GKind::spatial_comp: return mark(marks_.spatial);
     case GKind::transform:
     case GKind::grinding_axis:
     case GKind::lathe_transform:

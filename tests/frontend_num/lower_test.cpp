@@ -341,7 +341,6 @@ TEST(NumLower, WhatIsNotCarriedIsRefusedAndKept) {
                                                                                    {"L1=$0 N", "NUM-023"},
                                                                                    {"G76 N10 N20", "NUM-004"},
                                                                                    {"G10 G0 X5 N10", "NUM-045"},
-                                                                                   {"G16 P+", "NUM-038"},
                                                                                    {"X5 #", "NUM-001"}}) {
     const Outcome o = read("%1\n" + text + "\nM2\n");
     EXPECT_NE(body(o).find("opaque \"" + text), std::string::npos) << text << "\n" << body(o);
