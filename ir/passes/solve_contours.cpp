@@ -16,6 +16,57 @@ bool open_end(const Statement& s) {
   return b != nullptr && b->has_motion && contour::marks_of(*b).end != contour::ElementEnd::given;
 }
 
+/// The axes that nothing has moved or shifted since the start of the main program, down its text: they stand at 0.
+class Untouched {
+ public:
+  Untouched(const Routine& main, const LabelUses& uses, const machine::Profile& machine) {
+    std::uint32_t axes = machine.work_offsets.empty() ? ~0U : 0;
+    for (const auto& a : machine.axes) {
+      if (a.start != 0) axes = 0;
+    }
+    for (const auto& s : main.body) {
+      const auto labels = labels_on(s.line);
+      if (std::any_of(labels.begin(), labels.end(), [&uses](const LabelRef& l) { return uses.is_target(l); })) axes = 0;
+      if (s.id >= before_.size()) before_.resize(s.id + 1, 0);
+      before_[s.id] = axes;
+      axes &= ~touched(s);
+    }
+  }
+  [[nodiscard]] std::uint32_t before(std::uint32_t id) const { return id < before_.size() ? before_[id] : 0; }
+
+ private:
+  static std::uint32_t touched(const Statement& s) {
+    if (const auto* a = std::get_if<Assign>(&s.node)) {
+      for (const auto& item : a->items) {
+        if (item.to_system) return ~0U;
+      }
+      return 0;
+    }
+    if (std::holds_alternative<Label>(s.node) || std::holds_alternative<Message>(s.node) ||
+        std::holds_alternative<Declare>(s.node))
+      return 0;
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return ~0U;
+    for (const auto& a : b->actions) {
+      const bool plain = std::holds_alternative<ModalSet>(a.data) || std::holds_alternative<SetFeed>(a.data) ||
+                         std::holds_alternative<SetSpindle>(a.data) || std::holds_alternative<SpindleRun>(a.data) ||
+                         std::holds_alternative<SpindleGear>(a.data) || std::holds_alternative<Coolant>(a.data) ||
+                         std::holds_alternative<MachineFunction>(a.data) ||
+                         std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
+                         std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<CycleCancel>(a.data) ||
+                         std::holds_alternative<WorkOffset>(a.data);
+      if (!plain) return ~0U;
+    }
+    if (!b->has_motion) return 0;
+    if (!b->motion.centers.empty() || b->motion.radius_given || b->motion.extra) return ~0U;
+    std::uint32_t axes = 0;
+    for (const auto& w : b->motion.coords) axes |= w.axis < 32 ? 1U << w.axis : 0U;
+    return axes;
+  }
+
+  std::vector<std::uint32_t> before_;  ///< by id of the statement
+};
+
 class ContourPass {
  public:
   ContourPass(Program& program, const LegaliseContext& context)
@@ -23,7 +74,10 @@ class ContourPass {
 
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
+    const Untouched start(r, uses_, context_.source_machine);
+    untouched_ = r.kind == RoutineKind::main ? &start : nullptr;
     body(r.body);
+    untouched_ = nullptr;
   }
 
  private:
@@ -31,6 +85,7 @@ class ContourPass {
     std::vector<Block*> blocks;
     std::vector<const Facts*> facts;
     std::vector<contour::Element> elements;
+    std::uint32_t untouched = 0;  ///< axes that stand where they stood at the start of the program
     std::string fault;
   };
 
@@ -42,6 +97,7 @@ class ContourPass {
       }
       where_ = list[i].line.span;
       Group g;
+      if (untouched_ != nullptr) g.untouched = untouched_->before(list[i].id);
       i = collect(list, i, g);
       if (g.fault.empty()) write(g);
       if (g.fault.empty()) continue;
@@ -53,7 +109,11 @@ class ContourPass {
   }
 
   static void unmark(Block& b) {
-    std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<OpaqueWord>(a.data); });
+    std::erase_if(b.actions, [](const Action& a) {
+      const auto* w = std::get_if<OpaqueWord>(&a.data);
+      return w != nullptr && (w->word == contour::mark::secant || w->word == contour::mark::tangent ||
+                              w->word == contour::mark::plus || w->word == contour::mark::minus);
+    });
     b.motion.extra.reset();
   }
 
@@ -174,14 +234,23 @@ class ContourPass {
   void write(Group& g) const {
     const auto plane = setting_in<Plane>(*g.blocks.front(), *g.facts.front(), Setting::plane);
     const PlaneAxes axes = plane_axes(*plane);
-    const auto& at = g.facts.front()->position;
-    if (!at[axes.u] || !at[axes.v]) {
+    const auto at = [&](AxisId axis) {
+      const auto known = g.facts.front()->position[axis];
+      return known || (g.untouched >> axis & 1U) == 0 ? known : std::optional(0.0);
+    };
+    const auto u = at(axes.u), v = at(axes.v);
+    if (!u || !v) {
       g.fault = "the point where it starts is not known here";
       return;
     }
+    if (!g.facts.front()->position[axes.u] || !g.facts.front()->position[axes.v]) {
+      context_.diagnostics.warning("TRN-484", where_,
+                                   "no move before this contour says where the tool stands: its points are those from "
+                                   "the zero point of the program on",
+                                   "write a move to the start of the contour before it");
+    }
     const bool inch = setting_in<Units>(*g.blocks.front(), *g.facts.front(), Setting::units) != Units::metric;
-    const auto solved = contour::solve({*at[axes.u], *at[axes.v]}, g.elements,
-                                       context_.source_machine.arc_tolerance / (inch ? 25.4 : 1));
+    const auto solved = contour::solve({*u, *v}, g.elements, context_.source_machine.arc_tolerance / (inch ? 25.4 : 1));
     if (!solved.ok) {
       g.fault = solved.error;
       return;
@@ -227,6 +296,7 @@ class ContourPass {
   const LegaliseContext& context_;
   FactsOf facts_;
   LabelUses uses_;
+  const Untouched* untouched_ = nullptr;
   Span where_;
 };
 
