@@ -200,16 +200,6 @@ void Writer::motion(const ir::Motion& m) {
   if (m.extra) motion_extra(m, *m.extra);
 }
 
-/// The block switches to constant cutting speed.
-bool Writer::begins_css() const {
-  const auto* b = std::get_if<ir::Block>(&current().node);
-  return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const ir::Action& a) {
-           const auto* m = std::get_if<ir::ModalSet>(&a.data);
-           return m != nullptr && m->setting == ir::Setting::spindle_mode &&
-                  m->value == code_value(ir::SpindleMode::css);
-         });
-}
-
 /// G52 needs G90: the mode in force comes back behind the words.
 bool Writer::machine_frame_in_incremental(const ir::Motion& m) {
   return m.frame == ir::FrameUse::machine && !same_dialect() &&

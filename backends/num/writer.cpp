@@ -42,6 +42,16 @@ std::int64_t Writer::main_number() const {
   return n;
 }
 
+/// The block switches to constant cutting speed.
+bool Writer::begins_css() const {
+  const auto* b = std::get_if<ir::Block>(&current().node);
+  return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const ir::Action& a) {
+           const auto* m = std::get_if<ir::ModalSet>(&a.data);
+           return m != nullptr && m->setting == ir::Setting::spindle_mode &&
+                  m->value == code_value(ir::SpindleMode::css);
+         });
+}
+
 /// G97 behind G96 without a speed: that the present one goes on is said of the source's control only.
 void Writer::freezes_speed(const ir::Action& a, const ir::ModalSet& m) {
   if (m.setting != ir::Setting::spindle_mode) return;
