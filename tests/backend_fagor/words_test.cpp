@@ -205,7 +205,10 @@ TEST(FagorWords, MachineCoordinatesWithoutLength) {  // 8.2
 TEST(FagorWords, DirectionOfARotaryMoveIsItsSign) {  // 6.7
   auto c = coord(axis::c, Value(90));
   c.direction = ir::RotaryDirection::negative;
-  EXPECT_EQ(lines_of(move(MotionKind::rapid, {c})), "G0 C-270\n");  // no rollover axis: from 0 back to 90
+  Build plain;  // no rollover axis: from 0 back to 90
+  plain.add(move(MotionKind::rapid, {c}));
+  EXPECT_EQ(plain.lines(), "G0 C-270\n");
+  EXPECT_EQ(plain.codes(), "TRN-483");
   const auto on_rollover = [](const ir::Block& b) {
     Build build;
     build.profile.options["fagor.rotary_rollover"] = "yes";
