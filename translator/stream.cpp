@@ -80,6 +80,7 @@ class StreamTranslation {
     if (!take_windows(windows, progress)) return;
     if (!watch_.head_done()) return void(give_up());  // no motion at all: let the whole-program path look at it
     reader_->end(result_.lines, reading_);
+    if (reading_.has_errors() || reading_.warning_count() != 0) return void(give_up());
     if (!ended_) {
       reading_.note("TRN-092", last_code_, "the program ends without an end word; one is written");
       ir::Statement end;
@@ -398,6 +399,9 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
     window = windows.reader.next();
   }
   if (!windows.reader.read_error().empty()) return run;  // the whole-program path reports
+  Diagnostics closing;
+  reader->end(number, closing);
+  if (closing.has_errors() || closing.warning_count() != 0) return run;
   run.outcome = StreamOutcome::done;
   run.result = runner.finish(last);
   return run;

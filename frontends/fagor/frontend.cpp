@@ -1,5 +1,8 @@
 #include "frontends/fagor/frontend.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
 #include "frontends/fagor/program_reader.h"
@@ -46,13 +49,18 @@ class FagorStream : public StreamReader {
     lowerer_.lower(block_, std::get<ir::Block>(out.node), result);
     if (state_.facts.unlisted_parameters || result.needs_program || result.call || !result.opaque.empty())
       return StreamLine::needs_program;
+    if (!carry_offset(std::get<ir::Block>(out.node), out.line, result.offset_waits)) return StreamLine::needs_program;
     if (!result.end) return StreamLine::statement;
+    if (waiting_) return StreamLine::needs_program;
     end_word_ = cnctrans::fagor::word_text(*result.end);
     return StreamLine::program_end;
   }
 
   [[nodiscard]] std::string_view end_word() const override { return end_word_; }
-  void end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {}
+  void end(std::uint32_t /*lines*/, Diagnostics& diagnostics) override {
+    if (waiting_)
+      diagnostics.warning("FAG-052", state_.line(), "the offset beside a T waits for an M06 that does not come");
+  }
   /// Coordinates and centres are checked against 99999.9999 only, block numbers against 8 digits; F0 has a meaning of
   /// its own. Rotary words are looked at one by one.
   [[nodiscard]] FreeNumbers free_numbers() const override {
@@ -77,6 +85,7 @@ class FagorStream : public StreamReader {
     add(state_.facts.preset);
     add(state_.facts.table_shift);
     add(state_.facts.shift);
+    add(waiting_.has_value());
     return key;
   }
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
@@ -93,7 +102,34 @@ class FagorStream : public StreamReader {
     return StreamLine::no_statement;
   }
 
+  /// On a tool changer the D beside a T counts from the M06 on (offsets_with_change). False: the whole program is
+  /// needed.
+  bool carry_offset(ir::Block& block, const ir::LineInfo& line, bool waits) {
+    if (!waiting_ && !waits) return true;
+    if (line.skip_mask != 0) return false;
+    const auto find = [&block](auto is) { return std::find_if(block.actions.begin(), block.actions.end(), is); };
+    const auto offset = find([](const ir::Action& a) { return std::holds_alternative<ir::ToolOffset>(a.data); });
+    const auto tool = find([](const ir::Action& a) { return std::holds_alternative<ir::ToolSelect>(a.data); });
+    const auto change = find([](const ir::Action& a) { return std::holds_alternative<ir::ToolChange>(a.data); });
+    const auto end = block.actions.end();
+    if (waiting_) {
+      if (offset != end || tool != end) return false;
+      if (change == end) return true;
+      waiting_->order = change->order;
+      waiting_->pos = {};
+      waiting_->text = {};
+      block.actions.insert(change + 1, std::move(*waiting_));
+      waiting_.reset();
+      return true;
+    }
+    if (offset == end || change != end || !std::get<ir::ToolOffset>(offset->data).number.literal()) return false;
+    waiting_ = std::move(*offset);
+    block.actions.erase(offset);
+    return true;
+  }
+
   FileId file_;
+  std::optional<ir::Action> waiting_;  ///< the offset of a tool that the spindle does not have yet
   Diagnostics quiet_;
   LowerState state_;
   LineReader reader_;

@@ -260,7 +260,7 @@ void BlockLowerer::technology() {
   if (changes) return;
   if (const Word* d = take('D')) {
     act(ir::ToolOffset{value(*d)}, d);
-    if (state_.tool_changer() && letter('T') != nullptr) result_->needs_program = true;  // offsets_with_change()
+    if (state_.tool_changer() && letter('T') != nullptr) result_->offset_waits = true;  // offsets_with_change()
   }
 }
 
