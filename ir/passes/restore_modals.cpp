@@ -8,6 +8,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/kept_values.h"
 #include "ir/passes/modal_needs.h"
 
 namespace cnctrans::ir::passes {
@@ -36,15 +37,8 @@ class Restore {
   };
 
   Changes changes_of(std::size_t index) const {
-    std::set<std::size_t> reached{index};
-    for (bool more = true; more;) {
-      more = false;
-      for (const auto& site : calls_.sites()) {
-        if (site.callee && reached.count(site.caller) != 0) more = reached.insert(*site.callee).second || more;
-      }
-    }
     Changes c;
-    for (const auto r : reached) {
+    for (const auto r : reached_from(calls_, index)) {
       for_each_statement(program_.routines[r].body, [&c](const Statement& s) {
         const auto* b = std::get_if<Block>(&s.node);
         if (b == nullptr) return;
