@@ -25,12 +25,10 @@ void say_doubts(const Arguments& a) {
                       "cnctrans: warning: --lib " + folder + ": there is no such folder or file");
   }
   const auto foreign = [&a](const char* option, const std::string& machine, const std::string& dialect) {
-    for (const auto& d : translator::dialects()) {
-      if (d.name == dialect || !machine.starts_with(std::string(d.name) + "-")) continue;
-      a.messages->say(
-          Severity::warning, "CNC-MACHINE",
-          std::string("cnctrans: warning: ") + option + " " + machine + " is a machine of " + std::string(d.title));
-    }
+    const std::string title = translator::foreign_machine(machine, dialect);
+    if (!title.empty())
+      a.messages->say(Severity::warning, "CNC-MACHINE",
+                      std::string("cnctrans: warning: ") + option + " " + machine + " is a machine of " + title);
   };
   foreign("--machine", a.machine, a.dialect.empty() ? a.from : a.dialect);
   foreign("--target-machine", a.target_machine, a.to);

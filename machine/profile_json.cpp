@@ -270,27 +270,50 @@ void read_options(const json& object, Profile& p) {
   }
 }
 
+Profile read_profile(const json& root, bool is_builtin);
+
+std::optional<Profile> builtin(const std::string& name) {
+  for (std::size_t i = 0; i < builtin_profiles_count; ++i) {
+    if (builtin_profiles[i].name == name) return read_profile(json::parse(builtin_profiles[i].text), true);
+  }
+  return std::nullopt;
+}
+
 Profile base_profile(const json& name) {
   if (!name.is_string()) fail("extends must be a text");
   const auto text = name.get<std::string>();
-  for (std::size_t i = 0; i < builtin_profiles_count; ++i) {
-    if (builtin_profiles[i].name != text) continue;
-    std::string error;
-    auto p = from_json(builtin_profiles[i].text, &error);
-    if (!p) fail(error);
-    return *p;
-  }
-  fail("extends names no built-in profile: \"" + text + "\"");
+  auto p = builtin(text);
+  if (!p) fail("extends names no built-in profile: \"" + text + "\"");
+  return *p;
 }
 
-Profile read_profile(const json& root) {
+/// A machine that is described from the ground up still has the habits of its control: state of power-on, order of the
+/// frame, M functions, options. What the built-in machine consists of (axes, assumed data) is not inherited.
+Profile habits_of(const std::string& dialect, Kind kind) {
+  if (dialect.empty()) fail("profile lacks \"dialect\" (or \"extends\")");
+  auto p = builtin(dialect + "-" + std::string(word_of(kind_words, kind)));
+  if (!p) fail("dialect names no language: \"" + dialect + "\"");
+  forget_data_at_rest(*p);
+  p->axes.clear();
+  p->name.clear();
+  return *p;
+}
+
+Profile read_profile(const json& root, bool is_builtin) {
   Reader r(root, "profile");
   Profile p;
-  if (const auto* base = r.find("extends")) p = base_profile(*base);
   r.find("$schema");
-  r.text("name", p.name);
+  if (const auto* base = r.find("extends")) p = base_profile(*base);
+  const Profile base = p;
   r.text("dialect", p.dialect);
   r.word("kind", kind_words, p.kind);
+  if (r.find("extends") != nullptr) {
+    if (p.dialect != base.dialect) fail("dialect is not that of the profile it extends: \"" + p.dialect + "\"");
+    if (p.kind != base.kind) fail("kind is not that of the profile it extends");
+  } else if (!is_builtin) {
+    p = habits_of(p.dialect, p.kind);
+  }
+  r.text("name", p.name);
   if (const auto* j = r.find("axes")) read_axes(*j, p);
   if (const auto* j = r.find("power_on")) read_power_on(*j, p.power_on);
   if (const auto* j = r.find("frame_order")) read_frame_order(*j, p);
@@ -342,7 +365,7 @@ json power_on_json(const ir::ModalState& state) {
 
 std::optional<Profile> from_json(std::string_view text, std::string* error) {
   try {
-    return read_profile(json::parse(text));
+    return read_profile(json::parse(text), false);
   } catch (const Fault& f) {
     *error = f.text;
   } catch (const json::exception& e) {
@@ -399,8 +422,11 @@ std::vector<std::string> builtin_names() {
 }
 
 std::optional<Profile> load(const std::string& name_or_path, std::string* error) {
-  for (std::size_t i = 0; i < builtin_profiles_count; ++i) {
-    if (builtin_profiles[i].name == name_or_path) return from_json(builtin_profiles[i].text, error);
+  try {
+    if (auto p = builtin(name_or_path)) return p;
+  } catch (const Fault& f) {
+    *error = f.text;
+    return std::nullopt;
   }
   const auto source = SourceText::open(name_or_path, error);
   if (!source) {

@@ -111,14 +111,46 @@ TEST(Profile, DataAtRestIsInheritedUnlessItIsSwitchedOff) {
   EXPECT_FALSE(data_at_rest(*own, "FRO"));
 }
 
+/// A profile that extends nothing describes a machine; how its control behaves follows from its language. Without it
+/// the options of no control at all would hold: TRN-522 and TRN-523 stayed silent.
+TEST(Profile, ItsOwnMachineHasTheHabitsOfItsControl) {
+  std::string error;
+  for (const auto& name : builtin_names()) {
+    const auto control = load(name, &error);
+    ASSERT_TRUE(control) << error;
+    const std::string kind = control->kind == Kind::mill ? "mill" : "lathe";
+    const auto own = from_json(R"({"name": "a", "dialect": ")" + control->dialect + R"(", "kind": ")" + kind +
+                                   R"(", "axes": [{"name": "X"}, {"name": "Z"}]})",
+                               &error);
+    ASSERT_TRUE(own) << name << ": " << error;
+    EXPECT_EQ(own->name, "a");
+    EXPECT_EQ(own->axes.size(), 2U);
+    EXPECT_EQ(own->options, control->options) << name;
+    EXPECT_EQ(own->power_on, control->power_on) << name;
+    EXPECT_EQ(own->frame_order, control->frame_order) << name;
+    EXPECT_EQ(own->m_codes.size(), control->m_codes.size()) << name;
+  }
+  const auto said = from_json(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}],
+      "options": {"tool.bare_offset": "kept"}})",
+                              &error);
+  ASSERT_TRUE(said) << error;
+  EXPECT_EQ(said->option("tool.bare_offset"), "kept");
+  EXPECT_EQ(said->option("tool.length_axis"), "plane");
+}
+
 TEST(Profile, FaultsAreNamed) {
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "data_of_run": {"A": "luck"}})"), HasSubstr("data_of_run.A"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "data_at_rest": {"A": "1"}})"), HasSubstr("data_at_rest.A"));
   EXPECT_THAT(fault("{"), HasSubstr("JSON"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "colour": 1})"), HasSubstr("colour"));
   EXPECT_THAT(fault(R"({"extends": "nobody"})"), HasSubstr("nobody"));
-  EXPECT_THAT(fault(R"({"name": "a", "axes": [{"name": "Q"}]})"), HasSubstr("id"));
-  EXPECT_THAT(fault(R"({"name": "a", "axes": [{"name": "X"}, {"name": "X"}]})"), HasSubstr("twice"));
+  EXPECT_THAT(fault(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "Q"}]})"), HasSubstr("id"));
+  EXPECT_THAT(fault(R"({"name": "a", "dialect": "fagor"})"), HasSubstr("axes"));
+  EXPECT_THAT(fault(R"({"name": "a", "axes": [{"name": "X"}]})"), HasSubstr("dialect"));
+  EXPECT_THAT(fault(R"({"name": "a", "dialect": "pl7", "axes": [{"name": "X"}]})"), HasSubstr("pl7"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "dialect": "num"})"), HasSubstr("dialect"));
+  EXPECT_THAT(fault(R"({"extends": "fagor-mill", "kind": "lathe"})"), HasSubstr("kind"));
+  EXPECT_THAT(fault(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}, {"name": "X"}]})"), HasSubstr("twice"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "power_on": {"plane": "xx"}})"), HasSubstr("power_on.plane"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "frame_order": ["shift", "shift"]})"), HasSubstr("twice"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "options": {"helix.pitch_mismatch": "maybe"}})"), HasSubstr("maybe"));
