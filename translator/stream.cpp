@@ -1,6 +1,7 @@
 #include "translator/stream.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -42,6 +43,18 @@ struct Windows {
   }
 };
 
+frontends::TextLook look_through(const std::string& path) {
+  return [path](const std::function<bool(std::string_view)>& holds) {
+    LineWindowReader reader(window_bytes);
+    std::string error;
+    if (!reader.open(path, &error)) return true;
+    for (std::string_view text = reader.next(); !text.empty(); text = reader.next()) {
+      if (holds(text)) return true;
+    }
+    return !reader.read_error().empty();
+  };
+}
+
 class StreamTranslation {
  public:
   StreamTranslation(const Dialect& from, const Dialect& to, const machine::Profile& source,
@@ -65,7 +78,7 @@ class StreamTranslation {
         windows.encoding == Encoding::utf8 && options_.encoding.value_or(Encoding::utf8) == Encoding::utf8;
     if (!utf8) return void(give_up());
     file_ = result_.files.add_name(path);
-    const frontends::ReadOptions read{options_.reader, &source_};
+    const frontends::ReadOptions read{options_.reader, &source_, nullptr, look_through(path)};
     reader_ = from_.frontend->stream(file_, read, path);
     backends::WriteOptions write;
     write.profile = &target_;
@@ -79,7 +92,7 @@ class StreamTranslation {
     if (windows.bom && !options_.encoding) out_ += "\xEF\xBB\xBF";
     if (!take_windows(windows, progress)) return;
     if (!watch_.head_done()) return void(give_up());  // no motion at all: let the whole-program path look at it
-    reader_->end(result_.lines, reading_);
+    if (reader_->end(result_.lines, reading_) != frontends::StreamEnd::complete) return void(give_up());
     if (reading_.has_errors() || reading_.warning_count() != 0) return void(give_up());
     if (!ended_) {
       reading_.note("TRN-092", last_code_, "the program ends without an end word; one is written");
@@ -158,7 +171,7 @@ class StreamTranslation {
       if (ended_) return give_up();  // blocks behind the end
       last_code_ = statement_.line.span;
     }
-    if (!watch_.head_done()) return end ? give_up() : take_head(*block);
+    if (!watch_.head_done()) return end ? give_up() : take_head();
     ended_ = ended_ || end;
     if (!end) return put(*block);
     const bool alone = block->empty();
@@ -216,9 +229,9 @@ class StreamTranslation {
   }
 
   /// The head's statements are kept until the safe start can be put where it belongs.
-  bool take_head(const ir::Block& block) {
+  bool take_head() {
     head_.push_back(statement_);
-    if (head_.size() > head_limit || !watch_.take_head(block)) return give_up();
+    if (head_.size() > head_limit || !watch_.take_head(statement_)) return give_up();
     if (!watch_.head_done()) return true;
     ir::Program program = frame();
     program.routines.front().body = std::move(head_);
@@ -237,10 +250,9 @@ class StreamTranslation {
   bool run_passes(const std::vector<std::string_view>& names, ir::Program& program, const machine::Profile& source,
                   bool head) {
     for (const std::string_view pass : names) {
-      const bool once = pass == ir::gear_pass || pass == ir::offset_pass;
       Diagnostics said;
       if (!ir::run_pass(pass, program, {legal_, source, target_, {options_.cycles}, said})) return false;
-      if (!once && (head ? said.warning_count() != 0 : !said.empty())) return false;
+      if (!ir::once_a_program(pass) && (head ? said.warning_count() != 0 : !said.empty())) return false;
       passing_[pass_index(pass)].append(said);
     }
     return true;
@@ -273,7 +285,7 @@ class StreamTranslation {
       case ir::StreamWatch::Verdict::whole: return give_up();
     }
     plain_ = true;
-    watch_.follow(block);
+    follow();
     return emit(statement_);
   }
 
@@ -285,8 +297,13 @@ class StreamTranslation {
     const machine::Profile source = watch_.source_for(block);
     if (!run_passes(watch_.passes_for(block), program, source, false)) return give_up();
     ir::run_pass("tidy", program, {legal_, source, target_, {options_.cycles}, passing_.back()});
-    watch_.follow(block);
+    follow();
     return emit_all(program);
+  }
+
+  void follow() {
+    if (!watch_.follow(statement_)) return;
+    watch_.bare_tool().tell({legal_, source_, target_, {options_.cycles}, passing_[pass_index(ir::length_pass)]});
   }
 
   bool flush() {
@@ -368,7 +385,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   run.outcome = StreamOutcome::needs_program;
   if (!definition_files(dialect, options.libraries).empty() || !windows.open(path, &error)) return run;
   const FileId file = files.add_name(path);
-  const frontends::ReadOptions read{options.reader, &profile};
+  const frontends::ReadOptions read{options.reader, &profile, nullptr, look_through(path)};
   const auto reader = dialect.frontend->stream(file, read, path);
   if (!reader || options.reader != frontends::Reader::scanner) return run;
   interpreter::BlockRunner runner(profile, options.run, sink, run.diagnostics);
@@ -400,7 +417,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   }
   if (!windows.reader.read_error().empty()) return run;  // the whole-program path reports
   Diagnostics closing;
-  reader->end(number, closing);
+  if (reader->end(number, closing) != frontends::StreamEnd::complete) return run;
   if (closing.has_errors() || closing.warning_count() != 0) return run;
   run.outcome = StreamOutcome::done;
   run.result = runner.finish(last);

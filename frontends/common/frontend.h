@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,11 +20,16 @@ namespace cnctrans::frontends {
 /// difference is a diagnostic (error CNC-READERS).
 enum class Reader : std::uint8_t { scanner, antlr, both };
 
+/// Looks through a text before it is read as a stream: `holds` gets its windows of whole lines one after the other,
+/// until it says true. The answer: `holds` has said so, or the text can't be read.
+using TextLook = std::function<bool(const std::function<bool(std::string_view)>& holds)>;
+
 struct ReadOptions {
   Reader reader = Reader::scanner;
   const machine::Profile* profile = nullptr;  ///< never null when called
   /// Files that define names for every program of the machine, read before; may be null.
   const std::vector<const ir::Program*>* definitions = nullptr;
+  TextLook look = {};  ///< of a stream; empty: there is nothing to look through
 };
 
 /// Counts for `check` and the corpus table.
@@ -40,6 +46,12 @@ enum class StreamLine : std::uint8_t {
   program_end,    ///< `out` is the last block; an End follows it: the program is complete, trailing lines may follow
   no_statement,   ///< the line is no statement (header): what it says is in frame()
   needs_program,  ///< the construct needs the whole program: give up streaming
+};
+
+/// How a stream has ended.
+enum class StreamEnd : std::uint8_t {
+  complete,
+  needs_program  ///< something that only the end tells needs the whole program: what was read is void
 };
 
 /// Numbers of an address that the reading of a plain line treats alike: same statement, only the value differs, and
@@ -61,7 +73,7 @@ class StreamReader {
   /// After program_end: the end word as written.
   [[nodiscard]] virtual std::string_view end_word() const = 0;
   /// After the last line (`lines` of them): what is to be said of the program as a whole.
-  virtual void end(std::uint32_t lines, Diagnostics& diagnostics) = 0;
+  [[nodiscard]] virtual StreamEnd end(std::uint32_t lines, Diagnostics& diagnostics) = 0;
   [[nodiscard]] virtual FreeNumbers free_numbers() const { return {}; }
   /// What plain lines change and the reading of later ones depends on, as one number; 0: this reader does not say.
   [[nodiscard]] virtual std::uint64_t modal_key() const { return 0; }

@@ -7,6 +7,7 @@
 #include "dialects/fagor/limits.h"
 #include "frontends/fagor/finish_parts.h"
 #include "frontends/fagor/program_reader.h"
+#include "frontends/fagor/tool_offsets.h"
 #include "ir/cycles/pattern.h"
 #include "ir/dataflow.h"
 #include "ir/search.h"

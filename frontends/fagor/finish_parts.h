@@ -9,7 +9,4 @@ namespace cnctrans::fagor {
 /// G28 and G29 with axes (7.8): from here on every word names the axis that moves. FAG-051 where that can't be told.
 void resolve_exchanges(ir::Program& program, LowerState& state);
 
-/// T and D before the M06 of a tool changer (5.6): the offset comes with the tool. FAG-052 where the M06 can't be told.
-void offsets_with_change(ir::Program& program, LowerState& state);
-
 }  // namespace cnctrans::fagor

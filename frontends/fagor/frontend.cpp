@@ -6,6 +6,8 @@
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
 #include "frontends/fagor/program_reader.h"
+#include "frontends/fagor/tool_offsets.h"
+#include "ir/search.h"
 
 namespace cnctrans::frontends::fagor {
 
@@ -15,7 +17,9 @@ using cnctrans::fagor::BlockLowerer;
 using cnctrans::fagor::BlockResult;
 using cnctrans::fagor::LineReader;
 using cnctrans::fagor::LowerState;
+using cnctrans::fagor::may_change_tools;
 using cnctrans::fagor::ParseError;
+using cnctrans::fagor::WaitingOffset;
 
 constexpr std::size_t max_number_digits = 8;  ///< of a block number; longer ones are reported
 
@@ -23,7 +27,11 @@ constexpr std::size_t max_number_digits = 8;  ///< of a block number; longer one
 class FagorStream : public StreamReader {
  public:
   FagorStream(FileId file, const ReadOptions& options, std::string_view file_name)
-      : file_(file), state_(*options.profile, quiet_), reader_(options.reader) {
+      : profile_(*options.profile),
+        look_(options.look),
+        file_(file),
+        state_(*options.profile, quiet_),
+        reader_(options.reader) {
     frame_.dialect = "fagor";
     frame_.spaces = cnctrans::fagor::make_spaces();
     frame_.lathe = state_.lathe();
@@ -49,17 +57,16 @@ class FagorStream : public StreamReader {
     lowerer_.lower(block_, std::get<ir::Block>(out.node), result);
     if (state_.facts.unlisted_parameters || result.needs_program || result.call || !result.opaque.empty())
       return StreamLine::needs_program;
-    if (!carry_offset(std::get<ir::Block>(out.node), out.line, result.offset_waits)) return StreamLine::needs_program;
+    if (state_.tool_changer() && !follow_offset(out)) return StreamLine::needs_program;
     if (!result.end) return StreamLine::statement;
-    if (waiting_) return StreamLine::needs_program;
+    if (waiting()) return StreamLine::needs_program;
     end_word_ = cnctrans::fagor::word_text(*result.end);
     return StreamLine::program_end;
   }
 
   [[nodiscard]] std::string_view end_word() const override { return end_word_; }
-  void end(std::uint32_t /*lines*/, Diagnostics& diagnostics) override {
-    if (waiting_)
-      diagnostics.warning("FAG-052", state_.line(), "the offset beside a T waits for an M06 that does not come");
+  StreamEnd end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {
+    return waiting() ? StreamEnd::needs_program : StreamEnd::complete;
   }
   /// Coordinates and centres are checked against 99999.9999 only, block numbers against 8 digits; F0 has a meaning of
   /// its own. Rotary words are looked at one by one.
@@ -85,12 +92,17 @@ class FagorStream : public StreamReader {
     add(state_.facts.preset);
     add(state_.facts.table_shift);
     add(state_.facts.shift);
-    add(waiting_.has_value());
+    add(waiting());
     return key;
   }
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 
  private:
+  /// The text holds an M06.
+  enum class Changes : std::uint8_t { unknown, maybe, never };
+
+  [[nodiscard]] bool waiting() const { return rule_.waits() && changes_ != Changes::never; }
+
   StreamLine header(const SourceLine& line, ir::Statement& out) {
     ir::Routine& main = frame_.routines[0];
     if (!first_ || main.header.span.known() || line.text.size() == 1) return StreamLine::needs_program;
@@ -102,34 +114,34 @@ class FagorStream : public StreamReader {
     return StreamLine::no_statement;
   }
 
-  /// On a tool changer the D beside a T counts from the M06 on (offsets_with_change). False: the whole program is
-  /// needed.
-  bool carry_offset(ir::Block& block, const ir::LineInfo& line, bool waits) {
-    if (!waiting_ && !waits) return true;
-    if (line.skip_mask != 0) return false;
-    const auto find = [&block](auto is) { return std::find_if(block.actions.begin(), block.actions.end(), is); };
-    const auto offset = find([](const ir::Action& a) { return std::holds_alternative<ir::ToolOffset>(a.data); });
-    const auto tool = find([](const ir::Action& a) { return std::holds_alternative<ir::ToolSelect>(a.data); });
-    const auto change = find([](const ir::Action& a) { return std::holds_alternative<ir::ToolChange>(a.data); });
-    const auto end = block.actions.end();
-    if (waiting_) {
-      if (offset != end || tool != end) return false;
-      if (change == end) return true;
-      waiting_->order = change->order;
-      waiting_->pos = {};
-      waiting_->text = {};
-      block.actions.insert(change + 1, std::move(*waiting_));
-      waiting_.reset();
-      return true;
+  /// The D beside a T of a tool changer (5.6). False: the whole program is needed.
+  bool follow_offset(ir::Statement& s) {
+    auto& block = std::get<ir::Block>(s.node);
+    if (block.actions.empty() && !rule_.waits()) return true;
+    if (changes_ == Changes::never) return ir::action_in<ir::ToolChange>(block) == nullptr;
+    using Step = WaitingOffset::Step;
+    const Step step = rule_.follow(s, false);
+    if (step == Step::begins) {
+      if (changes_ == Changes::unknown) changes_ = look_for_changes();
+      if (changes_ == Changes::never) return true;
+      waiting_ = WaitingOffset::take(block);
+    } else if (step == Step::arrives) {
+      WaitingOffset::put(block, std::move(waiting_));
     }
-    if (offset == end || change != end || !std::get<ir::ToolOffset>(offset->data).number.literal()) return false;
-    waiting_ = std::move(*offset);
-    block.actions.erase(offset);
-    return true;
+    return step != Step::lost;
+  }
+  /// Without an M06 anywhere the tools are changed by hand, and no offset waits.
+  [[nodiscard]] Changes look_for_changes() const {
+    const auto holds = [this](std::string_view text) { return may_change_tools(text, profile_); };
+    return !look_ || look_(holds) ? Changes::maybe : Changes::never;
   }
 
+  const machine::Profile& profile_;
+  TextLook look_;
   FileId file_;
-  std::optional<ir::Action> waiting_;  ///< the offset of a tool that the spindle does not have yet
+  WaitingOffset rule_;
+  ir::Action waiting_{};  ///< the offset of a tool that the spindle does not have yet
+  Changes changes_ = Changes::unknown;
   Diagnostics quiet_;
   LowerState state_;
   LineReader reader_;

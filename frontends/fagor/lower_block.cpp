@@ -258,10 +258,7 @@ void BlockLowerer::technology() {
     act(std::move(select), t);
   }
   if (changes) return;
-  if (const Word* d = take('D')) {
-    act(ir::ToolOffset{value(*d)}, d);
-    if (state_.tool_changer() && letter('T') != nullptr) result_->offset_waits = true;  // offsets_with_change()
-  }
+  if (const Word* d = take('D')) act(ir::ToolOffset{value(*d)}, d);
 }
 
 /// The driven tool is the spindle behind the two of 5.4; the sign of S is its sense (5.7.9).

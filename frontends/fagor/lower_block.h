@@ -19,7 +19,6 @@ struct BlockResult {
   std::string_view opaque;             ///< not empty: the block is kept as text; key of the missing feature
   bool harmless = false;               ///< with `opaque`: no effect on the path
   bool needs_program = false;          ///< depends on the rest of the file: no streaming
-  bool offset_waits = false;           ///< D beside T without M06 on a tool changer
 };
 
 class BlockLowerer {

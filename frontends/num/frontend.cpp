@@ -65,8 +65,9 @@ class NumStream : public StreamReader {
   }
 
   [[nodiscard]] std::string_view end_word() const override { return flow_.end_text; }
-  void end(std::uint32_t lines, Diagnostics& diagnostics) override {
+  StreamEnd end(std::uint32_t lines, Diagnostics& diagnostics) override {
     if (!ended_ && started_) note_missing_end(Span{file_, lines, 1, lines, 1}, diagnostics);
+    return StreamEnd::complete;
   }
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 

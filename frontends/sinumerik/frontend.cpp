@@ -401,7 +401,7 @@ class LineStream final : public StreamReader {
     return words_.tail() == Tail::program_end ? StreamLine::program_end : StreamLine::statement;
   }
   [[nodiscard]] std::string_view end_word() const override { return context_.slice(words_.tail_pos()); }
-  void end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {}
+  StreamEnd end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override { return StreamEnd::complete; }
   [[nodiscard]] const ir::Program& frame() const override { return program_; }
 
  private:

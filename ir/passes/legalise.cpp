@@ -59,7 +59,7 @@ constexpr std::array pipeline{
     Pass{"conditions", passes::lower_conditions, false},
     Pass{"expressions", passes::lower_expressions, false},
     Pass{"tool_names", passes::number_tools, false},
-    Pass{"tool_lengths", passes::check_tool_lengths, false},
+    Pass{length_pass, passes::check_tool_lengths, false},
     Pass{"tools", passes::convert_tools, true},
     Pass{gear_pass, passes::choose_gears, false},
     Pass{offset_pass, passes::check_offset_tables, false},
@@ -114,10 +114,14 @@ std::vector<std::string_view> block_local_passes() {
   return names;
 }
 
+bool once_a_program(std::string_view pass) {
+  return pass == gear_pass || pass == offset_pass || pass == length_pass;
+}
+
 std::vector<std::string_view> head_passes() {
   std::vector<std::string_view> names;
   for (const auto& pass : pipeline) {
-    if (pass.block_local || pass.name == gear_pass || pass.name == offset_pass) names.push_back(pass.name);
+    if (pass.block_local || once_a_program(pass.name)) names.push_back(pass.name);
   }
   return names;
 }

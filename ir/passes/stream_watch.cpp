@@ -69,7 +69,8 @@ bool StreamWatch::possible() const {
 
 // --- the head -------------------------------------------------------------------------------------------------------
 
-bool StreamWatch::take_head(const Block& block) {
+bool StreamWatch::take_head(const Statement& s) {
+  const auto& block = std::get<Block>(s.node);
   for (const auto& a : block.actions) {
     const auto* units = set_of(a, Setting::units);
     if (units != nullptr && units->value != static_cast<std::uint8_t>(source_.power_on.units)) return false;
@@ -79,10 +80,10 @@ bool StreamWatch::take_head(const Block& block) {
     const bool once = feed != nullptr || set_of(a, Setting::path_mode) != nullptr;
     if (units == nullptr && !once && action_needs_whole(block, a)) return false;
   }
-  if ((block.has_motion && motion_needs_whole(block)) || moves_bare_tool(block)) return false;
+  if (block.has_motion && motion_needs_whole(block)) return false;
   if (cuts_without_feed(block)) return false;
   follow_head(block);
-  follow(block);
+  follow(s);
   return true;
 }
 
@@ -190,14 +191,6 @@ bool StreamWatch::gear_is_new(const Block& block) const {
   });
 }
 
-/// Moves a tool that has come without a D: the target gives it another offset, and the program is to be told so.
-bool StreamWatch::moves_bare_tool(const Block& block) const {
-  if (!bare_differs_) return false;
-  passes::BareTool tool = bare_tool_;
-  tool.follow(block);
-  return tool.waiting() && passes::has_motion(block);
-}
-
 /// A D number of another table, the first one.
 bool StreamWatch::offset_is_new(const Block& block) const {
   if (!tables_differ_ || offset_said_) return false;
@@ -226,7 +219,7 @@ bool StreamWatch::rapid_under_compensation(const Block& block) const {
 }
 
 StreamWatch::Verdict StreamWatch::look(const Block& block) const {
-  if (needs_whole(block) || moves_bare_tool(block)) return Verdict::whole;
+  if (needs_whole(block)) return Verdict::whole;
   if (gear_is_new(block) || offset_is_new(block)) return Verdict::local;
   if (adds_length_ && takes_length(block)) return Verdict::local;
   if (rapid_differs_ && rapid_under_compensation(block)) return Verdict::local;
@@ -236,12 +229,14 @@ StreamWatch::Verdict StreamWatch::look(const Block& block) const {
 std::vector<std::string_view> StreamWatch::passes_for(const Block& block) const {
   const bool gear = gear_is_new(block), offset = offset_is_new(block);
   std::vector<std::string_view> names = head_passes();
-  std::erase_if(
-      names, [&](std::string_view name) { return (name == gear_pass && !gear) || (name == offset_pass && !offset); });
+  std::erase_if(names, [&](std::string_view name) {
+    return name == length_pass || (name == gear_pass && !gear) || (name == offset_pass && !offset);
+  });
   return names;
 }
 
-void StreamWatch::follow(const Block& block) {
+bool StreamWatch::follow(const Statement& s) {
+  const auto& block = std::get<Block>(s.node);
   if (adds_length_) {
     if (takes_length(block)) {
       length_wanted_ = false;
@@ -250,7 +245,7 @@ void StreamWatch::follow(const Block& block) {
     }
   }
   offset_said_ = offset_said_ || offset_is_new(block);
-  bare_tool_.follow(block);
+  const bool bare = bare_differs_ && bare_tool_.follow(block, s.line.span);
   for (const auto& a : block.actions) {
     const auto* run = std::get_if<SpindleRun>(&a.data);
     gear_said_ = gear_said_ || std::holds_alternative<SpindleGear>(a.data) ||
@@ -264,21 +259,21 @@ void StreamWatch::follow(const Block& block) {
       offset_changed_ = true;
     }
   }
-  if (!block.has_motion) return;
+  if (!block.has_motion) return bare;
   const Motion& m = block.motion;
   if (m.moves()) comp_begins_ = false;
   if (m.kind != MotionKind::modal && m.keeps_modal) state_.motion = m.kind;
   for (const auto& c : m.coords) long_word_ = long_word_ || too_long(c.value);
+  return bare;
 }
 
 std::uint64_t StreamWatch::key() const {
   std::uint64_t key = static_cast<std::uint64_t>(state_.motion);
   for (std::size_t s = 0; s < setting_count; ++s) key = key << 2U | state_.get(static_cast<Setting>(s));
-  for (const bool flag :
-       {long_word_, offset_changed_, length_wanted_, length_switched_, gear_said_, offset_said_, bare_tool_.waiting(),
-        bare_tool_.given(), comp_begins_, offset_numbers_.differs(ToolOffset{Value{1.0}})})
+  for (const bool flag : {long_word_, offset_changed_, length_wanted_, length_switched_, gear_said_, offset_said_,
+                          comp_begins_, offset_numbers_.differs(ToolOffset{Value{1.0}})})
     key = key << 1U | (flag ? 1U : 0U);
-  return key;
+  return key << 3U | bare_tool_.key();
 }
 
 machine::Profile StreamWatch::source_for(const Block& block) const {

@@ -10,8 +10,9 @@ namespace cnctrans::ir {
 
 /// The passes for the head of a stream, in order: those of one block, and those that do something once a program.
 std::vector<std::string_view> head_passes();
-/// Those that do something once a program.
-inline constexpr std::string_view gear_pass = "gears", offset_pass = "offset_tables";
+inline constexpr std::string_view gear_pass = "gears", offset_pass = "offset_tables", length_pass = "tool_lengths";
+/// The pass is one of those that do something once a program.
+bool once_a_program(std::string_view pass);
 
 class StreamWatch {
  public:
@@ -27,7 +28,7 @@ class StreamWatch {
   [[nodiscard]] bool possible() const;
   /// The head: the blocks up to the point where nothing that follows can change what safe_start and the pass over
   /// feeds do to them. They are legalised together. False: the whole program is needed.
-  bool take_head(const Block& block);
+  bool take_head(const Statement& s);
   [[nodiscard]] bool head_done() const { return head_done_; }
 
   /// A block behind the head. Does not follow it.
@@ -35,7 +36,9 @@ class StreamWatch {
   /// The passes for a program of this block alone, in order.
   [[nodiscard]] std::vector<std::string_view> passes_for(const Block& block) const;
   /// The block is done: what it changes holds for those that follow.
-  void follow(const Block& block);
+  /// \return it is the first to move a tool that has come without a D: bare_tool().tell()
+  bool follow(const Statement& s);
+  [[nodiscard]] const passes::BareTool& bare_tool() const { return bare_tool_; }
   /// The source machine in the state before the block, for a program of this block alone.
   [[nodiscard]] machine::Profile source_for(const Block& block) const;
   /// Numbers with more places than these count as something else: see follow().
@@ -52,7 +55,6 @@ class StreamWatch {
   [[nodiscard]] bool takes_length(const Block& block) const;
   [[nodiscard]] bool gear_is_new(const Block& block) const;
   [[nodiscard]] bool offset_is_new(const Block& block) const;
-  [[nodiscard]] bool moves_bare_tool(const Block& block) const;
   [[nodiscard]] bool too_long(const Value& value) const;
   void follow_head(const Block& block);
 

@@ -7,7 +7,8 @@
 
 namespace cnctrans::ir::passes {
 
-void BareTool::follow(const Block& block) {
+bool BareTool::follow(const Block& block, const Span& where) {
+  if (used_) return false;
   bool changes = false;
   for (const auto& a : block.actions) {
     if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
@@ -18,8 +19,11 @@ void BareTool::follow(const Block& block) {
     }
   }
   for (const auto& a : block.actions) given_ = given_ || std::holds_alternative<ToolOffset>(a.data);
+  if (changes && !waiting_ && !given_) change_ = where;
   if (changes) waiting_ = true;
   if (given_) waiting_ = false;
+  used_ = waiting_ && has_motion(block);
+  return used_;
 }
 
 namespace {
@@ -35,21 +39,12 @@ void check_bare_tools(const Program& program, const LegaliseContext& context) {
   bool said = false;
   for (const auto& r : program.routines) {
     BareTool tool;
-    Span change;
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
-      if (said || std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();
-      if (said || b == nullptr) return;
-      const bool before = tool.waiting();
-      tool.follow(*b);
-      if (!before && tool.waiting()) change = s.line.span;
-      if (!tool.waiting() || !has_motion(*b)) return;
+      if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();
+      if (said || b == nullptr || !tool.follow(*b, s.line.span)) return;
       said = true;
-      context.diagnostics.warning("TRN-522", change,
-                                  "a tool without a D: the source takes " + bare_offset(context.source_machine) +
-                                      ", the target " + bare_offset(context.target_machine) +
-                                      "; the tool may stand off by its length (said once a program)",
-                                  "write the D beside the T, D0 for no offset");
+      tool.tell(context);
     });
   }
 }
@@ -84,6 +79,14 @@ void check_planes(const Program& program, const LegaliseContext& context) {
 }
 
 }  // namespace
+
+void BareTool::tell(const LegaliseContext& context) const {
+  context.diagnostics.warning("TRN-522", change_,
+                              "a tool without a D: the source takes " + bare_offset(context.source_machine) +
+                                  ", the target " + bare_offset(context.target_machine) +
+                                  "; the tool may stand off by its length (said once a program)",
+                              "write the D beside the T, D0 for no offset");
+}
 
 void check_tool_lengths(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;

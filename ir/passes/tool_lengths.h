@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ir/block.h"
+#include "ir/passes/legalise.h"
 #include "machine/profile.h"
 
 namespace cnctrans::ir::passes {
@@ -19,17 +20,20 @@ inline bool length_axes_differ(const machine::Profile& source, const machine::Pr
 /// Follows a program block by block: has the tool in the spindle come without a D?
 class BareTool {
  public:
-  void follow(const Block& block);
+  /// \return a move uses such a tool, for the first time
+  bool follow(const Block& block, const Span& where);
   /// The D may have been given where it can't be seen.
   void forget() { waiting_ = false; }
-  /// No D has come since the change.
-  [[nodiscard]] bool waiting() const { return waiting_; }
-  /// A D has come since the last T.
-  [[nodiscard]] bool given() const { return given_; }
+  /// Where such a tool has come that a move uses: TRN-522.
+  void tell(const LegaliseContext& context) const;
+  /// What the next blocks depend on, as a number below 8.
+  [[nodiscard]] unsigned key() const { return (given_ ? 1U : 0U) + (waiting_ ? 2U : 0U) + (used_ ? 4U : 0U); }
 
  private:
   bool given_ = false;    ///< a D since the last T
   bool waiting_ = false;  ///< changed without one
+  bool used_ = false;     ///< by a move: the rest does not matter any more
+  Span change_;
 };
 
 }  // namespace cnctrans::ir::passes

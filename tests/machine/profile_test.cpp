@@ -150,7 +150,8 @@ TEST(Profile, FaultsAreNamed) {
   EXPECT_THAT(fault(R"({"name": "a", "dialect": "pl7", "axes": [{"name": "X"}]})"), HasSubstr("pl7"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "dialect": "num"})"), HasSubstr("dialect"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "kind": "lathe"})"), HasSubstr("kind"));
-  EXPECT_THAT(fault(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}, {"name": "X"}]})"), HasSubstr("twice"));
+  EXPECT_THAT(fault(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}, {"name": "X"}]})"),
+              HasSubstr("twice"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "power_on": {"plane": "xx"}})"), HasSubstr("power_on.plane"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "frame_order": ["shift", "shift"]})"), HasSubstr("twice"));
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "options": {"helix.pitch_mismatch": "maybe"}})"), HasSubstr("maybe"));
