@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "interpreter/run_codes.h"
+#include "ir/surface_of_tool.h"
 
 namespace cnctrans::interpreter {
 
@@ -73,7 +74,7 @@ double BlockMachine::feed_unit() const {
 }
 
 bool BlockMachine::check_axis(ir::AxisId a) {
-  if (a < ir::axis::count_max && axis_[a].present) return modal_.surface == ir::Surface::none || surface_axis(a);
+  if (a < ir::axis::count_max && axis_[a].present) return !ir::turns_part(modal_.surface) || surface_axis(a);
   const auto name = a < ir::axis::first_extra ? std::string(ir::fixed_axis_name(a)) : "number " + std::to_string(a);
   return failure_.fail(code::no_axis, "the machine " + profile_.name + " has no axis " + name);
 }

@@ -52,7 +52,7 @@ double value_of(const ir::ModalState& state, int setting) {
 
 /// A length that the program wrote is kept in mm, whatever unit is in force when it is read.
 double BlockMachine::unit_of_written(const std::string& name) const {
-  return written_in_mm_.contains(name) ? unit() : 1;
+  return policy_.data_modal && written_in_mm_.contains(name) ? unit() : 1;
 }
 
 /// What the program wrote, what --set gave, what the profile says; a name with an index may be set without brackets.
@@ -449,8 +449,8 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
     return true;
   }
   const std::string key = datum_key(ref, args);
-  if (policy_.data_modal && tool_length_unit(ref.datum)) {
-    v *= unit();
+  if (tool_length_unit(ref.datum) || machine::is_length_datum(profile_, key)) {
+    if (policy_.data_modal) v *= unit();
     written_in_mm_.insert(key);
   }
   written_[key] = v;

@@ -5,6 +5,7 @@
 
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "ir/surface_of_tool.h"
 #include "machine/data_at_rest.h"
 
 namespace cnctrans::interpreter {
@@ -290,7 +291,7 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
 
 /// Coordinates of the machine itself; the frame stays out of it.
 bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
-  if (modal_.surface != ir::Surface::none && names_turned_axes(m))
+  if (ir::turns_part(modal_.surface) && names_turned_axes(m))
     return failure_.fail(code::surface, std::string(no_machine_point));
   if (pending_ || block_corner_ || !contour_.empty())
     return failure_.fail(code::corner_alone,
@@ -322,7 +323,7 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
 
 /// To the reference point of the named axes (machine coordinates of the profile), in rapid.
 bool BlockMachine::reference_move(const ir::Motion& m) {
-  if (modal_.surface != ir::Surface::none && names_turned_axes(m))
+  if (ir::turns_part(modal_.surface) && names_turned_axes(m))
     return failure_.fail(code::surface, std::string(no_machine_point));
   std::vector<double> points;
   for (const auto& w : m.coords) {
@@ -334,7 +335,7 @@ bool BlockMachine::reference_move(const ir::Motion& m) {
 
 /// To a fixed point of the machine, in rapid; only the profile says where it is.
 bool BlockMachine::fixed_point_move(const ir::Motion& m) {
-  if (modal_.surface != ir::Surface::none && names_turned_axes(m))
+  if (ir::turns_part(modal_.surface) && names_turned_axes(m))
     return failure_.fail(code::surface, std::string(no_machine_point));
   const double n = m.extra && m.extra->has_fixed_point ? std::round(value(m.extra->fixed_point)) : 1;
   if (failure_.set) return false;

@@ -5,6 +5,7 @@
 
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
+#include "ir/surface_of_tool.h"
 
 namespace cnctrans::interpreter {
 
@@ -62,21 +63,26 @@ bool BlockMachine::set_surface(const ir::SurfaceSet& s) {
   if (pending_ || !contour_.empty())
     return failure_.fail(code::surface, "a corner or an open contour stands before this change of the coordinates");
   if (curve_ && !split_curve()) return false;
+  const bool turned = ir::turns_part(modal_.surface), turns = ir::turns_part(s.surface);
   const auto shifted = [this](ir::AxisId a) { return frame_.t[a] != 0; };
-  if (s.surface != ir::Surface::none && axis_[c].present && shifted(c))
+  if (turns && axis_[c].present && shifted(c))
     return failure_.fail(code::surface, "a zero offset or shift of the C axis under work on the face or the cylinder");
   Axes machine = frame_.apply(p_);
-  if (modal_.surface != ir::Surface::none) leave_surface(machine);
-  if (s.surface == ir::Surface::none && y_lent_) {
+  if (turned) leave_surface(machine);
+  if (!turns && y_lent_) {
     y_axis(false);
     y_lent_ = false;
-  } else if (s.surface != ir::Surface::none && !axis_[y].present) {
+  } else if (turns && !axis_[y].present) {
     y_axis(true);
     y_lent_ = true;
   }
   cylinder_ = diameter;
-  if (s.surface != ir::Surface::none) enter_surface(s.surface, machine);
+  if (turns) enter_surface(s.surface, machine);
   modal_.surface = s.surface;
+  if (!turned && !turns) {  // the point stays what it is; increments count from it (frames.cpp)
+    base_pending_ = 0;
+    return true;
+  }
   for (const ir::AxisId a : {x, y, c}) {
     if (axis_[a].present) path_event_.to.value[a] = machine[a];
     base_pending_ &= ~(1U << a);
@@ -89,7 +95,7 @@ bool BlockMachine::set_surface(const ir::SurfaceSet& s) {
 
 /// The C axis follows the coordinates of the surface: it has no words of its own.
 bool BlockMachine::surface_axis(ir::AxisId a) {
-  if (modal_.surface == ir::Surface::none || a != c) return true;
+  if (!ir::turns_part(modal_.surface) || a != c) return true;
   return failure_.fail(code::surface, "a word of the C axis while it follows the face or the cylinder");
 }
 

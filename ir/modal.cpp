@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 2> retract_names{"initial", "reference"};
 constexpr std::array<std::string_view, 2> feed_point_names{"centre", "contact"};
 constexpr std::array<std::string_view, 3> spline_end_names{"free", "natural", "tangent"};
 constexpr std::array<std::string_view, 2> reference_names{"arc_length", "parameter"};
-constexpr std::array<std::string_view, 3> surface_names{"none", "face", "cylinder"};
+constexpr std::array<std::string_view, 4> surface_names{"none", "face", "cylinder", "tool"};
 constexpr std::array<std::string_view, 21> motion_names{
     "modal",           "rapid",        "linear",          "arc_cw",
     "arc_ccw",         "thread",       "thread_variable", "arc_through_point",

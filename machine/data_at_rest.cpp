@@ -74,6 +74,16 @@ std::optional<RunAnswer> data_of_run(const Profile& profile, std::string_view na
   return RunAnswer{static_cast<RunDatum>(code / most_spindles), code % most_spindles};
 }
 
+bool is_length_datum(const Profile& profile, std::string_view name) {
+  const std::string list = profile.option("machine_data.lengths");
+  for (std::string_view rest = list; !rest.empty();) {
+    const auto bar = std::min(rest.find('|'), rest.size());
+    if (fits(rest.substr(0, bar), name)) return true;
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+  }
+  return false;
+}
+
 void forget_data_at_rest(Profile& profile) {
   std::erase_if(profile.data, [](const auto& item) { return item.first.starts_with(at_rest_mark); });
 }

@@ -43,6 +43,9 @@ struct RunAnswer {
 std::optional<double> data_at_rest(const Profile& profile, std::string_view name);
 std::optional<RunAnswer> data_of_run(const Profile& profile, std::string_view name);
 
+/// The datum is one of the lengths that the option machine_data.lengths names.
+bool is_length_datum(const Profile& profile, std::string_view name);
+
 /// Takes the assumed values out: what nobody has said must not make two programs the same.
 void forget_data_at_rest(Profile& profile);
 

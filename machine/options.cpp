@@ -77,6 +77,10 @@ constexpr std::array specs{
     OptionSpec{"helix.pitch_mismatch", "error|nearest", "error",
                "a helix whose pitch does not fit its travel: refused, or run with the nearest pitch"},
     OptionSpec{
+        "machine_data.lengths", "text", "",
+        "names of machine data that are lengths, separated by |, with * and # as in \"data_at_rest\": written in "
+        "the unit that machine_data.units tells, and kept in mm"},
+    OptionSpec{
         "machine_data.units", "modal|machine|with_feed", "machine",
         "lengths read from machine data: in the unit and diameter mode in force, always mm and radius, or in the "
         "unit in force as long as it is that of F too"},

@@ -1,6 +1,7 @@
 // Frame statements and poles (reference-language 14.5; motion reference 7.5).
 #include "backends/sinumerik/tables.h"
 #include "backends/sinumerik/writer.h"
+#include "ir/surface_of_tool.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -29,6 +30,7 @@ bool Writer::plain_is_radius(ir::AxisId axis) {
 }
 
 void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
+  if (s.surface == ir::surface_of_tool) return;  // the word that switches the transformation stands there
   switch (s.surface) {
     case ir::Surface::none: return add("TRAFOOF", Rank::setting, a.pos);
     case ir::Surface::face: return add("TRANSMIT", Rank::setting, a.pos);

@@ -5,6 +5,7 @@
 #include "base/saturate.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/row_parts.h"
+#include "ir/surface_of_tool.h"
 
 namespace cnctrans::sinumerik {
 
@@ -138,6 +139,8 @@ bool StatementLowering::transformation(const std::string& name, const std::vecto
     add(std::move(surface));
   } else {
     add(ir::OpaqueWord{c_.slice(pos)});
+    surface.surface = ir::surface_of_tool;
+    add(std::move(surface));
   }
   add(ir::FrameOp{std::move(clear)});
   add(ir::WorkOffset{ir::Value(0), true});

@@ -160,7 +160,8 @@ bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
   // PROC of a main program (.MPF, _MPF) without parameters is only its heading
   const bool main = routine_->kind == ir::RoutineKind::main && s.children.empty();
   if (!main) routine_->kind = ir::RoutineKind::sub;
-  routine_->name = routine_name(s.text);
+  // A main program has the name of its file; PROC with another one does not make it the file of that name.
+  if (!main || routine_->name.empty()) routine_->name = routine_name(s.text);
   routine_->has_signature = true;
   routine_->header = info;
   for (const Expr& attribute : s.args) {

@@ -7,6 +7,7 @@
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
 #include "ir/search.h"
+#include "ir/surface_of_tool.h"
 
 namespace cnctrans::ir::passes {
 
@@ -202,10 +203,26 @@ class SurfacePass {
   bool straightened_ = false;
 };
 
+/// The word that switches such a transformation is refused at its place; nothing else is to be said of it.
+void drop_tool_coordinates(Program& program) {
+  const auto of_tool = [](const Action& a) {
+    const auto* set = std::get_if<SurfaceSet>(&a.data);
+    return set != nullptr && set->surface == surface_of_tool;
+  };
+  if (!any_action(program, of_tool)) return;
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&of_tool](Statement& s) {
+      if (auto* b = std::get_if<Block>(&s.node)) std::erase_if(b->actions, of_tool);
+    });
+  }
+}
+
 }  // namespace
 
 void convert_surfaces(Program& program, const LegaliseContext& context) {
-  if (program.dialect == context.target.dialect || context.target.surfaces == SurfaceForm::none) return;
+  if (program.dialect == context.target.dialect) return;
+  drop_tool_coordinates(program);
+  if (context.target.surfaces == SurfaceForm::none) return;
   if (!any_action(program, [](const Action& a) { return std::holds_alternative<SurfaceSet>(a.data); })) return;
   SurfacePass pass(program, context);
   for (auto& r : program.routines)

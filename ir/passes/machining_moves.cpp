@@ -403,7 +403,7 @@ TurnCycles::TurnCycles(const Program& program, const Routine& routine, const Leg
       program_(program),
       routine_(routine),
       constants_(program),
-      written_(written_data(program)) {
+      written_(written_data(program, context.source_machine)) {
   const LabelUses uses = label_uses(program, routine);
   TurnState state;
   const auto sense = only_sense(program);

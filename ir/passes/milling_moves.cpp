@@ -185,7 +185,7 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
     : context_(context), feeds_(feeds) {
   if (!has_milling(program)) return;
   find_contours(program, routine);
-  written_ = written_data(program);
+  written_ = written_data(program, context.source_machine);
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [this](const Statement& s) {
       const auto* assign = std::get_if<Assign>(&s.node);

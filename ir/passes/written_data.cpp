@@ -5,6 +5,8 @@
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/rewrite.h"
+#include "ir/search.h"
+#include "machine/data_at_rest.h"
 
 namespace cnctrans::ir::passes {
 
@@ -17,16 +19,31 @@ std::string datum_name(const SystemRef& ref) {
   return ref.args.empty() ? out : out + "]";
 }
 
-std::map<std::string, std::optional<double>> written_data(const Program& program) {
+namespace {
+
+bool may_be_inch(const Program& program, const machine::Profile& source) {
+  const auto inch = static_cast<std::uint8_t>(Units::inch);
+  return source.power_on.units == Units::inch || any_action(program, [inch](const Action& a) {
+           const auto* m = std::get_if<ModalSet>(&a.data);
+           return m != nullptr && m->setting == Setting::units && m->value == inch;
+         });
+}
+
+}  // namespace
+
+std::map<std::string, std::optional<double>> written_data(const Program& program, const machine::Profile& source) {
   std::map<std::string, std::optional<double>> out;
+  const bool inch = may_be_inch(program, source);
   for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&out](const Statement& s) {
+    for_each_statement(r.body, [&](const Statement& s) {
       const auto* assign = std::get_if<Assign>(&s.node);
       if (assign == nullptr) return;
       for (const auto& item : assign->items) {
         if (!item.to_system) continue;
-        const auto value = constant_value(item.value);
-        const auto [it, fresh] = out.emplace(datum_name(item.system), value);
+        const std::string name = datum_name(item.system);
+        auto value = constant_value(item.value);
+        if (inch && machine::is_length_datum(source, name)) value.reset();
+        const auto [it, fresh] = out.emplace(name, value);
         if (!fresh && it->second != value) it->second.reset();
       }
     });

@@ -13,8 +13,9 @@ namespace cnctrans::ir::passes {
 /// "NOSEW[4]"; an index that is computed is `*`.
 std::string datum_name(const SystemRef& ref);
 
-/// Every datum the program writes, with the one number it writes; nullopt: not one fixed number.
-std::map<std::string, std::optional<double>> written_data(const Program& program);
+/// Every datum the program writes, with the one number it writes; nullopt: not one fixed number, or a length (option
+/// machine_data.lengths) that may count in inches.
+std::map<std::string, std::optional<double>> written_data(const Program& program, const machine::Profile& source);
 
 /// Data whose only use is a cycle of the source: the width of a grooving tool.
 bool left_out(const SystemRef& ref);
