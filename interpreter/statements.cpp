@@ -7,6 +7,7 @@
 #include "interpreter/runner.h"
 #include "ir/cycles/mill_contour.h"
 #include "ir/cycles/pocket_call.h"
+#include "ir/file_line.h"
 
 namespace cnctrans::interpreter {
 
@@ -237,8 +238,15 @@ bool Runner::whole_number(const ir::ExprPtr& e, std::int64_t otherwise, std::int
 void Runner::message(const ir::Message& m, const Span& where) {
   if (m.kind == ir::MessageKind::clear) return;
   std::string text;
+  const bool into_file = ir::file_line(m) != nullptr;
   for (const auto& part : m.parts) {
-    if (part) text += evaluator_.shown(evaluator_.id_of(part));
+    if (!part) continue;
+    std::string shown = evaluator_.shown(evaluator_.id_of(part));
+    if (into_file && failure_.set && failure_.code == code::no_datum) {  // the way does not depend on it
+      failure_.set = false;
+      shown = "?";
+    }
+    text += shown;
   }
   if (failure_.set) return;
   machine_.message(text, where);

@@ -4,6 +4,7 @@
 
 #include "backends/common/comments.h"
 #include "base/text.h"
+#include "ir/file_line.h"
 #include "ir/passes/uncalled.h"
 
 namespace cnctrans::backends {
@@ -328,7 +329,13 @@ void ProgramWriter::dispatch(const ir::Statement& s) {
     void operator()(const ir::ModalCall& n) const { w.modal_call(n); }
     void operator()(const ir::Return& n) const { w.return_from(n); }
     void operator()(const ir::End& n) const { w.end_program(n); }
-    void operator()(const ir::Message& n) const { w.message(n); }
+    void operator()(const ir::Message& n) const {
+      if (!w.same_dialect() && ir::file_line(n) != nullptr) {
+        return w.refuse("TRN-570", {}, "a line for a file of the control is not translated",
+                        "take it out, or show it as a message");
+      }
+      w.message(n);
+    }
     void operator()(const ir::Declare& n) const { w.declare(n); }
     void operator()(const ir::Label& /*n*/) const { w.label(); }
     void operator()(const ir::Opaque& n) const { w.opaque(n); }

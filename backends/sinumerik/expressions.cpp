@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/saturate.h"
+#include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
@@ -135,6 +136,13 @@ std::string Expressions::name(const ir::VarRef& v) {
   return text;
 }
 
+/// ISFILE("..") and its like.
+std::string Expressions::asked(const ir::SystemRef& s) {
+  std::string text = s.text;
+  for (std::size_t i = 0; i < s.args.size(); ++i) text += (i == 0 ? "(" : ",") + print(s.args[i]);
+  return text + ')';
+}
+
 std::string Expressions::name(const ir::SystemRef& s) {
   const SystemName* known = system_name(s.datum);
   const bool own_name = own_ && !s.text.empty();
@@ -155,6 +163,7 @@ std::string Expressions::name(const ir::SystemRef& s) {
     if (!frame->indexed || !row) return text;
     return text + '[' + std::to_string(saturate<std::int32_t>(*row) - frame->row) + ']';
   }
+  if (own_name && cnctrans::sinumerik::asked_function(s.text) != nullptr) return asked(s);
   std::vector<std::string> indices;
   if (s.datum == ir::Datum::work_offset || s.datum == ir::Datum::work_offset_fine) {
     for (const ir::ExprPtr& a : s.args) indices.push_back(index(a));

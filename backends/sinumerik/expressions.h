@@ -40,6 +40,7 @@ class Expressions final : public ExpressionPrinter {
   std::optional<Printed> special_call(const ir::ExprPtr& e, const ir::Call& c);
   Printed power(const ir::ExprPtr& e, const ir::Binary& b);
   std::string index(const ir::ExprPtr& e);
+  std::string asked(const ir::SystemRef& s);
   bool own_;  ///< the program was read from Sinumerik
 };
 

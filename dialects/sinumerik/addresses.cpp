@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 
+#include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/g_functions.h"
@@ -139,7 +140,6 @@ constexpr ProcedureRow procedure_rows[] = {
     {"INTERSEC", Procedure::unsupported},
     {"EXECSTRING", Procedure::unsupported},
     {"CALLPATH", Procedure::timing},
-    {"ISFILE", Procedure::unsupported},
     {"NEWCONF", Procedure::coordination},
     {"GET", Procedure::coordination},
     {"GETD", Procedure::coordination},
@@ -173,12 +173,12 @@ constexpr std::string_view keywords[] = {
 /// Functions, procedures and addresses that the control has and that are not carried yet, in alphabetical order: a name
 /// of these is never a variable.
 constexpr std::string_view predefined[] = {
-    "ADDFRAME", "BLSYNC",     "CALCPOSI",   "CHECKSUM",  "CHKDM",     "CHKDNO",    "CTABFNO",   "CTABFPOL", "CTABFSEG",
-    "CTABID",   "CTABISLOCK", "CTABMEMTYP", "CTABMPOL",  "CTABMSEG",  "CTABNO",    "CTABNOMEM", "CTABPOL",  "CTABPOLID",
-    "CTABSEG",  "CTABSEGID",  "DELDTG",     "DIACYCOFA", "DIAMCHAN",  "DIAMCHANA", "FOCOF",     "FOCON",    "FTOC",
-    "GETACTT",  "GETACTTD",   "GETDNO",     "GETTCOR",   "GETTENV",   "ICYCOF",    "ICYCON",    "ISVAR",    "LENTOAX",
-    "MEASURE",  "MOV",        "OMA1",       "OMA2",      "OMA3",      "OMA4",      "OMA5",      "POSRANGE", "RDISABLE",
-    "SETTCOR",  "SIRELAY",    "SIRELIN",    "SIRELOUT",  "SIRELTIME", "STRINGIS",  "SYNFCT",    "TOOLENV",  "WALCS"};
+    "ADDFRAME", "BLSYNC",     "CALCPOSI",   "CHECKSUM",  "CHKDM",    "CHKDNO",    "CTABFNO",   "CTABFPOL", "CTABFSEG",
+    "CTABID",   "CTABISLOCK", "CTABMEMTYP", "CTABMPOL",  "CTABMSEG", "CTABNO",    "CTABNOMEM", "CTABPOL",  "CTABPOLID",
+    "CTABSEG",  "CTABSEGID",  "DELDTG",     "DIACYCOFA", "DIAMCHAN", "DIAMCHANA", "FOCOF",     "FOCON",    "FTOC",
+    "GETACTT",  "GETACTTD",   "GETTCOR",    "GETTENV",   "ICYCOF",   "ICYCON",    "LENTOAX",   "MEASURE",  "MOV",
+    "OMA1",     "OMA2",       "OMA3",       "OMA4",      "OMA5",     "POSRANGE",  "RDISABLE",  "SETTCOR",  "SIRELAY",
+    "SIRELIN",  "SIRELOUT",   "SIRELTIME",  "SYNFCT",    "TOOLENV",  "WALCS"};
 
 /// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
 /// them.
@@ -270,7 +270,6 @@ Procedure procedure(std::string_view capitals) {
 }
 
 std::string_view procedure_missing_feature(std::string_view capitals) {
-  if (capitals == "ISFILE") return "language.files";
   const bool transformation = capitals.rfind("TRA", 0) == 0 && capitals.rfind("TRAIL", 0) != 0;
   return transformation ? "motion.transformation" : "language.statement";
 }
@@ -287,7 +286,9 @@ std::span<const std::string_view> axis_and_frame_functions() {
 }
 
 bool is_reserved(std::string_view capitals) {
-  if (is_predefined(capitals) || beside(capitals) != nullptr || definition(capitals) != nullptr) return true;
+  if (is_predefined(capitals) || asked_function(capitals) != nullptr || beside(capitals) != nullptr ||
+      definition(capitals) != nullptr)
+    return true;
   if (std::binary_search(std::begin(carried_functions), std::end(carried_functions), capitals)) return true;
   for (const auto& k : keywords) {
     if (k == capitals) return true;

@@ -68,6 +68,7 @@ bool StatementLowering::beside_statement(const Statement& s, Parts& parts) {
   if (s.keyword == "()") {
     const BesideRow* row = beside(s.text, BesideForm::procedure);
     if (row == nullptr || c_.symbol(s.text) != nullptr) return false;
+    if (file_statement(s, parts)) return true;
     if (row->gives_back && !gives_unknown(s.args)) return false;
     if (s.text == "CTABDEL") {  // which of them are left is not followed
       for (auto& [number, table] : c_.tables) table.known = false;

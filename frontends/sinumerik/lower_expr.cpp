@@ -7,6 +7,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/limits.h"
 #include "dialects/sinumerik/operators.h"
 
@@ -401,6 +402,7 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
 ir::ExprPtr ExprLowering::call(const Expr& e) {
   bool known = false;
   if (auto made = axis_function(e, known); known) return made;
+  if (asked_function(e.text) != nullptr && c_.symbol(e.text) == nullptr) return asked(e);
   const FunctionRow* row = expression_function(e.text);
   if (row == nullptr) {
     const bool attribute_word = attribute(e.text) != Attribute::none;

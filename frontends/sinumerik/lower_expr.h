@@ -69,6 +69,7 @@ class ExprLowering {
  private:
   ir::ExprPtr frame_function(const syntax::Expr& e);
   ir::ExprPtr axis_function(const syntax::Expr& e, bool& known);
+  ir::ExprPtr asked(const syntax::Expr& e);
   ir::ExprPtr table_function(const syntax::Expr& e);
   bool give_back(const syntax::Expr& e, std::size_t index, ir::ExprPtr value);
   ir::ExprPtr measured_frame(const syntax::Expr& e);

@@ -104,6 +104,8 @@ class StatementLowering {
   bool beside_statement(const syntax::Statement& s, Parts& parts);
   void put_beside(std::string_view feature, WordPos pos, Parts& parts);
   void tell_beside(WordPos pos, const std::string& what, std::string_view feature);
+  bool file_statement(const syntax::Statement& s, Parts& parts);
+  [[nodiscard]] bool can_be_shown(const syntax::Expr& e) const;
   bool interrupt_routine(const syntax::Block& block, const ir::LineInfo& info);
   bool in_definition(const syntax::Block& block, const ir::LineInfo& info);
   bool gives_unknown(const std::vector<syntax::Expr>& args);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/g_functions.h"
@@ -122,6 +123,11 @@ std::string function_table() {
     s += "| " + std::string(f.name) + " | " + std::to_string(f.arguments_min) +
          (f.arguments_max == f.arguments_min ? "" : "-" + std::to_string(f.arguments_max)) + " | " +
          std::string(ir::name(f.result)) + " |\n";
+  }
+  for (const auto& f : facts::asked_functions) {
+    s += "| " + std::string(f.name) + " | " + std::to_string(f.arguments_min) +
+         (f.arguments_max == f.arguments_min ? "" : "-" + std::to_string(f.arguments_max)) +
+         " | answered by the profile or --set (SIN-015) |\n";
   }
   for (const auto& n : facts::axis_and_frame_functions()) s += "| " + std::string(n) + " | | axis or frame |\n";
   return s;
