@@ -97,6 +97,12 @@ Flow* Runner::callee_of(const ir::CallRoutine& c) {
   }
   auto* flow = routines_.find(name, *flow_);
   if (flow == nullptr && !c.optional) {
+    if (profile_.option("call.missing") == "passed_over") {
+      if (c.computed)
+        diagnostics_.warning(code::passed_over, failure_.where,
+                             "there is no subprogram " + routine_text(name) + "; the run goes past the call");
+      return nullptr;
+    }
     failure_.fail(code::routine_missing, "there is no subprogram " + routine_text(name));
   }
   return flow;

@@ -37,6 +37,7 @@ inline constexpr std::string_view contour = "RUN-031";
 inline constexpr std::string_view contour_open = "RUN-032";
 inline constexpr std::string_view contour_chosen = "RUN-033";
 inline constexpr std::string_view program_error = "RUN-030";
+inline constexpr std::string_view passed_over = "RUN-130";
 inline constexpr std::string_view not_carried = "RUN-040";
 inline constexpr std::string_view spindle_number = "RUN-041";
 inline constexpr std::string_view needs_whole_program = "RUN-042";

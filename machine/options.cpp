@@ -16,6 +16,9 @@ constexpr std::array specs{
                "functions of the machine among the M functions that a block takes; 0: no limit"},
     OptionSpec{"calls.local_levels", "number", "0",
                "levels of own local parameters that may be open at once; 0: no limit"},
+    OptionSpec{
+        "call.missing", "error|passed_over", "error",
+        "a call of a subprogram that is nowhere: the program is refused, or a run goes past the call with a warning"},
     OptionSpec{"call.modal_words", "no|yes", "no",
                "under a modal call of a subprogram, F, S and a bare G0 or G1 run it as well, without motion"},
     OptionSpec{

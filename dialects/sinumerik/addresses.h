@@ -84,6 +84,8 @@ Procedure procedure(std::string_view capitals);
 
 /// Entry of the missing-features registry that a procedure of Procedure::unsupported stands under (capitals).
 std::string_view procedure_missing_feature(std::string_view capitals);
+/// The same of an address of NamedWord::unsupported.
+std::string_view word_missing_feature(std::string_view capitals);
 
 /// True when a user variable, label or subprogram may not have this name (capitals).
 bool is_reserved(std::string_view capitals);

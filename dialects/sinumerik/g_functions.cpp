@@ -163,7 +163,8 @@ constexpr GFunction printed[] = {
     {"DIAMOF", -1, 29, 1, true, GUse::setting, u(ir::Setting::diameter), u(ir::DiameterMode::radius)},
     {"DIAMON", -1, 29, 2, true, GUse::setting, u(ir::Setting::diameter), u(ir::DiameterMode::diameter)},
     {"DIAM90", -1, 29, 3, true, GUse::setting, u(ir::Setting::diameter), u(ir::DiameterMode::absolute_only)},
-    {"DIAMCYCOF", -1, 29, 4, true, GUse::unsupported},
+    // In cycles only; what is displayed is no matter here.
+    {"DIAMCYCOF", -1, 29, 4, true, GUse::setting, u(ir::Setting::diameter), u(ir::DiameterMode::radius)},
     {"COMPOF", -1, 30, 1, true, GUse::timing},
     {"COMPON", -1, 30, 2, true, GUse::timing},
     {"COMPCURV", -1, 30, 3, true, GUse::timing},
@@ -388,9 +389,15 @@ std::string_view missing_feature(const GFunction& g) {
   if (g.use != GUse::unsupported) return {};
   constexpr std::uint8_t motion_group = 1;
   constexpr std::uint8_t splines_from = 6, splines_to = 8, polynomial = 9;
+  constexpr std::uint8_t oem = 31, more_oem = 32, language = 47;
+  if (g.number == 5 || g.number == 7) return "motion.inclined";
+  if (g.number == 751) return "motion.via_point";
+  if (g.group == oem || g.group == more_oem || g.name.starts_with("OEM")) return "machine.makers_own";
+  if (g.group == language) return "language.other_mode";
+  if (g.name.starts_with("INVC")) return "motion.involute";
   if (g.group != motion_group) return g.group >= 49 && g.group <= 53 ? "motion.transformation" : "language.statement";
   if (g.index >= splines_from && g.index <= splines_to) return "motion.spline";
-  return g.index == polynomial ? "motion.polynomial" : "motion.geometry";
+  return g.index == polynomial ? "motion.polynomial" : "language.statement";
 }
 
 }  // namespace cnctrans::sinumerik

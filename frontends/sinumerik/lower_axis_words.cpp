@@ -344,10 +344,11 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   }
   Attribute attribute = Attribute::none;
   ir::Value value = exprs_.value_of(s.args[1], attribute);
+  if (attribute == Attribute::unsupported) feature_ = "machine.index_positions";
   if (c_.errors != before) return false;
   ir::CoordWord coord;
   if (!apply_attribute(attribute, coord))
-    return refuse("block.word", s.pos, "this way to give a position is not carried yet");
+    return refuse("machine.index_positions", s.pos, "this way to give a position is not carried yet");
   coord.value = std::move(value);
   coord.pos = s.pos;
   if (word == "IP") {

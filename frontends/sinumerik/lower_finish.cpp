@@ -150,7 +150,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
       c_.note("SIN-009", w.pos, name + " is kept as text: it does not change the programmed path");
       return;
-    case NamedWord::unsupported: refuse("block.word", w.pos, name + "= is not carried yet"); return;
+    case NamedWord::unsupported: refuse(word_missing_feature(name), w.pos, name + "= is not carried yet"); return;
   }
 }
 

@@ -221,7 +221,7 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
     return true;
   }
   if (k == "DEFINE") return macro(s, block, info);
-  if (k == "ISOCALL") return refuse("language.statement", s.pos, "calling a program in ISO mode is not carried yet");
+  if (k == "ISOCALL") return refuse("language.other_mode", s.pos, "calling a program in ISO mode is not carried yet");
   return false;
 }
 

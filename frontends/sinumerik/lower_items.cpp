@@ -259,7 +259,7 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
     return assign(target, expression(), w.pos, parts);
   }
   if (w.has_value && c_.symbol(whole) == nullptr && is_predefined(whole))
-    return refuse("language.statement", w.pos, whole + " is not carried yet");
+    return refuse(procedure_missing_feature(whole), w.pos, whole + " is not carried yet");
   if (name == "P" && w.has_value && w.extension < 0) {
     parts.has_count = true;
     parts.count = exprs_.lower_as(expression(), ir::Type::integer);

@@ -147,7 +147,7 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
   const auto group = static_cast<std::uint8_t>(e.args[0].number);
   ir::ExprPtr sum;
   for (const GFunction& g : g_functions()) {
-    if (g.group != group || g.index == 0) continue;
+    if (g.group != group || g.index == 0 || g.name == "DIAMCYCOF") continue;
     int setting = -1;
     double value = g.a;
     if (g.use == GUse::setting) {

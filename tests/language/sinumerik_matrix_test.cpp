@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/asked.h"
@@ -21,8 +22,9 @@ namespace {
 namespace facts = cnctrans::sinumerik;
 
 std::string reason(std::string_view key) {
-  return "kept as text, refused where it would run or be translated: " + std::string(ir::missing_feature(key).title) +
-         " (`" + std::string(key) + "`)";
+  const auto& feature = ir::missing_feature(key);
+  return "kept as text, refused where it would run or be translated: " + std::string(feature.title) + "; " +
+         std::string(feature.reason) + " (`" + std::string(key) + "`)";
 }
 
 constexpr const char* beside_path = "acts beside the programmed path, see below";
@@ -62,7 +64,7 @@ std::string word_table() {
   for (const auto& w : facts::named_words()) {
     using enum facts::NamedWord;
     s += "| " + std::string(w.name) + "= | " +
-         (w.use == unsupported    ? reason("block.word")
+         (w.use == unsupported    ? reason(facts::word_missing_feature(w.name))
           : w.use == orientation  ? "kept as text, a run passes over it; no other control gets it"
           : w.use == joint        ? "kept as text: says how the programmed end is reached; no other control gets it"
           : w.use == timing       ? "kept as text: the programmed path is the same"
@@ -91,9 +93,13 @@ std::string procedure_table() {
                                     : "carried") +
          " |\n";
   }
-  std::string rest;
-  for (const auto& n : facts::predefined_names()) rest += (rest.empty() ? "" : " ") + std::string(n);
-  return s + "| " + rest + " | " + reason("language.statement") + " |\n";
+  std::map<std::string_view, std::string> rest;  // by what is missing
+  for (const auto& n : facts::predefined_names()) {
+    auto& names = rest[facts::procedure_missing_feature(n)];
+    names += (names.empty() ? "" : " ") + std::string(n);
+  }
+  for (const auto& [feature, names] : rest) s += "| " + names + " | " + reason(feature) + " |\n";
+  return s;
 }
 
 std::string beside_table() {
