@@ -49,7 +49,7 @@ constexpr std::array features{
                    "the profile of the machine names its axes"},
     MissingFeature{"machine.geometry_axes", "other axes in the place of X, Y and Z (GEOAX)",
                    "the channel axes that can take their place are known to the machine only"},
-    MissingFeature{"machine.index_positions", "positions by their number (CAC, CIC, CDC, CACP, CACN)",
+    MissingFeature{"machine.index_positions", "positions by their number from the present one (CIC)",
                    "the table of the positions is machine data"},
     MissingFeature{"machine.makers_own", "functions that the machine builder defines (OEMIPO, G810 to G829, OMA)",
                    "what they do is in the software of the machine"},

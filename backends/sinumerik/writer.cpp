@@ -8,6 +8,7 @@
 #include "backends/sinumerik/tables.h"
 #include "base/text.h"
 #include "dialects/sinumerik/addresses.h"
+#include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/limits.h"
 
 namespace cnctrans::backends::sinumerik {
@@ -251,6 +252,10 @@ std::string Writer::word(std::string_view address, const ir::Value& value, WordP
 
 std::string Writer::attribute_word(std::string_view address, std::string_view attribute, const ir::Value& v,
                                    WordPos pos) {
+  const auto* position = v.expr ? std::get_if<ir::SystemRef>(&v.expr->node) : nullptr;
+  if (same_dialect() && position != nullptr && position->text == dialect::numbered_position_datum &&
+      position->args.size() == 2)  // CAC, CDC, CACP, CACN
+    return std::string(address) + "=C" + std::string(attribute) + '(' + expression_text(position->args[1], pos) + ')';
   return std::string(address) + '=' + std::string(attribute) + '(' + value_text(v, pos) + ')';
 }
 

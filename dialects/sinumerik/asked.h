@@ -13,6 +13,9 @@ struct AskedFunction {
 inline constexpr AskedFunction asked_functions[] = {
     {"ISFILE", 1, 1}, {"ISVAR", 1, 1}, {"STRINGIS", 1, 1}, {"GETT", 1, 2}, {"GETDNO", 2, 2}};
 
+/// CAC[B,3]: the third position of axis B in the machine's table.
+inline constexpr std::string_view numbered_position_datum = "CAC";
+
 constexpr const AskedFunction* asked_function(std::string_view capitals) {
   for (const auto& f : asked_functions) {
     if (f.name == capitals) return &f;

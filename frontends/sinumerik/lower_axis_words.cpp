@@ -349,6 +349,7 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   ir::CoordWord coord;
   if (!apply_attribute(attribute, coord))
     return refuse("machine.index_positions", s.pos, "this way to give a position is not carried yet");
+  if (literal != nullptr) exprs_.of_axis(value, literal->axis);
   coord.value = std::move(value);
   coord.pos = s.pos;
   if (word == "IP") {

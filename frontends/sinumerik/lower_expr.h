@@ -39,6 +39,8 @@ class ExprLowering {
   /// Value of a word; a position attribute round it goes to `attribute`.
   ir::Value value(const syntax::Block& block, const syntax::Word& word, Attribute& attribute);
   ir::Value value_of(const syntax::Expr& e, Attribute& attribute);
+  /// The axis that a position by its number belongs to.
+  void of_axis(ir::Value& value, ir::AxisId axis) const;
 
   /// The variable that `e` names (R parameter, declared name, array element); nullopt after an error.
   std::optional<ir::VarRef> variable(const syntax::Expr& e, ir::Type& type);
@@ -67,6 +69,7 @@ class ExprLowering {
   ir::ExprPtr element(const syntax::Expr& array, std::initializer_list<int> indices);
 
  private:
+  std::optional<ir::Value> numbered_position(const syntax::Expr& e, Attribute& out);
   ir::ExprPtr frame_function(const syntax::Expr& e);
   ir::ExprPtr axis_function(const syntax::Expr& e, bool& known);
   ir::ExprPtr asked(const syntax::Expr& e);

@@ -1,4 +1,7 @@
 // Values of words: numbers as they are written, expressions, and what AC, IC, DC and their like say of them.
+#include <optional>
+
+#include "dialects/sinumerik/asked.h"
 #include "frontends/sinumerik/lower_expr.h"
 
 namespace cnctrans::sinumerik {
@@ -6,10 +9,43 @@ namespace cnctrans::sinumerik {
 using syntax::Expr;
 using syntax::ExprKind;
 
+/// CAC(3), CDC(3), CACP(3), CACN(3): the third position of the axis in the machine's table, the datum CAC[B,3].
+std::optional<ir::Value> ExprLowering::numbered_position(const Expr& e, Attribute& out) {
+  if (e.text != "CAC" && e.text != "CDC" && e.text != "CACP" && e.text != "CACN") return std::nullopt;
+  if (e.args.size() != 1) {
+    c_.error("SIN-012", e.pos, e.text + "() takes the number of a position");
+    return ir::Value{};
+  }
+  out = attribute(e.text.substr(1));
+  ir::SystemRef position;
+  position.text = numbered_position_datum;
+  position.args.push_back(lower_as(e.args[0], ir::Type::integer));
+  if (!position.args.back()) return ir::Value{};
+  if (c_.first_time(position.text)) {
+    c_.warning("SIN-015", e.pos,
+               e.text +
+                   "(): the table of positions is known to the machine only: a run takes the profile's value, or "
+                   "stops where it is read",
+               "--set \"CAC[axis,number]=VALUE\" gives it");
+  }
+  return ir::Value(make_expr(std::move(position), ir::Type::real, e.pos));
+}
+
+/// The table is that of an axis.
+void ExprLowering::of_axis(ir::Value& value, ir::AxisId axis) const {
+  const auto* ref = value.expr ? std::get_if<ir::SystemRef>(&value.expr->node) : nullptr;
+  const auto* spec = c_.machine.profile->axis(axis);
+  if (ref == nullptr || spec == nullptr || ref->text != numbered_position_datum || ref->args.size() != 1) return;
+  ir::SystemRef named = *ref;
+  named.args.insert(named.args.begin(), ir::string_literal(spec->name));
+  value = ir::Value(make_expr(std::move(named), ir::Type::real, value.expr->pos));
+}
+
 ir::Value ExprLowering::value_of(const Expr& e, Attribute& out) {
   out = Attribute::none;
   const Expr* inner = &e;
   if (e.kind == ExprKind::call) {
+    if (auto position = numbered_position(e, out)) return *position;
     out = attribute(e.text);
     if (e.text == "QU" && e.args.size() == 1) {  // quick output: the same value
       out = Attribute::none;

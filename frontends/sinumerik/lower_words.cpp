@@ -326,6 +326,7 @@ void WordLowering::coordinate(ir::AxisId axis, const Word& w, ir::Value value, A
   if (c_.machine.rotary[axis]) c_.tool.turned_by_axis();
   auto& coord = out_->motion.coords.emplace_back();
   coord.axis = axis;
+  exprs_.of_axis(value, axis);
   coord.value = std::move(value);
   coord.pos = w.pos;
   switch (attribute) {
