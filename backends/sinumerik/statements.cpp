@@ -38,13 +38,6 @@ std::string Writer::list_text(const ir::Assign& a) const {
   return upper.rfind(name, 0) == 0 && list && upper.back() == ')' ? text : std::string{};
 }
 
-/// The variable of the error of WRITE() and DELETE(), whose statements stand by themselves.
-bool Writer::sets_status(const ir::Assign::Item& item) const {
-  const std::string text = to_upper_ascii(source_word(item.pos));
-  const std::string_view name = trim(std::string_view(text).substr(0, text.find('(')));
-  return name == "WRITE" || name == "DELETE";
-}
-
 void Writer::assign(const ir::Assign& a) {
   if (same_dialect() && !a.items.empty() && list_written_ && stands_already(a.items.front().pos)) return;
   list_written_ = false;
@@ -54,7 +47,7 @@ void Writer::assign(const ir::Assign& a) {
     return add(std::move(text), Rank::head, a.items.front().pos);
   }
   for (const ir::Assign::Item& item : a.items) {
-    if (sets_status(item)) continue;
+    if (same_dialect() && item.pos.column != 0 && item.pos.length == 0) continue;  // a part of another statement
     if (std::string part = expressions_.component_assignment(item); !part.empty()) {
       if (refused_problem(item.pos)) return;
       add(std::move(part), Rank::head, item.pos);

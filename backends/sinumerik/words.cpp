@@ -343,10 +343,10 @@ std::string Writer::rotary_attribute(const ir::CoordWord& w) {
 }
 
 void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
-  std::string name(axis_name(w.axis));
-  if (m.kind == ir::MotionKind::reference_point)
-    return add(name + "1=0", Rank::coordinate, w.pos);  // the machine's axis
-  if (in_polynomial(m, w.axis)) return;                 // written with its coefficients
+  std::string name(axis_name(w.axis)), as_written = source_word(w.pos);
+  if (m.kind == ir::MotionKind::reference_point)  // the machine's axis
+    return add(as_written.empty() ? name + "1=0" : as_written, Rank::coordinate, w.pos);
+  if (in_polynomial(m, w.axis)) return;  // written with its coefficients
   if (w.positioning == ir::Positioning::alone) name = "POS[" + name + ']';
   if (w.positioning == ir::Positioning::alone_not_awaited) name = "POSA[" + name + ']';
   std::string attribute = rotary_attribute(w);

@@ -100,6 +100,8 @@ std::string Writer::sub_name(const ir::RoutineName& name) const {
 std::string Writer::main_name() {
   const ir::Routine* main = program().main();
   std::string name = legal_name(options().main_stem);
+  if (same_dialect() && name != options().main_stem && main != nullptr && main->has_signature)
+    name = main->name.text;  // as PROC has it
   if (name.empty() && main != nullptr) name = legal_name(to_upper_ascii(trim(main->title)));
   if (name.empty() && main != nullptr && !main->name.text.empty()) name = legal_name(main->name.text);
   if (name.empty()) name = name_of_digits(options().main_stem);

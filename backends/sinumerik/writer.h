@@ -35,7 +35,6 @@ class Writer final : public ProgramWriter {
   // statements (statements.cpp)
   void assign(const ir::Assign& a) override;
   [[nodiscard]] std::string list_text(const ir::Assign& a) const;
-  [[nodiscard]] bool sets_status(const ir::Assign::Item& item) const;
   void if_else(const ir::If& i) override;
   void while_loop(const ir::While& w) override;
   void until_loop(const ir::Until& u) override;

@@ -89,12 +89,13 @@ bool StatementLowering::chosen_g(const syntax::Statement& s, Parts& parts) {
     ir::Action a;
     a.data = ir::ModalSet{static_cast<ir::Setting>((*g)->a), (*g)->b, true, ir::FeedMemory::shared};
     ir::Block block;
+    a.text = (*g)->name;
     block.actions.push_back(std::move(a));
     ir::Statement then;
     then.line.span = c_.line;
     then.node = std::move(block);
     ir::If node;
-    node.condition = ir::binary(ir::BinaryOp::eq, index, ir::number((*g)->index));
+    node.condition = is_number(index, (*g)->index, s.pos);
     node.then_body.push_back(std::move(then));
     node.has_else = !rest.empty();
     node.else_body = std::move(rest);

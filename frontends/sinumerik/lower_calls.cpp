@@ -161,7 +161,10 @@ bool StatementLowering::proc(const Statement& s, ir::LineInfo& info) {
   const bool main = routine_->kind == ir::RoutineKind::main && s.children.empty();
   if (!main) routine_->kind = ir::RoutineKind::sub;
   // A main program has the name of its file; PROC with another one does not make it the file of that name.
-  if (!main || routine_->name.empty()) routine_->name = routine_name(s.text);
+  constexpr std::string_view of_name = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  const std::string& file = routine_->name.text;
+  if (!main || file.empty() || file.find_first_not_of(of_name) != std::string::npos)
+    routine_->name = routine_name(s.text);
   routine_->has_signature = true;
   routine_->header = info;
   for (const Expr& attribute : s.args) {

@@ -85,7 +85,8 @@ bool StatementLowering::chosen_by_index(const Block& block, const ir::LineInfo& 
     ir::Statement branch;
     branch.line = i == 0 ? outer : plain;
     ir::If node;
-    node.condition = ir::binary(ir::BinaryOp::eq, index, values[i]);
+    node.condition = spindle ? is_number(index, static_cast<int>(choices[i].number), found->pos)
+                             : ir::binary(ir::BinaryOp::eq, index, values[i]);
     branch.node = std::move(node);
     structure_->open(std::move(branch));
     Block one = block;
@@ -95,7 +96,7 @@ bool StatementLowering::chosen_by_index(const Block& block, const ir::LineInfo& 
   }
   ir::Message alarm;  // as the control: there is no such spindle or axis
   alarm.kind = ir::MessageKind::error;
-  alarm.number = ir::number(65000);
+  alarm.number = written_number(65000, found->pos);
   ir::Statement stop;
   stop.line = plain;
   stop.node = std::move(alarm);

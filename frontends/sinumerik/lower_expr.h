@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "dialects/sinumerik/addresses.h"
@@ -20,6 +21,17 @@ ir::ExprPtr make_expr(Node node, ir::Type type, WordPos pos) {
   e.type = type;
   e.pos = pos;
   return std::make_shared<const ir::Expr>(std::move(e));
+}
+
+/// A whole number as if it stood in the text.
+inline ir::ExprPtr written_number(int n, WordPos pos) {
+  return make_expr(ir::Number{static_cast<double>(n), std::to_string(n), true}, ir::Type::integer, pos);
+}
+/// The comparison of a value with a whole number, as if it stood in the text.
+inline ir::ExprPtr is_number(ir::ExprPtr value, int n, WordPos pos) {
+  const auto compare = value->type == ir::Type::real ? ir::Compare::relative_1e12 : ir::Compare::exact;
+  return make_expr(ir::Binary{ir::BinaryOp::eq, std::move(value), written_number(n, pos), compare}, ir::Type::boolean,
+                   pos);
 }
 
 class ExprLowering {

@@ -38,7 +38,7 @@ bool StatementLowering::file_statement(const syntax::Statement& s, Parts& parts)
   const std::uint32_t before = c_.errors;
   if (line) message_parts(s.args[2], shown.parts);
   ir::Assign::Item done;
-  done.pos = s.pos;
+  done.pos = WordPos{s.pos.column, 0};  // it has no words of its own
   done.value = ir::number(0);
   done.to_system = undefined;
   if (undefined) {

@@ -19,7 +19,7 @@ std::optional<ir::Value> ExprLowering::numbered_position(const Expr& e, Attribut
   out = attribute(e.text.substr(1));
   ir::SystemRef position;
   position.text = numbered_position_datum;
-  position.args.push_back(lower_as(e.args[0], ir::Type::integer));
+  position.args.push_back(lower(e.args[0]));
   if (!position.args.back()) return ir::Value{};
   if (c_.first_time(position.text)) {
     c_.warning("SIN-015", e.pos,
