@@ -19,14 +19,20 @@ Span start_of(const ir::Program& program) {
   return {file, 1, 1, 1, 1};
 }
 
-/// The calls of subprograms that are nowhere are told only: the run goes past them.
-Diagnostics without_missing_routines(const Diagnostics& found) {
+/// As the options say: calls of subprograms that are nowhere are told only, for the run goes past them; other faults
+/// too where the run stops only when it comes to one.
+Diagnostics as_options_say(const machine::Profile& profile, const Diagnostics& found) {
+  const bool passes_over = profile.option("call.missing") == "passed_over";
+  const bool when_reached = profile.option("run.faults") == "when_reached";
   Diagnostics out;
-  const auto add = [&out](Diagnostic d) {
-    if (d.code == code::unknown_routine) {
-      d.code = code::passed_over;
+  const auto add = [&](Diagnostic d) {
+    const bool missing = passes_over && d.code == code::unknown_routine;
+    if (missing) d.code = code::passed_over;
+    if (d.severity == Severity::error && (missing || when_reached)) {
       d.severity = Severity::warning;
-      d.message += d.message.empty() ? "" : "; the run goes past the call";
+      if (!d.message.empty())
+        d.message += missing ? "; the run goes past the call" : "; the run stops where it comes to it";
+      if (!missing) d.hint.clear();
     }
     out.add(std::move(d));
   };
@@ -64,7 +70,7 @@ Result Runner::run() {
   const auto before = diagnostics_.error_count();
   Diagnostics found;
   check_program(program_, options_, found);
-  if (profile_.option("call.missing") == "passed_over") found = without_missing_routines(found);
+  found = as_options_say(profile_, found);
   for (const auto& d : found.all()) {
     if (d.severity == Severity::error && !failure_.set) {
       failure_.where = d.span;

@@ -104,6 +104,10 @@ constexpr std::array specs{
                "a pole that the program has set stays in its place when the zero point moves, or moves along"},
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
+    OptionSpec{
+        "run.faults", "before|when_reached", "before",
+        "blocks that can't be read, labels and subprograms that are nowhere, where the program could come to them: "
+        "it is refused before anything moves, or the run stops where it does come to one"},
     OptionSpec{"thread.pitch", "each_block|modal", "each_block", "how long the pitch of a thread (G33) stays in force"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
     OptionSpec{"tool.bare_offset", "kept|table|edge", "kept",
