@@ -92,6 +92,10 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
       return true;
     }
   }
+  if (ref.datum == Datum::tool_radius && args.empty() && ref.args.empty()) {
+    out = tool_radius() / (policy_.data_modal ? unit() : 1);
+    return true;
+  }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
   const std::string name = datum_key(ref, args);
   if (read_of_run(ref, args, name, out) || read_at_rest(name, out)) return true;

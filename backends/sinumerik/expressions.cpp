@@ -72,6 +72,15 @@ const SystemName* system_name(ir::Datum datum) {
   return nullptr;
 }
 
+/// The datum of an edge of a tool, both given by number (11.1): the length of a turning tool is one along X and one
+/// along Z.
+std::string_view tool_datum(const ir::SystemRef& s) {
+  if (s.args.size() != 2) return {};
+  if (s.datum == ir::Datum::tool_radius) return "$TC_DP6";
+  if (s.datum != ir::Datum::tool_length) return {};
+  return s.axis == ir::axis::z ? "$TC_DP4" : "$TC_DP3";
+}
+
 const ir::Call* as_call(const ir::ExprPtr& e, ir::Function f) {
   const auto* c = e ? std::get_if<ir::Call>(&e->node) : nullptr;
   return c != nullptr && c->function == f && c->args.size() == 1 ? c : nullptr;
@@ -85,6 +94,7 @@ std::optional<double> literal(const ir::ExprPtr& e) {
 }  // namespace
 
 bool has_system_name(const ir::SystemRef& s) {
+  if (!tool_datum(s).empty()) return true;
   const bool of_active_tool = s.datum == ir::Datum::tool_radius;  // $P_TOOLR takes no index
   return system_name(s.datum) != nullptr && !(of_active_tool && !s.args.empty());
 }
@@ -144,6 +154,8 @@ std::string Expressions::asked(const ir::SystemRef& s) {
 }
 
 std::string Expressions::name(const ir::SystemRef& s) {
+  if (const auto datum = own_ ? std::string_view{} : tool_datum(s); !datum.empty())
+    return std::string(datum) + '[' + index(s.args[0]) + ',' + index(s.args[1]) + ']';
   const SystemName* known = system_name(s.datum);
   const bool own_name = own_ && !s.text.empty();
   if (known == nullptr && !own_name) {

@@ -1,5 +1,7 @@
 // Work with the C axis on the face and on the cylinder of a turning part (equivalences 25.6): the target's own form.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "base/text.h"
@@ -219,11 +221,37 @@ void drop_tool_coordinates(Program& program) {
 
 }  // namespace
 
+/// A move in the block that chooses the surface counts on it already: it goes into a block behind the choice.
+static void separate_moves(Program& program) {
+  for (auto& r : program.routines) {
+    rewrite_body(r.body, [](Statement&& s, Body& out) {
+      auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !b->has_motion || !b->motion.moves() || action_in<SurfaceSet>(*b) == nullptr) {
+        out.push_back(std::move(s));
+        return;
+      }
+      const auto chooses = [](const Action& a) {
+        return std::holds_alternative<SurfaceSet>(a.data) ||
+               (std::holds_alternative<ModalSet>(a.data) && a.order == Order::before);
+      };
+      Block choice, move = std::move(*b);
+      std::copy_if(move.actions.begin(), move.actions.end(), std::back_inserter(choice.actions), chooses);
+      std::erase_if(move.actions, chooses);
+      const LineInfo line = s.line;
+      s.node = std::move(choice);
+      out.push_back(std::move(s));
+      out.push_back(made(line, std::move(move)));
+    });
+  }
+  number_statements(program);
+}
+
 void convert_surfaces(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
   drop_tool_coordinates(program);
   if (context.target.surfaces == SurfaceForm::none) return;
   if (!any_action(program, [](const Action& a) { return std::holds_alternative<SurfaceSet>(a.data); })) return;
+  separate_moves(program);
   SurfacePass pass(program, context);
   for (auto& r : program.routines)
     rewrite_body(r.body, [&pass](Statement&& s, Body& out) { pass.statement(std::move(s), out); });

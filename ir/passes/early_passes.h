@@ -50,6 +50,10 @@ void complete_scales(Program& program, const LegaliseContext& context);
 void convert_reference_moves(Program& program, const LegaliseContext& context);
 /// Increments right behind a preset of the zero point become absolute where the controls count them differently.
 void settle_preset_steps(Program& program, const LegaliseContext& context);
+/// Blocks of another program that are called become a subprogram, for a target that calls whole programs only.
+void separate_called_parts(Program& program, const LegaliseContext& context);
+/// The data of a row of the one tool table as those of an edge of its tool.
+void name_tool_rows(Program& program, const LegaliseContext& context);
 /// Lengths of machine data in the unit of the target.
 void convert_machine_data(Program& program, const LegaliseContext& context);
 

@@ -20,6 +20,7 @@ struct Pass {
 constexpr std::array pipeline{
     Pass{"headings", passes::move_headings, false},
     Pass{"texts", passes::write_known_texts, false},
+    Pass{"called_parts", passes::separate_called_parts, false},
     Pass{"returns", passes::normalise_returns, false},
     Pass{"range_ends", passes::mark_range_ends, false},
     Pass{"saved_modals", passes::restore_modals, false},
@@ -30,6 +31,7 @@ constexpr std::array pipeline{
     Pass{"block_feeds", passes::write_block_feeds, false},
     Pass{"positioning", passes::write_positioning, false},
     Pass{"directions", passes::choose_directions, false},
+    Pass{"tool_rows", passes::name_tool_rows, false},
     Pass{"machine_data", passes::convert_machine_data, false},
     Pass{"known_data", passes::write_known_data, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
