@@ -143,6 +143,8 @@ constexpr std::array specs{
                "the letter O is read as the digit 0 in GO, with a warning"},
     OptionSpec{"num.missing_range_end", "error|to_last_lower", "error", "a block range whose last block is missing"},
     OptionSpec{"num.m30", "none|end", "none", "M30 ends the program"},
+    OptionSpec{"num.m_programs", "text", "",
+               "M functions that call a program, as M:program separated by blanks (\"6:9100\")"},
     OptionSpec{"num.peck_law", "degressive|constant", "degressive", "pecks of a deep hole with first and last size"},
     OptionSpec{"num.range_order", "number|position", "number", "how the two ends of a block range are put in order"},
     OptionSpec{"num.structured", "no|yes", "yes", "structured statements are written for the 10xx and later"},

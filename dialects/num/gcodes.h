@@ -217,11 +217,31 @@ constexpr std::string_view missing_feature(const GCode& row) {
   }
 }
 
-/// Functions that are carried in part, with what is not.
+/// Why a function is not carried, or what of one that is carried in part.
 struct GRemark {
   std::int16_t code;
   std::string_view text;
 };
+inline constexpr std::array g_reasons{
+    GRemark{5, "the angle of the inclined axis and its first position are not described"},
+    GRemark{7, "as G05"},
+    GRemark{24, "an option of the control; neither its words nor its rotations are described"},
+    GRemark{26, "an option of the control; what it does to the programmed point is not described"},
+    GRemark{31, "which axis takes the single point to the depth of a pass is not described"},
+    GRemark{46, "the words of its parts (NU0 to NU9) and its path are not described"},
+    GRemark{63, "what X, Z, EX, ER, EA and EF say is not described"},
+    GRemark{66, "along which axis it plunges, where the first plunge is and which edge D names is not described"},
+    GRemark{98, "what X says of the face or the cylinder is not described"},
+    GRemark{997, "what the control stores under G999 is not described"},
+    GRemark{998, "as G997"},
+    GRemark{999, "as G997"},
+};
+constexpr std::string_view g_reason(std::int16_t code) {
+  for (const auto& r : g_reasons) {
+    if (r.code == code) return r.text;
+  }
+  return {};
+}
 inline constexpr std::array g_remarks{
     GRemark{0, "EA ES ET E+ E-: contours whose points follow from up to 3 later elements (NUM-043, RUN-031)"},
     GRemark{1, "as G0"},

@@ -7,7 +7,7 @@
 namespace cnctrans::dialects::num {
 
 inline constexpr std::int64_t label_max = 32767;
-inline constexpr std::int64_t program_min = 1, program_max = 9999;
+inline constexpr std::int64_t program_min = 1, program_max = 9999, system_program_max = 99999;
 inline constexpr std::int64_t macro_program_base = 10000;  ///< Gxxx calls %10xxx
 inline constexpr std::int64_t call_repeat_max = 100;
 inline constexpr std::int64_t offset_max = 255;

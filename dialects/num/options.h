@@ -18,7 +18,7 @@ namespace option {
 inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
                                   letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
                                   missing_end = "num.missing_range_end", peck_law = "num.peck_law",
-                                  structured = "num.structured", face_x = "num.face_x";
+                                  structured = "num.structured", face_x = "num.face_x", m_programs = "num.m_programs";
 }  // namespace option
 
 inline constexpr std::array options{
@@ -33,6 +33,7 @@ inline constexpr std::array options{
     OptionRow{option::m30, "none end", "none", "whether M30 ends the program"},
     OptionRow{option::structured, "yes no", "yes", "IF, WHILE, REPEAT, FOR are written (10xx and later)"},
     OptionRow{option::face_x, "radius machine", "radius", "X under G21: a radius, or as the machine's X is"},
+    OptionRow{option::m_programs, "*", "", "M functions that call a program: `6:9100 55:8055`"},
     OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
 };
 

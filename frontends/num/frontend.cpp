@@ -55,7 +55,7 @@ class NumStream : public StreamReader {
       return StreamLine::needs_program;
     const bool good = lower_.words(syntax_, span, line.text, std::get<ir::Block>(out.node), flow_);
     if (!good || flow_.code != nullptr || flow_.linear_after || flow_.probes || flow_.in_cycle ||
-        !flow_.preset.empty() || !ignored_.empty()) {
+        flow_.m_program >= 0 || !flow_.preset.empty() || !ignored_.empty()) {
       (void)diagnostics;  // the whole-program path reports
       return StreamLine::needs_program;
     }

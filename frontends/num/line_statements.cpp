@@ -155,6 +155,8 @@ void FileReader::words(const syntax::Statement* test) {
   }
   if (has_flow) {
     split_call(std::move(flow));
+  } else if (flow_.m_program >= 0) {
+    program_call();
   } else if (!scratch_.empty() || (first_ && !flow_.end)) {
     put_node(std::move(scratch_));
     scratch_ = ir::Block{};
@@ -219,6 +221,22 @@ void FileReader::macro_call() {
   ir::CallRoutine call;
   call.routine.number = facts::macro_program_base + flow_.macro;
   put_node(std::move(call));
+}
+
+/// The block, the program that its M function calls, then what acts after a move.
+void FileReader::program_call() {
+  ir::Block after;
+  std::erase_if(scratch_.actions, [&after](ir::Action& a) {
+    if (a.order != ir::Order::after) return false;
+    after.actions.push_back(std::move(a));
+    return true;
+  });
+  if (!scratch_.empty()) put_node(std::move(scratch_));
+  ir::CallRoutine call;
+  call.routine.number = flow_.m_program;
+  put_node(std::move(call));
+  if (!after.empty()) put_node(std::move(after));
+  scratch_ = ir::Block{};
 }
 
 /// A jump or call stands where the move would: what acts after a move comes behind it.

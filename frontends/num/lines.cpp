@@ -110,6 +110,11 @@ ir::Program FileReader::read() {
   look.final_eol = lines.empty() || lines.back().has_eol;
   program_.files.push_back(std::move(look));
   find_macros();
+  if (!settings_.bad_m_programs.empty()) {
+    diagnostics_.error("NUM-061", Span{file_, 1, 1, 1, 1},
+                       "num.m_programs of the machine profile: `" + settings_.bad_m_programs + "` is no M:program",
+                       "write it as 6:9100");
+  }
   for (const SourceLine& l : lines) line(l);
   if (!open_ && program_.routines.empty()) begin_routine({}, {}, {});
   end_routine();
@@ -146,7 +151,7 @@ void FileReader::begin_routine(ir::RoutineName name, std::string title, ir::Line
   only_comments_ = true;
   in_var_ = false;
   ended_ = false;
-  lower_.start_program(routine_.kind == ir::RoutineKind::main);
+  lower_.start_program(routine_.kind == ir::RoutineKind::main, routine_.name.number);
   lower_.expressions().forget_symbols();
 }
 

@@ -47,6 +47,7 @@ class FileReader {
   void message(const syntax::Statement& s);
   void words(const syntax::Statement* test);
   void macro_call();
+  void program_call();
   void find_macros();
   void latch();
   void take_over_preset();

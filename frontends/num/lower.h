@@ -23,7 +23,8 @@ namespace cnctrans::frontends::num {
 
 /// State along the text, for what can only be read with it. It follows the order of lines, not of execution.
 struct TextState {
-  bool known = true;  ///< false at the start of a called program: the caller's state counts
+  std::int64_t program = -1;  ///< number of the program at hand
+  bool known = true;          ///< false at the start of a called program: the caller's state counts
   ir::Distance distance = ir::Distance::absolute;
   ir::Plane plane = ir::Plane::xy;
   ir::MotionKind motion = ir::MotionKind::linear;
@@ -59,7 +60,10 @@ struct Flow {
   bool probes = false;                        ///< a G10 block
   std::vector<ir::AxisId> preset;             ///< axes of a G92, where PREF is kept as a number
   const syntax::Word* interrupted = nullptr;  ///< where G10 goes on after an interruption
-  std::int64_t macro = 0;                     ///< Gxxx of the machine whose program is at hand
+  std::int64_t m_program = -1;                ///< an M function of the block calls this program
+  bool m_program_after = false;               ///< behind the move of the block
+  WordPos m_program_pos;
+  std::int64_t macro = 0;  ///< Gxxx of the machine whose program is at hand
   WordPos macro_pos;
   std::vector<std::pair<std::int64_t, ir::Value>> arguments;  ///< of the macro: number of the L variable, value
 
@@ -71,7 +75,7 @@ class Lowering {
   Lowering(const Settings& settings, Diagnostics& diagnostics);
 
   /// A new program: `main` starts in the power-on state, a called one in its caller's.
-  void start_program(bool main);
+  void start_program(bool main, std::int64_t number = -1);
   /// Words of `b` into `out` (cleared first) and `flow`. False: the line was refused or is carried as text (see
   /// report()).
   bool words(const syntax::Block& b, const Span& line, std::string_view text, ir::Block& out, Flow& flow);
@@ -111,6 +115,8 @@ class Lowering {
   void motion_code(const Word& w, ir::MotionKind kind);
   void machine_function(const Word& w);
   void coded_function(const Word& w);
+  bool calls_program(const Word& w, std::int64_t code, ir::Order order);
+  void check_program_call();
   void coordinate(const Word& w, ir::AxisId axis);
   template <class Data>
   ir::Action& act(const Word& w, Step step, Data data, ir::Order order = ir::Order::before);

@@ -2,15 +2,41 @@
 
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "base/saturate.h"
 #include "base/text.h"
+#include "dialects/num/limits.h"
 #include "dialects/num/mcodes.h"
 #include "dialects/num/options.h"
 
 namespace cnctrans::frontends::num {
 
 namespace facts = dialects::num;
+
+namespace {
+
+/// "6:9100 55:8055": M06 calls %9100, M55 calls %8055.
+void read_m_programs(std::string_view text, Settings& s) {
+  while (!(text = trim(text)).empty()) {
+    const std::string_view pair = text.substr(0, text.find(' '));
+    text.remove_prefix(pair.size());
+    const std::size_t colon = pair.find(':');
+    const auto code = parse_decimal(pair.substr(0, colon));
+    const auto program = parse_decimal(colon == std::string_view::npos ? "" : pair.substr(colon + 1));
+    const auto whole = [](const std::optional<double>& v, double most) {
+      return v && *v >= 0 && *v <= most && *v == std::floor(*v);
+    };
+    if (whole(code, facts::m_max) && whole(program, facts::system_program_max))
+      s.m_programs[saturate<std::int64_t>(*code)] = saturate<std::int64_t>(*program);
+    else
+      s.bad_m_programs = pair;
+  }
+}
+
+}  // namespace
 
 Settings make_settings(const machine::Profile& profile) {
   Settings s;
@@ -45,6 +71,7 @@ Settings make_settings(const machine::Profile& profile) {
     if (m.code < 0 || m.code > 999) continue;
     s.m[static_cast<std::size_t>(m.code)] = {m.meaning, m.order, static_cast<std::int16_t>(m.argument), true};
   }
+  read_m_programs(option(facts::option::m_programs), s);
   if (s.m30_ends) s.m[30] = {machine::MMeaning::program_end, ir::Order::after, 0, true};
   return s;
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 
 #include "ir/block.h"
 #include "machine/profile.h"
@@ -31,6 +33,8 @@ struct Settings {
   std::uint32_t modulo = 0;                              ///< bit n: the sign of an absolute value is a direction
   ir::ModalState power_on;
   std::array<MEntry, 1000> m{};
+  std::map<std::int64_t, std::int64_t> m_programs;  ///< M functions that call a program of the machine (13.6)
+  std::string bad_m_programs;                       ///< what of num.m_programs can't be read
 };
 
 Settings make_settings(const machine::Profile& profile);

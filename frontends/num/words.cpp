@@ -51,8 +51,9 @@ Lowering::Lowering(const Settings& settings, Diagnostics& diagnostics)
   start_program(true);
 }
 
-void Lowering::start_program(bool main) {
+void Lowering::start_program(bool main, std::int64_t number) {
   state_ = TextState{};
+  state_.program = number;
   state_.known = main;
   state_.distance = settings_.power_on.distance;
   state_.plane = settings_.power_on.plane;
@@ -279,10 +280,11 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     marks_.any = true;
   };
   const auto missing = [&](std::string_view feature) {
-    report_.keep("NUM-004", w.pos,
-                 "`" + std::string(text_of(w)) + "` (" + std::string(row.title) +
-                     ") is kept as text: no run and no translation carries it",
-                 feature);
+    report_.keep(
+        "NUM-004", w.pos,
+        "`" + std::string(text_of(w)) + "` (" + std::string(row.title) +
+            ") is kept as text, no run and no translation carries it: " + std::string(facts::g_reason(row.code)),
+        feature);
   };
   switch (row.kind) {
     case GKind::motion: return motion_code(w, static_cast<ir::MotionKind>(row.value));
@@ -375,10 +377,37 @@ void Lowering::coded_function(const Word& w) {
                "write it in a block of its own");
 }
 
+/// An M function that the machine parameters give a program to (13.6): the block, then the program. In that program the
+/// function is itself.
+bool Lowering::calls_program(const Word& w, std::int64_t code, ir::Order order) {
+  const auto found = settings_.m_programs.find(code);
+  if (found == settings_.m_programs.end() || found->second == state_.program) return false;
+  if (flow_->m_program >= 0) {
+    unknown(w, "a second call of a program by an M function in the block");
+    return true;
+  }
+  flow_->m_program = found->second;
+  flow_->m_program_after = order == ir::Order::after;
+  flow_->m_program_pos = w.pos;
+  return true;
+}
+
+/// Whether the program of an M function runs before the move or behind it, only M functions that act after a move say.
+void Lowering::check_program_call() {
+  const bool moves = out_->has_motion && !flow_->m_program_after;
+  const bool other = flow_->code != nullptr || flow_->linear_after || flow_->probes || !flow_->preset.empty();
+  if (!moves && !other) return;
+  report_.refuse("NUM-061", flow_->m_program_pos,
+                 "an M function that calls a program beside a " + std::string(moves ? "move" : "jump or call") +
+                     ": which comes first is not described",
+                 "write it in a block of its own", "language.macro");
+}
+
 void Lowering::machine_function(const Word& w) {
   const std::int64_t n = integer(w);
   if (n < 0 || n > facts::m_max) return unknown(w, "no M function");
   const MEntry& m = settings_.m[static_cast<std::size_t>(n)];
+  if (calls_program(w, n, m.order)) return;
   const Step step = m.order == ir::Order::after ? Step::after : Step::machine_before;
   const auto put = [&](auto data) { act(w, step, std::move(data), m.order); };
   using machine::MMeaning;
@@ -445,6 +474,7 @@ bool Lowering::words(const syntax::Block& b, const Span& line, std::string_view 
   } else if (!report_.refused()) {
     resolve();
   }
+  if (flow.m_program >= 0 && !report_.refused()) check_program_call();
   return !report_.refused();
 }
 

@@ -22,6 +22,11 @@ std::string reason(std::string_view key) {
   return "refused: " + std::string(ir::missing_feature(key).title) + " (`" + std::string(key) + "`)";
 }
 
+std::string refused_because(std::int16_t code, std::string_view key) {
+  EXPECT_FALSE(facts::g_reason(code).empty()) << "G" << code << " is refused without a reason";
+  return "refused: " + std::string(facts::g_reason(code)) + " (`" + std::string(key) + "`)";
+}
+
 std::string g_table() {
   std::string s = "| G | Function | Machine | Reference | Support |\n|---|---|---|---|---|\n";
   for (const auto& g : facts::g_codes) {
@@ -32,7 +37,7 @@ std::string g_table() {
                                                                : "lathe";
     s += "| G" + std::to_string(g.code) + " | " + std::string(g.title) + " | " + machine + " | " +
          std::string(g.section) + " | " +
-         (!missing.empty()  ? reason(missing)
+         (!missing.empty()  ? refused_because(g.code, missing)
           : !remark.empty() ? "carried; " + std::string(remark)
                             : "carried") +
          " |\n";
