@@ -58,7 +58,13 @@ bool CyclePass::follow_units(Statement& s, const Block& b, const Facts& facts, B
     active_->native = *native;
   lacking_ = lacking_ || !active_->native;
   if (was_on && !(by_call_ && active_->native)) pieces.push_back(off_statement(s.line, by_call_));
-  if (by_call_ && active_->native) pieces.push_back(on_statement(s.line, active_->native));
+  if (by_call_ && active_->native) {  // the words of the new call count in the unit that this block chooses
+    for (const auto& a : b.actions) {
+      const auto* set = std::get_if<ModalSet>(&a.data);
+      if (set != nullptr && set->setting == Setting::units) pieces.push_back(make_block(s.line, action(*set)));
+    }
+    pieces.push_back(on_statement(s.line, active_->native));
+  }
   active_->on_target = by_call_ && active_->native != nullptr;
   active_->maybe_on_target = false;
   return false;
