@@ -397,8 +397,8 @@ void Writer::center(const ir::Motion& m, const ir::CenterWord& w) {
   const std::string_view address = geometry().letter(w.axis);
   const bool absolute = w.mode == ir::CenterMode::absolute;
   const bool lathe_x = program().lathe && w.axis == ir::axis::x;
-  const bool modal = absolute && !radius_on_face(w.axis);
-  const bool scale_fits = !lathe_x || w.scale == (modal ? ir::WordScale::modal : ir::WordScale::radius);
+  const bool either = radius_on_face(w.axis) && w.scale != ir::WordScale::diameter;  // X is a radius anyway
+  const bool scale_fits = !lathe_x || either || w.scale == (absolute ? ir::WordScale::modal : ir::WordScale::radius);
   if (w.mode == ir::CenterMode::follows_distance || !scale_fits) return ProgramWriter::center(m, w);
   if (absolute) return add(attribute_word(address, "AC", w.value, w.pos), Rank::center, w.pos);
   add(word(address, w.value, w.pos), Rank::center, w.pos);
