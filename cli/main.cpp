@@ -60,8 +60,8 @@ void add_writing(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"keep", "none", "renumber"}));
   app.add_option("--number-step", a.number_step, "step of renumbered blocks")->check(CLI::Range(1, 1000));
   app.add_option("--cycles", a.cycles,
-                 "native canned cycles where exact, similar ones that leave the same part, or explode all")
-      ->check(CLI::IsMember({"native", "similar", "explode"}));
+                 "the target's own cycle where it leaves the same part, only where each move is the same, or the moves")
+      ->check(CLI::IsMember({"native", "exact", "explode"}));
   app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
       ->check(CLI::IsMember({"keep", "raise"}));
   app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");

@@ -12,15 +12,15 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
   const std::string state = assume ? "power_on" : "unknown";
   source.options[std::string(ir::passes::uncalled_option)] = state;
   target.options[std::string(ir::passes::uncalled_option)] = state;
-  const ir::LegaliseContext context{
-      c.to.backend->capabilities_for(target),
-      source,
-      target,
-      {c.options.cycles, c.options.raise_structure, c.options.unsupported != backends::Unsupported::error},
-      out.said,
-      &out.names,
-      nullptr,
-      c.options.names};
+  const ir::LegaliseContext context{c.to.backend->capabilities_for(target),
+                                    source,
+                                    target,
+                                    {c.options.cycles, c.options.raise_structure,
+                                     c.options.unsupported != backends::Unsupported::error, !c.options.annotate},
+                                    out.said,
+                                    &out.names,
+                                    nullptr,
+                                    c.options.names};
   if (assume) ir::passes::tell_assumed_state(work, context);
   if (!c.as_it_stands) ir::legalise(work, context);
   const bool refused = out.said.has_errors() && c.options.unsupported == backends::Unsupported::error;

@@ -27,7 +27,7 @@ constexpr std::array words{
     Word{"numbering", "none", [](TranslateOptions& o) { o.numbering = Numbering::none; }},
     Word{"numbering", "renumber", [](TranslateOptions& o) { o.numbering = Numbering::renumber; }},
     Word{"cycles", "native", [](TranslateOptions& o) { o.cycles = CycleWriting::native; }},
-    Word{"cycles", "similar", [](TranslateOptions& o) { o.cycles = CycleWriting::similar; }},
+    Word{"cycles", "exact", [](TranslateOptions& o) { o.cycles = CycleWriting::exact; }},
     Word{"cycles", "explode", [](TranslateOptions& o) { o.cycles = CycleWriting::explode; }},
     Word{"structure", "keep", [](TranslateOptions& o) { o.raise_structure = false; }},
     Word{"structure", "raise", [](TranslateOptions& o) { o.raise_structure = true; }},

@@ -4,6 +4,7 @@
 #include "backends/common/comments.h"
 #include "backends/common/program_writer.h"
 #include "base/text.h"
+#include "ir/source_line.h"
 
 namespace cnctrans::backends {
 
@@ -13,12 +14,7 @@ Span ProgramWriter::span_of(WordPos pos) const {
 }
 
 std::string ProgramWriter::source_line(const Span& span) const {
-  if (!span.known()) return {};
-  for (const ir::FileLook& look : program_.files) {
-    if (look.file != span.file) continue;
-    if (const SourcePtr s = program_.texts->source(look.name)) return std::string(s->line_text(span.line));
-  }
-  return {};
+  return ir::source_line(span, program_);
 }
 
 void ProgramWriter::refuse(std::string_view code, WordPos pos, std::string what, std::string hint) {

@@ -85,7 +85,7 @@ struct Options {
 
 enum class Unsupported : std::uint8_t { error, warn, comment };  ///< what becomes of what the target can't say
 enum class Numbering : std::uint8_t { keep, none, renumber };    ///< of blocks
-enum class Cycles : std::uint8_t { native, explode, similar };   ///< docs/cycles.md
+enum class Cycles : std::uint8_t { native, exact, explode };     ///< docs/cycles.md
 enum class Encoding : std::uint8_t { as_source, utf8, windows1252 };
 enum class LineEnd : std::uint8_t { as_source, lf, crlf, cr };
 

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "ir/passes/cycle_pass.h"
+#include "ir/source_line.h"
 
 namespace cnctrans::ir::passes {
 
@@ -92,7 +94,14 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
         "TRN-337", s.line.span, "the moves of the cycle are those for the values at the head of the program: " + values,
         "translate again when these lines change");
   }
+  remark_words(s.line, out);
   put_moves(std::move(s), std::move(*moves), std::move(pieces), out);
+}
+
+void CyclePass::remark_words(const LineInfo& line, Body& out) {
+  if (!context_.options.cycle_remarks || line.joined) return;
+  const std::string words(trim(source_line(line.span, program_)));
+  if (!words.empty()) out.push_back(make_comment("< " + words, program_));
 }
 
 /// Copies of profiles, behind the end of the routine.
@@ -147,7 +156,7 @@ void CyclePass::put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Bo
                                "the target's own cycle takes the place of this one: the same contour, depth and "
                                "allowance by other passes: " +
                                    form.differs,
-                               "check the way of the tool; --cycles=native writes the moves out instead");
+                               "check the way of the tool; --cycles=exact writes the moves out instead");
   put_moves(std::move(s), std::move(calls), std::move(pieces), out);
 }
 
@@ -157,7 +166,7 @@ bool CyclePass::put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pi
   std::string none;
   auto form = milling_.similar(hole, s, b, facts_.before(s), active_->defined_at ? active_->defined_at : height,
                                sense_.now(), last_resort, &none);
-  const bool asked = context_.options.cycles == CycleWriting::similar && !last_resort;
+  const bool asked = context_.options.cycles == CycleWriting::native && !last_resort;
   if (!form && asked && !none.empty())
     context_.diagnostics.note("TRN-416", s.line.span, "the target's own cycle would not leave the same part: " + none);
   if (!form) return false;

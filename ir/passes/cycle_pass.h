@@ -404,6 +404,8 @@ class CyclePass {
   /// A pocket as the target's own cycle, by other passes. True: done.
   bool put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
                           bool last_resort, Body& out);
+  /// The words of the source above the moves that they become.
+  void remark_words(const LineInfo& line, Body& out);
   void put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out);
   void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
   void no_moves(Statement&& s, const std::string& why, Body& out);

@@ -17,14 +17,15 @@
 namespace cnctrans::ir {
 
 enum class CycleWriting : std::uint8_t {
-  native,   ///< the target's own where it makes the same moves, else the moves
-  explode,  ///< the moves
-  similar   ///< also the target's own that leaves the same part by other passes
+  native,  ///< the target's own where it leaves the same part; where its passes differ, with a warning
+  exact,   ///< the target's own where it makes the same moves, else the moves
+  explode  ///< the moves
 };
 struct LegaliseOptions {
   CycleWriting cycles = CycleWriting::native;
   bool raise_structure = false;  ///< jumps become structures where that is provably the same
   bool goes_on = false;          ///< the translation is written although blocks are refused: they are left out
+  bool cycle_remarks = true;     ///< above the moves that a cycle becomes stand its words in the source, as a comment
 };
 
 /// What became of a name of the source, for the head comment and the report.

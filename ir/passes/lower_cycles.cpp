@@ -237,6 +237,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
                               "the cycle is written out as its " + std::to_string(moves->blocks.size()) +
                                   " moves: the target has none that moves the same way");
   position_rapid(b, context_);
+  if (s.id == active_->from) remark_words(s.line, out);  // at later points the source has no words of the cycle
   active_->height = moves->end_height;
   const std::size_t main = pieces.size();
   auto first = moves->blocks.begin();

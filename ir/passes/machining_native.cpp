@@ -214,7 +214,7 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
   const auto it = sites_.find(s.id);
   const auto family = cycles::family_of(named.name);
   const auto asked = context_.options.cycles;
-  if (asked != CycleWriting::similar && !(last_resort && asked == CycleWriting::native)) return std::nullopt;
+  if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
   if (it == sites_.end() || family.empty()) return std::nullopt;
   if (!context_.target.native_cycle) return std::nullopt;
   const Facts& facts = all.before(s);

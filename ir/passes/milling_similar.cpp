@@ -49,7 +49,7 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
                                                        std::string* why) const {
   why->clear();
   const auto asked = context_.options.cycles;
-  if (asked != CycleWriting::similar && !(last_resort && asked == CycleWriting::native)) return std::nullopt;
+  if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
   const auto& native = context_.target.native_cycle;
   const bool pocket = cycle.mill.shape.starts_with("pocket.");
   const auto units = setting_in<Units>(b, facts, Setting::units);

@@ -46,7 +46,7 @@ backends::Numbering house_word(Numbering n) {
 }
 ir::CycleWriting house_word(Cycles c) {
   if (c == Cycles::explode) return ir::CycleWriting::explode;
-  return c == Cycles::similar ? ir::CycleWriting::similar : ir::CycleWriting::native;
+  return c == Cycles::exact ? ir::CycleWriting::exact : ir::CycleWriting::native;
 }
 std::optional<cnctrans::Encoding> house_word(Encoding e) {
   if (e == Encoding::as_source) return std::nullopt;
