@@ -6,6 +6,7 @@
 #include "interpreter/run_codes.h"
 #include "interpreter/runner.h"
 #include "ir/missing_features.h"
+#include "machine/data_at_rest.h"
 
 namespace cnctrans::interpreter {
 
@@ -201,7 +202,9 @@ bool Runner::apply_setting(const std::string& name, const std::string& value) {
   auto* space = digit == std::string::npos ? nullptr : variables_.numbered(to_upper_ascii(name.substr(0, letters)));
   const auto index = space == nullptr ? std::nullopt : parse_decimal(inside_brackets(name, digit));
   const auto x = preset_number(value);
-  if (!index) {
+  // A number that no variable has may be that of a machine datum: E10007.
+  const bool datum = index && space->find(*index) == nullptr && machine::data_at_rest(profile_, to_upper_ascii(name));
+  if (!index || datum) {
     variables_.preset(name, value);
     if (x) machine_.preset_datum(name, *x);
     return true;

@@ -84,6 +84,20 @@ bool is_length_datum(const Profile& profile, std::string_view name) {
   return false;
 }
 
+std::optional<double> value_of_data(const Profile& profile, const std::string& name) {
+  const auto last = name.find_last_not_of("0123456789");
+  const bool bare = last != std::string::npos && last + 1 < name.size() && name.back() != ']';
+  const std::string indexed = bare ? name.substr(0, last + 1) + '[' + name.substr(last + 1) + ']' : name;
+  const auto bracket = indexed.find('[');
+  const std::string any = indexed.substr(0, bracket) + "[*]";
+  for (const std::string& key : {name, indexed, any}) {
+    if (key == any && bracket == std::string::npos) continue;
+    if (const auto it = profile.data.find(key); it != profile.data.end()) return it->second;
+  }
+  if (const auto rest = data_at_rest(profile, indexed)) return rest;
+  return data_at_rest(profile, name);
+}
+
 void forget_data_at_rest(Profile& profile) {
   std::erase_if(profile.data, [](const auto& item) { return item.first.starts_with(at_rest_mark); });
 }

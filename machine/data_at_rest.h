@@ -46,6 +46,10 @@ std::optional<RunAnswer> data_of_run(const Profile& profile, std::string_view na
 /// The datum is one of the lengths that the option machine_data.lengths names.
 bool is_length_datum(const Profile& profile, std::string_view name);
 
+/// What the profile gives a datum, or else what a machine at rest would answer; `name` with or without brackets about
+/// its index.
+std::optional<double> value_of_data(const Profile& profile, const std::string& name);
+
 /// Takes the assumed values out: what nobody has said must not make two programs the same.
 void forget_data_at_rest(Profile& profile);
 

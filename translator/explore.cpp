@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "base/text.h"
+#include "ir/passes/given_data.h"
 #include "ir/passes/rewrite.h"
 
 namespace cnctrans::translator {
@@ -25,6 +26,8 @@ std::set<std::string> variables_of(const ir::Program& program, const ir::ExprPtr
   ir::walk(e, [&](const ir::ExprPtr& node) {
     if (const auto* v = std::get_if<ir::VarRef>(&node->node)) {
       if (auto name = name_of(program, *v); !name.empty()) names.insert(std::move(name));
+    } else if (const auto* datum = std::get_if<ir::SystemRef>(&node->node); datum != nullptr && !datum->text.empty()) {
+      names.insert(ir::passes::name_of_datum(*datum, program));  // tried where the map of names places it
     }
   });
   return names;

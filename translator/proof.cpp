@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "ir/passes/given_data.h"
 #include "machine/data_at_rest.h"
 #include "translator/coverage.h"
 #include "translator/explore.h"
@@ -23,6 +24,12 @@ Replayed replay(const Side& side, interpreter::Options options) {
   interpreter::TraceRecorder recorder;
   options.cycles = &r.cycles;
   machine::Profile profile = side.profile;
+  std::erase_if(options.set, [&profile](const auto& s) {  // data that are given are no longer assumed
+    const auto value = parse_decimal(s.second);
+    if (!value || !machine::data_at_rest(profile, s.first)) return false;
+    profile.data[s.first] = *value;
+    return true;
+  });
   machine::forget_data_at_rest(profile);
   r.result = interpreter::run(side.program, profile, options, recorder, r.diagnostics);
   r.events = std::move(recorder.events);
@@ -57,6 +64,13 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
                      (bad.error_text.empty() ? "" : ": " + bad.error_text) + ")";
   }
   return verdict;
+}
+
+/// A number may stand in brackets: PLCM12, PLCM[12].
+std::string plain_name(const std::string& name) {
+  std::string text = to_upper_ascii(name);
+  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+  return text;
 }
 
 constexpr std::string_view tool_radius = "TOOL_RADIUS";  ///< machine datum of a run, no variable of the program
@@ -100,11 +114,12 @@ class Prover {
 
  private:
   Proof with(const Inputs& inputs, interpreter::Options run) const {
-    run.set = inputs.set;
+    const Settings set = with_shared_data(inputs.set);
+    run.set = set;
     run.skip_mask = inputs.skip_mask;
     Proof p;
     p.source = replay(source_, run);
-    run.set = options_.target_settings(inputs.set);
+    run.set = options_.target_settings(set);
     for (const auto& [name, value] : inputs.set) {  // a tool belongs to both machines
       const auto same = [&n = name](const auto& s) { return s.first == n; };
       if (name == tool_radius && std::none_of(run.set.begin(), run.set.end(), same)) run.set.emplace_back(name, value);
@@ -112,6 +127,16 @@ class Prover {
     p.target = replay(target_, run);
     p.verdict = judge(source_, p.source, target_, p.target);
     return p;
+  }
+
+  /// What nobody has given is as on a machine at rest, on both sides.
+  [[nodiscard]] Settings with_shared_data(Settings set) const {
+    for (const auto& name : options_.shared_data) {
+      const auto given = [&name](const auto& s) { return plain_name(s.first) == plain_name(name); };
+      if (std::any_of(set.begin(), set.end(), given)) continue;
+      if (const auto value = machine::value_of_data(source_.profile, name)) set.emplace_back(name, shortest(*value));
+    }
+    return set;
   }
 
   static void add(verifier::Verdict& sum, const verifier::Verdict& v) {
@@ -147,7 +172,8 @@ Settings renamed_settings(const Settings& set, const ir::LegaliseReport& names) 
   Settings out;
   for (const auto& [name, value] : set) {
     for (const auto& r : names.renamed) {
-      if (r.kind == ir::Renamed::Kind::variable && r.routine.empty() && to_upper_ascii(r.from) == to_upper_ascii(name))
+      if (r.kind == ir::Renamed::Kind::variable && (r.routine.empty() || r.routine == ir::passes::given_data_mark) &&
+          plain_name(r.from) == plain_name(name))
         out.emplace_back(r.to, value);
     }
   }

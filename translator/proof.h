@@ -28,6 +28,9 @@ struct Side {
 struct ProofOptions {
   interpreter::Options run;  ///< of the first replay, with the names of the source
   std::function<Settings(const Settings&)> target_settings;
+  /// Machine data that the map of names places on the target, under the source's names: both replays read the same
+  /// values of them.
+  std::vector<std::string> shared_data;
   std::size_t explore = 0;    ///< most replays with other inputs; 0: only the first replay
   int first_skip_switch = 0;  ///< number of the first block-skip switch on the source's control
 };

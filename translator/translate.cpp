@@ -4,6 +4,7 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "ir/passes/given_data.h"
 #include "translator/attempt.h"
 #include "translator/called.h"
 #include "translator/contours.h"
@@ -239,9 +240,10 @@ void Translation::prove() {
   const auto target_settings = [this](const Settings& set) {
     return same_language() ? set : renamed_settings(set, names_);
   };
+  const auto given_data = same_language() ? std::vector<std::string>{} : ir::passes::given_data(names_);
   Proof proof = translator::prove(
       {source_, reading_.profile(), reading_.loader()}, {back_->program, *target_profile_, back_->loader},
-      {options_.run, target_settings, options_.explore, reading_.dialect().first_skip_switch});
+      {options_.run, target_settings, given_data, options_.explore, reading_.dialect().first_skip_switch});
   result_.verdict = std::move(proof.verdict);
   if (const auto twice = shared_name(back_->program); !twice.empty()) {
     result_.verdict.status = verifier::Status::not_replayable;

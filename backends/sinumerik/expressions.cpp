@@ -9,6 +9,7 @@
 #include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
+#include "ir/given_name.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {
@@ -62,6 +63,7 @@ constexpr std::array system_names{SystemName{ir::Datum::programmed_position, "$P
                                   SystemName{ir::Datum::offset_number, "$P_TOOL", false},
                                   SystemName{ir::Datum::tool_radius, "$P_TOOLR", false},
                                   SystemName{ir::Datum::active_offset, "$P_UIFRNUM", false},
+                                  SystemName{ir::Datum::frame_programmed, "$P_PFRAME", false},
                                   SystemName{ir::Datum::part_count, "$AC_ACTUAL_PARTS", false},
                                   SystemName{ir::Datum::cycle_time, "$AC_CYCLE_TIME", false}};
 
@@ -156,6 +158,7 @@ std::string Expressions::asked(const ir::SystemRef& s) {
 std::string Expressions::name(const ir::SystemRef& s) {
   if (const auto datum = own_ ? std::string_view{} : tool_datum(s); !datum.empty())
     return std::string(datum) + '[' + index(s.args[0]) + ',' + index(s.args[1]) + ']';
+  if (ir::is_given(s)) return ir::given_name(s);
   const SystemName* known = system_name(s.datum);
   const bool own_name = own_ && !s.text.empty();
   if (known == nullptr && !own_name) {

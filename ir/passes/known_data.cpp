@@ -159,7 +159,7 @@ class KnownData {
       case Datum::scale_factor:
       case Datum::axis_scale:
       case Datum::rotation_angle: return framed(frames_.before(s), ref);
-      case Datum::other: return written_elsewhere(ref);
+      case Datum::other: return ref.args.empty() ? of_run(facts, ref) : written_elsewhere(ref);
       case Datum::call_has_argument: return arguments_given(ref);
       default: return std::nullopt;
     }
@@ -188,6 +188,18 @@ class KnownData {
       all = mask;
     }
     return all;
+  }
+
+  /// What a run follows by the program alone: the axis across the plane, the number of the program.
+  [[nodiscard]] std::optional<double> of_run(const Facts& facts, const SystemRef& ref) const {
+    const auto answer = machine::data_of_run(context_.source_machine, ref.text);
+    if (!answer) return std::nullopt;
+    if (answer->datum == machine::RunDatum::plane_normal) {
+      const auto p = setting<Plane>(facts, Setting::plane);
+      return p ? std::optional(order(plane_axes(*p).w).value_or(-1) + 1) : std::nullopt;
+    }
+    const Routine* main = program_.main();
+    return answer->datum == machine::RunDatum::program_number && main != nullptr ? main_number(*main) : std::nullopt;
   }
 
   /// The word of an axis in a block of this program.

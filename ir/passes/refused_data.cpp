@@ -4,6 +4,7 @@
 #include <set>
 
 #include "ir/passes/early_passes.h"
+#include "ir/passes/given_data.h"
 #include "ir/passes/rewrite.h"
 #include "ir/text.h"
 
@@ -130,7 +131,7 @@ class RefusedData {
     each_expression(s, [&](const ExprPtr& e) {
       walk(e, [&](const ExprPtr& x) {
         const auto* ref = std::get_if<SystemRef>(&x->node);
-        found = found || (ref != nullptr && !context_.target.system_data(*ref));
+        found = found || (ref != nullptr && !has_name(*ref, context_));
       });
     });
     return found;

@@ -4,6 +4,7 @@
 
 #include "base/saturate.h"
 #include "ir/passes/call_graph.h"
+#include "ir/passes/given_data.h"
 
 namespace cnctrans::ir::passes {
 
@@ -61,11 +62,11 @@ void VariableUse::dimensions(const Declare& d, std::size_t routine) {
 }
 
 void VariableUse::system(const SystemRef& ref, const Statement& s) {
-  if (context_.target.system_data && context_.target.system_data(ref)) return;
-  context_.diagnostics.error(
-      "TRN-122", s.line.span,
-      "the target has no counterpart of " + quoted(ref.text.empty() ? name(ref.datum) : ref.text),
-      "replace it by a variable or a fixed value");
+  if (has_name(ref, context_)) return;
+  context_.diagnostics.error("TRN-122", s.line.span,
+                             "the target has no counterpart of " + quoted(name_of_datum(ref, program_)),
+                             "say what stands for it on the target in a file of names (--names, \"data\"), or replace "
+                             "it by a variable or a fixed value");
 }
 
 }  // namespace cnctrans::ir::passes
