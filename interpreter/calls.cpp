@@ -132,6 +132,7 @@ void Runner::call(const ir::CallRoutine& c) {
 
 void Runner::modal_call(const ir::ModalCall& m) {
   modal_ = {};
+  if (m.off && m.here) return go_to(at_ + 1);  // a modal cycle stays in force
   if (!machine_.modal_cycle(m.off ? nullptr : m.cycle, ir::CycleTrigger::path_motion, m.here)) return;
   if (!m.off && !m.cycle) {
     auto* callee = callee_of(m.call);

@@ -395,7 +395,7 @@ class Analysis {
   bool modal_call(const Statement& s, const ModalCall& m, Facts& f) {
     if (m.here && !m.cycle && !m.off) {
       if (!call(s.id, called(m.call), nullptr, f)) return false;
-    } else if (m.here) {
+    } else if (m.here && !m.off) {
       f.forget();  // a cycle that runs at once
     }
     const Facts before = f;

@@ -60,6 +60,8 @@ constexpr std::array features{
     MissingFeature{"motion.inclined", "oblique plunge grinding (G5, G7)",
                    "how the axes of the machine lie is machine data, and what they do is not computed"},
     MissingFeature{"motion.involute", "involutes (INVCW, INVCCW)", "no curve of this kind is carried"},
+    MissingFeature{"motion.length_axis", "the axis of the tool's length, chosen apart from the plane",
+                   "programmed positions are those of the tool's point; other controls tie the length to the plane"},
     MissingFeature{"motion.polynomial", "polynomials of axes that a variable names",
                    "polynomials of the axes of the machine are carried"},
     MissingFeature{"motion.probe", "probing moves and cycles", "executed as moves to the expected contact later"},

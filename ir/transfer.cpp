@@ -373,6 +373,10 @@ void detail::apply(const Statement& statement, Facts& facts, std::uint32_t frame
   } else if (const auto* r = std::get_if<Repeat>(&statement.node)) {
     if (r->has_program || r->first.computed || r->last.computed) facts.forget();
   } else if (const auto* m = std::get_if<ModalCall>(&statement.node)) {
+    if (m->off && m->here) {  // a modal cycle stays in force
+      facts.modal_call = 0;
+      return;
+    }
     if (m->here) facts.forget();
     const auto* hole = m->cycle ? std::get_if<HoleCycle>(&m->cycle->node) : nullptr;
     facts.cycle_active = !m->off && m->cycle != nullptr;

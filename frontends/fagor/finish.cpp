@@ -83,7 +83,7 @@ ir::FactTable facts_without_outside(const ir::Program& program, const LowerState
 
 /// Were the planes that lowering took from the text right? The flow of the program decides.
 void judge_planes(ir::Program& program, LowerState& state) {
-  const FileFacts& facts = state.facts;
+  FileFacts& facts = state.facts;
   const auto usual = static_cast<std::size_t>(state.profile().power_on.plane);
   bool others = false, from_caller = false;
   for (std::size_t p = 0; p < facts.planes.size(); ++p) others = others || (facts.planes[p] && p != usual);
@@ -99,6 +99,7 @@ void judge_planes(ir::Program& program, LowerState& state) {
     const ir::Facts& before = table.before(at->second->id);
     const auto known = before.settings[static_cast<std::size_t>(ir::Setting::plane)];
     const auto own = plane_in(*at->second);
+    if (known && !own) facts.planes_by_flow[use.span.line] = static_cast<ir::Plane>(*known);
     if ((own && *own == use.assumed) || (known && *known == static_cast<std::uint8_t>(use.assumed))) continue;
     state.set_line(use.span);
     if (!inside) inside = facts_without_outside(program, state);
@@ -109,6 +110,7 @@ void judge_planes(ir::Program& program, LowerState& state) {
                     "to leave the plane as it is",
                     "write the plane function (G17, G18, G19) behind the call if it does not");
     } else if (others || known) {
+      facts.plane_by_flow_differs = facts.plane_by_flow_differs || (known && !own);
       state.error("FAG-026", {}, "this block depends on the plane, and the program reaches it with several planes",
                   "write the plane function (G17, G18, G19) before the block");
     } else {

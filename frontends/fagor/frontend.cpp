@@ -157,7 +157,18 @@ class FagorFrontend : public Frontend {
   [[nodiscard]] std::string_view dialect() const override { return "fagor"; }
   ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                    ReadStats* stats) const override {
-    return cnctrans::fagor::ProgramReader(options, file, diagnostics).read(source, stats);
+    Diagnostics first_said = diagnostics;  // with its limits
+    first_said.clear();
+    cnctrans::fagor::ProgramReader first(options, file, first_said);
+    ir::Program program = first.read(source, stats);
+    auto planes = first.planes_by_flow();
+    if (planes.empty()) {
+      diagnostics.append(first_said);
+      return program;
+    }
+    cnctrans::fagor::ProgramReader again(options, file, diagnostics);
+    again.know_planes(std::move(planes));
+    return again.read(source, stats);
   }
   std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                        std::string_view file_name) const override {

@@ -385,7 +385,7 @@ void BlockLowerer::longitudinal_axis(const GWord& g) {
     return;
   }
   state_.longitudinal_code(axis_of(*coords_[0]));
-  marker(g, "block.word");
+  marker(g, "motion.length_axis");
 }
 
 /// G28 and G29 alone choose the spindle of the blocks that follow (5.4); with axes they exchange them (7.8), which the

@@ -78,6 +78,13 @@ void LowerState::plane_code(ir::Plane plane, bool turned, bool of_surface) {
   longitudinal_sure_ = true;
 }
 
+void LowerState::take_flow_plane() {
+  const auto it = flow_planes_.find(line_.line);
+  if (it == flow_planes_.end()) return;
+  plane_ = it->second;
+  plane_from_caller_ = false;
+}
+
 void LowerState::spindle_code(std::uint8_t number) {
   spindle_ = number;
   spindle_sure_ = true;

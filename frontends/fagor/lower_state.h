@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -55,6 +56,10 @@ struct FileFacts {
   Span first_table_shift, first_machine_move, first_axis_scale;
   Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;
+  /// The one plane that the flow of the program brings to a block, by its line, where the text says another one: the
+  /// file is read once more with them.
+  std::map<std::uint32_t, ir::Plane> planes_by_flow;
+  bool plane_by_flow_differs = false;
   std::map<std::uint32_t, ir::Surface> surface_lines;   ///< blocks read as coordinates of a face or cylinder, by line
   bool surfaces = false;                                ///< G15 R, G16 XC
   bool second_spindle = false;                          ///< G28
@@ -84,7 +89,12 @@ class LowerState {
   }  ///< rotary axes: the sign of an absolute value is the sense
 
   // report; places are words of the line at hand
-  void set_line(const Span& line) { line_ = line; }
+  void set_line(const Span& line) {
+    line_ = line;
+    if (!flow_planes_.empty()) take_flow_plane();
+  }
+  /// Planes that an earlier reading has found; a line of them begins with its plane.
+  void know_planes(std::map<std::uint32_t, ir::Plane> by_line) { flow_planes_ = std::move(by_line); }
   [[nodiscard]] const Span& line() const { return line_; }
   void set_diagnostics(Diagnostics& d) { diagnostics_ = &d; }
   void error(std::string_view code, WordPos pos, std::string message, std::string hint = {});
@@ -137,6 +147,9 @@ class LowerState {
   FileFacts facts;
 
  private:
+  void take_flow_plane();
+
+  std::map<std::uint32_t, ir::Plane> flow_planes_;
   const machine::Profile* profile_;
   Diagnostics* diagnostics_;
   bool lathe_ = false;

@@ -273,7 +273,7 @@ Node StatementLowerer::lower(const syntax::Statement& s) {
   }
   if (k == "MDOFF") {
     ir::ModalCall off;
-    off.off = true;
+    off.off = off.here = true;  // the modal subroutine only (12.5): a canned cycle stays in force
     return off;
   }
   const auto* info = facts::find_statement(k);

@@ -61,6 +61,12 @@ ir::Program ProgramReader::read(const SourcePtr& source, frontends::ReadStats* s
   return std::move(program_);
 }
 
+std::map<std::uint32_t, ir::Plane> ProgramReader::planes_by_flow() const {
+  // The senses of a plane with its axes exchanged are those of the text.
+  const bool again = state_.facts.plane_by_flow_differs && !state_.facts.first_turned_plane.known();
+  return again ? state_.facts.planes_by_flow : std::map<std::uint32_t, ir::Plane>{};
+}
+
 void ProgramReader::describe_file(const SourceText& source) {
   ir::FileLook look;
   look.file = file_;

@@ -1,8 +1,10 @@
 // A whole file to a program: header, local subroutines, main part, subroutines.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "frontends/common/frontend.h"
 #include "frontends/fagor/line_reader.h"
@@ -15,6 +17,10 @@ class ProgramReader {
  public:
   ProgramReader(const frontends::ReadOptions& options, FileId file, Diagnostics& diagnostics);
   ir::Program read(const SourcePtr& source, frontends::ReadStats* stats);
+  /// Planes to read the file once more with, by line: the flow of the program brings another one to some block than the
+  /// text before it says. Empty: it was read right.
+  [[nodiscard]] std::map<std::uint32_t, ir::Plane> planes_by_flow() const;
+  void know_planes(std::map<std::uint32_t, ir::Plane> by_line) { state_.know_planes(std::move(by_line)); }
 
  private:
   void line(const SourceLine& source_line);

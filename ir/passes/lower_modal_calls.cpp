@@ -295,6 +295,7 @@ class ModalCalls {
     from_ = m.off ? 0 : s.id;
     if (m.off) {
       if (!active_) {
+        if (m.here && cycle_stays(s, out)) return;
         on_target_.reset();
         if (take_back_on(s, out)) return leave_line(std::move(s), out);
         out.push_back(std::move(s));
@@ -361,6 +362,21 @@ class ModalCalls {
     }
     if (!before.empty()) move_head(s.line, before.front().line);
     for (auto& b : before) out.push_back(std::move(b));
+  }
+  /// The end of a modal subprogram that leaves a canned cycle in force, on a target where one word ends both.
+  bool cycle_stays(Statement& s, Body& out) {
+    const Facts& facts = facts_.before(s);
+    if (!context_.target.modal_cycle_by_call || (facts.cycle_active_known && !facts.cycle_active)) return false;
+    const auto* state = in_force_.before(s);
+    if (on_target_ || state == nullptr || *state != 0) {
+      refuse(s, program_, context_, "TRN-561",
+             "the end of a modal subprogram, behind which a canned cycle may go on: the target ends both",
+             "write G80, or end the modal subprogram before the cycle is defined");
+      out.push_back(std::move(s));
+      return true;
+    }
+    leave_line(std::move(s), out);
+    return true;
   }
   /// A modal subprogram ends a modal cycle; written out it leaves no word that would.
   void end_cycle(Statement& s, bool stays_modal, Body& out) const {

@@ -80,7 +80,7 @@ TEST(FagorProgram, Flow) {
   EXPECT_EQ(line("(PCALL 5, A1, P3=P100, C-18)"), "call 5 (\"A\" = 1, \"D\" = P[100], \"C\" = #-18\"-18\") new_level");
   EXPECT_EQ(line("(CALL P148)"), "call unnamed computed P[148]");
   EXPECT_EQ(line("G180 A5 P1=P100"), "call 180 (\"A\" = 5, \"B\" = P[100]) new_level");
-  EXPECT_EQ(line("(MDOFF)"), "modal_call off");
+  EXPECT_EQ(line("(MDOFF)"), "modal_call off here");
   EXPECT_EQ(read("(P1=1) N3").codes(), "FAG-016");
   EXPECT_EQ(read("NP1 X5").codes(), "FAG-015") << "a label is no parameter";
   EXPECT_EQ(line("(EXEC P12)"), "call 12");
