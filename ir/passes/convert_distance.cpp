@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ir/passes/axis_scales.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/flow_states.h"
@@ -26,6 +27,11 @@ struct UnmovedAxes {
   using State = std::uint64_t;
   [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return plane_bits; }
   static void transfer(const Statement& s, State& state) {
+    if (const auto* assign = std::get_if<Assign>(&s.node)) {
+      for (const auto& i : assign->items) {
+        if (const auto a = axis_of_component(i)) state |= one << *a;
+      }
+    }
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
@@ -51,8 +57,7 @@ struct UnmovedAxes {
   [[nodiscard]] static bool touches(const Routine& r) {
     bool found = false;
     for_each_statement(r.body, [&found](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
+      if (!std::holds_alternative<Block>(s.node) && !std::holds_alternative<Assign>(s.node)) return;
       State none = 0, all = plane_bits | axis_bits;
       transfer(s, none);
       transfer(s, all);
@@ -146,6 +151,14 @@ class DistancePass {
   /// A statement that is no block: does control go on in the text, and with the frame as it was?
   void other(const Statement& s) {
     leave_straight(s);
+    if (const auto* assign = std::get_if<Assign>(&s.node)) {
+      for (const auto& i : assign->items) {
+        const auto a = axis_of_component(i);
+        if (!a) continue;
+        turned_ |= 1U << *a;
+        shifted_.at[*a] = shifted_.moved[*a] = std::nullopt;
+      }
+    }
     const bool goes_on = std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
                          std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node) ||
                          std::holds_alternative<Jump>(s.node);
@@ -349,6 +362,23 @@ class DistancePass {
     return true;
   }
 
+  /// Where a frame change keeps the position of the machine, an increment of 0 behind it moves nothing; on the other
+  /// control it would travel the difference.
+  void leave_out_idle(const Statement& s, Block& b, const Facts& facts) const {
+    if (context_.source_machine.option("frame.change_keeps") != "machine" || b.motion.extra ||
+        !b.motion.centers.empty())
+      return;
+    const auto kind = motion_in(b, facts);
+    if (kind != MotionKind::rapid && kind != MotionKind::linear) return;
+    const auto left = std::erase_if(b.motion.coords, [&](const CoordWord& c) {
+      return (dirty_ >> c.axis & 1U) != 0 && c.value.is(0) && distance_of(c, b, facts) == Distance::incremental;
+    });
+    if (left == 0) return;
+    context_.diagnostics.note("TRN-562", s.line.span,
+                              "an increment of 0 right after a change of the offsets moves nothing on the source; the "
+                              "target would travel the change: it is left out");
+  }
+
   /// An increment right after a frame change: controls differ in what it is added to. True: its words are absolute now.
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
@@ -378,6 +408,7 @@ class DistancePass {
         follow_frame(b, facts, *f->change);
     }
     if (!b.has_motion || dirty_ == 0) return false;
+    leave_out_idle(s, b, facts);
     const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
       return (dirty_ >> c.axis & 1U) != 0 && distance_of(c, b, facts) != Distance::absolute;
     });

@@ -1,6 +1,7 @@
 // Lengths read from machine data or written to them: one control answers in the unit and the diameter mode of its
 // words, another in millimetres and radius. The values are rescaled where the two differ.
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "ir/passes/early_passes.h"
@@ -111,18 +112,34 @@ class MachineDataPass {
     return std::nullopt;
   }
 
-  /// What the source reads, in units of what the target reads.
+  /// What the source reads, in units of what the target reads: where the unit or the mode is not known here, the same
+  /// for all of them.
   Ratio factor(const Statement& s, const SystemRef& ref) {
-    const auto from = millimetres(s, ref, context_.source_machine), to = millimetres(s, ref, context_.target_machine);
-    if (from && to) return {*to, *from};
+    static const Block none;
+    const auto* b = std::get_if<Block>(&s.node);
+    const Block& block = b != nullptr ? *b : none;
+    const auto unit = setting_in<Units>(block, facts_.before(s), Setting::units);
+    const auto mode = setting_in<DiameterMode>(block, facts_.before(s), Setting::diameter);
+    std::optional<Ratio> all;
+    bool same = true;
+    for (const Units u : {unit.value_or(Units::metric), unit.value_or(Units::inch)}) {
+      for (const DiameterMode m : {mode.value_or(DiameterMode::radius), mode.value_or(DiameterMode::diameter)}) {
+        const auto from = millimetres(ref, context_.source_machine, u, m);
+        const auto to = millimetres(ref, context_.target_machine, u, m);
+        same = same && from && to && (!all || std::fabs(*to / *from - all->value()) < 1e-12);
+        if (same) all = Ratio{*to, *from};
+      }
+    }
+    if (same && all) return *all;
     context_.diagnostics.error("TRN-173", s.line.span,
                                "in which unit " + ref.text + " is read depends on the path that leads here",
                                "write the unit and the diameter or radius code before this block on every path");
     return {};
   }
 
-  /// Millimetres (radius) of the value 1; nullopt: not known here.
-  std::optional<double> millimetres(const Statement& s, const SystemRef& ref, const machine::Profile& machine) const {
+  /// Millimetres (radius) of the value 1 in this unit and mode; nullopt: that depends on more.
+  [[nodiscard]] std::optional<double> millimetres(const SystemRef& ref, const machine::Profile& machine, Units unit,
+                                                  DiameterMode mode) const {
     const std::string units = machine.option("machine_data.units");
     const bool modal = units == "modal" || (units == "with_feed" && with_feed_);
     const bool position = ref.datum == Datum::machine_position;
@@ -130,20 +147,12 @@ class MachineDataPass {
     if ((!modal && !(position && machine.option("machine_position.scale") == "words")) ||
         (axis != nullptr && axis->rotary))
       return 1;
-    static const Block none;
-    const auto* b = std::get_if<Block>(&s.node);
-    const Block& block = b != nullptr ? *b : none;
-    const auto unit = setting_in<Units>(block, facts_.before(s), Setting::units);
-    if (!unit) return std::nullopt;
-    const double length = *unit == Units::inch ? 25.4 : 1;
+    const double length = unit == Units::inch ? 25.4 : 1;
     if (units == "with_feed") {
-      if (*unit == Units::inch && without_feed_) return std::nullopt;
+      if (unit == Units::inch && without_feed_) return std::nullopt;
       return length;
     }
-    if (!position || axis == nullptr || !axis->diameter) return length;
-    const auto mode = setting_in<DiameterMode>(block, facts_.before(s), Setting::diameter);
-    if (!mode) return std::nullopt;
-    return *mode == DiameterMode::radius ? length : length / 2;
+    return position && axis != nullptr && axis->diameter && mode != DiameterMode::radius ? length / 2 : length;
   }
 
   const LegaliseContext& context_;

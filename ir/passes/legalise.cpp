@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include "ir/passes/axis_scales.h"
 #include "ir/passes/early_passes.h"
+#include "ir/passes/given_data.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/stream_watch.h"
 #include "ir/passes/thread_leads.h"
@@ -34,6 +36,7 @@ constexpr std::array pipeline{
     Pass{"tool_rows", passes::name_tool_rows, false},
     Pass{"machine_data", passes::convert_machine_data, false},
     Pass{"known_data", passes::write_known_data, false},
+    Pass{"given_data", passes::name_given_data, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},
@@ -48,6 +51,7 @@ constexpr std::array pipeline{
     Pass{"shift_parts", passes::join_shift_parts, false},
     Pass{"thread_leads", passes::write_thread_leads, false},
     Pass{"plane_scales", passes::complete_scales, false},
+    Pass{"axis_scales", passes::write_axis_scales, false},
     Pass{"surfaces", passes::convert_surfaces, false},
     Pass{"frames", passes::convert_frames, false},
     Pass{"poles", passes::convert_poles, false},

@@ -90,6 +90,30 @@ void repeat_own_parts(Program& program) {
   }
 }
 
+/// Some variable of the caller's level, or of a level that a call opens, is read or written.
+bool uses_levels(const Program& program) {
+  bool found = false;
+  const auto look = [&](const VarRef& v) {
+    if (v.space >= program.spaces.size() || program.spaces[v.space].named()) return;
+    const auto* segment = segment_of(program, v);
+    found = found || segment == nullptr || segment->scope == Scope::level;
+  };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      each_expression(s, [&](const ExprPtr& e) {
+        walk(e, [&](const ExprPtr& x) {
+          if (const auto* v = as_variable(x)) look(*v);
+        });
+      });
+      each_target(s, look);
+      const auto* c = std::get_if<CallRoutine>(&s.node);
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      found = found || (c != nullptr && !c->arguments.empty()) || (m != nullptr && !m->call.arguments.empty());
+    });
+  }
+  return found;
+}
+
 }  // namespace
 
 void lower_calls(Program& program, const LegaliseContext& context) {
@@ -100,7 +124,9 @@ void lower_calls(Program& program, const LegaliseContext& context) {
   const bool levels = has_numbered_levels(program.spaces) && !has_numbered_levels(spaces);
   const bool named = has_named_locals(program.spaces) && !has_named_locals(spaces);
   if (!levels && !named) return;
-  if (const CallSite* ring = calls.recursion()) {
+  // Without values to keep apart, a control with variables of each call runs it as it stands.
+  const bool plain = !named && has_named_locals(spaces) && !uses_levels(program);
+  if (const CallSite* ring = plain ? nullptr : calls.recursion()) {
     context.diagnostics.error(
         "TRN-121", ring->statement->line.span,
         "this call leads back into the routine that it stands in; the local values of such calls can't "
