@@ -185,7 +185,7 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
     if (move.kind != Move::Kind::linear && move.kind != Move::Kind::rapid)
       return failure_.fail(code::not_carried, "only straight moves are carried out with a probe");
     move.kind = Move::Kind::probe;
-    move.toward = true;
+    move.toward = value(m.extra->probe_edge) >= 0;  // the falling edge: until the probe is free
   }
   return !failure_.set && send(move);
 }

@@ -79,8 +79,9 @@ void words(ir::Capabilities& c) {  // reference-language 14
                ir::MotionKind::arc_cw,          ir::MotionKind::arc_ccw,       ir::MotionKind::arc_through_point,
                ir::MotionKind::arc_tangent,     ir::MotionKind::thread,        ir::MotionKind::thread_variable,
                ir::MotionKind::tap_rigid,       ir::MotionKind::tap_rigid_out, ir::MotionKind::tap_floating,
-               ir::MotionKind::reference_point, ir::MotionKind::probe_toward,  ir::MotionKind::spline_akima,
-               ir::MotionKind::spline_b,        ir::MotionKind::spline_cubic,  ir::MotionKind::polynomial};
+               ir::MotionKind::reference_point, ir::MotionKind::probe_toward,  ir::MotionKind::probe_away,
+               ir::MotionKind::spline_akima,    ir::MotionKind::spline_b,      ir::MotionKind::spline_cubic,
+               ir::MotionKind::polynomial};
   c.frame_uses = {ir::FrameUse::normal, ir::FrameUse::machine, ir::FrameUse::machine_with_length};
   c.own_block = [](const ir::Action& a) {
     return std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||

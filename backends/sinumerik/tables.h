@@ -54,6 +54,7 @@ inline constexpr std::array motion_codes{
     MotionCode{ir::MotionKind::thread_variable, "G34"},
     MotionCode{ir::MotionKind::reference_point, "G74"},
     MotionCode{ir::MotionKind::probe_toward, "MEAS=1 G1"},
+    MotionCode{ir::MotionKind::probe_away, "MEAS=-1 G1"},
     MotionCode{ir::MotionKind::tap_rigid, "G331"},
     MotionCode{ir::MotionKind::tap_rigid_out, "G332"},
     MotionCode{ir::MotionKind::tap_floating, "G63"},
