@@ -366,14 +366,15 @@ class DistancePass {
   /// control it would travel the difference.
   void leave_out_idle(const Statement& s, Block& b, const Facts& facts) const {
     if (context_.source_machine.option("frame.change_keeps") != "machine" || b.motion.extra ||
-        !b.motion.centers.empty())
+        !b.motion.centers.empty() || b.motion.radius_given)
       return;
-    const auto kind = motion_in(b, facts);
-    if (kind != MotionKind::rapid && kind != MotionKind::linear) return;
+    const auto kind = motion_in(b, facts);  // not known: without a centre and a radius it is no arc
+    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return;
     const auto left = std::erase_if(b.motion.coords, [&](const CoordWord& c) {
       return (dirty_ >> c.axis & 1U) != 0 && c.value.is(0) && distance_of(c, b, facts) == Distance::incremental;
     });
     if (left == 0) return;
+    if (b.motion.coords.empty() && !b.motion.explicit_code) b.has_motion = false;
     context_.diagnostics.note("TRN-562", s.line.span,
                               "an increment of 0 right after a change of the offsets moves nothing on the source; the "
                               "target would travel the change: it is left out");
@@ -409,6 +410,7 @@ class DistancePass {
     }
     if (!b.has_motion || dirty_ == 0) return false;
     leave_out_idle(s, b, facts);
+    if (!b.has_motion) return false;
     const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
       return (dirty_ >> c.axis & 1U) != 0 && distance_of(c, b, facts) != Distance::absolute;
     });
