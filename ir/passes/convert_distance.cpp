@@ -362,24 +362,6 @@ class DistancePass {
     return true;
   }
 
-  /// Where a frame change keeps the position of the machine, an increment of 0 behind it moves nothing; on the other
-  /// control it would travel the difference.
-  void leave_out_idle(const Statement& s, Block& b, const Facts& facts) const {
-    if (context_.source_machine.option("frame.change_keeps") != "machine" || b.motion.extra ||
-        !b.motion.centers.empty() || b.motion.radius_given)
-      return;
-    const auto kind = motion_in(b, facts);  // not known: without a centre and a radius it is no arc
-    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return;
-    const auto left = std::erase_if(b.motion.coords, [&](const CoordWord& c) {
-      return (dirty_ >> c.axis & 1U) != 0 && c.value.is(0) && distance_of(c, b, facts) == Distance::incremental;
-    });
-    if (left == 0) return;
-    if (b.motion.coords.empty() && !b.motion.explicit_code) b.has_motion = false;
-    context_.diagnostics.note("TRN-562", s.line.span,
-                              "an increment of 0 right after a change of the offsets moves nothing on the source; the "
-                              "target would travel the change: it is left out");
-  }
-
   /// An increment right after a frame change: controls differ in what it is added to. True: its words are absolute now.
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
@@ -409,8 +391,6 @@ class DistancePass {
         follow_frame(b, facts, *f->change);
     }
     if (!b.has_motion || dirty_ == 0) return false;
-    leave_out_idle(s, b, facts);
-    if (!b.has_motion) return false;
     const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
       return (dirty_ >> c.axis & 1U) != 0 && distance_of(c, b, facts) != Distance::absolute;
     });
@@ -448,10 +428,51 @@ class DistancePass {
   bool straight_ = false;
 };
 
+/// Where a frame change keeps the position of the machine, an increment of 0 behind it moves nothing; on the other
+/// control it would travel the difference.
+void leave_out_idle(Program& program, const LegaliseContext& context, const FactsOf& facts) {
+  if (context.source_machine.option("frame.change_keeps") != "machine" ||
+      context.target_machine.option("frame.change_keeps") == "machine")
+    return;
+  bool changes = false, idle = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      UnmovedAxes::State none = 0;
+      UnmovedAxes::transfer(s, none);
+      changes = changes || (none & axis_bits) != 0;
+      const auto* b = std::get_if<Block>(&s.node);
+      idle = idle || (b != nullptr && b->has_motion &&
+                      std::any_of(b->motion.coords.begin(), b->motion.coords.end(),
+                                  [](const CoordWord& c) { return c.value.is(0); }));
+    });
+  }
+  if (!changes || !idle) return;
+  const FlowStates<UnmovedAxes> unmoved(program, UnmovedAxes{});
+  const auto statement = [&](Statement& s) {
+    auto* b = std::get_if<Block>(&s.node);
+    const auto* waiting = b != nullptr ? unmoved.before(s) : nullptr;
+    if (waiting == nullptr || !b->has_motion || b->motion.extra || !b->motion.centers.empty() || b->motion.radius_given)
+      return;
+    const auto kind = motion_in(*b, facts.before(s));  // not known: without a centre and a radius it is no arc
+    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return;
+    const auto left = std::erase_if(b->motion.coords, [&](const CoordWord& c) {
+      return (*waiting >> c.axis & one) != 0 && c.value.is(0) &&
+             distance_of(c, *b, facts.before(s)) == Distance::incremental;
+    });
+    if (left == 0) return;
+    if (b->motion.coords.empty() && !b->motion.explicit_code) b->has_motion = false;
+    context.diagnostics.note("TRN-562", s.line.span,
+                             "an increment of 0 right after a change of the offsets moves nothing on the source; the "
+                             "target would travel the change: it is left out");
+  };
+  for (auto& r : program.routines) for_each_statement(r.body, statement);
+}
+
 }  // namespace
 
 void convert_distance(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
+  leave_out_idle(program, context, facts);
   DistancePass pass(program, context, facts);
   for (auto& routine : program.routines) {
     Editor editor(program, routine, context);
