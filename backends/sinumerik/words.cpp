@@ -295,11 +295,10 @@ void Writer::corner(const ir::Action& a, const ir::Corner& c) {
 // ---- motion --------------------------------------------------------------------------------------------------------
 
 void Writer::frame_use(const ir::Motion& m) {
-  if ((m.kind == ir::MotionKind::probe_toward || m.kind == ir::MotionKind::probe_away) && !same_dialect()) {
+  if (!same_dialect() && (m.kind == ir::MotionKind::probe_toward || m.kind == ir::MotionKind::probe_away)) {
     diagnostics().warning("TRN-329", word_span(current().line.span, m.code_pos),
-                          "a probing move: the target goes on without an alarm when the probe does not " +
-                              std::string(m.kind == ir::MotionKind::probe_toward ? "touch" : "come free") +
-                              ", and the position of the contact is not the programmed one",
+                          "a probing move: the target goes on without an alarm when the probe does not touch (or come "
+                          "free), and the position of the contact is not the programmed one",
                           "check $AC_MEA[1] behind the move, and read the contact from $AA_MW[]");
   }
   if (m.frame == ir::FrameUse::normal) return;
