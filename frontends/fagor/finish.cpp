@@ -81,6 +81,22 @@ ir::FactTable facts_without_outside(const ir::Program& program, const LowerState
   return ir::analyse(inside, state.profile().power_on);
 }
 
+/// The facts of the program; a block that was read in a wrong plane, and given up for that, changes nothing.
+ir::FactTable facts_by_flow(const ir::Program& program, const LowerState& state) {
+  const auto given_up = [&state](const ir::Statement& s) {
+    const auto& uses = state.facts.plane_uses;
+    return std::holds_alternative<ir::Opaque>(s.node) &&
+           std::any_of(uses.begin(), uses.end(), [&s](const PlaneUse& u) { return u.span.line == s.line.span.line; });
+  };
+  ir::Program flow = program;
+  for (auto& r : flow.routines) {
+    ir::for_each_statement(r.body, [&given_up](ir::Statement& s) {
+      if (given_up(s)) s.node = ir::Label{};
+    });
+  }
+  return ir::analyse(flow, state.profile().power_on);
+}
+
 /// Were the planes that lowering took from the text right? The flow of the program decides.
 void judge_planes(ir::Program& program, LowerState& state) {
   FileFacts& facts = state.facts;
@@ -90,7 +106,7 @@ void judge_planes(ir::Program& program, LowerState& state) {
   for (const auto& use : facts.plane_uses) from_caller = from_caller || use.from_caller;
   if (facts.plane_uses.empty() || (!others && !from_caller)) return;
   ir::number_statements(program);
-  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
+  const ir::FactTable table = facts_by_flow(program, state);
   const auto lines = statements_by_line(program);
   std::optional<ir::FactTable> inside;
   for (const auto& use : facts.plane_uses) {
