@@ -135,7 +135,10 @@ bool Translation::open(const Input& input) {
   target_profile_ =
       machine::load(options_.target_machine.empty() ? default_target : options_.target_machine, &result_.error);
   if (!target_profile_) return false;
-  if (options_.target_machine.empty()) add_axes(*target_profile_, added_axes(source_profile));
+  if (options_.target_machine.empty()) {
+    add_axes(*target_profile_, added_axes(source_profile));
+    if (target_profile_->tools.empty()) target_profile_->tools = source_profile.tools;  // the job moves with its tools
+  }
   result_.source_machine = source_profile.name;
   result_.target_machine = target_profile_->name;
   return true;
