@@ -208,22 +208,13 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   return use;
 }
 
-static bool said_in_numbers(const NamedCycle& cycle) {
-  return std::all_of(cycle.words.begin(), cycle.words.end(), [](const auto& word) {
-    const Value& v = word.second;
-    return v.literal() || (v.expr && std::holds_alternative<String>(v.expr->node));
-  });
-}
-
 std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const Statement& s, const Block& b,
                                                const FactsOf& all, bool last_resort, std::string* why) const {
   why->clear();
   const auto it = sites_.find(s.id);
   const auto family = cycles::family_of(named.name);
   const auto asked = context_.options.cycles;
-  // Passes of words that only the run knows become loops, which move as the source does.
-  if (asked == CycleWriting::explode || (!last_resort && (asked == CycleWriting::exact || !said_in_numbers(named))))
-    return std::nullopt;
+  if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
   if (it == sites_.end() || family.empty()) return std::nullopt;
   if (!context_.target.native_cycle) return std::nullopt;
   const Facts& facts = all.before(s);

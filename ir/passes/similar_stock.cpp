@@ -72,6 +72,9 @@ class StockForms {
       return no("the place of the tool before it is not known here");
     if (!play(s_.named, mine_)) return std::nullopt;
     if (has("section") && !is_zero("section")) return no("it works in sections");
+    if (s_.named.name == "turn.copy") return no("it repeats the profile, and the target's cycle makes straight passes");
+    if (cycles::find_machining(s_.named.name)->ends_modes && has("rough_feed") && !is_zero("rough_feed"))
+      return no("the target's cycle has no pass along the contour before finishing");
     if (!is_zero("chip_dwell") || !is_zero("chip_length")) return no("it breaks chips");
     std::vector<NamedCycle> forms;
     contour_forms(forms);
@@ -330,8 +333,6 @@ class StockForms {
     else if (!theirs.moves.empty() && theirs.moves.front().step == TurnStep::rapid)
       out.differs += "from X" + shown(from.x * k) + " Z" + shown(from.z) +
                      " (1 mm off the contour; nothing of the blank may stand there)";
-    if (own->ends_modes && has("rough_feed") && !is_zero("rough_feed"))
-      out.differs += ", without the pass before finishing";
     return out;
   }
   /// The feed that the source's cycle leaves in force.

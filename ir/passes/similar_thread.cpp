@@ -123,6 +123,7 @@ class ThreadForms {
     put(f, "start_angle", word("start_angle"));
     const Value ratio = b.is(1) ? rough : quotient(rough, b);
     const Value passes = rounded_up(*infeed > 0 ? squared(ratio) : ratio);
+    if (*entry == 2 && !passes.literal()) return no(flank_of_the_last);
     put(f, "passes", passes);
     put(f, "idle", Value(*idle == 0 ? 1.0 : 0.0));
     put(f, "variant", Value((*infeed > 0 ? 3 : 1) + (*depth < 0 ? 1 : 0)));
@@ -133,6 +134,10 @@ class ThreadForms {
     f.differs = infeeds(passes) + ", and its way begins a little before the thread for the flank";
     return f;
   }
+  /// Infeeds on both flanks in turn.
+  static constexpr auto flank_of_the_last =
+      "the flank of its last pass depends on a number of passes that only the run knows";
+
   /// To the places that the target writes.
   [[nodiscard]] Value short_of(const Value& v) const {
     if (!v.literal()) return v;
@@ -153,6 +158,7 @@ class ThreadForms {
     if (!equal(word("x"), word("x_end"))) return no("the thread is a cone");
     const bool inside = std::fmod(*variant, 2) == 0, linear = *variant < 3;
     const Value t = unsigned_word(word("depth")), a = unsigned_word(word("finish_stock")), n = word("passes");
+    if (*angle < 0 && !(n.literal() && t.literal() && a.literal())) return no(flank_of_the_last);
     const Value rough = subtract(t, a);
     const double tangent = tangent_of(*angle);
     const Value from = *way < 0 ? add(word("z"), word("run_in")) : subtract(word("z"), word("run_in"));
