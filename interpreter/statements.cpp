@@ -292,9 +292,8 @@ void Runner::declare_one(const ir::Declare& d, const ir::Declare::Item& item) {
   if (const double start = v->limits.start(); start != 0) v->number.assign(v->number.size(), start);
   Place p;
   p.named = v;
-  for (std::size_t i = 0; i < count && !item.initial.empty(); ++i) {
-    if (i >= item.initial.size() && item.initial.size() != 1) break;
-    const auto& e = item.initial[std::min(i, item.initial.size() - 1)];
+  for (std::size_t i = 0; i < count && i < item.initial.size(); ++i) {  // elements without a value stay 0
+    const auto& e = item.initial[i];
     p.index = static_cast<std::uint32_t>(i);
     if (e && !evaluator_.assign(p, evaluator_.id_of(e))) return;
   }

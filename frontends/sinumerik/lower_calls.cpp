@@ -35,6 +35,11 @@ std::string type_text(const Expr& type, const FileContext& c) {
   return type.text + "[" + std::string(c.slice(type.args[0].pos)) + "]";
 }
 
+/// SET(...), (...) or REP(...).
+bool is_list(const Expr& e) {
+  return e.kind == ExprKind::call && (e.text.empty() || e.text == "SET" || e.text == "REP");
+}
+
 /// Elements of an array with literal dimensions; 0 when one is not literal.
 std::size_t element_count(const Expr& dimensions) {
   std::size_t n = 1;
@@ -123,6 +128,8 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
       ok = ok && item.dimensions.back() != nullptr;
     }
     if (v.args[1].kind != ExprKind::missing) {
+      if (!v.args[0].args.empty() && !is_list(v.args[1]))
+        return refuse("language.statement", v.pos, "the values of an array are SET(...), (...) or REP(...)");
       ok = initial_values(v.args[1], *type, v.args[0].args.empty() ? 0 : element_count(v.args[0]), item.initial) && ok;
     }
     out.items.push_back(std::move(item));

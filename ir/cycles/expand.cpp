@@ -168,8 +168,8 @@ void balanced(const HoleNumbers& h, double depth, std::vector<double>& sizes) {
   }
 }
 
-/// Smaller by `degression` while more than that (and the minimum) is left; the last remainder below two of the smallest
-/// strokes is shared between two. The first is the one programmed.
+/// Each smaller by `degression`, down to that (and the minimum). A remainder below two of the smallest strokes is
+/// shared between the last two, whatever the stroke has come down to; the first is the one programmed.
 void arithmetic(const HoleNumbers& h, double depth, std::vector<double>& sizes) {
   const double smallest = std::min(h.first, std::max({h.degression, h.minimum, tiny * 10}));
   double stroke = h.first, rest = depth;
@@ -178,7 +178,7 @@ void arithmetic(const HoleNumbers& h, double depth, std::vector<double>& sizes) 
       sizes.push_back(rest);
       return;
     }
-    if (!sizes.empty() && stroke <= smallest + tiny && rest < 2 * smallest - tiny) {
+    if (!sizes.empty() && rest < 2 * smallest - tiny) {
       sizes.push_back(rest / 2);
       sizes.push_back(rest / 2);
       return;

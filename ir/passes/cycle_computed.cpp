@@ -160,7 +160,7 @@ bool ComputedHole::halving_begin() {
   return error.empty();
 }
 
-/// The last two of the smallest pecks share what is left.
+/// The last two pecks share what is left below two of the smallest ones.
 void ComputedHole::halve(const Value& left) {
   If outer, inner;
   inner.condition = more(left, add(peck_, tiny_));
@@ -168,14 +168,7 @@ void ComputedHole::halve(const Value& left) {
   const Value twice = product(Value(2.0), c_.pecks.law == PeckLaw::arithmetic ? least_ : peck_);
   outer.condition = more(subtract(twice, tiny_), left);
   outer.then_body.push_back(made(like_, std::move(inner)));
-  if (c_.pecks.law == PeckLaw::balanced || equal(least_, first_)) {
-    body().push_back(made(like_, std::move(outer)));
-    return;
-  }
-  If smallest;
-  smallest.condition = more(add(least_, tiny_), peck_);
-  smallest.then_body.push_back(made(like_, std::move(outer)));
-  body().push_back(made(like_, std::move(smallest)));
+  body().push_back(made(like_, std::move(outer)));
 }
 
 bool ComputedHole::geometric_begin() {
