@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "dialects/fagor/limits.h"
+#include "frontends/common/own_lengths.h"
 #include "frontends/fagor/finish_parts.h"
 #include "frontends/fagor/program_reader.h"
 #include "frontends/fagor/tool_offsets.h"
@@ -366,6 +367,9 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_planes(program, state);
   judge_text_uses(program, state);
   judge_depths(program, state);
+  frontends::OwnLengths own;
+  own.reapproach = 1;  // G83, G69 (25.3)
+  frontends::settle_own_lengths(program, state.profile().power_on, own, state.diagnostics());
   judge_surfaces(program, state);
   judge_executed(program, state);
   judge_patterns(program, state);

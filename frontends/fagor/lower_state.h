@@ -97,6 +97,7 @@ class LowerState {
   void know_planes(std::map<std::uint32_t, ir::Plane> by_line) { flow_planes_ = std::move(by_line); }
   [[nodiscard]] const Span& line() const { return line_; }
   void set_diagnostics(Diagnostics& d) { diagnostics_ = &d; }
+  [[nodiscard]] Diagnostics& diagnostics() const { return *diagnostics_; }
   void error(std::string_view code, WordPos pos, std::string message, std::string hint = {});
   void warning(std::string_view code, WordPos pos, std::string message, std::string hint = {});
   void note(std::string_view code, WordPos pos, std::string message, std::string hint = {});

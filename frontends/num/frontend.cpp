@@ -5,7 +5,9 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/num/limits.h"
+#include "dialects/num/milling.h"
 #include "dialects/num/variables.h"
+#include "frontends/common/own_lengths.h"
 #include "frontends/common/word_scanner.h"
 #include "frontends/num/compensation.h"
 #include "frontends/num/cycle_changes.h"
@@ -109,6 +111,8 @@ class NumFrontend : public Frontend {
     ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
     judge_cycle_changes(program, options.profile->power_on, diagnostics);
     judge_cycle_moves(program, options.profile->power_on, diagnostics);
+    settle_own_lengths(program, options.profile->power_on,
+                       {facts::reapproach, facts::oriented_clearance, facts::pocket_clearance}, diagnostics);
     judge_jumps(program, diagnostics);
     judge_surfaces(program, options.profile->power_on, diagnostics);
     judge_compensation(program, options.profile->power_on, diagnostics);
