@@ -23,7 +23,7 @@ std::string_view without_leading_zeros(std::string_view digits) {
 
 LabelUse::LabelUse(const ir::Program& program) {
   for (std::size_t i = 0; i < program.routines.size(); ++i) use_body(program, i, program.routines[i].body);
-  if (renumberable_) find_duplicates(program);
+  if (renumberable_) check_targets(program);
 }
 
 void LabelUse::use(std::size_t routine, const ir::LabelRef& label, bool range) {
@@ -67,18 +67,30 @@ void LabelUse::use_body(const ir::Program& program, std::size_t routine, const i
   });
 }
 
-void LabelUse::find_duplicates(const ir::Program& program) {
+void LabelUse::check_targets(const ir::Program& program) {
+  std::set<std::pair<std::size_t, std::string>, std::less<>> seen;
   for (std::size_t i = 0; i < program.routines.size(); ++i) {
-    std::set<std::string, std::less<>> seen;
+    const auto line = [&](const ir::LineInfo& info) {
+      if (info.number.empty() || info.joined) return;
+      const std::string digits(without_leading_zeros(info.number));
+      if (!is_target(i, digits) || seen.emplace(i, digits).second) return;
+      renumberable_ = false;
+      why_not_ = "block number " + digits + " is a jump target and stands more than once";
+    };
     ir::for_each_statement(program.routines[i].body, [&](const ir::Statement& s) {
-      if (s.line.number.empty() || s.line.joined) return;
-      const auto digits = without_leading_zeros(s.line.number);
-      if (!is_target(i, digits)) return;
-      if (!seen.emplace(digits).second) {
-        renumberable_ = false;
-        why_not_ = "block number " + std::string(digits) + " is a jump target and stands more than once";
-      }
+      line(s.line);
+      if (const auto* x = std::get_if<ir::If>(&s.node)) line(x->else_line);
+      std::visit(
+          [&line](const auto& node) {
+            if constexpr (requires { node.end_line; }) line(node.end_line);
+          },
+          s.node);
     });
+  }
+  for (const auto& target : targets_) {  // it would keep its number, which another block gets
+    if (!renumberable_ || seen.contains(target)) continue;
+    renumberable_ = false;
+    why_not_ = "a jump names block number " + target.second + ", which is not there";
   }
 }
 

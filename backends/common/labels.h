@@ -24,14 +24,15 @@ class LabelUse {
   [[nodiscard]] bool is_target_name(std::size_t routine, std::string_view name) const;
   /// Block numbers and names that delimit a repeated range.
   [[nodiscard]] bool delimits_range(std::size_t routine, std::string_view digits) const;
-  /// Numbers can be changed: no label is computed at run time, no target number stands twice in its routine.
+  /// Numbers can be changed: no label is computed at run time, every target number stands in its routine, once.
   [[nodiscard]] bool renumberable() const { return renumberable_; }
   [[nodiscard]] const std::string& why_not() const { return why_not_; }
 
  private:
   void use(std::size_t routine, const ir::LabelRef& label, bool range);
   void use_body(const ir::Program& program, std::size_t routine, const ir::Body& body);
-  void find_duplicates(const ir::Program& program);
+  /// Every number that something names stands in its routine, once.
+  void check_targets(const ir::Program& program);
   std::set<std::pair<std::size_t, std::string>, std::less<>> targets_, names_, ranges_;
   bool renumberable_ = true;
   std::string why_not_;

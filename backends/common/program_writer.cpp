@@ -235,7 +235,8 @@ void ProgramWriter::finish_line() {
   const bool before = style_.comment.line_before && !words.empty() && !same_dialect_ && first_of_source_line_;
   if (before) emit_comments_before();
   const std::string remarks = before ? std::string{} : line_comments();
-  std::string text = line_head(!words.empty() && words != style_.blank_line);
+  const bool target = first_of_source_line_ && !info_->number.empty() && labels_.is_target(routine_, info_->number);
+  std::string text = line_head(target || (!words.empty() && words != style_.blank_line));
   if (refused()) return emit_refusal();
   const bool only_head = words.empty() && remarks.empty();
   if (only_head && trim(text).empty()) {
