@@ -310,7 +310,7 @@ class NamedLocals {
                               ? &call.arguments[i]
                               : nullptr;
       ExprPtr value = a == nullptr ? p.default_value : a->value ? a->value : variable(a->reference);
-      if (p.type == Type::integer && !p.by_reference) value = whole(value);
+      if (!p.by_reference) value = taken_as(p.type, value);
       const VarRef& place = info.places.at(p.variable.name);
       if (place.space == program_.space(level_prefix)) {
         Argument letter;
@@ -357,13 +357,14 @@ class NamedLocals {
     surround(out, assign_in_parallel(program_, like, std::move(before)), std::move(s), std::move(behind));
   }
 
-  /// A parameter of whole numbers rounds what it is given.
-  static ExprPtr whole(const ExprPtr& value) {
-    if (!value || value->type == Type::integer || value->type == Type::boolean) return value;
-    if (const auto n = constant_value(value)) return number(std::round(*n));
+  /// A parameter of whole numbers rounds what it is given, one of truth values takes what is not 0 for 1.
+  static ExprPtr taken_as(Type type, const ExprPtr& value) {
+    if (!value || value->type == type || value->type == Type::boolean) return value;
+    if (type != Type::integer && type != Type::boolean) return value;
+    if (const auto n = constant_value(value)) return number(type == Type::integer ? std::round(*n) : *n != 0 ? 1 : 0);
     Expr e;
-    e.type = Type::integer;
-    e.node = Call{Function::to_integer, {value}, RoundHalf::away};
+    e.type = type;
+    e.node = Call{type == Type::integer ? Function::to_integer : Function::to_boolean, {value}, RoundHalf::away};
     return std::make_shared<const Expr>(std::move(e));
   }
   /// The subprogram changes a parameter: it is set before each pass, as in the source.
