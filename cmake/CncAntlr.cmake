@@ -1,7 +1,12 @@
 # ANTLR: the Debian tool is 4.7.2 and the runtime 4.9; they fit each other. Generated code is C++17 in a target of
-# its own, without our warnings, its symbols hidden; the runtime is linked statically.
+# its own, without our warnings, its symbols hidden; the runtime is linked statically, but for the shared library.
 find_program(ANTLR4_TOOL antlr4 REQUIRED)
-find_library(ANTLR4_RUNTIME_STATIC libantlr4-runtime.a REQUIRED)
+if(CNCTRANS_SHARED) # Debian's archive is not position-independent
+  find_library(ANTLR4_RUNTIME antlr4-runtime REQUIRED)
+else()
+  find_library(ANTLR4_RUNTIME_STATIC libantlr4-runtime.a REQUIRED)
+  set(ANTLR4_RUNTIME ${ANTLR4_RUNTIME_STATIC})
+endif()
 find_path(ANTLR4_INCLUDE antlr4-runtime/antlr4-runtime.h REQUIRED)
 
 set(antlr_headers ${ANTLR4_INCLUDE}/antlr4-runtime)
@@ -18,7 +23,7 @@ endif()
 add_library(cnc_antlr_runtime INTERFACE)
 target_include_directories(cnc_antlr_runtime SYSTEM INTERFACE ${antlr_headers})
 find_package(Threads REQUIRED)
-target_link_libraries(cnc_antlr_runtime INTERFACE ${ANTLR4_RUNTIME_STATIC} Threads::Threads)
+target_link_libraries(cnc_antlr_runtime INTERFACE ${ANTLR4_RUNTIME} Threads::Threads)
 
 # cnc_grammar(d): grammars/d/*Lexer.g4 and *Parser.g4 -> library cnc_grammar_d; headers under generated/d/.
 function(cnc_grammar dialect)
