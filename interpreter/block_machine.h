@@ -119,6 +119,13 @@ class BlockMachine final : public SystemData {
     std::string hint;  ///< how to give another
   };
   [[nodiscard]] const std::vector<Assumed>& assumed() const { return assumed_; }
+  /// The radius of a tool that nobody gives, and the first milling cycle that ran with it.
+  struct AssumedRadius {
+    Span where;
+    std::int32_t tool = 0;
+    double radius = 0;  ///< mm
+  };
+  [[nodiscard]] const std::vector<AssumedRadius>& assumed_radii() const { return assumed_radii_; }
   std::uint64_t arguments_given = 0;  ///< of the present call level
   std::size_t calls_open = 0;
   std::string_view last_label;  ///< number of the numbered statement carried out last; empty: none yet
@@ -322,6 +329,9 @@ class BlockMachine final : public SystemData {
   bool read_mill_contours(const ir::HoleCycle& hole);
   bool mill_context(ir::cycles::MillContext& context);
   bool run_milling();
+  std::optional<std::vector<ir::cycles::MillMove>> milling_by_assumed_radius(ir::cycles::MillContext& context,
+                                                                             std::string* error);
+  void tell_radii(Diagnostics& diagnostics) const;
   bool run_pocket(const ir::NamedCycle& call);
   bool find_pocket_entries();
   bool milling_move(const ir::cycles::MillMove& m, double speed);
@@ -371,6 +381,7 @@ class BlockMachine final : public SystemData {
   bool pole_set_ = false;               ///< by the program, not the zero point of the plane
   std::optional<double> polar_radius_;  ///< the one programmed last
   double start_angle_ = 0;              ///< of a thread, where it stays in force
+  std::uint64_t thread_end_ = 0;        ///< events up to the last thread, that one included
 
   // the last path element, for tangents
   std::array<double, 3> before_{};
@@ -439,6 +450,7 @@ class BlockMachine final : public SystemData {
   std::set<std::string> written_in_mm_;  ///< of written_
   std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
   std::vector<Assumed> assumed_;
+  std::vector<AssumedRadius> assumed_radii_;
   Axes travelled_{};  ///< way of the axes since the start, or since the program set it
   Axes travel_set_{};
   std::uint32_t travel_given_ = 0;  ///< bit n: the program set the way of axis n

@@ -31,6 +31,7 @@ bool apart(const ir::curves::Point& a, const ir::curves::Point& b) {
 }  // namespace
 
 void BlockMachine::tell_path(Diagnostics& diagnostics) const {
+  tell_radii(diagnostics);
   for (const auto& [where, why] : corners_left_out_)
     diagnostics.warning(code::corner_left_out, where, why + ": the corner is left out, as the control does");
   if (!pocket_orders_.empty())

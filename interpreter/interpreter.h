@@ -48,6 +48,8 @@ struct Result {
   /// What conditions came to, by Statement::id: `held`, `failed`, both, or 0 where none was asked.
   std::vector<std::uint8_t> outcomes;
   static constexpr std::uint8_t held = 1, failed = 2;
+  /// Radii of tools that nobody gives, mm, and the first milling cycle that ran with each.
+  std::vector<std::pair<Span, double>> assumed_radii;
 };
 
 /// Runs the main routine of `program`. Statically wrong programs (unknown label, unknown subprogram) are refused before

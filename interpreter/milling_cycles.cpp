@@ -1,5 +1,6 @@
 // Milling cycles: the radius of the tool, and the moves of the expansion, one event each.
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "base/text.h"
@@ -75,6 +76,48 @@ bool BlockMachine::mill_context(ir::cycles::MillContext& context) {
   return true;
 }
 
+/// Nobody gives the radius of the tool: the one taken before for it, else the first usual one with which the cycle can
+/// be carried out. Where the tool stands behind the cycle, and what follows, is right for every radius but in few
+/// shapes.
+std::optional<std::vector<ir::cycles::MillMove>> BlockMachine::milling_by_assumed_radius(
+    ir::cycles::MillContext& context, std::string* error) {
+  constexpr std::array usual{5.0,  4.0,  3.0,  2.0,  1.5,  1.0,  0.5,  6.0, 8.0,
+                             10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0, 50.0};
+  const std::int32_t tool = tool_in_spindle_ != 0 ? tool_in_spindle_ : tool_;
+  std::vector<double> radii;
+  for (const auto& a : assumed_radii_) {
+    if (a.tool == tool) radii.insert(radii.begin(), a.radius);
+  }
+  const std::size_t before = radii.size();
+  if (profile_.option("cycle.unknown_radius") == "assumed") radii.insert(radii.end(), usual.begin(), usual.end());
+  bool same = !radii.empty();
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    context.tool_radius = radii[k];
+    std::string why;
+    auto moves = ir::cycles::expand(mill_, *hole_, context, &why);
+    if (moves && k >= before) assumed_radii_.push_back({failure_.where, tool, radii[k]});
+    if (moves) return moves;
+    if (k == 0) *error = why;
+    same = same && why == *error;
+  }
+  if (same) return std::nullopt;  // with every tool: it is not the radius
+  *error =
+      "the passes of a milling cycle depend on the radius of the tool, which is not known: give it in the profile's "
+      "\"tools\" or by --set TOOL_RADIUS=5";
+  return std::nullopt;
+}
+
+void BlockMachine::tell_radii(Diagnostics& diagnostics) const {
+  for (const auto& a : assumed_radii_) {
+    const std::string tool = a.tool != 0 ? " T" + std::to_string(a.tool) : "";
+    diagnostics.warning(code::radius_assumed, a.where,
+                        "nobody gives the radius of the tool" + tool +
+                            ": the passes of this milling cycle are those of a tool of radius " + shortest(a.radius) +
+                            " mm",
+                        "give it in the profile's \"tools\" or by --set TOOL_RADIUS=" + shortest(a.radius));
+  }
+}
+
 bool BlockMachine::run_milling() {
   ir::cycles::MillContext context;
   if (!mill_context(context)) return false;
@@ -83,13 +126,10 @@ bool BlockMachine::run_milling() {
     assume("TOOL_RADIUS", 0,
            "the way onto the contour and off it is counted from the tool's edge: give the radius in the profile's "
            "\"tools\" or by --set TOOL_RADIUS=5");
-  if (context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::moves) {
-    return failure_.fail(code::bad_cycle,
-                         "the passes of a milling cycle depend on the radius of the tool, which is not known: give it "
-                         "in the profile's \"tools\" or by --set TOOL_RADIUS=5");
-  }
   std::string error;
-  const auto moves = ir::cycles::expand(mill_, *hole_, context, &error);
+  const bool unknown = context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::moves;
+  const auto moves =
+      unknown ? milling_by_assumed_radius(context, &error) : ir::cycles::expand(mill_, *hole_, context, &error);
   if (!moves) {
     return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
   }

@@ -269,6 +269,8 @@ bool BlockMachine::line_by_angle(const ir::Motion& m, Move& move) {
 
 bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
   move.kind = Move::Kind::thread;
+  const bool joins = thread_end_ == emitter_.seen() && modal_.path_mode == ir::PathMode::continuous;
+  if (joins) move.start_angle = path_event_.start_angle;  // on in the groove of the thread before it
   if (m.extra) {
     const auto& x = *m.extra;
     if (x.has_lead) lead_ = value(x.lead) * unit();

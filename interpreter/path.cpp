@@ -281,6 +281,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   } else {
     emitter_.emit(e);
   }
+  if (e.kind == EventKind::thread) thread_end_ = emitter_.seen();
   return true;
 }
 

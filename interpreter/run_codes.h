@@ -23,6 +23,7 @@ inline constexpr std::string_view arc_frame = "RUN-015";
 inline constexpr std::string_view corner_fit = "RUN-016";
 inline constexpr std::string_view corner_alone = "RUN-017";
 inline constexpr std::string_view bad_cycle = "RUN-018";
+inline constexpr std::string_view radius_assumed = "RUN-140";
 inline constexpr std::string_view polar = "RUN-019";
 inline constexpr std::string_view thread_pitch = "RUN-009";
 inline constexpr std::string_view label_missing = "RUN-020";

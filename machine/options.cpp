@@ -108,6 +108,9 @@ constexpr std::array specs{
         "run.faults", "before|when_reached", "before",
         "blocks that can't be read, labels and subprograms that are nowhere, where the program could come to them: "
         "it is refused before anything moves, or the run stops where it does come to one"},
+    OptionSpec{"cycle.unknown_radius", "assumed|stop", "assumed",
+               "a milling cycle whose tool has no known radius: its passes are those of a usual tool, with a warning, "
+               "or the run stops"},
     OptionSpec{"thread.pitch", "each_block|modal", "each_block", "how long the pitch of a thread (G33) stays in force"},
     OptionSpec{"thread.start_angle", "block|modal", "block", "how long the start angle of a thread stays in force"},
     OptionSpec{"tool.bare_offset", "kept|table|edge", "kept",

@@ -52,6 +52,17 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
     return run.events.back().file == file && run.events.back().line == line;
   };
   const auto& d = verdict.difference;
+  const auto& radii = source.result.assumed_radii;
+  if (!radii.empty()) verdict.assumed_radius = radii.front().second;
+  const bool by_radius = std::any_of(radii.begin(), radii.end(), [&](const auto& a) {
+    return a.first.file == d.source_file && a.first.line == d.source_line;
+  });
+  if (verdict.status == verifier::Status::differs && by_radius) {  // a tool of another radius may leave the same part
+    verdict.status = verifier::Status::not_replayable;
+    verdict.reason =
+        "nobody gives the radius of the tool, and with " + shortest(radii.front().second) + " mm " + d.what;
+    return verdict;
+  }
   const bool source_stopped = !source_ended && stops_at(source, d.source_file, d.source_line);
   const bool target_refused = !target_ended && target.events.size() < 2;
   const bool stopped = verdict.status == verifier::Status::differs && (source_stopped || target_refused);
@@ -124,6 +135,10 @@ class Prover {
       const auto same = [&n = name](const auto& s) { return s.first == n; };
       if (name == tool_radius && std::none_of(run.set.begin(), run.set.end(), same)) run.set.emplace_back(name, value);
     }
+    const auto& radii = p.source.result.assumed_radii;
+    const auto other = [&radii](const auto& a) { return a.second != radii.front().second; };
+    if (!radii.empty() && std::none_of(radii.begin(), radii.end(), other))
+      run.set.emplace_back(tool_radius, shortest(radii.front().second));
     p.target = replay(target_, run);
     p.verdict = judge(source_, p.source, target_, p.target);
     return p;

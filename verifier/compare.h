@@ -81,6 +81,7 @@ struct Verdict {
   double max_length = 0;             ///< mm
   std::uint64_t similar_cycles = 0;  ///< compared by the part they leave, not by their passes
   std::uint64_t unfed_moves = 0;     ///< at a feed that the source never gives, where the translation has one
+  double assumed_radius = 0;         ///< mm, of tools whose radius nobody gives: milling cycles ran with it; 0: none
   Difference difference;
   std::string reason;  ///< with not_replayable
   std::string inputs;  ///< what the replay that failed was started with, as options of the command line; empty: nothing

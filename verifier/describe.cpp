@@ -42,6 +42,12 @@ std::string by_contour(const Verdict& v) {
                      v.similar_cycles == 1 ? "it leaves" : "they leave");
 }
 
+/// Milling cycles that ran with a tool nobody gives.
+std::string by_radius(const Verdict& v) {
+  if (v.assumed_radius == 0) return {};
+  return fmt::format("; milling cycles with a tool of radius {} mm, which nobody gives", shortest(v.assumed_radius));
+}
+
 /// The part of the source that the proof does not speak of; empty: none.
 std::string not_replayed(const Coverage& c, const FileTable& files) {
   if (c.missed.empty()) return {};
@@ -87,11 +93,12 @@ std::string_view name(Status s) {
 std::string describe(const Verdict& v, const FileTable& source_files, const FileTable& target_files) {
   switch (v.status) {
     case Status::verified:
-      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + without_feed(v) +
-             not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
+      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + by_radius(v) +
+             without_feed(v) + not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
     case Status::within_tolerance:
       return fmt::format("verified: {} events, {} moves, {}", v.events, v.moves, apart(v)) + by_contour(v) +
-             without_feed(v) + not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
+             by_radius(v) + without_feed(v) + not_replayed(v.coverage, source_files) +
+             explored(v.coverage, source_files);
     case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
     case Status::not_replayable: return "not verified" + started_with(v) + ": " + v.reason;
     case Status::differs: break;

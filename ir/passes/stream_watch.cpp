@@ -49,6 +49,7 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       needs_gear_(target.gear_needed && source.dialect != target.dialect),
       tables_differ_(passes::offset_tables_differ(source, target_machine)),
       bare_differs_(source.dialect != target.dialect && passes::bare_offsets_differ(source, target_machine)),
+      pitch_each_block_(target_machine.option("thread.pitch") == "each_block"),
       lengths_differ_(source.dialect != target.dialect && passes::length_axes_differ(source, target_machine)) {
   const bool source_on = source.power_on.length_comp == OnOff::on;
   const bool target_on = target_machine.power_on.length_comp == OnOff::on;
@@ -150,7 +151,10 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
       if (!absolute) return true;
     }
   }
-  if (!is_arc(m.kind == MotionKind::modal ? state_.motion : m.kind)) return false;
+  const MotionKind kind = m.kind == MotionKind::modal ? state_.motion : m.kind;
+  if (pitch_each_block_ && (kind == MotionKind::thread || kind == MotionKind::thread_variable) && !m.coords.empty())
+    return true;
+  if (!is_arc(kind)) return false;
   const auto rounded = [this](const auto& word) { return too_long(word.value); };
   if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), rounded) ||
       std::any_of(m.centers.begin(), m.centers.end(), rounded) || (m.radius_given && too_long(m.radius)))

@@ -75,6 +75,7 @@ class StreamWatch {
   passes::OffsetNumbers offset_numbers_{};
   passes::BareTool bare_tool_{};
   bool bare_differs_;       ///< a tool without a D has another offset on the target
+  bool pitch_each_block_;   ///< joined threads get the pitch of the first one, or give up their start angle
   bool lengths_differ_;     ///< another plane has the tool's length along another axis on the target
   bool head_done_ = false;  ///< from here on the head's
   bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;
