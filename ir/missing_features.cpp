@@ -27,7 +27,8 @@ constexpr std::array features{
                    "pockets by words that are not known, depth profiles, threads by single points, engraving",
                    "pockets (with islands too), slots, faces, spigots, milled threads and paths along a contour are "
                    "carried"},
-    MissingFeature{"cycle.pattern", "free lists of hole positions", "lines, circles and grids are carried"},
+    MissingFeature{"cycle.pattern", "free lists of hole positions by increments",
+                   "lines, circles, grids and lists of absolute positions are carried"},
     MissingFeature{"cycle.turning", "turning cycles whose moves are not described (parting, contour grooves)",
                    "read and kept; their sequence is not in the references"},
     MissingFeature{"feed.of_the_tool", "a feed for each tooth, a cutting speed for the diameter of the tool",

@@ -333,6 +333,8 @@ const dialect::PatternRow* pattern_of(std::string_view name) {
 std::string pattern_call(const dialect::PatternRow& row, const ir::NamedCycle& c,
                          const std::function<std::string(const Value&)>& print) {
   std::string call = std::string(row.name) + '(';
+  const bool list = row.pattern == "points.list";
+  if (list) call += dialect::every_place_absolute;
   std::string_view rest = row.parameters;
   for (bool first = true; !rest.empty(); first = false) {
     const std::size_t comma = rest.find(',');
@@ -343,6 +345,7 @@ std::string pattern_call(const dialect::PatternRow& row, const ir::NamedCycle& c
       if (word == name) call += print(value);
     }
   }
+  while (list && call.back() == ',') call.pop_back();
   if (row.pattern == "points.frame") call += ",1";
   return call + ')';
 }

@@ -25,7 +25,7 @@ constexpr CycleRow rows[] = {
     {"HOLES1", pattern, true, "SPCA,SPCO,STA1,FDIS,DBH,NUM"},
     {"HOLES2", pattern, true, "CPA,CPO,RAD,STA1,INDA,NUM"},
     {"CYCLE801", pattern, true, "SPCA,SPCO,STA,DIS1,DIS2,NUM1,NUM2,VARI,UMODE,ANG1,ANG2,HIDE,NSP,DMODE"},
-    {"CYCLE802", pattern, false, ""},
+    {"CYCLE802", pattern, true, "XA,YA,X0,Y0,X1,Y1,X2,Y2,X3,Y3,X4,Y4,X5,Y5,X6,Y6,X7,Y7,X8,Y8,VARI,UMODE,DMODE"},
     // 18.3 milling
     {"LONGHOLE", milling, true,
      "RTP,RFP,SDIS,DP,DPR,NUM,LENG,CPA,CPO,RAD,STA1,INDA,FFD,FFP1,MID,VARI,UMODE,GMODE,DMODE,AMODE"},
@@ -106,6 +106,7 @@ constexpr PatternRow pattern_rows[] = {
     {"HOLES2", "points.ring", "u,v,radius,angle,angle_step,count"},
     {"CYCLE801", "points.matrix", "u,v,angle,step,step2,count,count2"},
     {"CYCLE801", "points.frame", "u,v,angle,step,step2,count,count2"},
+    {"CYCLE802", "points.list", "u1,v1,u2,v2,u3,v3,u4,v4,u5,v5,u6,v6,u7,v7,u8,v8,u9,v9"},
 };
 
 /// Coarse pitch series of the metric thread (ISO 261), first choice sizes and the usual ones between.

@@ -26,6 +26,9 @@ struct PatternRow {
   std::string_view parameters;  ///< separated by one comma each
 };
 std::span<const PatternRow> patterns();
+/// CYCLE802: one digit a point in the first two parameters; 1: an absolute coordinate (18.2).
+inline constexpr double all_absolute = 111111111;
+inline constexpr std::string_view every_place_absolute = "111111111,111111111,";
 /// Pitch in mm of the metric coarse thread of a size (8 for M8); 0: no such size.
 double coarse_pitch(double size);
 /// Place of a parameter in the call, or -1.

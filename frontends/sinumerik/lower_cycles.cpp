@@ -320,8 +320,39 @@ bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
   return true;
 }
 
+/// CYCLE802 (18.2): up to nine positions, one behind the other.
+ir::CyclePtr position_list(const CycleRow& row, const Arguments& a, FileContext& c, WordPos pos) {
+  for (const std::string_view other : {"VARI", "UMODE"}) {
+    if (!a.says(other)) continue;
+    c.error("SIN-021", pos, "CYCLE802 with " + std::string(other) + " is not carried yet");
+    return nullptr;
+  }
+  ir::NamedCycle named;
+  named.name = "points.list";
+  bool ended = false;
+  for (char digit = '0'; digit <= '8'; ++digit) {
+    const std::string x{'X', digit}, y{'Y', digit};
+    const bool given = a.given(x) || a.given(y);
+    if (given && (ended || !a.given(x) || !a.given(y))) {
+      c.error("SIN-021", pos, "the positions of CYCLE802 are pairs without a gap: " + x + " or " + y + " is not given");
+      return nullptr;
+    }
+    ended = !given;
+    if (ended) continue;
+    const char number = static_cast<char>(digit + 1);
+    named.words.emplace_back(std::string{'u', number}, a.get(x));
+    named.words.emplace_back(std::string{'v', number}, a.get(y));
+  }
+  if (named.words.empty()) {
+    c.error("SIN-021", pos, std::string(row.name) + " has no position");
+    return nullptr;
+  }
+  return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(named)});
+}
+
 /// HOLES1, HOLES2, CYCLE801 (18.2): positions for the modal cycle.
 ir::CyclePtr pattern(const std::string& name, const CycleRow& row, const Arguments& a, FileContext& c, WordPos pos) {
+  if (name == "CYCLE802") return position_list(row, a, c, pos);
   const bool frame = a.get("VARI").is(1);
   for (const std::string_view other : {"ANG1", "ANG2", "HIDE", "NSP"}) {
     if (!a.given(other) || a.get(other).is(0)) continue;
@@ -378,6 +409,10 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   }
   if (c_.errors != before) return nullptr;
   const Arguments a(row, std::move(values), std::move(given));
+  if (a.knows("XA") && (!a.get("XA").is(all_absolute) || !a.get("YA").is(all_absolute))) {
+    refuse(feature_of(row.family), pos, name + " with positions by increments (XA, YA) is not carried yet");
+    return nullptr;
+  }
   if (row.family == CycleFamily::pattern) return pattern(name, row, a, c_, pos);
   if (!a.given("RTP")) {
     c_.error("SIN-021", pos, name + " needs its planes: RTP, RFP, SDIS and a depth");

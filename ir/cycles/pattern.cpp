@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace cnctrans::ir::cycles {
 
@@ -18,6 +19,7 @@ constexpr std::array patterns = {
     Pattern{"points.arc", PatternKind::arc, true},        Pattern{"points.chord", PatternKind::chord, true},
     Pattern{"points.row", PatternKind::row, false},       Pattern{"points.ring", PatternKind::ring, false},
     Pattern{"points.matrix", PatternKind::matrix, false}, Pattern{"points.frame", PatternKind::frame, false},
+    Pattern{"points.list", PatternKind::list, false},
 };
 
 constexpr std::array parameters = {
@@ -34,7 +36,16 @@ constexpr std::array parameters = {
     PatternParameter{"skip1", PatternQuantity::plain},      PatternParameter{"skip2", PatternQuantity::plain},
     PatternParameter{"skip3", PatternQuantity::plain},      PatternParameter{"skip4", PatternQuantity::plain},
     PatternParameter{"skip5", PatternQuantity::plain},      PatternParameter{"skip6", PatternQuantity::plain},
-    PatternParameter{"skip7", PatternQuantity::plain},
+    PatternParameter{"skip7", PatternQuantity::plain},      PatternParameter{"u1", PatternQuantity::length},
+    PatternParameter{"v1", PatternQuantity::length},        PatternParameter{"u2", PatternQuantity::length},
+    PatternParameter{"v2", PatternQuantity::length},        PatternParameter{"u3", PatternQuantity::length},
+    PatternParameter{"v3", PatternQuantity::length},        PatternParameter{"u4", PatternQuantity::length},
+    PatternParameter{"v4", PatternQuantity::length},        PatternParameter{"u5", PatternQuantity::length},
+    PatternParameter{"v5", PatternQuantity::length},        PatternParameter{"u6", PatternQuantity::length},
+    PatternParameter{"v6", PatternQuantity::length},        PatternParameter{"u7", PatternQuantity::length},
+    PatternParameter{"v7", PatternQuantity::length},        PatternParameter{"u8", PatternQuantity::length},
+    PatternParameter{"v8", PatternQuantity::length},        PatternParameter{"u9", PatternQuantity::length},
+    PatternParameter{"v9", PatternQuantity::length},
 };
 
 template <class Table>
@@ -65,6 +76,7 @@ class Builder {
       case PatternKind::ring: done = ring(); break;
       case PatternKind::matrix:
       case PatternKind::frame: done = matrix(); break;
+      case PatternKind::list: done = list(); break;
     }
     if (!done || !leave_out()) return std::nullopt;
     return std::move(points_);
@@ -230,6 +242,21 @@ class Builder {
     for (double k = 0; k < n; ++k) {
       const double a = radians(number("angle") + k * step);
       add(number("u") + number("radius") * std::cos(a), number("v") + number("radius") * std::sin(a));
+    }
+    return true;
+  }
+  bool list() {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> places{{{"u1", "v1"},
+                                                                                   {"u2", "v2"},
+                                                                                   {"u3", "v3"},
+                                                                                   {"u4", "v4"},
+                                                                                   {"u5", "v5"},
+                                                                                   {"u6", "v6"},
+                                                                                   {"u7", "v7"},
+                                                                                   {"u8", "v8"},
+                                                                                   {"u9", "v9"}}};
+    for (const auto& [u, v] : places) {
+      if (has(u) || has(v)) add(number(u), number(v));
     }
     return true;
   }

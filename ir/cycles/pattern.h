@@ -21,7 +21,8 @@ enum class PatternKind : std::uint8_t {
   row,     ///< from a reference point, beginning at the end that is nearer to the tool
   ring,    ///< round a centre by angles
   matrix,  ///< row by row, each in the same sense
-  frame    ///< only the outer points of a matrix, once round
+  frame,   ///< only the outer points of a matrix, once round
+  list     ///< up to nine points as they stand
 };
 /// What a parameter is counted in.
 enum class PatternQuantity : std::uint8_t { length, feed, plain };

@@ -140,8 +140,14 @@ void CyclePass::come_back_to(const Statement& s) {
   }
 }
 
+void CyclePass::note_stale(const VarRef& v) const {
+  if (stale_ == nullptr) return;
+  for (const auto id : active_->said_by) stale_->found[id].push_back(v);
+}
+
 bool CyclePass::refuse_stale(Statement& s, Body& out) {
   if (active_->stale.empty()) return false;
+  for (const auto& v : active_->stale) note_stale(v);
   refuse(s, program_, context_, "TRN-330",
          "a variable that the words of the active cycle read has changed since its definition, and the target's cycle "
          "would have to be written once more here",
@@ -181,6 +187,7 @@ void CyclePass::check_words(const Statement& s) {
   }
   each_target(s, [&](const VarRef& v) {
     if (!reads_in(*active_->source, v)) return;
+    note_stale(v);
     context_.diagnostics.error(
         "TRN-330", s.line.span,
         "a variable that the words of the active cycle read is changed, and the cycle is written "

@@ -136,7 +136,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     } else {
       name.text += "_" + std::to_string(callees_.made);
     }
-    CyclePass inner(program_, copy->routine, context_, facts_, feeds_, callees_);
+    CyclePass inner(program_, copy->routine, context_, facts_, feeds_, callees_, stale_);
     inner.active_ = active_;
     inner.surely_active_ = !touches_cycle(copy->routine.body);
     inner.run();

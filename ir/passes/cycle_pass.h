@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ir/passes/blocks.h"
+#include "ir/passes/cycle_words.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/machining_moves.h"
 #include "ir/passes/milling_moves.h"
@@ -35,12 +36,13 @@ struct CycleCallees {
 class CyclePass {
  public:
   CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts,
-            const FeedsBefore& feeds, CycleCallees& callees)
+            const FeedsBefore& feeds, CycleCallees& callees, StaleWords* stale = nullptr)
       : program_(program),
         context_(context),
         facts_(facts),
         feeds_(feeds),
         callees_(callees),
+        stale_(stale),
         editor_(program, routine, context),
         uses_(label_uses(program, routine)),
         turning_(program, routine, context, feeds),
@@ -85,12 +87,13 @@ class CyclePass {
     bool deferred = false;         ///< the first point on the target defines it
     std::uint32_t defined_in = 0;  ///< the statement of that point
     TapNeeds needs;
-    bool maybe_on_target = false;      ///< in force on one of the ways that lead here
-    std::optional<AxisId> axis;        ///< of the tool at the definition
-    std::optional<double> defined_at;  ///< height of the tool at the definition, mm
-    std::optional<double> height;      ///< of the tool over the holes, mm
-    std::optional<Units> units;        ///< of its words
-    std::vector<VarRef> stale;         ///< read by its words and changed since its definition
+    bool maybe_on_target = false;          ///< in force on one of the ways that lead here
+    std::optional<AxisId> axis;            ///< of the tool at the definition
+    std::optional<double> defined_at;      ///< height of the tool at the definition, mm
+    std::optional<double> height;          ///< of the tool over the holes, mm
+    std::optional<Units> units;            ///< of its words
+    std::vector<VarRef> stale;             ///< read by its words and changed since its definition
+    std::vector<std::uint32_t> said_by{};  ///< the statements that gave it its words
   };
 
   void walk(Body& body, Body& out) {
@@ -210,6 +213,7 @@ class CyclePass {
       a.source = changed(std::get<HoleCycle>(a.source->node));
       a.height = active_->height;
       a.defined_at = active_->defined_at;
+      a.said_by = active_->said_by;
       if (auto native =
               native_form(a.source, b, facts, context_, in_units(a.defined_at, b, facts), sense_.now(), &a.needs))
         a.native = *native;
@@ -242,12 +246,13 @@ class CyclePass {
   /// A pattern: as one of the target's, else a block for each point.
   void pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   bool way_by_itself(Statement& p, const FeedBefore& feed, Body& before);
+  void tell_guessed_row(const Statement& s) const;
   void pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out);
   /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
   void feed_for_tap(Block& b, const Active& a) const {
     if (!a.needs.feed || by_call_) return;
     std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
-    b.actions.push_back(action(SetFeed{Value{*a.needs.feed}, false}));
+    b.actions.push_back(action(SetFeed{*a.needs.feed, false}));
   }
   static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts) {
     if (!a.needs.feed || !facts.feed) return std::nullopt;
@@ -379,6 +384,7 @@ class CyclePass {
   std::vector<VarRef> writes_of(const Statement& s, std::set<std::size_t>& called) const;
   void look_for_writes();
   void note_write(const VarRef& v);
+  void note_stale(const VarRef& v) const;  ///< for who keeps the words in variables of their own
   void note_writes_of_loop(std::uint32_t first, std::uint32_t last);
   void come_back_to(const Statement& s);
 
@@ -414,6 +420,7 @@ class CyclePass {
   const FactsOf& facts_;
   const FeedsBefore& feeds_;
   CycleCallees& callees_;
+  StaleWords* stale_;  ///< may be null
   Editor editor_;
   LabelUses uses_;
   TurnCycles turning_;

@@ -42,6 +42,7 @@ class LoopBuilder {
       case PatternKind::line: done = line(); break;
       case PatternKind::row: done = this->row(); break;
       case PatternKind::ring: done = ring(); break;
+      case PatternKind::matrix: done = matrix(); break;
       case PatternKind::circle:
       case PatternKind::arc: done = round(row->kind == PatternKind::circle); break;
       default: return fail("its words are computed when the program runs");
@@ -81,6 +82,7 @@ class LoopBuilder {
     return Value(binary(BinaryOp::divide, as_expr(a), as_expr(b)));
   }
   static Value sum(const Value& a, const Value& b) { return a.is(0) ? b : b.is(0) ? a : add(a, b); }
+  static Value difference(const Value& a, const Value& b) { return b.is(0) ? a : subtract(a, b); }
   static Value turned(Function f, const Value& degrees) {
     if (!degrees.literal()) return Value(call(f, {degrees.expr}));
     const double a = radians(degrees.number);
@@ -158,15 +160,15 @@ class LoopBuilder {
   /// From the end that is nearer to the tool: by the places along the row.
   bool row() {
     const auto pu = facts_.position[axes_.u], pv = facts_.position[axes_.v];
-    if (!pu || !pv) return fail("where the tool stands is not known here");
+    loop.guessed = !pu || !pv;  // from the zero point
     const Value angle = named(word("angle")), count = named(word("count"));
     const Value c = turned(Function::cos, angle), s = turned(Function::sin, angle);
     const auto place = kept(word("first")), step = kept(word("step"));
     if (!place || !step) return false;
     const Value first(variable(*place)), d(variable(*step));
     const Value last = named(add(first, product(d, subtract(count, Value(1.0)))));
-    const Value tool =
-        named(sum(product(subtract(Value(*pu), word("u")), c), product(subtract(Value(*pv), word("v")), s)));
+    const Value tool = named(sum(product(subtract(Value(loop.guessed ? 0 : *pu), word("u")), c),
+                                 product(subtract(Value(loop.guessed ? 0 : *pv), word("v")), s)));
     const auto far = [&](const Value& l) { return call(Function::abs, {as_expr(subtract(l, tool))}); };
     If back;
     back.condition = binary(BinaryOp::lt, far(last), binary(BinaryOp::subtract, far(first), number(1e-4)));
@@ -184,11 +186,28 @@ class LoopBuilder {
     loop.next = point(add(first, product(k_, d)));
     return true;
   }
+  /// A computed step: 0 means evenly round.
+  bool round_when_zero(Value& step, const Value& count) {
+    const auto var = kept(step);
+    if (!var) return false;
+    If none;
+    none.condition = binary(BinaryOp::eq, variable(*var), number(0));
+    none.then_body.push_back(make_assign(like_, *var, as_expr(quotient(Value(360.0), count))));
+    Body turn;
+    turn.push_back(made(like_, std::move(none)));
+    lower_structures(editor_, turn);
+    for (auto& t : turn) loop.setup.push_back(std::move(t));
+    step = Value(variable(*var));
+    return true;
+  }
   bool ring() {
     const Value count = named(word("count")), radius = named(word("radius"));
     Value step = word("angle_step");
-    if (!step.literal()) return fail("its angular step is computed when the program runs, and 0 means a full circle");
-    if (step.is(0)) step = named(quotient(Value(360.0), count));
+    if (step.is(0)) {
+      step = named(quotient(Value(360.0), count));
+    } else if (!step.literal() && !round_when_zero(step, count)) {
+      return false;
+    }
     const Value start = named(word("angle"));
     if (!count_from(1, count)) return false;
     const auto point = [&](const Value& angle) {
@@ -197,6 +216,20 @@ class LoopBuilder {
     };
     loop.first = point(start);
     loop.next = point(sum(start, product(k_, step)));
+    return true;
+  }
+  /// Row by row: point number k lies in row k / columns, cut to a whole number.
+  bool matrix() {
+    const Value columns = named(word("count")), angle = named(word("angle"));
+    const Value c = turned(Function::cos, angle), s = turned(Function::sin, angle);
+    const Value d = named(word("step")), e = named(word("step2"));
+    if (!count_from(1, named(product(columns, word("count2"))))) return false;
+    // Half a point of room: the quotient may come out a little too small.
+    const Value row(call(Function::trunc, {as_expr(quotient(add(k_, Value(0.5)), columns))}));
+    const Value x = product(subtract(k_, product(row, columns)), d), y = product(row, e);
+    loop.first = at(word("u"), word("v"), WordMode::absolute);
+    loop.next = at(difference(sum(word("u"), product(x, c)), product(y, s)),
+                   sum(sum(word("v"), product(x, s)), product(y, c)), WordMode::absolute);
     return true;
   }
   /// From the tool round a centre.

@@ -5,6 +5,14 @@
 
 namespace cnctrans::ir::passes {
 
+void CyclePass::tell_guessed_row(const Statement& s) const {
+  context_.diagnostics.warning("TRN-421", s.line.span,
+                               "the row begins at its end that is nearer to the tool, and where the tool stands is "
+                               "not known here: it is taken to stand at the zero point",
+                               "move the tool to a place in the plane before it; the holes are the same, only their "
+                               "order may differ");
+}
+
 void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const auto& named = std::get<NamedCycle>(d.cycle->node);
@@ -21,8 +29,10 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
   bool guessed = false;
   auto points = pattern_blocks(named, s.line, b, facts, &guessed, &error);
   if (!points && error.empty()) {
-    if (auto loop = pattern_loop(named, s.line, b, facts, editor_, &error))
+    if (auto loop = pattern_loop(named, s.line, b, facts, editor_, &error)) {
+      if (loop->guessed) tell_guessed_row(s);
       return pattern_as_loop(std::move(s), std::move(*loop), std::move(pieces), out);
+    }
   }
   if (!points) {
     refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
@@ -30,13 +40,7 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
     out.push_back(std::move(s));
     return;
   }
-  if (guessed) {
-    context_.diagnostics.warning("TRN-421", s.line.span,
-                                 "the row begins at its end that is nearer to the tool, and where the tool stands is "
-                                 "not known here: it is taken to stand at the zero point",
-                                 "move the tool to a place in the plane before it; the holes are the same, only their "
-                                 "order may differ");
-  }
+  if (guessed) tell_guessed_row(s);
   const auto id = s.id;
   const LineInfo like = s.line;
   const FeedBefore feed = feeds_.at(s, b, facts);

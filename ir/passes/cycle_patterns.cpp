@@ -78,6 +78,26 @@ const Value* word(const NamedCycle& c, std::string_view name) {
   return nullptr;
 }
 
+/// Points as they stand, computed ones too.
+Body listed_points(const NamedCycle& pattern, const LineInfo& like, const Place& at) {
+  Body blocks;
+  for (char digit = '1'; digit <= '9'; ++digit) {
+    const Value* u = word(pattern, std::string{'u', digit});
+    const Value* v = word(pattern, std::string{'v', digit});
+    if (u == nullptr && v == nullptr) continue;
+    Block block;
+    block.has_motion = true;
+    block.motion.kind = MotionKind::rapid;
+    block.motion.explicit_code = true;
+    block.motion.keeps_modal = false;
+    block.motion.coords = {coordinate(at.u, 0, true), coordinate(at.v, 0, true)};
+    if (u != nullptr) block.motion.coords[0].value = *u;
+    if (v != nullptr) block.motion.coords[1].value = *v;
+    blocks.push_back(made(like, std::move(block)));
+  }
+  return blocks;
+}
+
 }  // namespace
 
 const NamedCycle* pattern_in(const Block& b) {
@@ -94,6 +114,7 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
   const auto* row = cycles::find_pattern(pattern.name);
   const auto at = place(b, facts);
   const auto numbers = numbers_of(pattern);
+  if (row != nullptr && at && row->kind == PatternKind::list) return listed_points(pattern, like, *at);
   if (row == nullptr || !at || !numbers) {
     *error = at ? "" : "the plane is not known here";
     return std::nullopt;

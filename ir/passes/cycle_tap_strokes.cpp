@@ -12,6 +12,7 @@ void CyclePass::modal_call(Statement&& s, Body& out) {
   const bool ends_old = old_may_run(facts_.before(s));
   active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_for_tap(s, Block{}));
   active_->from = s.id;
+  active_->said_by = {s.id};
   active_->deferred = true;
   lacking_ = lacking_ || !active_->native;
   tell_tap(*active_, s.line);
@@ -123,7 +124,7 @@ std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statem
     cycle->node = one;
     const auto form = native_form(cycle, b, facts, context_, n->reference / unit, sense_.now(), &needs);
     if (!form) return std::nullopt;
-    if (i == 0 && needs.feed) out.blocks.push_back(make_block(like, action(SetFeed{Value{*needs.feed}, false})));
+    if (i == 0 && needs.feed) out.blocks.push_back(make_block(like, action(SetFeed{*needs.feed, false})));
     out.blocks.push_back(single_run(like, *form));
   }
   *differs = needs.differs;

@@ -48,16 +48,15 @@ bool pitch_as_feed(TapForm& f, const Block& b, const Facts& facts) {
   const Value pitch = std::exchange(f.cycle.pitch, Value{});
   if (pitch.is(0)) return true;
   const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
-  if (!pitch.literal() || !facts.feed || !mode || setting_in<Units>(b, facts, Setting::units) != Units::metric)
-    return false;
-  const double size = std::fabs(pitch.number);
+  if (!facts.feed || !mode || setting_in<Units>(b, facts, Setting::units) != Units::metric) return false;
+  const Value size = pitch.literal() ? Value(std::fabs(pitch.number)) : Value(call(Function::abs, {pitch.expr}));
   const auto by_feed = pitch_by_feed(b, facts), speed = speed_of(b, facts);
   f.needs.bound = true;
-  if (by_feed && std::fabs(size - *by_feed) <= 1e-9) return true;
+  if (by_feed && size.literal() && std::fabs(size.number - *by_feed) <= 1e-9) return true;
   if (*mode == FeedMode::per_rev)
     f.needs.feed = size;
   else if (*mode == FeedMode::per_minute && speed && *speed > 0)
-    f.needs.feed = std::round(size * *speed * 1e6) / 1e6;
+    f.needs.feed = size.literal() ? Value(std::round(size.number * *speed * 1e6) / 1e6) : scale(size, *speed);
   return f.needs.feed.has_value();
 }
 

@@ -107,6 +107,7 @@ void CyclePass::turn(const Block& b, const Facts& facts, const LineInfo& like, B
   active_->deferred = before.deferred;
   active_->single = before.single;
   active_->stale = before.stale;
+  active_->said_by = before.said_by;
 }
 
 bool CyclePass::sure(const Facts& facts) const {

@@ -290,6 +290,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
   a.from = s.id;
+  a.said_by.push_back(s.id);
   lacking_ = lacking_ || (d.modal && !a.native);
   if (d.here) ran_ = a;
   const auto w = tool_axis(d.cycle, b, facts);
@@ -457,7 +458,7 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
   put_group(out, std::move(pieces), main);
 }
 
-static void carry_out_cycles(Program& program, const LegaliseContext& context) {
+static void carry_out_noting(Program& program, const LegaliseContext& context, StaleWords* stale) {
   settle_pockets(program, context);
   const FactsOf facts(program, context);
   const FeedsBefore feeds(program, context);
@@ -465,7 +466,7 @@ static void carry_out_cycles(Program& program, const LegaliseContext& context) {
   std::vector<ProfileUse> uses;
   CycleCallees callees;
   for (auto& r : program.routines) {
-    CyclePass pass(program, r, context, facts, feeds, callees);
+    CyclePass pass(program, r, context, facts, feeds, callees, stale);
     pass.run();
     profiles.merge(pass.profiles());
     uses.insert(uses.end(), pass.uses_of_profiles().begin(), pass.uses_of_profiles().end());
@@ -476,12 +477,17 @@ static void carry_out_cycles(Program& program, const LegaliseContext& context) {
   label_profiles(program, uses);
 }
 
+static void carry_out_cycles(Program& program, const LegaliseContext& context) {
+  carry_out_noting(program, context, nullptr);
+}
+
 void lower_cycles(Program& program, const LegaliseContext& context) {
   if (!uses_cycles(program)) return leave_out_data(program, context);
   if (program.dialect == context.target.dialect && !program.dialect.empty() &&
       context.options.cycles != CycleWriting::explode)
     return;
   separate_cycle_ranges(program, context, carry_out_cycles);
+  keep_cycle_words(program, context, carry_out_noting);
   carry_out_cycles(program, context);
   leave_out_data(program, context);
 }

@@ -19,9 +19,9 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
 /// The form of the cycle that the target writes natively; nullopt: none.
 /// What a tap in other words asks of the blocks around it.
 struct TapNeeds {
-  std::optional<double> feed;  ///< F while the cycle is in force, program units: it gives the pitch
-  bool bound = false;          ///< a new F or S under the cycle would change the pitch on one of the two controls
-  std::string differs;         ///< for people: what the target's tap does not do; empty: nothing
+  std::optional<Value> feed;  ///< F while the cycle is in force, program units: it gives the pitch
+  bool bound = false;         ///< a new F or S under the cycle would change the pitch on one of the two controls
+  std::string differs;        ///< for people: what the target's tap does not do; empty: nothing
 };
 struct TapForm {
   HoleCycle cycle;
@@ -67,6 +67,7 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
 /// A pattern whose words only the run knows, as a loop: `setup`, then `first` when there is one, then `next` with
 /// `counter` counted up behind it while `again` holds.
 struct PatternLoop {
+  bool guessed = false;  ///< as in pattern_blocks()
   std::vector<VarRef> taken;
   Body setup;
   std::optional<Block> first;

@@ -146,10 +146,16 @@ class StockForms {
     return true;
   }
 
+  /// That the passes are counted with; a computed one is something usual, see play().
+  [[nodiscard]] std::optional<double> depth_of_cut() const {
+    const auto step = numbers_.find(mine_.left.face && numbers_.contains("axial_step") ? "axial_step" : "step");
+    return step == numbers_.end() ? std::nullopt : std::optional(std::abs(step->second));
+  }
   /// A blank that stands over the contour: the contour with a wall from its highest end out to there.
   std::optional<SimilarForm> with_tail(const NamedCycle& form) {
-    const auto step = numbers_.find(mine_.left.face && numbers_.contains("axial_step") ? "axial_step" : "step");
-    if (!mine_.left.finish.empty() || mine_.left.rough.empty() || step == numbers_.end() || computed_)
+    const auto step = depth_of_cut();
+    if (!mine_.left.finish.empty() || mine_.left.rough.empty() || !step ||
+        (computed_ && s_.named.name != "stock.blank"))
       return std::nullopt;
     const auto height = [&](TurnPoint t) { return mine_.height(t); };
     cycles::TurnProfile longer = *s_.profile;
@@ -158,7 +164,7 @@ class StockForms {
       if (height(e.from) > height(end) + tiny || height(e.to) > height(end) + tiny) return std::nullopt;
     }
     if (height(longer.part.front().from) > height(end) - tiny) return std::nullopt;
-    const double top = mine_.first_pass() + std::abs(step->second);
+    const double top = mine_.first_pass() + *step;
     double to = top;
     Played theirs;
     for (int k = 0; k < 2; ++k) {
@@ -201,6 +207,9 @@ class StockForms {
     if (recess())
       return no("its contour has a recess, and the target's cycle leaves steps on the far side of one"), false;
     const double high = mine_.first_pass() - (from_the_tool_ ? theirs.height(at_) : theirs.top());
+    // Any depth of cut takes less than the whole of a ring that stands over the contour.
+    if (computed_ && s_.named.name == "stock.blank" && high + depth_of_cut().value_or(0) > tiny)
+      return no("the blank stands over the highest point of the contour, and its depth of cut is computed"), false;
     if (high > tiny && !computed_)
       return no("the blank stands " + shortest(std::round(high * 1e3) / 1e3) +
                 " mm and more over the highest point of the contour, where the target's cycle begins"),
