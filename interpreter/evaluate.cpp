@@ -8,26 +8,12 @@
 #include "interpreter/expressions.h"
 #include "interpreter/functions.h"
 #include "interpreter/run_codes.h"
+#include "ir/texts.h"
 
 namespace cnctrans::interpreter {
 
-namespace {
-
-/// The number that a text writes, also with an exponent: 1234.5EX-7.
-std::optional<double> number_in(std::string_view text) {
-  text = trim(text);
-  const std::size_t at = text.find_first_of("Ee");
-  if (at == std::string_view::npos || at + 1 >= text.size() || (text[at + 1] != 'X' && text[at + 1] != 'x'))
-    return parse_decimal(text);
-  const auto mantissa = parse_decimal(text.substr(0, at)), power = parse_decimal(text.substr(at + 2));
-  if (!mantissa || !power || *power != std::trunc(*power) || std::abs(*power) > 300) return std::nullopt;
-  return *mantissa * std::pow(10.0, *power);
-}
-
-}  // namespace
-
 std::string number_text(double value) {
-  return cnctrans::rounded(value, 10);
+  return ir::number_text(value);
 }
 
 bool equal_numbers(double a, double b, ir::Compare how) {
@@ -192,29 +178,11 @@ double Evaluator::text_function(const Node& n) {
   const auto first = n.a;
   const auto count = n.b;
   const auto subject = count > 0 ? text_operand(children_[first]) : std::string{};
-  switch (f) {
-    case ir::Function::string_length: return static_cast<double>(subject.size());
-    case ir::Function::index_of: {
-      const auto at = subject.find(count > 1 ? text_operand(children_[first + 1]) : std::string{});
-      return at == std::string::npos ? -1 : static_cast<double>(at);
-    }
-    case ir::Function::last_index_of: {
-      const auto at = subject.rfind(count > 1 ? text_operand(children_[first + 1]) : std::string{});
-      return at == std::string::npos ? -1 : static_cast<double>(at);
-    }
-    case ir::Function::index_of_any: {
-      const auto at = subject.find_first_of(count > 1 ? text_operand(children_[first + 1]) : std::string{});
-      return at == std::string::npos ? -1 : static_cast<double>(at);
-    }
-    case ir::Function::character_code:
-      return subject.empty() ? 0 : static_cast<double>(static_cast<unsigned char>(subject.front()));
-    case ir::Function::is_number: return number_in(subject) ? 1 : 0;
-    case ir::Function::to_number: {
-      const auto value = number_in(subject);
-      if (!value) failure_.fail(code::wrong_type, "\"" + subject + "\" is not a number");
-      return value.value_or(0);
-    }
-    default: break;
+  if (const auto value = ir::number_of_text(f, subject, count > 1 ? text_operand(children_[first + 1]) : std::string{}))
+    return *value;
+  if (f == ir::Function::to_number) {
+    failure_.fail(code::wrong_type, "\"" + subject + "\" is not a number");
+    return 0;
   }
   failure_.fail(code::wrong_type, "a text stands where a number is needed");
   return 0;
@@ -232,15 +200,13 @@ std::string Evaluator::text_result(const Node& n) {
     const double x = std::round(number(children_[first]));
     if (failure_.set) return {};
     if (f == ir::Function::axis_text) return system_->axis_name(saturate<ir::AxisId>(x));
-    if (!(x >= 0 && x <= 255)) failure_.fail(code::function_domain, "a character has a code of 0 to 255");
-    return x > 0 && x <= 255 ? std::string(1, static_cast<char>(x)) : std::string{};
+    auto one = ir::character_text(x);
+    if (!one) failure_.fail(code::function_domain, "a character has a code of 0 to 255");
+    return one ? std::move(*one) : std::string{};
   }
   auto subject = count > 0 ? text_operand(children_[first]) : std::string{};
   if (f == ir::Function::upper_case) return to_upper_ascii(subject);
-  if (f == ir::Function::lower_case) {
-    for (auto& c : subject) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return subject;
-  }
+  if (f == ir::Function::lower_case) return ir::lower_case_text(std::move(subject));
   if (f != ir::Function::substring) return subject;
   const double start = count > 1 ? std::round(number(children_[first + 1])) : 0;
   const double length = count > 2 ? std::round(number(children_[first + 2])) : 1e9;
@@ -248,8 +214,7 @@ std::string Evaluator::text_result(const Node& n) {
     failure_.fail(code::function_domain, "a part of a text cannot start or end before it");
     return {};
   }
-  if (start >= static_cast<double>(subject.size())) return {};
-  return subject.substr(saturate<std::size_t>(start), saturate<std::size_t>(length));
+  return ir::part_of_text(subject, start, length);
 }
 
 std::string Evaluator::text(ExprId id) {
