@@ -57,8 +57,10 @@ void name_tool_rows(Program& program, const LegaliseContext& context);
 /// Lengths of machine data in the unit of the target.
 void convert_machine_data(Program& program, const LegaliseContext& context);
 
-/// Variables of texts whose text the program gives, for a target that has numbers only.
+/// Variables of texts and axes whose value the program gives, for a target that has numbers only.
 void write_known_texts(Program& program, const LegaliseContext& context);
+/// Frames as values, base frames and turned settable frames, where they are known, as the programmable frame.
+void say_known_frames(Program& program, const LegaliseContext& context);
 /// Machine data that follow from the program become numbers; others get the target's name and unit.
 void write_known_data(Program& program, const LegaliseContext& context);
 

@@ -23,6 +23,7 @@ constexpr std::array pipeline{
     Pass{"headings", passes::move_headings, false},
     Pass{"texts", passes::write_known_texts, false},
     Pass{"called_parts", passes::separate_called_parts, false},
+    Pass{"known_frames", passes::say_known_frames, false},
     Pass{"returns", passes::normalise_returns, false},
     Pass{"range_ends", passes::mark_range_ends, false},
     Pass{"saved_modals", passes::restore_modals, false},
