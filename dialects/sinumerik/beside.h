@@ -23,6 +23,8 @@ struct BesideRow {
   std::uint8_t forms;        ///< of BesideForm
   /// It hands back a result in its arguments: beside the path only as long as no variable stands there.
   bool gives_back = false;
+  /// By itself it leaves the part alone: it defines, ends, looks or counts. What it belongs to has a word of its own.
+  bool idle = false;
 };
 /// In alphabetical order.
 std::span<const BesideRow> beside_rows();

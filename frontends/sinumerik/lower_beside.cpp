@@ -60,6 +60,8 @@ bool StatementLowering::beside_word(const Word& w, Parts& parts) {
   }
   if (row == nullptr || c_.symbol(to_upper_ascii(w.address)) != nullptr) return false;
   if (row->name == "TCARR") c_.tool.state = ToolDirection::State::unsure;
+  const bool none = row->name == "TCARR" && w.expr < 0 && w.number == 0;  // no carrier: the tool as it is
+  if (row->idle || none) return without_effect(std::string(row->name), w.pos, parts);
   put_beside(row->feature, w.pos, parts);
   return true;
 }
@@ -73,12 +75,14 @@ bool StatementLowering::beside_statement(const Statement& s, Parts& parts) {
     if (s.text == "CTABDEL") {  // which of them are left is not followed
       for (auto& [number, table] : c_.tables) table.known = false;
     }
+    if (row->idle) return without_effect(std::string(row->name), s.pos, parts);
     put_beside(row->feature, s.pos, parts);
     return true;
   }
   const Expr& target = s.args[0];
   const BesideRow* row = target.args.empty() ? nullptr : beside(target.text, BesideForm::indexed);
   if (row == nullptr || c_.symbol(target.text) != nullptr) return false;
+  if (row->idle) return without_effect(std::string(row->name), s.pos, parts);
   put_beside(row->feature, s.pos, parts);
   return true;
 }
@@ -169,7 +173,7 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
                 "what stands up to " + std::string(definition_->end) + " defines and moves nothing; it",
                 definition_->feature);
     table_block(block, name);
-    add_opaque(block, info, definition_->feature, false);
+    add_opaque(block, info, definition_->feature, true);
     return true;
   }
   if (ends_program(block)) {
@@ -179,7 +183,7 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
   const bool ends = name == definition_->end;
   table_block(block, name);
   const bool known = !ends || !one || gives_unknown(block.statements.front().args);
-  add_opaque(block, info, known ? definition_->feature : std::string_view("language.statement"), false);
+  add_opaque(block, info, known ? definition_->feature : std::string_view("language.statement"), known);
   if (ends) definition_ = nullptr;
   return true;
 }

@@ -114,12 +114,14 @@ std::string beside_table() {
     add(address, "address");
     add(indexed, "address of an axis");
     add(code, "G function");
-    s += "| " + std::string(r.name) + " | " + forms + (r.gives_back ? ", no variable as an argument" : "") + " | `" +
-         std::string(r.feature) + "` |\n";
+    s += "| " + std::string(r.name) + " | " + forms + (r.gives_back ? ", no variable as an argument" : "") + " | " +
+         (r.idle ? "defines, ends, looks or counts: a remark in a translation" : "`" + std::string(r.feature) + "`") +
+         " |\n";
   }
   for (const auto& d : facts::definitions())
-    s += "| " + std::string(d.begin) + " to " + std::string(d.end) + " | blocks that define | `" +
-         std::string(d.feature) + "` |\n";
+    s += "| " + std::string(d.begin) + " to " + std::string(d.end) +
+         " | blocks that define | "
+         "a remark in a translation |\n";
   return s;
 }
 
