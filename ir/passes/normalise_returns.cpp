@@ -201,9 +201,27 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
   });
 }
 
+/// A return in a main program that nothing calls ends it; in a repeated part it ends the repetition.
+void end_main_programs(Program& program) {
+  const CallGraph calls(program);
+  for (std::size_t r = 0; r < program.routines.size(); ++r) {
+    Routine& routine = program.routines[r];
+    if (routine.kind != RoutineKind::main || calls.called(r)) continue;
+    bool repeats = false;
+    for_each_statement(routine.body,
+                       [&repeats](const Statement& s) { repeats = repeats || std::holds_alternative<Repeat>(s.node); });
+    if (repeats) continue;
+    for_each_statement(routine.body, [](Statement& s) {
+      const auto* back = std::get_if<Return>(&s.node);
+      if (back != nullptr && back->values.empty()) s.node = End{};
+    });
+  }
+}
+
 }  // namespace
 
 void normalise_returns(Program& program, const LegaliseContext& context) {
+  if (program.dialect != context.target.dialect) end_main_programs(program);
   if (context.target.end_in_sub_ends_all)
     ends_that_return(program);
   else
