@@ -52,13 +52,17 @@ class PositioningAxes {
       uses_ = label_uses(program_, r);
       forget();
       if (r.kind == RoutineKind::main) feed_.fill(0.0);
+      no_feed_ = r.kind == RoutineKind::main;
       Editor editor(program_, r, context_);
       const bool flat = std::none_of(r.body.begin(), r.body.end(), [](const Statement& s) {
         return std::holds_alternative<If>(s.node) || std::holds_alternative<While>(s.node) ||
                std::holds_alternative<For>(s.node) || std::holds_alternative<Loop>(s.node) ||
                std::holds_alternative<Until>(s.node);
       });
-      if (!flat) forget();
+      if (!flat) {
+        forget();
+        no_feed_ = false;
+      }
       rewrite_body(r.body, [&](Statement&& s, Body& out) { one(editor, std::move(s), out, flat); });
     }
   }
@@ -68,7 +72,9 @@ class PositioningAxes {
 
   void one(Editor& editor, Statement&& s, Body& out, bool flat) {
     for (const auto& l : labels_on(s.line)) {
-      if (uses_.is_target(l) || uses_.computed) forget();
+      if (!uses_.is_target(l) && !uses_.computed) continue;
+      forget();
+      no_feed_ = false;
     }
     if (auto* a = std::get_if<Assign>(&s.node)) {
       if (flat && s.line.skip_mask == 0 && !take_feeds(*a)) {
@@ -80,9 +86,14 @@ class PositioningAxes {
     if (b == nullptr) {
       const bool goes_on = std::holds_alternative<Message>(s.node) || std::holds_alternative<Declare>(s.node) ||
                            std::holds_alternative<Label>(s.node) || std::holds_alternative<Jump>(s.node);
-      if (!goes_on) forget();
+      if (!goes_on) {
+        forget();
+        no_feed_ = false;
+      }
       return out.push_back(std::move(s));
     }
+    no_feed_ = no_feed_ && std::none_of(b->actions.begin(), b->actions.end(),
+                                        [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
     if (!positions_alone(*b) || !write(editor, s, *b, out)) out.push_back(std::move(s));
   }
 
@@ -109,7 +120,7 @@ class PositioningAxes {
     const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
     const bool line = facts.motion == MotionKind::linear || facts.motion == MotionKind::rapid;
     if (facts.modal_call != 0 || facts.cycle_active || !facts.cycle_active_known) return false;
-    if (fed && !facts.feed) return false;
+    if (fed && !facts.feed && !no_feed_) return false;
     if (!line || (fed && mode != FeedMode::per_minute)) return false;
     const LineInfo like = s.line;
     Body pieces;
@@ -146,7 +157,8 @@ class PositioningAxes {
   const LegaliseContext& context_;
   const FactsOf facts_;
   LabelUses uses_;
-  bool fed_ = false;                                           ///< some axis has a feed of its own somewhere
+  bool no_feed_ = false;  ///< the program has given no F so far: there is none to come back to
+  bool fed_ = false;      ///< some axis has a feed of its own somewhere
   std::array<std::optional<double>, axis::count_max> feed_{};  ///< of an axis by itself; 0: rapid; empty: not known
 };
 
