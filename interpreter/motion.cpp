@@ -185,7 +185,8 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
     if (move.kind != Move::Kind::linear && move.kind != Move::Kind::rapid)
       return failure_.fail(code::not_carried, "only straight moves are carried out with a probe");
     move.kind = Move::Kind::probe;
-    move.toward = value(m.extra->probe_edge) >= 0;  // the falling edge: until the probe is free
+    // Up to the falling edge: until the probe is free.
+    move.toward = m.extra->probe_goes_on || value(m.extra->probe_edge) >= 0;
   }
   return !failure_.set && send(move);
 }
