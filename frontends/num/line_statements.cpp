@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
+#include "frontends/common/nesting.h"
 #include "frontends/num/lines.h"
 
 namespace cnctrans::frontends::num {
@@ -275,6 +276,10 @@ bool FileReader::structured(const syntax::Statement& s) {
   };
   const auto condition = [&] { return lower_.expressions().lower(s.args.at(0)); };
   const auto open = [&](auto node) {
+    if (nested_too_deep(builder_)) {
+      report.refuse("NUM-022", s.pos, "structures are nested too deeply: the control takes 15 levels");
+      return true;
+    }
     ir::Statement st = with_line();
     st.node = std::move(node);
     builder_.open(std::move(st));

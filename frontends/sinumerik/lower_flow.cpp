@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "frontends/common/nesting.h"
 #include "frontends/sinumerik/lower_statements.h"
 
 namespace cnctrans::sinumerik {
@@ -13,6 +14,16 @@ using syntax::Block;
 using syntax::Expr;
 using syntax::ExprKind;
 using syntax::Statement;
+
+namespace {
+
+bool too_deep(const StructureBuilder& structure, const Statement& s, FileContext& c) {
+  if (!frontends::nested_too_deep(structure)) return false;
+  c.error("SIN-010", s.pos, "structures are nested too deeply: the control takes 16 levels");
+  return true;
+}
+
+}  // namespace
 
 void StatementLowering::begin_routine(ir::Routine& routine) {
   routine_ = &routine;
@@ -120,7 +131,7 @@ void StatementLowering::add_unread(const Block& block, ir::LineInfo info) {
     return add_opaque(block, std::move(info), "text.unread", false);
   }
   executable_seen_ = true;
-  structure_->open(std::move(s));
+  if (!frontends::nested_too_deep(*structure_)) structure_->open(std::move(s));
   add_opaque(block, std::move(info), "text.unread", false);
 }
 
@@ -316,6 +327,7 @@ bool StatementLowering::if_statement(const Statement& s, ir::LineInfo& info) {
   ir::If node;
   node.condition = condition ? condition : ir::number(0);  // opened all the same, so that its ENDIF is not lost
   out.node = std::move(node);
+  if (too_deep(*structure_, s, c_)) return false;
   structure_->open(std::move(out));
   if (info.skip_mask != 0) c_.error("SIN-016", s.pos, "a structured statement can't be skipped with `/`");
   return true;
@@ -347,6 +359,7 @@ bool StatementLowering::for_statement(const Statement& s, ir::LineInfo& info) {
   if (!node.from) node.from = ir::number(0);
   if (!node.to) node.to = ir::number(0);
   out.node = std::move(node);
+  if (too_deep(*structure_, s, c_)) return false;
   structure_->open(std::move(out));
   if (info.skip_mask != 0) c_.error("SIN-016", s.pos, "a structured statement can't be skipped with `/`");
   return true;
@@ -356,6 +369,7 @@ bool StatementLowering::structure(const Statement& s, ir::LineInfo& info) {
   using Kind = StructureBuilder::Kind;
   const std::string& k = s.keyword;
   const auto open = [&](auto node) {
+    if (too_deep(*structure_, s, c_)) return false;
     ir::Statement out;
     out.line = info;
     out.node = std::move(node);

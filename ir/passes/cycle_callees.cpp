@@ -105,6 +105,17 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
         "give the cycle's words as numbers or by variables that every routine sees");
     return true;
   }
+  // Another cycle in force in each round of a call that leads back here would need a copy for each of them.
+  const bool leads_back = std::any_of(callees_.copies.begin(), callees_.copies.end(), [&](const auto& c) {
+    return c->original == *callee && !c->finished && (c->native != active_->native || c->source != active_->source);
+  });
+  if (leads_back) {
+    context_.diagnostics.error(
+        "TRN-331", where.span,
+        "this call leads back into the subprogram that it stands in, and another cycle may be in force there",
+        "write the repetition as a loop");
+    return true;
+  }
   const auto same = std::find_if(callees_.copies.begin(), callees_.copies.end(), [&](const auto& c) {
     return c->original == *callee && c->source == active_->source && c->native == active_->native &&
            c->on_target == active_->on_target && c->single == active_->single;
