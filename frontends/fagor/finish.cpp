@@ -15,6 +15,27 @@
 
 namespace cnctrans::fagor {
 
+bool has_jumps(const ir::Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      found = found || std::holds_alternative<ir::Jump>(s.node) || std::holds_alternative<ir::Repeat>(s.node);
+    });
+  }
+  return found;
+}
+
+bool in_order_of_text(const ir::Program& program) {
+  bool flow = has_jumps(program) || program.routines.size() > 1;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&flow](const ir::Statement& s) {
+      flow = flow || std::holds_alternative<ir::CallRoutine>(s.node) || std::holds_alternative<ir::ModalCall>(s.node) ||
+             s.line.skip_mask != 0;
+    });
+  }
+  return !flow;
+}
+
 namespace {
 
 std::shared_ptr<const ir::FrameChange> cleared(ir::FrameSlot slot) {
@@ -150,28 +171,6 @@ bool calls_outside(const ir::Program& program) {
     });
   }
   return outside;
-}
-
-bool has_jumps(const ir::Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
-      found = found || std::holds_alternative<ir::Jump>(s.node) || std::holds_alternative<ir::Repeat>(s.node);
-    });
-  }
-  return found;
-}
-
-/// No jump, call, subroutine or skipped block: what the text says is the order of work.
-bool in_order_of_text(const ir::Program& program) {
-  bool flow = has_jumps(program) || program.routines.size() > 1;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&flow](const ir::Statement& s) {
-      flow = flow || std::holds_alternative<ir::CallRoutine>(s.node) || std::holds_alternative<ir::ModalCall>(s.node) ||
-             s.line.skip_mask != 0;
-    });
-  }
-  return !flow;
 }
 
 /// The senses of a plane with its axes exchanged were taken from the text: right where the text is the order of work.
@@ -373,6 +372,9 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_surfaces(program, state);
   judge_executed(program, state);
   judge_patterns(program, state);
+  judge_cycle_changes(program, state);
+  end_cycles(program, state);
+  judge_repeats(program, state);
   drop_inclined_ends(program, state);
   if (facts.unlisted_parameters) {
     const auto& range = dialects::fagor::unlisted_parameters;

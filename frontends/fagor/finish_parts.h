@@ -9,4 +9,17 @@ namespace cnctrans::fagor {
 /// G28 and G29 with axes (7.8): from here on every word names the axis that moves. FAG-051 where that can't be told.
 void resolve_exchanges(ir::Program& program, LowerState& state);
 
+/// No jump, call, subroutine or skipped block: what the text says is the order of work.
+bool in_order_of_text(const ir::Program& program);
+bool has_jumps(const ir::Program& program);
+
+// finish_cycles.cpp
+/// G79 was joined with the cycle above it in the text: FAG-090 where another one is in force, or its words have
+/// changed.
+void judge_cycle_changes(ir::Program& program, LowerState& state);
+/// A cycle in force ends with its plane and with the search for home, wherever it was defined (25.2).
+void end_cycles(ir::Program& program, LowerState& state);
+/// Repeat counts under MEXEC, and under MCALL where the machine moves once (2.7): FAG-091.
+void judge_repeats(ir::Program& program, LowerState& state);
+
 }  // namespace cnctrans::fagor

@@ -64,6 +64,7 @@ struct FileFacts {
   bool surfaces = false;                                ///< G15 R, G16 XC
   bool second_spindle = false;                          ///< G28
   std::vector<std::pair<Span, std::int64_t>> executed;  ///< EXEC and MEXEC, with the number of the program
+  std::set<std::uint32_t> modal_programs;               ///< lines of MEXEC
   std::vector<TextUse> text_uses;                       ///< of the spindle and of the longitudinal axis
   bool longitudinal = false;                            ///< G15 of the mill
   bool unlisted_parameters = false;                     ///< P26 to P99

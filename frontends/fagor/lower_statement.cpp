@@ -223,6 +223,7 @@ Node StatementLowerer::execute(const syntax::Statement& s) {
     state_.facts.executed.emplace_back(state_.line(), call.routine.number);
   }
   if (s.keyword == "EXEC") return call;
+  state_.facts.modal_programs.insert(state_.line().line);
   ir::ModalCall modal;
   modal.here = true;
   modal.call = std::move(call);

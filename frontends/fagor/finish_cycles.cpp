@@ -1,0 +1,123 @@
+// What the flow of the program makes of cycles and modal subroutines that were read by the text.
+#include <algorithm>
+#include <optional>
+
+#include "frontends/common/cycle_changes.h"
+#include "frontends/fagor/finish_parts.h"
+#include "ir/dataflow.h"
+#include "ir/search.h"
+
+namespace cnctrans::fagor {
+
+namespace {
+
+const ir::CycleDefine* hole_in(const ir::Block& b) {
+  for (const auto& a : b.actions) {
+    const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+    if (d != nullptr && d->modal && d->cycle && std::holds_alternative<ir::HoleCycle>(d->cycle->node)) return d;
+  }
+  return nullptr;
+}
+
+/// The plane function of the block; none: there is no such function.
+std::optional<std::uint8_t> plane_in(const ir::Block& b) {
+  std::optional<std::uint8_t> plane;
+  for (const auto& a : b.actions) {
+    const auto* set = std::get_if<ir::ModalSet>(&a.data);
+    if (set != nullptr && set->setting == ir::Setting::plane) plane = set->value;
+  }
+  return plane;
+}
+
+bool any_hole(const ir::Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      found = found || (b != nullptr && hole_in(*b) != nullptr);
+    });
+  }
+  return found;
+}
+
+/// Which modal call is in force at a block, as far as the text can tell.
+enum class Modal : std::uint8_t { none, subroutine, program, unknown };
+
+}  // namespace
+
+void judge_cycle_changes(ir::Program& program, LowerState& state) {
+  const auto is_change = [](const ir::Action& a) {
+    return std::get<ir::HoleCycle>(std::get<ir::CycleDefine>(a.data).cycle->node).keeps_initial;
+  };
+  const auto findings = frontends::judge_changes(program, state.profile().power_on, is_change);
+  frontends::report_changes(findings, "FAG-090", state.diagnostics());
+}
+
+void end_cycles(ir::Program& program, LowerState& state) {
+  if (!any_hole(program) || in_order_of_text(program)) return;
+  ir::number_statements(program);
+  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
+  for (auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](ir::Statement& s) {
+      auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || hole_in(*b) != nullptr || ir::action_in<ir::CycleCancel>(*b) != nullptr) return;
+      const ir::Facts& before = table.before(s.id);
+      const bool maybe = before.cycle_active || before.cycle_from == ir::Facts::several_cycles;
+      if (!before.reachable || !maybe) return;
+      const auto plane = plane_in(*b);
+      const auto known = before.settings[static_cast<std::size_t>(ir::Setting::plane)];
+      const bool home = b->has_motion && b->motion.kind == ir::MotionKind::reference_point;
+      if (!home && (!plane || !known || *known == *plane)) return;
+      ir::Action end;
+      end.data = ir::CycleCancel{};
+      b->actions.insert(b->actions.begin(), std::move(end));
+    });
+  }
+}
+
+void judge_repeats(ir::Program& program, LowerState& state) {
+  const auto& programs = state.facts.modal_programs;
+  const bool moves_once = state.profile().option("fagor.mcall_repeat") == "sub_only";
+  if (programs.empty() && !moves_once) return;
+  // The text tells what is in force where nothing jumps and every modal call stands in the main part by itself.
+  bool any = false, plain = !has_jumps(program);
+  for (const auto& r : program.routines) {
+    const bool main = r.kind == ir::RoutineKind::main;
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      if (!std::holds_alternative<ir::ModalCall>(s.node)) return;
+      const bool top = std::any_of(r.body.begin(), r.body.end(), [&s](const ir::Statement& t) { return &t == &s; });
+      any = true;
+      plain = plain && main && top && s.line.skip_mask == 0;
+    });
+  }
+  if (!any) return;
+  for (auto& r : program.routines) {
+    Modal modal = plain && r.kind == ir::RoutineKind::main ? Modal::none : Modal::unknown;
+    ir::for_each_statement(r.body, [&](ir::Statement& s) {
+      if (const auto* m = std::get_if<ir::ModalCall>(&s.node); m != nullptr && modal != Modal::unknown) {
+        modal = m->off ? Modal::none : programs.count(s.line.span.line) != 0 ? Modal::program : Modal::subroutine;
+      }
+      auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || b->repeat_given == 0 || modal == Modal::none) return;
+      state.set_line(s.line.span);
+      if (modal == Modal::program) {
+        state.warning("FAG-091", {}, "the control ignores the repeat count of a block under MEXEC: it runs once",
+                      "the count is left out");
+        b->repeat_given = 0;
+        b->repeat = ir::Value{};
+      } else if (modal == Modal::unknown && !programs.empty()) {
+        state.error("FAG-091", {},
+                    "a repeat count counts under MCALL and not under MEXEC, and which of them is in force here depends "
+                    "on the way to this block",
+                    "write the block as often as it is to run");
+      } else if (moves_once) {
+        state.error("FAG-091", {},
+                    "a repeat count under MCALL that runs the subroutine only (fagor.mcall_repeat = sub_only) is not "
+                    "carried",
+                    "write the block once and a PCALL for each further execution");
+      }
+    });
+  }
+}
+
+}  // namespace cnctrans::fagor
