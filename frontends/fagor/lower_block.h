@@ -119,6 +119,7 @@ class BlockLowerer {
   void centers(ir::Motion& m);
   void radius_and_polar(ir::Motion& m);
   bool in_plane(const ir::Motion& m);
+  [[nodiscard]] bool cuts_thread(const ir::Motion& m) const;
   void thread(ir::Motion& m);
   void technology();
   void machine_functions();

@@ -173,8 +173,7 @@ void BlockLowerer::change_cycle(const GWord& g) {
   }
   const int code = state_.cycle_code_by_text;
   ir::HoleCycle c = *state_.cycle_by_text;
-  const ir::AxisId axis = ir::plane_axes(state_.plane_by_text()).w;
-  const Word* z = take_coordinate(axis);
+  const Word* z = take_coordinate(state_.longitudinal());
   const Word* i = take('I');
   const bool pocket = facts::find_milling(code) != nullptr;
   const Word* j = code == 83 ? take('J') : nullptr;

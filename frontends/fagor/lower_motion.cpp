@@ -113,7 +113,7 @@ void BlockLowerer::radius_and_polar(ir::Motion& m) {
   const bool straight = m.kind == ir::MotionKind::rapid || m.kind == ir::MotionKind::linear;
   const bool arc = m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw;
   const Word* r = radii_taken_ < radius_count_ ? radii_[radius_count_ == 2 && radii_taken_ == 1 ? 1 : 0] : nullptr;
-  const Word* q = m.kind == ir::MotionKind::thread || m.kind == ir::MotionKind::thread_variable ? nullptr : take('Q');
+  const Word* q = cuts_thread(m) ? nullptr : take('Q');
   if (!r && !q) return;
   if (r) ++radii_taken_;
   if (r && !q && !straight && !m.coords.empty()) {
@@ -144,6 +144,12 @@ void BlockLowerer::radius_and_polar(ir::Motion& m) {
   }
 }
 
+/// G33 and G34 stay in force over blocks without a motion code.
+bool BlockLowerer::cuts_thread(const ir::Motion& m) const {
+  const auto kind = m.kind == ir::MotionKind::modal ? state_.motion_by_text : m.kind;
+  return kind == ir::MotionKind::thread || kind == ir::MotionKind::thread_variable;
+}
+
 void BlockLowerer::thread(ir::Motion& m) {
   const bool variable = m.kind == ir::MotionKind::thread_variable;
   const bool thread = variable || m.kind == ir::MotionKind::thread;
@@ -151,6 +157,12 @@ void BlockLowerer::thread(ir::Motion& m) {
   if (thread && !lead && !m.coords.empty()) {
     state_.error("FAG-014", motion_code_->word->pos, "the thread has no pitch L");
     return;
+  }
+  if (!lead && cuts_thread(m)) {  // the pitch stays; Q is the angle of the spindle here too (10.12)
+    if (const Word* q = take('Q')) {
+      extra().has_start_angle = true;
+      extra().start_angle = value(*q);
+    }
   }
   if (!lead) return;
   if (!thread && state_.motion_by_text != ir::MotionKind::thread &&
