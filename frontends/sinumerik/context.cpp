@@ -58,6 +58,22 @@ void FileContext::warning(std::string_view code, WordPos pos, std::string messag
 void FileContext::note(std::string_view code, WordPos pos, std::string message, std::string hint) {
   diagnostics.note(code, word_span(line, pos), std::move(message), std::move(hint));
 }
+
+/// G26 limits every speed of the spindle, LIMS= the one that follows from a cutting speed.
+ir::Value FileContext::lower_limit(LastingWord& own, LastingWord& other, const ir::Value& value, WordPos pos) {
+  const bool missed = own.set(value);
+  const auto state = other.ask();
+  if (state == LastingWord::State::none && !missed) return value;
+  if (state == LastingWord::State::known && value.literal())
+    return value.number <= other.value() ? value : ir::Value(other.value());
+  warning(
+      "SIN-091", pos,
+      "G26 S and LIMS= limit the speed together, and the text does not tell both as numbers here: this one is taken "
+      "as the limit, also where the other one is lower",
+      "write both limits one behind the other, as numbers");
+  return value;
+}
+
 std::string_view FileContext::slice(WordPos pos) const {
   if (pos.column == 0 || pos.column > text.size()) return {};
   return text.substr(pos.column - 1, pos.length);

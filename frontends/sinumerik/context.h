@@ -137,10 +137,16 @@ struct FileContext {
 
   LastingWord thread_start{};  ///< SF= in force
   LastingWord corner_feed{};   ///< FRCM= in force
+  LastingWord speed_limit{};   ///< G26 S of the master spindle
+  LastingWord css_limit{};     ///< LIMS= of the master spindle
+  /// `own` is set to `value`; what counts is the lower one of it and `other` (14.7).
+  ir::Value lower_limit(LastingWord& own, LastingWord& other, const ir::Value& value, WordPos pos);
   /// A label, a jump, a structure or a call: what holds may come from elsewhere.
   void interrupt_lasting() {
     thread_start.interrupt();
     corner_feed.interrupt();
+    speed_limit.interrupt();
+    css_limit.interrupt();
     if (more_planes) plane.reset();
     if (uses_css) css.reset();
     tool.state = ToolDirection::State::unsure;

@@ -285,6 +285,7 @@ bool StatementLowering::spindle_item(const syntax::Statement& s, Parts& parts) {
   if (c_.slice(target.args[0].pos) != target.args[0].text)  // a variable that a branch has chosen
     a.text = c_.program.keep(target.text + '[' + target.args[0].text + "]=" + std::string(c_.slice(s.args[1].pos)));
   if (target.text == "LIMS") {
+    if (number == c_.master_spindle) v = c_.lower_limit(c_.css_limit, c_.speed_limit, v, s.pos);
     a.data = ir::SpindleLimit{number, std::move(v), false};
   } else if (target.text == "S") {
     a.data = ir::SetSpindle{number, std::move(v)};

@@ -295,9 +295,42 @@ bool kind_of(std::string_view name, const Arguments& a, ir::HoleCycle& hole, Fil
   return true;
 }
 
+/// GMODE: its tens lead the shank of the drill to the depth in place of the tip. DMODE: its units name the plane of the
+/// cycle, 1 to 3 for G17 to G19.
+bool tip_and_plane(const Arguments& a, FileContext& c, WordPos pos) {
+  if (a.says("GMODE")) {
+    c.error("SIN-021", pos,
+            "this GMODE is not carried yet: the depth counts for the shank of the drill, not for its tip",
+            "write 0 for GMODE, and the depth of the tip");
+    return false;
+  }
+  const ir::Value mode = a.get("DMODE");
+  const int named = mode.literal() && mode.number >= 0 && mode.number < 1e9 ? saturate<int>(mode.number) % 10 : 4;
+  if (named == 0) return true;
+  if (named > 3) {
+    c.error("SIN-021", pos, "this DMODE is not carried yet");
+    return false;
+  }
+  const auto plane = named == 1 ? ir::Plane::xy : named == 2 ? ir::Plane::zx : ir::Plane::yz;
+  const std::string code = "G" + std::to_string(16 + named);
+  if (c.plane && *c.plane != plane) {
+    c.error("SIN-090", pos, "DMODE names the plane " + code + " for this cycle, and another one is in force here",
+            "write " + code + " before the cycle, or 0 in the units of DMODE");
+    return false;
+  }
+  if (!c.plane && (c.more_planes || plane != c.machine.profile->power_on.plane))
+    c.warning("SIN-090", pos,
+              "DMODE names the plane " + code +
+                  " for this cycle, and the text does not tell whether it is the one in force; the cycle is taken to "
+                  "work in the one in force",
+              "write " + code + " before the cycle");
+  return true;
+}
+
 /// The modes behind the newer signatures: only those that mean the same as none. The digits above the tens, one for
 /// each further word, are taken for the usual reading (amounts, seconds) as long as none is above 1.
 bool modes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
+  if (!tip_and_plane(a, c, pos)) return false;
   if (!a.says("AMODE")) return true;
   const ir::Value mode = a.get("AMODE");
   const int number = mode.literal() && mode.number < 1e9 ? saturate<int>(mode.number) : -1;
@@ -408,6 +441,15 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
       c_.error("SIN-012", e.pos, "AC() and IC() have no meaning in the call of a cycle");
   }
   if (c_.errors != before) return nullptr;
+  const auto known = static_cast<std::size_t>(std::count(row.parameters.begin(), row.parameters.end(), ',')) + 1;
+  for (std::size_t i = known; i < args.size(); ++i) {
+    if (args[i].kind == ExprKind::missing || (row.family == CycleFamily::pattern && values[i].is(0))) continue;
+    c_.warning("SIN-082", args[i].pos,
+               name + " is carried with " + std::to_string(known) +
+                   " parameters: this one and those behind it are "
+                   "left out of account");
+    break;
+  }
   const Arguments a(row, std::move(values), std::move(given));
   if (a.knows("XA") && (!a.get("XA").is(all_absolute) || !a.get("YA").is(all_absolute))) {
     refuse(feature_of(row.family), pos, name + " with positions by increments (XA, YA) is not carried yet");
@@ -421,15 +463,6 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   if (!a.given("DP") && !a.says("DPR")) {
     c_.error("SIN-021", pos, name + " needs its depth: DP or DPR");
     return nullptr;
-  }
-  const auto known = static_cast<std::size_t>(std::count(row.parameters.begin(), row.parameters.end(), ',')) + 1;
-  for (std::size_t i = known; i < args.size(); ++i) {
-    if (args[i].kind == ExprKind::missing) continue;
-    c_.warning("SIN-082", args[i].pos,
-               name + " is carried with " + std::to_string(known) +
-                   " parameters: this one and those behind it are "
-                   "left out of account");
-    break;
   }
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);

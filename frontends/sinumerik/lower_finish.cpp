@@ -114,6 +114,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       extra_.start_angle = std::move(value);
       return;
     case NamedWord::spindle_limit:
+      value = c_.lower_limit(c_.css_limit, c_.speed_limit, value, w.pos);
       return push(ir::SpindleLimit{c_.master_spindle, std::move(value), false}, Rank::limit, ir::Order::before, w.pos);
     case NamedWord::spindle_position: return spindle_position(w, std::move(value), attribute);
     case NamedWord::block_feed:

@@ -41,6 +41,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.master_spindle = 1;
   c_.thread_start = {};
   c_.corner_feed = {};
+  c_.speed_limit = c_.css_limit = {};
   c_.offset_chosen = routine.kind != ir::RoutineKind::main;
   c_.motion = c_.machine.profile->power_on.motion;
   const bool sub = routine.kind == ir::RoutineKind::sub;

@@ -443,6 +443,8 @@ void WordLowering::s_word(const Word& w, ir::Value value) {
     return;
   }
   if (special_ == Special::limit) {
+    if (special_g_->a != 0 && number == c_.master_spindle)
+      value = c_.lower_limit(c_.speed_limit, c_.css_limit, value, w.pos);
     return push(ir::SpindleLimit{number, std::move(value), special_g_->a == 0}, Rank::limit, ir::Order::before, w.pos);
   }
   push(ir::SetSpindle{number, std::move(value)}, Rank::speed, ir::Order::before, w.pos);
