@@ -484,17 +484,15 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (e.has_line_angle) extra("ANG", e.line_angle);
   if (e.has_angle) extra("AR", e.opening_angle);
   if (e.has_turns) extra("TURN", e.turns);
+  const bool in_force = same_dialect() && e.start_angle.literal() && e.start_angle.text.empty();  // not written there
+  if (!e.has_lead && e.has_start_angle && !in_force) extra("SF", e.start_angle);
   if (!e.has_lead) return;
   const ir::AxisId lead = e.lead_axis == ir::axis::none ? main_axis(m) : e.lead_axis;
   if (lead > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
   extra(geometry().letter(lead), e.lead);
   if (!e.lead_change.is(0))
     extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);
-  const bool in_force = same_dialect() && e.start_angle.literal() && e.start_angle.text.empty();  // not written there
-  if (e.has_start_angle && !in_force)
-    extra("SF", e.start_angle);
-  else if (!e.has_start_angle && angles_)
-    extra("SF", ir::Value(0.0));
+  if (e.has_start_angle ? !in_force : angles_) extra("SF", e.has_start_angle ? e.start_angle : ir::Value(0.0));
 }
 
 }  // namespace cnctrans::backends::sinumerik

@@ -32,6 +32,8 @@ void solve_contours(Program& program, const LegaliseContext& context);
 void write_out_curves(Program& program, const LegaliseContext& context);
 /// A tangent arc that is in force in the source is said in each block.
 void say_tangent_arcs(Program& program, const LegaliseContext& context);
+/// The start angle that stays in force in the source is said in each thread of other controls.
+void write_thread_angles(Program& program, const LegaliseContext& context);
 /// A tap with a compensating chuck as a straight move.
 void write_floating_taps(Program& program, const LegaliseContext& context);
 /// Taps that turn the spindle by themselves, for targets whose taps take the spindle as it runs.

@@ -30,6 +30,7 @@ constexpr std::array pipeline{
     Pass{"contours", passes::solve_contours, false},
     Pass{"curves", passes::write_out_curves, false},
     Pass{"said_tangents", passes::say_tangent_arcs, false},
+    Pass{"thread_angles", passes::write_thread_angles, false},
     Pass{"floating_taps", passes::write_floating_taps, false},
     Pass{"block_feeds", passes::write_block_feeds, false},
     Pass{"positioning", passes::write_positioning, false},

@@ -1,0 +1,98 @@
+// The start angle of a thread where it stays in force on one of the two controls and holds for one block on the other
+// (motion reference 14.3 of the former): each thread says its own.
+#include <algorithm>
+
+#include "ir/passes/early_passes.h"
+#include "ir/passes/facts.h"
+#include "ir/passes/flow_states.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// A domain of FlowStates: the angle said last; none: the ways that lead here do not agree, or it is computed.
+class AngleDomain {
+ public:
+  struct State {
+    std::optional<double> angle = 0;
+  };
+  [[nodiscard]] static State start(const Routine& r, bool /*called*/) {
+    return r.kind == RoutineKind::main ? State{} : State{std::nullopt};
+  }
+  static const Value* said(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    const bool says = b != nullptr && b->has_motion && b->motion.extra != nullptr && b->motion.extra->has_start_angle;
+    return says ? &b->motion.extra->start_angle : nullptr;
+  }
+  static void transfer(const Statement& s, State& state) {
+    const Value* v = said(s);
+    if (v != nullptr) state.angle = v->literal() ? std::optional(v->number) : std::nullopt;
+  }
+  static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const Value* v = said(s);
+      found = found || (v != nullptr && !v->is(0));
+    });
+    return found;
+  }
+  static void unknown(State& state) { state.angle.reset(); }
+  static bool join(State& a, const State& b) {
+    if (!a.angle || a.angle == b.angle) return false;
+    a.angle.reset();
+    return true;
+  }
+};
+
+/// The thread of the statement where it has no start angle of its own; null: it is none, or has.
+Motion* bare_thread(Statement& s, const FactsOf& facts) {
+  auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !b->has_motion || b->motion.coords.empty() || AngleDomain::said(s) != nullptr) return nullptr;
+  const auto kind = motion_in(*b, facts.before(s));
+  return kind == MotionKind::thread || kind == MotionKind::thread_variable ? &b->motion : nullptr;
+}
+
+void say(Motion& m, double angle) {
+  auto extra = m.extra ? std::make_shared<MotionExtra>(*m.extra) : std::make_shared<MotionExtra>();
+  extra->has_start_angle = true;
+  extra->start_angle = Value{angle};
+  m.extra = std::move(extra);
+}
+
+/// It stays in force in the source.
+void carry_on(Program& program, const LegaliseContext& context, const FactsOf& facts) {
+  const AngleDomain domain;
+  const FlowStates<AngleDomain> states(program, domain);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      Motion* m = bare_thread(s, facts);
+      const auto* state = m != nullptr ? states.before(s) : nullptr;
+      if (state == nullptr) return;
+      if (state->angle && *state->angle != 0) say(*m, *state->angle);
+      if (state->angle) return;
+      context.diagnostics.warning(
+          "TRN-610", s.line.span,
+          "the start angle of a thread stays in force in the source, and the way of the program "
+          "does not tell which one holds here: this thread starts at 0 degrees",
+          "say the start angle in this block");
+    });
+  }
+}
+
+}  // namespace
+
+void write_thread_angles(Program& program, const LegaliseContext& context) {
+  constexpr std::string_view stays = "thread.start_angle";
+  const bool from = context.source_machine.option(stays) == "modal",
+             to = context.target_machine.option(stays) == "modal";
+  if (from == to || std::none_of(program.routines.begin(), program.routines.end(), AngleDomain::touches)) return;
+  const FactsOf facts(program, context);
+  if (from) return carry_on(program, context, facts);
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      if (Motion* m = bare_thread(s, facts)) say(*m, 0);
+    });
+  }
+}
+
+}  // namespace cnctrans::ir::passes
