@@ -54,7 +54,6 @@ Frame BlockMachine::settable_frame() const {
 void BlockMachine::load_offset(std::int32_t row) {
   active_offset_.clear();
   active_shape_ = Frame{};
-  if (row == 0) return;
   if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) active_offset_ = it->second;
   if (const auto it = fine_offsets_.find(row); it != fine_offsets_.end()) {
     for (const auto& [axis, v] : it->second) active_offset_[axis] += v;
@@ -84,6 +83,8 @@ void BlockMachine::restore_modal(const ir::ModalState& state) {
   modal_.surface = surface;
   set_units();
   for (auto& s : spindles_) s.mode = modal_.spindle_mode;
+  const Spindle& main = spindles_[1];
+  if (main.state != ir::SpindleState::off && !main.oriented && main.mode != main.shown_mode) emit_spindle(1);
   if (other_offset) set_work_offset(ir::WorkOffset{ir::Value(double(state.work_offset)), state.work_offset == 0});
 }
 

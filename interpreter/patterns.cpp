@@ -66,6 +66,7 @@ bool BlockMachine::to_point(const ir::cycles::PatternPoint& to) {
   block_moves_ = true;
   if (!emit_move(move, false)) return false;
   p_ = move.to;
+  base_pending_ &= ~(1U << plane.u | 1U << plane.v);  // increments go on from the point
   has_path_ = false;
   return true;
 }

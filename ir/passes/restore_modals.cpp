@@ -194,6 +194,12 @@ class Restore {
     for (const auto s : changes.settings) {
       const auto index = static_cast<std::size_t>(s);
       if (now.settings[index] == entry.settings[index]) continue;
+      if (s == Setting::spindle_mode)
+        context_.diagnostics.warning("TRN-611", like.span,
+                                     "the subprogram gives its caller the spindle mode back (SAVE): the speed that "
+                                     "holds then is the one reached "
+                                     "last on the target, and the caller's own one in the source",
+                                     "write S behind the call");
       ModalSet set;
       set.setting = s;
       set.value = *entry.settings[index];
