@@ -11,10 +11,43 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// Calls `look` with each diameter or radius code.
+template <class Look>
+void each_mode(const Program& program, const Look& look) {
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        if (m != nullptr && m->setting == Setting::diameter) look(static_cast<DiameterMode>(m->value));
+      }
+    });
+  }
+}
+
+/// Every diameter or radius code of the program says the mode of power-on.
+bool keeps_mode(const Program& program, const LegaliseContext& context) {
+  bool keeps = true;
+  each_mode(program, [&](DiameterMode m) { keeps = keeps && m == context.source_machine.power_on.diameter; });
+  return keeps;
+}
+
+/// Absolute words may be diameters where increments are radii.
+bool has_absolute_only(const Program& program, const LegaliseContext& context) {
+  bool found = context.source_machine.power_on.diameter == DiameterMode::absolute_only;
+  each_mode(program, [&found](DiameterMode m) { found = found || m == DiameterMode::absolute_only; });
+  return found;
+}
+
 class DiameterPass {
  public:
-  DiameterPass(const LegaliseContext& context, const FactsOf& facts, bool same_language, bool one_mode)
-      : context_(context), facts_(facts), same_language_(same_language), one_mode_(one_mode) {}
+  DiameterPass(const LegaliseContext& context, const FactsOf& facts, const Program& program)
+      : context_(context),
+        facts_(facts),
+        same_language_(program.dialect == context.target.dialect),
+        one_mode_(keeps_mode(program, context)),
+        absolute_only_(has_absolute_only(program, context)) {}
 
   void block(Statement& s, Block& b, bool in_main) {
     Facts assumed;
@@ -71,7 +104,9 @@ class DiameterPass {
     const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
     const bool face = setting<Surface>(facts, Setting::surface) == Surface::face;
     const auto to = target_factor(c.axis, WordScale::modal, distance, mode, face);
-    if (c.scale == WordScale::modal && !mode && !face && context_.target.diameter_switch)
+    const bool same_increment =
+        distance == Distance::absolute || !absolute_only_ || context_.target.diameter_absolute_only;
+    if (c.scale == WordScale::modal && !mode && !face && context_.target.diameter_switch && same_increment)
       return;  // the same code does the same
     rescale(s, c.value, to_radius(c.axis, c.scale, distance, b, facts, context_.source_machine), to, c.pos);
     c.scale = WordScale::modal;
@@ -128,25 +163,9 @@ class DiameterPass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   bool same_language_;
-  bool one_mode_;  ///< the program leaves the mode of power-on as it is
+  bool one_mode_;       ///< the program leaves the mode of power-on as it is
+  bool absolute_only_;  ///< increments are radii, absolute words diameters, somewhere in the program
 };
-
-/// Every diameter or radius code of the program says the mode of power-on.
-bool keeps_mode(const Program& program, const LegaliseContext& context) {
-  bool keeps = true;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) {
-        const auto* m = std::get_if<ModalSet>(&a.data);
-        keeps = keeps && (m == nullptr || m->setting != Setting::diameter ||
-                          m->value == static_cast<std::uint8_t>(context.source_machine.power_on.diameter));
-      }
-    });
-  }
-  return keeps;
-}
 
 /// A word that says itself that it is a diameter, on whatever axis.
 bool has_diameter_word(const Program& program) {
@@ -170,7 +189,7 @@ void convert_diameters(Program& program, const LegaliseContext& context) {
   const bool axes = std::any_of(from.begin(), from.end(), diameter) || std::any_of(to.begin(), to.end(), diameter);
   if (!axes && !has_diameter_word(program)) return;
   const FactsOf facts(program, context);
-  DiameterPass pass(context, facts, program.dialect == context.target.dialect, keeps_mode(program, context));
+  DiameterPass pass(context, facts, program);
   for (auto& r : program.routines) {
     const bool in_main = r.kind == RoutineKind::main;
     for_each_statement(r.body, [&pass, in_main](Statement& s) {

@@ -62,6 +62,14 @@ class NamedLocals {
     if (!v.indices.empty()) info.arrays.insert(v.name);
   }
 
+  static bool reads(const Routine& routine, const VarRef& v) {
+    bool found = false;
+    for_each_statement(routine.body, [&](const Statement& s) {
+      each_expression(s, [&](const ExprPtr& e) { found = found || passes::reads(e, v); });
+    });
+    return found;
+  }
+
   void collect(std::size_t r) {
     Info& info = infos_[r];
     Routine& routine = program_.routines[r];
@@ -70,6 +78,11 @@ class NamedLocals {
       add(info, p.variable);
       info.declared.insert(p.variable.name);
       if (p.by_reference) info.by_reference.insert(p.variable.name);
+      if (p.type == Type::string && !calls_.called(r) && reads(routine, p.variable))
+        context_.diagnostics.error("TRN-125", routine.header.span,
+                                   "the parameter " + p.name + " is a text: the target has numbers only",
+                                   "translate the subprogram together with a program that calls it, or write the text "
+                                   "where it is used");
     }
     for_each_statement(routine.body, [&](const Statement& s) {
       if (const auto* d = std::get_if<Declare>(&s.node); d != nullptr && is_local_space(d->space)) {
