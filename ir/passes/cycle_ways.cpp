@@ -163,9 +163,33 @@ void CyclePass::leave_while_off(const Statement& s) const {
 
 void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) const {
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-  if (!by_call_ || !active_->native || hole == nullptr || hole->retract.given) return;
   const auto callee = callee_of(call);
-  if (!callee) return;
+  if (!by_call_ || !active_->native || hole == nullptr || !callee) return;
+  bool ended = false, beside = false, turns = false;
+  for_each_statement(program_.routines[*callee].body, [&](const Statement& inner) {
+    const auto* b = std::get_if<Block>(&inner.node);
+    if (b == nullptr || ended || active_->trigger != CycleTrigger::plane_axis_word) return;
+    const Facts& facts = facts_.before(inner);
+    for (const auto& a : b->actions) {
+      ended = ended || std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<CycleCancel>(a.data);
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      const auto before = setting<Plane>(facts, Setting::plane);
+      turns = turns || (!ended && m != nullptr && m->setting == Setting::plane &&
+                        (!before || static_cast<std::uint8_t>(*before) != m->value));
+    }
+    beside = beside || (!ended && b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal &&
+                        !triggers(*b, facts));
+  });
+  if (beside || turns) {
+    context_.diagnostics.error("TRN-331", s.line.span,
+                               beside ? "the subprogram has a move along the tool axis that is no point of the active "
+                                        "cycle; the target's modal cycle runs at every move"
+                                      : "the subprogram changes the plane, which ends the active cycle; the target's "
+                                        "modal cycle goes on",
+                               "cancel the cycle before the call");
+    return;
+  }
+  if (hole->retract.given) return;
   bool sets = false;
   for_each_statement(program_.routines[*callee].body, [&sets](const Statement& inner) {
     const auto* b = std::get_if<Block>(&inner.node);

@@ -104,7 +104,7 @@ class ModalCalls {
   }
   /// The target's own modal call takes its place.
   bool stays_modal(const ModalCall& m) const {
-    return context_.target.modal_call && !shared_too(m.call) && (m.here || context_.target.modal_call_here == m.here);
+    return context_.target.modal_call && !never_modal(m.call) && (m.here || context_.target.modal_call_here == m.here);
   }
   /// The last statement switched the target's call on again, and nothing has run since: it is taken back.
   bool take_back_on(const Statement& next, Body& out) {
@@ -305,7 +305,7 @@ class ModalCalls {
       leave_line(std::move(s), out);
       return;
     }
-    const bool modal = context_.target.modal_call && !shared_too(m.call);
+    const bool modal = context_.target.modal_call && !never_modal(m.call);
     const LineInfo like = s.line;
     if (take_back_on(s, out)) on_target_.reset();
     end_cycle(s, modal && (m.here || context_.target.modal_call_here == m.here), out);
@@ -393,6 +393,22 @@ class ModalCalls {
     return callee && !call.arguments.empty() && calls_.called_with(*callee, CallLevel::shared) &&
            call.level == CallLevel::new_level;
   }
+  /// The subprogram, or one that it calls, defines a cycle, which ends the target's modal call.
+  bool ends_itself(const CallRoutine& call) const {
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    if (!callee || !context_.target.modal_cycle_by_call || program_.dialect == context_.target.dialect) return false;
+    bool found = false;
+    for (const auto r : reached_from(calls_, *callee)) {
+      for_each_statement(program_.routines[r].body, [&found](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr || pattern_in(*b)) return;
+        found = found || std::any_of(b->actions.begin(), b->actions.end(),
+                                     [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
+      });
+    }
+    return found;
+  }
+  bool never_modal(const CallRoutine& call) const { return shared_too(call) || ends_itself(call); }
   static void leave_line(Statement&& s, Body& out) {
     if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
     s.node = Label{};
