@@ -43,7 +43,7 @@ class TangentPass {
       if (nested || entered(s) || (b == nullptr && !passes_by(s))) before.reset();
       std::optional<Statement> arc;
       if (b != nullptr) {
-        if (kind_of(*b, s) == MotionKind::arc_tangent && !context_.target.arc_tangent) tangent_arc(s, before);
+        if (kind_of(*b, s) == MotionKind::arc_tangent) tangent_arc(s, before);
         b = std::get_if<Block>(&s.node);
         if (b != nullptr && take_tangential(*b)) arc = expand(s, body, i);
         b = std::get_if<Block>(&s.node);
@@ -80,6 +80,13 @@ class TangentPass {
     m.kind = MotionKind::linear;  // to look at its points
     const auto points = points_.path_of(s);
     m.kind = kind;
+    if (goes_straight(points, before)) {
+      m.kind = MotionKind::linear;
+      m.explicit_code = true;
+      m.code_text = {};
+      return;
+    }
+    if (context_.target.arc_tangent) return;
     if (!before || !points || before->plane != points->plane) {
       return refuse(s, program_, context_, "TRN-301",
                     "a tangent arc, which the target lacks; the element before it is not known here as numbers",
@@ -95,6 +102,18 @@ class TangentPass {
     m.explicit_code = true;
     m.code_text = {};
     PathPoints::set_centre(m, points->plane, points->e.a, centre);
+  }
+
+  /// The end lies straight ahead, and the source goes there on a line where the target stops.
+  bool goes_straight(const std::optional<Path>& points, const std::optional<Path>& before) const {
+    constexpr std::string_view option = "arc.tangent_straight";
+    if (context_.source_machine.option(option) != "line" || context_.target_machine.option(option) == "line")
+      return false;
+    if (!before || !points || before->plane != points->plane) return false;
+    Vec centre;
+    bool ccw = false;
+    const Vec direction = before->e.end_direction(), way = points->e.b - points->e.a;
+    return !centre_by_tangent(points->e.a, direction, points->e.b, centre, ccw) && dot(way, direction) > 0;
   }
 
   /// Takes the entry or exit out of the block; false: it has none, or the target writes it itself.
