@@ -177,7 +177,6 @@ bool Lowering::cycle_bottom(ir::HoleCycle& cycle, const Word& g) {
 
 void Lowering::define_cycle(const Word& g) {
   const int number = saturate<int>(g.number);
-  if (!settings_.lathe && state_.tool_axis == ir::axis::none) plane_uses_.emplace_back(report_.line(), state_.plane);
   if (number == 45) return pocket(g);
   ir::HoleCycle cycle;
   switch (number) {

@@ -14,7 +14,6 @@
 #include "frontends/num/cycle_moves.h"
 #include "frontends/num/jumps.h"
 #include "frontends/num/lines.h"
-#include "frontends/num/planes.h"
 #include "frontends/num/surfaces.h"
 
 namespace cnctrans::frontends::num {
@@ -109,24 +108,7 @@ class NumFrontend : public Frontend {
   ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                    ReadStats* stats) const override {
     ReadStats own;
-    ReadStats& counts = stats != nullptr ? *stats : own;
-    const ReadStats before = counts;
-    const ir::ModalState& power_on = options.profile->power_on;
-    Diagnostics first_said = diagnostics;  // with its limits
-    first_said.clear();
-    FileReader first(source, file, options, first_said, counts);
-    ir::Program program = first.read();
-    auto planes = planes_by_flow(program, power_on);
-    if (planes.empty()) {
-      diagnostics.append(first_said);
-      judge_planes(program, first.lowering().plane_uses(), power_on, diagnostics);
-    } else {
-      counts = before;
-      FileReader again(source, file, options, diagnostics, counts);
-      again.know_planes(std::move(planes));
-      program = again.read();
-      judge_planes(program, again.lowering().plane_uses(), power_on, diagnostics);
-    }
+    ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
     judge_cycle_changes(program, options.profile->power_on, diagnostics);
     judge_cycle_moves(program, options.profile->power_on, diagnostics);
     settle_own_lengths(program, options.profile->power_on,

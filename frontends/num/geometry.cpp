@@ -65,7 +65,6 @@ bool Lowering::contour_end(ir::contour::Marks& marks) {
 
 /// EA and EX under G91: from the present point.
 void Lowering::polar_step(const Word& ea, const Word& ex) {
-  plane_uses_.emplace_back(report_.line(), state_.plane);
   const auto plane = ir::plane_axes(state_.plane);
   const double angle = ea.number * std::numbers::pi / 180;
   for (const auto& [axis, step] :

@@ -26,8 +26,6 @@ class FileReader {
   FileReader(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
              ReadStats& stats);
 
-  void know_planes(std::map<std::uint32_t, ir::Plane> by_line) { lower_.know_planes(std::move(by_line)); }
-  [[nodiscard]] const Lowering& lowering() const { return lower_; }
   /// The whole file; call once.
   ir::Program read();
 

@@ -90,10 +90,6 @@ class Lowering {
 
   /// A block between G64 and G80: a point of the blank. False after a refusal.
   bool blank_point(const ir::Block& block);
-  /// Planes that the flow of the program brings to lines (frontends/num/planes.h).
-  void know_planes(std::map<std::uint32_t, ir::Plane> by_line) { flow_planes_ = std::move(by_line); }
-  /// Blocks whose reading depends on the plane, and the one that was taken.
-  [[nodiscard]] const std::vector<std::pair<Span, ir::Plane>>& plane_uses() const { return plane_uses_; }
   /// The program of this Gxxx is at hand.
   void add_macro(std::int64_t number) { macros_.insert(number); }
 
@@ -205,8 +201,6 @@ class Lowering {
   Expressions expressions_;
   TextState state_;
   std::set<std::int64_t> macros_;
-  std::map<std::uint32_t, ir::Plane> flow_planes_;
-  std::vector<std::pair<Span, ir::Plane>> plane_uses_;
 
   /// Words of the line at hand that change what others mean; null: not given.
   struct Marks {

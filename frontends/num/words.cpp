@@ -458,10 +458,6 @@ void Lowering::machine_function(const Word& w) {
 
 bool Lowering::words(const syntax::Block& b, const Span& line, std::string_view text, ir::Block& out, Flow& flow) {
   report_.start(line);
-  if (!flow_planes_.empty()) {
-    const auto by_flow = flow_planes_.find(line.line);
-    if (by_flow != flow_planes_.end()) state_.plane = by_flow->second;
-  }
   out.clear();
   flow.clear();
   block_ = &b;
