@@ -104,8 +104,8 @@ class DiameterPass {
     const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
     const bool face = setting<Surface>(facts, Setting::surface) == Surface::face;
     const auto to = target_factor(c.axis, WordScale::modal, distance, mode, face);
-    const bool same_increment =
-        distance == Distance::absolute || !absolute_only_ || context_.target.diameter_absolute_only;
+    const bool same_increment = !facts_.before(s).reachable || distance == Distance::absolute || !absolute_only_ ||
+                                context_.target.diameter_absolute_only;
     if (c.scale == WordScale::modal && !mode && !face && context_.target.diameter_switch && same_increment)
       return;  // the same code does the same
     rescale(s, c.value, to_radius(c.axis, c.scale, distance, b, facts, context_.source_machine), to, c.pos);

@@ -173,7 +173,6 @@ TEST(SinumerikCycles, Pecks) {  // 18.1.1
 
 TEST(SinumerikCycles, WhatIsNotCarriedIsRefused) {
   EXPECT_EQ(read("CYCLE84(50,0,2,-20,,,3,,1.25,0,500)\n").warnings(), "");
-  EXPECT_EQ(read("CYCLE802(111111111,111111111,0,0,10,0)\n").warnings(), "SIN-008");
   EXPECT_EQ(read("MCALL POCKET3(50,0,1,-5,60,40,8,0,0,0,2,0,0,300,100,2,11)\n").warnings(), "SIN-008");
   EXPECT_EQ(read("CYCLE83(50,0,2,-30,,,8,0,0,0,1,7)\n").errors(), "SIN-021");
   EXPECT_EQ(read("CYCLE81()\n").errors(), "SIN-021");
