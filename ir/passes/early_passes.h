@@ -44,6 +44,8 @@ void write_block_feeds(Program& program, const LegaliseContext& context);
 void write_positioning(Program& program, const LegaliseContext& context);
 /// Computed rotary positions whose sign is a direction become a branch where the target writes the direction itself.
 void choose_directions(Program& program, const LegaliseContext& context);
+/// Rotary positions get the sign of the way to them where that sign is the target's direction of turning.
+void write_signed_turns(Program& program, const LegaliseContext& context);
 /// The coarse or the fine part of a shift as the whole shift.
 void join_shift_parts(Program& program, const LegaliseContext& context);
 /// A scale of two axes as one of all, with the words of the third axis divided.

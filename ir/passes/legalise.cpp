@@ -36,6 +36,7 @@ constexpr std::array pipeline{
     Pass{"positioning", passes::write_positioning, false},
     Pass{"directions", passes::choose_directions, false},
     Pass{"tool_rows", passes::name_tool_rows, false},
+    Pass{"signed_turns", passes::write_signed_turns, false},
     Pass{"machine_data", passes::convert_machine_data, false},
     Pass{"known_data", passes::write_known_data, false},
     Pass{"given_data", passes::name_given_data, false},

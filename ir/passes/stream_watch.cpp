@@ -144,6 +144,13 @@ bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const 
 bool StreamWatch::motion_needs_whole(const Block& block) const {
   const Motion& m = block.motion;
   if (m.coords.empty() && !m.centers.empty()) return true;
+  if (source_.dialect != target_.dialect) {  // the sign of such a position follows from the one before
+    for (const auto& c : m.coords) {
+      if (!is_rotary_letter(c.axis)) continue;
+      const std::string letters = target_machine_.option(std::string(target_.dialect) + ".rotary_modulo");
+      if (letters.find(fixed_axis_name(c.axis)) != std::string::npos) return true;
+    }
+  }
   const auto distance = in_block(block, Setting::distance, state_.distance);
   if (keeps_differ_ && (offset_changed_ || has<WorkOffset>(block))) {
     for (const auto& c : m.coords) {
