@@ -19,6 +19,8 @@ class SignedTurns {
   void statement(Statement& s) {
     auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr || !b->has_motion || b->repeat_given != 0) return;
+    // On the face and the cylinder of a turning part a word of C may be a length.
+    if (setting<Surface>(facts_.before(s), Setting::surface) != Surface::none) return;
     for (auto& c : b->motion.coords) {
       const bool signed_axis = is_rotary_letter(c.axis) && letters_.find(fixed_axis_name(c.axis)) != std::string::npos;
       if (!signed_axis || c.direction == RotaryDirection::by_sign || !c.value.literal()) continue;
