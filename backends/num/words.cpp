@@ -252,6 +252,8 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   if (w.mode != ir::WordMode::modal && !setting(ir::Setting::distance))
     return refuse(no_word, w.pos,
                   "a word that is absolute or incremental by itself stands where G90 or G91 is not known");
+  if (turning_by_sign && w.value.is(0) && std::signbit(w.value.number))  // backwards to 0
+    return add(std::string(axis_name(w.axis)) + "-0", Rank::coordinate, w.pos);
   if (!switched(m, w)) return add(word(axis_name(w.axis), w.value, w.pos), Rank::coordinate, w.pos);
   // One pair of G90 and G91 in a block: the words between them stand together.
   std::string text;

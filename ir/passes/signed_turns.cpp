@@ -52,7 +52,7 @@ class SignedTurns {
     const double rest = std::fmod(to, turn), at = rest < 0 ? rest + turn : rest + 0.0;
     c.direction = RotaryDirection::by_sign;
     if (backwards)
-      c.value = at == 0 ? Value(unary(UnaryOp::negate, number(0))) : Value(-at);
+      c.value = Value(-at);
     else if (at != to)
       c.value = Value(at);
   }
