@@ -6,6 +6,7 @@
 #include "backends/common/comments.h"
 #include "backends/linuxcnc/tables.h"
 #include "base/text.h"
+#include "dialects/linuxcnc/limits.h"
 #include "ir/labels.h"
 
 namespace cnctrans::backends::linuxcnc {
@@ -146,6 +147,9 @@ void Writer::assign(const ir::Assign& a) {
     const std::string name = expressions_.name(item.target);
     const std::string value = expressions_.value(item.value);
     if (refused_problem(item.pos)) return;
+    if (name.size() + value.size() + 3 > dialects::linuxcnc::line_length)
+      return refuse(no_statement, item.pos, "the expression does not fit into a line of the target",
+                    "assign its parts to variables first");
     add(name + " = " + value, Rank::head, item.pos);
   }
 }
@@ -301,7 +305,7 @@ void Writer::repeat(const ir::Repeat& r) {
 void Writer::call(const ir::CallRoutine& c) {
   if (c.computed || c.tail || c.optional || c.has_range || !c.arguments.empty() || program().find(c.routine) == nullptr)
     return refuse(no_statement, {}, "this call has no counterpart here");
-  const std::string text = sub_label(c.routine) + " call";
+  const std::string text = sub_label(program().find(c.routine)->name) + " call";  // L70 and 70 are one program
   if (!c.count) return add(text, Rank::tail);
   const std::string count = expressions_.condition(c.count);
   if (refused_problem()) return;
