@@ -89,14 +89,20 @@ bool CyclePairs::goes_on(const CyclePasses& target, const PairPlace& at) const {
   const auto cuts = [](const Event* e) {
     return e->kind == EventKind::linear || e->kind == EventKind::arc || e->kind == EventKind::thread;
   };
+  const auto widen = [&](double u, double v, double by) {
+    u0 = any ? std::min(u0, u - by) : u - by;
+    u1 = any ? std::max(u1, u + by) : u + by;
+    v0 = any ? std::min(v0, v - by) : v - by;
+    v1 = any ? std::max(v1, v + by) : v + by;
+    any = true;
+  };
   for (const Event* e : target.events) {
     if (!cuts(e)) continue;
     const double u = e->to.value[axes.u], v = e->to.value[axes.v];
-    u0 = any ? std::min(u0, u) : u;
-    u1 = any ? std::max(u1, u) : u;
-    v0 = any ? std::min(v0, v) : v;
-    v1 = any ? std::max(v1, v) : v;
-    any = true;
+    widen(u, v, 0);
+    // The rounds of a circular pocket begin and end in one place: their circles say how wide it is.
+    if (e->kind == EventKind::arc && e->plane == target.run->plane)
+      widen(e->center_u, e->center_v, std::hypot(u - e->center_u, v - e->center_v));
   }
   /// The next cycle of the side machines the same pocket.
   const auto here = [&](std::size_t k, bool source) {

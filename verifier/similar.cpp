@@ -314,9 +314,11 @@ class Stock {
       for (const auto& m : there) {
         if (cuts(*m.event) && m.comp == finishing) left.pass(clipped(m.points, from, to), false);
       }
+      bool finished = false;  // the ways behind a finishing pass go through what it has cut
       for (const auto& m : here) {
+        finished = finished || (cuts(*m.event) && m.comp);
         if (!cuts(*m.event)) {
-          if (!finishing && what.empty()) what = dives(m, mine);
+          if (finished == finishing && what.empty()) what = dives(m, mine);
         } else if (m.comp == finishing) {
           mine.pass(clipped(m.points, from, to), false);
         }

@@ -73,14 +73,16 @@ class StockForms {
     if (!play(s_.named, mine_)) return std::nullopt;
     if (has("section") && !is_zero("section")) return no("it works in sections");
     if (s_.named.name == "turn.copy") return no("it repeats the profile, and the target's cycle makes straight passes");
-    if (cycles::find_machining(s_.named.name)->ends_modes && has("rough_feed") && !is_zero("rough_feed"))
-      return no("the target's cycle has no pass along the contour before finishing");
+    // CYCLE95 follows the contour behind each of its passes; of the others the last roughing pass would be missing.
+    semi_finish_ = cycles::find_machining(s_.named.name)->ends_modes && has("rough_feed") && !is_zero("rough_feed");
     if (!is_zero("chip_dwell") || !is_zero("chip_length")) return no("it breaks chips");
     std::vector<NamedCycle> forms;
     contour_forms(forms);
     profile_forms(forms);
     if (forms.empty()) return no("the target has none of its kind");
     for (const auto& form : forms) {
+      if (semi_finish_ && form.name != "stock.contour")
+        return no("the target's cycle has no pass along the contour before finishing");
       Played theirs;
       if (!play(form, theirs)) continue;
       from_the_tool_ = form.name != "stock.contour";
@@ -335,6 +337,7 @@ class StockForms {
     const int a = mine_.passes(), b = theirs.passes();
     const auto one = [](int n) { return std::to_string(n) + (n == 1 ? " pass" : " passes"); };
     if (!computed_) out.differs = (a == b ? "as many passes" : one(b) + " instead of " + one(a)) + ", ";
+    if (semi_finish_) out.differs += "each followed by its piece of the contour, not one pass along it at the end, ";
     const TurnPoint from = theirs.moves.empty() ? TurnPoint{} : theirs.moves.front().to;
     const auto shown = [](double v) { return shortest(std::round(v * 1e3) / 1e3 + 0.0); };
     if (from_the_tool_)
@@ -364,6 +367,7 @@ class StockForms {
   Played mine_;
   TurnNumbers numbers_;
   bool computed_ = false;
+  bool semi_finish_ = false;  ///< a pass along the contour, with its allowances, before finishing
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -68,6 +69,39 @@ TEST_P(Examples, VerifyThereAndBack) {
   EXPECT_TRUE(back.verdict.good()) << verifier::describe(back.verdict, back.files, back.target_files);
   EXPECT_EQ(back.verdict.moves, there.verdict.moves);
   fs::remove_all(folder);
+}
+
+/// The fenced blocks of the README's example: the program, the command, what it becomes.
+std::vector<std::string> readme_example() {
+  const std::string text = testing::read_file(CNCTRANS_SOURCE_DIR "/README.md");
+  const std::size_t begin = text.find("<!-- example:begin -->");
+  const std::size_t end = text.find("<!-- example:end -->");
+  std::vector<std::string> blocks;
+  for (std::size_t at = text.find("```\n", begin); at < end; at = text.find("```\n", at)) {
+    const std::size_t close = text.find("```\n", at + 4);
+    blocks.push_back(text.substr(at + 4, close - at - 4));
+    at = close + 4;
+  }
+  return blocks;
+}
+
+TEST(Readme, ItsExampleIsWhatIsWritten) {
+  const auto blocks = readme_example();
+  ASSERT_EQ(blocks.size(), 2U);
+  const auto folder = fs::temp_directory_path() / ("cnctrans-readme-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "part.pim", std::ios::binary) << blocks[0];
+  const auto result = translate((folder / "part.pim").string(), "fagor", "sinumerik", "");
+  fs::remove_all(folder);
+  EXPECT_TRUE(result.verdict.good()) << render_text(result.diagnostics, result.files);
+  EXPECT_EQ(result.verdict.moves, 52U);
+  std::string written;  // on standard output the programs follow each other as an archive
+  for (const auto& o : result.outputs) {
+    std::string name = o.name;
+    std::replace(name.begin(), name.end(), '.', '_');
+    written += "%_N_" + name + "\n" + o.bytes;
+  }
+  EXPECT_EQ(written, blocks[1]);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Examples);
