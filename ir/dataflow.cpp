@@ -1,6 +1,5 @@
 // Modal facts of the whole program: a worklist in text order over the graphs of all routines, with calls followed.
 #include "ir/dataflow.h"
-#include "ir/uncalled.h"
 
 #include <algorithm>
 #include <unordered_map>
@@ -455,10 +454,6 @@ const Facts& FactTable::before(std::uint32_t id) const {
     return f;
   }();
   return id < facts.size() && facts[id].reachable ? facts[id] : nothing;
-}
-
-FactTable analyse(const Program& program, const ModalState& power_on) {
-  return analyse(program, power_on, Uncalled::unknown);
 }
 
 FactTable analyse(const Program& program, const ModalState& power_on, Uncalled uncalled) {

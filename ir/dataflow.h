@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ir/program.h"
+#include "ir/uncalled.h"
 
 namespace cnctrans::ir {
 
@@ -61,7 +62,7 @@ class FactTable {
 /// calls starts with nothing known (a further main routine: with the power-on state). Calls are followed: the callee
 /// starts with what all its callers agree on; back in a caller, what the callee cannot change is as before the call,
 /// the rest as at the callee's returns. After a call of an unknown or computed routine nothing is known.
-FactTable analyse(const Program& program, const ModalState& power_on);
+FactTable analyse(const Program& program, const ModalState& power_on, Uncalled uncalled = Uncalled::unknown);
 /// Facts after a statement carried out under `facts` (transfer function). Of structured statements: their opening line.
 /// A call, or a range of another routine: nothing is known after it.
 void apply(const Statement& statement, Facts& facts);

@@ -8,24 +8,23 @@ namespace {
 
 Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOptions write, bool assume) {
   Attempt out;
-  machine::Profile source = c.source_machine, target = c.target_machine;
-  const std::string state = assume ? "power_on" : "unknown";
-  source.options[std::string(ir::passes::uncalled_option)] = state;
-  target.options[std::string(ir::passes::uncalled_option)] = state;
-  const ir::LegaliseContext context{c.to.backend->capabilities_for(target),
-                                    source,
-                                    target,
-                                    {c.options.cycles, c.options.raise_structure,
-                                     c.options.unsupported != backends::Unsupported::error, !c.options.annotate},
-                                    out.said,
-                                    &out.names,
-                                    nullptr,
-                                    c.options.names};
+  const auto uncalled = assume ? ir::Uncalled::power_on : ir::Uncalled::unknown;
+  const ir::LegaliseContext context{
+      c.to.backend->capabilities_for(c.target_machine),
+      c.source_machine,
+      c.target_machine,
+      {c.options.cycles, c.options.raise_structure, c.options.unsupported != backends::Unsupported::error,
+       !c.options.annotate, uncalled},
+      out.said,
+      &out.names,
+      nullptr,
+      c.options.names};
   if (assume) ir::passes::tell_assumed_state(work, context);
   if (!c.as_it_stands) ir::legalise(work, context);
   const bool refused = out.said.has_errors() && c.options.unsupported == backends::Unsupported::error;
   if (c.refused || refused) return out;  // the writer would only say the same again
-  write.profile = &target;
+  write.profile = &c.target_machine;
+  write.uncalled = uncalled;
   out.files = c.to.backend->write(work, write, out.said);
   return out;
 }

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "ir/passes/capabilities.h"
 #include "ir/program.h"
+#include "ir/uncalled.h"
 #include "machine/profile.h"
 
 namespace cnctrans::backends {
@@ -26,7 +27,8 @@ struct WriteOptions {
   Unsupported unsupported = Unsupported::error;
   Numbering numbering = Numbering::keep;
   std::int32_t number_step = 10;
-  bool annotate = false;       ///< the source line as a comment beside its translation
+  ir::Uncalled uncalled = ir::Uncalled::unknown;  ///< what the program was legalised for
+  bool annotate = false;                          ///< the source line as a comment beside its translation
   bool single_output = false;  ///< one file for everything: subprograms in the same file, or an archive
   bool files_apart = false;    ///< programs of other source files (a library) go to files of their own
   std::string main_stem;       ///< file stem wanted for the main program (where legal)

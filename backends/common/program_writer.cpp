@@ -5,7 +5,6 @@
 #include "backends/common/comments.h"
 #include "base/text.h"
 #include "ir/file_line.h"
-#include "ir/passes/uncalled.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -361,7 +360,7 @@ std::string ProgramWriter::number_target(std::size_t routine, const ir::LabelRef
 const ir::Facts* ProgramWriter::facts() {
   if (current_ == nullptr || current_->id == 0) return nullptr;
   if (!facts_) {
-    facts_ = ir::analyse(program_, options_.profile->power_on, ir::passes::uncalled_state(*options_.profile));
+    facts_ = ir::analyse(program_, options_.profile->power_on, options_.uncalled);
   }
   return &facts_->before(current_->id);
 }

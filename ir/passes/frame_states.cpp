@@ -5,7 +5,6 @@
 
 #include "ir/passes/call_graph.h"
 #include "ir/passes/frame_state.h"
-#include "ir/passes/uncalled.h"
 
 namespace cnctrans::ir::passes {
 
@@ -106,7 +105,7 @@ FrameStates::FrameStates(const Program& program, const FactsOf& facts, const Leg
   const CallGraph calls(program);
   for (std::size_t i = 0; i < routines_.size(); ++i) {
     const bool uncalled = program.routines[i].kind == RoutineKind::sub && !calls.called(i);
-    const bool assumed = uncalled && uncalled_state(context.source_machine) == Uncalled::power_on;
+    const bool assumed = uncalled && context.options.uncalled == Uncalled::power_on;
     if (program.routines[i].kind == RoutineKind::main || assumed) enter(i, neutral_);
     if (uncalled && !assumed) {
       FrameState any;

@@ -12,6 +12,7 @@
 #include "ir/passes/capabilities.h"
 #include "ir/passes/name_map.h"
 #include "ir/program.h"
+#include "ir/uncalled.h"
 #include "machine/profile.h"
 
 namespace cnctrans::ir {
@@ -26,6 +27,7 @@ struct LegaliseOptions {
   bool raise_structure = false;  ///< jumps become structures where that is provably the same
   bool goes_on = false;          ///< the translation is written although blocks are refused: they are left out
   bool cycle_remarks = true;     ///< above the moves that a cycle becomes stand its words in the source, as a comment
+  Uncalled uncalled = Uncalled::unknown;  ///< what is taken to hold where a subprogram that nothing calls begins
 };
 
 /// What became of a name of the source, for the head comment and the report.

@@ -3,16 +3,11 @@
 #pragma once
 
 #include "ir/passes/legalise.h"
-#include "ir/uncalled.h"
 
 namespace cnctrans::ir::passes {
 
 /// The option of the machine profile that says so: `unknown`, `power_on`, or `when_needed` (the translator tries both).
 inline constexpr std::string_view uncalled_option = "call.uncalled_state";
-
-inline Uncalled uncalled_state(const machine::Profile& machine) {
-  return machine.option(uncalled_option) == "power_on" ? Uncalled::power_on : Uncalled::unknown;
-}
 
 /// Subprograms that no statement of the program calls, by index.
 std::vector<std::size_t> uncalled_routines(const Program& program);
