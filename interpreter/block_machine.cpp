@@ -6,7 +6,6 @@
 
 #include "base/text.h"
 #include "interpreter/run_codes.h"
-#include "ir/surface_of_tool.h"
 
 namespace cnctrans::interpreter {
 

@@ -7,7 +7,6 @@
 #include "interpreter/runner.h"
 #include "ir/cycles/mill_contour.h"
 #include "ir/cycles/pocket_call.h"
-#include "ir/file_line.h"
 
 namespace cnctrans::interpreter {
 
@@ -238,7 +237,7 @@ bool Runner::whole_number(const ir::ExprPtr& e, std::int64_t otherwise, std::int
 void Runner::message(const ir::Message& m, const Span& where) {
   if (m.kind == ir::MessageKind::clear) return;
   std::string text;
-  const bool into_file = ir::file_line(m) != nullptr;
+  const bool into_file = !m.file_line.empty();
   for (const auto& part : m.parts) {
     if (!part) continue;
     std::string shown = evaluator_.shown(evaluator_.id_of(part));

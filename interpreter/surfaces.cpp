@@ -5,7 +5,6 @@
 
 #include "interpreter/block_machine.h"
 #include "interpreter/run_codes.h"
-#include "ir/surface_of_tool.h"
 
 namespace cnctrans::interpreter {
 

@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "ir/program.h"
-#include "ir/surface_of_tool.h"
 
 namespace cnctrans::ir::detail {
 
@@ -37,7 +36,7 @@ template <> struct EnumText<Distance> : NamedByFunction<Distance, Distance::incr
 template <> struct EnumText<Units> : NamedByFunction<Units, Units::inch> {};
 template <> struct EnumText<MotionKind> : NamedByFunction<MotionKind, MotionKind::tap_floating> {};
 template <> struct EnumText<Setting> : NamedByFunction<Setting, Setting::surface> {};
-template <> struct EnumText<Surface> : NamedByFunction<Surface, surface_of_tool> {};
+template <> struct EnumText<Surface> : NamedByFunction<Surface, Surface::tool> {};
 template <> struct EnumText<HoleKind> : NamedByFunction<HoleKind, HoleKind::mill> {};
 template <> struct EnumText<LevelBase> : NamedByFunction<LevelBase, LevelBase::distance_mode> {};
 template <> struct EnumText<PeckLaw> : NamedByFunction<PeckLaw, PeckLaw::balanced> {};

@@ -109,7 +109,8 @@ struct EqualNodes {
   }
   bool operator()(const SystemRef& a) const {
     const auto& b = std::get<SystemRef>(other.node);
-    return a.datum == b.datum && a.axis == b.axis && a.text == b.text && equal_lists(a.args, b.args);
+    return a.datum == b.datum && a.axis == b.axis && a.text == b.text && a.given == b.given &&
+           equal_lists(a.args, b.args);
   }
   bool operator()(const Unary& a) const {
     const auto& b = std::get<Unary>(other.node);

@@ -173,6 +173,7 @@ struct SystemRef {
   AxisId axis = axis::none;
   std::string text;
   std::vector<ExprPtr> args;
+  bool given = false;  ///< `text` is what stands for it on the target: the map of names says so
 };
 
 struct Number {

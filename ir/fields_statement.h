@@ -117,6 +117,7 @@ void fields(V& v, T& x) {
   v.item("kind", x.kind);
   v.exprs("parts", x.parts);
   v.opt("number", x.number);
+  v.opt("into_file", x.file_line);
 }
 template <class V, Is<Declare> T>
 void fields(V& v, T& x) {

@@ -176,6 +176,7 @@ Json JsonWriter::value(const VarRef& v) const {
 Json JsonWriter::value(const SystemRef& s) const {
   Json j{{"datum", value(s.datum)}, {"axis", axis_text(program_, s.axis)}, {"text", value(s.text)}};
   if (!s.args.empty()) j["args"] = array(s.args);
+  if (s.given) j["given"] = true;
   return j;
 }
 

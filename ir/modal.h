@@ -29,8 +29,14 @@ enum class SplineEnd : std::uint8_t { free, natural, tangent };
 enum class PathReference : std::uint8_t { arc_length, parameter };
 
 /// What the coordinates mean on a part that the C axis turns: a face has Cartesian X and Y about the axis of turning
-/// and Z; a cylinder X (radius), Y along the unrolled circumference, and Z.
-enum class Surface : std::uint8_t { none, face, cylinder };
+/// and Z; a cylinder X (radius), Y along the unrolled circumference, and Z. `tool`: a transformation whose axes only
+/// the machine knows; positions are as programmed, increments count in the frame in force, like on a face or a
+/// cylinder.
+enum class Surface : std::uint8_t { none, face, cylinder, tool };
+/// The C axis follows the coordinates.
+constexpr bool turns_part(Surface s) {
+  return s == Surface::face || s == Surface::cylinder;
+}
 
 /// The motion function in force. `modal` in a block: the one in force before (no code written).
 enum class MotionKind : std::uint8_t {

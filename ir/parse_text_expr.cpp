@@ -157,8 +157,9 @@ void Reader::call_or_system(std::string_view name, Expr& e) {
     e.node = a;
     return;
   }
-  if (name == "sys") {
+  if (name == "sys" || name == "given") {
     SystemRef s;
+    s.given = name == "given";
     read(s.datum);
     expect(",");
     axis(name, s.axis);

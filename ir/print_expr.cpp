@@ -85,7 +85,8 @@ std::string Printer::expr_text(const ExprPtr& e, bool primary) const {
   if (const auto* a = std::get_if<AxisName>(&e->node)) return "axis(" + axis_text(program_, a->axis) + ")" + after;
   if (const auto* v = std::get_if<VarRef>(&e->node)) return variable_text(*v) + after;
   if (const auto* s = std::get_if<SystemRef>(&e->node)) {
-    std::string text = "sys(" + std::string(enum_name(s->datum)) + ", " + axis_text(program_, s->axis) + ", ";
+    std::string text =
+        (s->given ? "given(" : "sys(") + std::string(enum_name(s->datum)) + ", " + axis_text(program_, s->axis) + ", ";
     text += detail::quoted(s->text);
     if (!s->args.empty()) text += ", " + list_text(s->args);
     return text + ")" + after;

@@ -185,6 +185,8 @@ struct Message {
   MessageKind kind = MessageKind::show;
   std::vector<ExprPtr> parts;  ///< strings and numbers, joined
   ExprPtr number;              ///< error number
+  /// A line that the program puts into a file of the control: the statement as it was written. A run shows it.
+  std::string file_line;
 };
 /// Definition of variables.
 struct Declare {

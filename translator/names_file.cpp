@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "ir/given_name.h"
 
 namespace cnctrans::translator {
 
@@ -50,30 +49,21 @@ std::optional<ir::NameMap> parse_names(std::string_view text, std::string_view f
     return std::nullopt;
   }
   ir::NameMap names;
-  std::map<std::string, std::string> data;
   if (!read_part(file, "programs", false, names.programs, error) ||
       !read_part(file, "routines", true, names.routines, error) ||
-      !read_part(file, "variables", true, names.variables, error) || !read_part(file, "data", true, data, error))
+      !read_part(file, "variables", true, names.variables, error) || !read_part(file, "data", true, names.data, error))
     return std::nullopt;
-  for (const auto& [name, place] : data) names.variables[ir::given_mark + name] = place;
   return names;
 }
 
 std::string names_text(const ir::NameMap& names, std::string_view from, std::string_view to) {
-  std::map<std::string, std::string> variables, data;
-  for (const auto& [name, place] : names.variables) {
-    if (name.front() == ir::given_mark)
-      data[name.substr(1)] = place;
-    else
-      variables[name] = place;
-  }
   Json file{{"format", format},
             {"from", from},
             {"to", to},
             {"programs", Json(names.programs)},
             {"routines", Json(names.routines)},
-            {"variables", Json(variables)}};
-  if (!data.empty()) file["data"] = Json(data);
+            {"variables", Json(names.variables)}};
+  if (!names.data.empty()) file["data"] = Json(names.data);
   return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -81,6 +71,7 @@ void add_names(ir::NameMap& names, const ir::NameMap& more) {
   names.programs.insert(more.programs.begin(), more.programs.end());
   names.routines.insert(more.routines.begin(), more.routines.end());
   names.variables.insert(more.variables.begin(), more.variables.end());
+  names.data.insert(more.data.begin(), more.data.end());
 }
 
 }  // namespace cnctrans::translator

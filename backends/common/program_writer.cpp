@@ -4,7 +4,6 @@
 
 #include "backends/common/comments.h"
 #include "base/text.h"
-#include "ir/file_line.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -330,7 +329,7 @@ void ProgramWriter::dispatch(const ir::Statement& s) {
     void operator()(const ir::Return& n) const { w.return_from(n); }
     void operator()(const ir::End& n) const { w.end_program(n); }
     void operator()(const ir::Message& n) const {
-      if (!w.same_dialect() && ir::file_line(n) != nullptr) {
+      if (!w.same_dialect() && !n.file_line.empty()) {
         return w.refuse("TRN-570", {}, "a line for a file of the control is not translated",
                         "take it out, or show it as a message");
       }

@@ -10,7 +10,6 @@
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/operators.h"
 #include "dialects/fagor/variables.h"
-#include "ir/given_name.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -154,7 +153,7 @@ bool is_condition(const ExprPtr& e) {
 }
 
 std::string system_name(const ir::SystemRef& s, bool lathe) {
-  if (ir::is_given(s)) return ir::given_name(s);
+  if (s.given) return s.text;
   const auto known = facts::find_variable(s.text);
   if (known.info != nullptr) return s.text;
   const std::string axis(ir::fixed_axis_name(s.axis));

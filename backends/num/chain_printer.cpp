@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "dialects/num/functions.h"
 #include "dialects/num/variables.h"
-#include "ir/given_name.h"
 
 namespace cnctrans::backends::num {
 
@@ -38,7 +37,7 @@ std::string ChainPrinter::variable(const ir::ExprPtr& e, const ir::VarRef& v) {
 }
 
 std::string ChainPrinter::system(const ir::ExprPtr& e, const ir::SystemRef& s) {
-  if (ir::is_given(s)) return ir::given_name(s);
+  if (s.given) return s.text;
   if ((program_.dialect == "num" && !s.text.empty()) || is_parameter_name(s.text)) return s.text;
   problem(e, "'" + s.text + "' is data of the source machine that this control has no name for");
   return {};

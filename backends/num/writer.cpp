@@ -11,7 +11,6 @@
 #include "base/text.h"
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
-#include "ir/given_name.h"
 
 namespace cnctrans::backends::num {
 
@@ -211,12 +210,12 @@ void Writer::assign(const ir::Assign& a) {
       // The sum of PREF, DEC1 and DEC3 follows from them: the parameter before it is what was written.
       if (same_dialect() && item.system.text.empty() && item.system.datum == ir::Datum::work_offset) continue;
       const bool named =
-          same_dialect() ? !item.system.text.empty() : is_parameter_name(item.system.text) || ir::is_given(item.system);
+          same_dialect() ? !item.system.text.empty() : is_parameter_name(item.system.text) || item.system.given;
       if (!named) {
         return refuse(no_statement, item.pos,
                       "'" + item.system.text + "' is data of the source machine and is not written here");
       }
-      target = ir::is_given(item.system) ? ir::given_name(item.system) : item.system.text;
+      target = item.system.text;
     } else {
       target = target_variable(item.target);
     }

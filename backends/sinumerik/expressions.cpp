@@ -9,7 +9,6 @@
 #include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
-#include "ir/given_name.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {
@@ -158,7 +157,7 @@ std::string Expressions::asked(const ir::SystemRef& s) {
 std::string Expressions::name(const ir::SystemRef& s) {
   if (const auto datum = own_ ? std::string_view{} : tool_datum(s); !datum.empty())
     return std::string(datum) + '[' + index(s.args[0]) + ',' + index(s.args[1]) + ']';
-  if (ir::is_given(s)) return ir::given_name(s);
+  if (s.given) return s.text;
   const SystemName* known = system_name(s.datum);
   const bool own_name = own_ && !s.text.empty();
   if (known == nullptr && !own_name) {

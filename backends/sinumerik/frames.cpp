@@ -1,7 +1,6 @@
 // Frame statements and poles (reference-language 14.5; motion reference 7.5).
 #include "backends/sinumerik/tables.h"
 #include "backends/sinumerik/writer.h"
-#include "ir/surface_of_tool.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -30,10 +29,10 @@ bool Writer::plain_is_radius(ir::AxisId axis) {
 }
 
 void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
-  if (s.surface == ir::surface_of_tool) return;  // the word that switches the transformation stands there
   switch (s.surface) {
     case ir::Surface::none: return add("TRAFOOF", Rank::setting, a.pos);
     case ir::Surface::face: return add("TRANSMIT", Rank::setting, a.pos);
+    case ir::Surface::tool: return;  // the word that switches the transformation stands there
     case ir::Surface::cylinder: break;
   }
   add("TRACYL(" + (s.diameter.literal() ? number_text(s.diameter) : expression_text(s.diameter.expr)) + ')',

@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "dialects/sinumerik/computed.h"
 #include "ir/contour.h"
-#include "ir/file_line.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -332,7 +331,7 @@ std::string Writer::text_parts(const std::vector<ir::ExprPtr>& parts) {
 
 void Writer::message(const ir::Message& m) {
   std::string text;
-  if (const ir::String* line = ir::file_line(m)) return add(line->text, Rank::head);
+  if (!m.file_line.empty()) return add(m.file_line, Rank::head);
   switch (m.kind) {
     case ir::MessageKind::clear: text = "MSG()"; break;
     case ir::MessageKind::show: text = "MSG(" + text_parts(m.parts) + ')'; break;

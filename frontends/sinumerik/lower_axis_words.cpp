@@ -5,7 +5,6 @@
 #include "base/saturate.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/row_parts.h"
-#include "ir/surface_of_tool.h"
 
 namespace cnctrans::sinumerik {
 
@@ -140,7 +139,7 @@ bool StatementLowering::transformation(const std::string& name, const std::vecto
     add(std::move(surface));
   } else {
     add(ir::OpaqueWord{c_.slice(pos)});
-    surface.surface = ir::surface_of_tool;
+    surface.surface = ir::Surface::tool;
     add(std::move(surface));
   }
   add(ir::FrameOp{std::move(clear)});

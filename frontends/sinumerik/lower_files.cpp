@@ -55,7 +55,7 @@ bool StatementLowering::file_statement(const syntax::Statement& s, Parts& parts)
     put_beside("beside.data", s.pos, parts);
     return true;
   }
-  shown.number = ir::string_literal(std::string(c_.slice(s.pos)));
+  shown.file_line = c_.slice(s.pos);
   c_.note("SIN-072", s.pos,
           "WRITE puts a line into a file of the control: a run shows it as a message, and the variable of the error "
           "becomes 0");

@@ -1,6 +1,5 @@
 // Messages: length, and values inside the text (equivalences 3.2).
 #include "base/text.h"
-#include "ir/file_line.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
 
@@ -13,7 +12,7 @@ class MessagePass {
   explicit MessagePass(const LegaliseContext& context) : context_(context) {}
 
   void one(const Statement& s, Message& m) {
-    if (file_line(m) != nullptr) return;
+    if (!m.file_line.empty()) return;
     if (!context_.target.message_values) flatten(s, m);
     cut(s, m);
   }

@@ -9,7 +9,6 @@
 #include "ir/passes/passes.h"
 #include "ir/passes/words.h"
 #include "ir/search.h"
-#include "ir/surface_of_tool.h"
 
 namespace cnctrans::ir::passes {
 
@@ -209,7 +208,7 @@ class SurfacePass {
 void drop_tool_coordinates(Program& program) {
   const auto of_tool = [](const Action& a) {
     const auto* set = std::get_if<SurfaceSet>(&a.data);
-    return set != nullptr && set->surface == surface_of_tool;
+    return set != nullptr && set->surface == Surface::tool;
   };
   if (!any_action(program, of_tool)) return;
   for (auto& r : program.routines) {

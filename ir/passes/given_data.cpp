@@ -60,7 +60,10 @@ class GivenData {
     const auto text = name_given_to(ref, program_, *context_.names);
     if (!text) return std::nullopt;
     if (told_.insert(name_of_datum(ref, program_)).second) tell(name_of_datum(ref, program_), *text, s);
-    return given_datum(*text);
+    SystemRef given;
+    given.text = *text;
+    given.given = true;
+    return given;
   }
   void tell(const std::string& from, const std::string& to, const Statement& s) const {
     context_.diagnostics.note("TRN-560", s.line.span,
@@ -85,27 +88,24 @@ std::string name_of_datum(const SystemRef& ref, const Program& program) {
 }
 
 bool has_name(const SystemRef& ref, const LegaliseContext& context) {
-  return is_given(ref) || (context.target.system_data && context.target.system_data(ref));
+  return ref.given || (context.target.system_data && context.target.system_data(ref));
 }
 
 std::optional<std::string> name_given_to(const SystemRef& ref, const Program& program, const NameMap& names) {
   const auto s = spelled(ref, program);
   if (!s) return std::nullopt;
-  const std::string name = given_mark + s->name;
-  for (const std::string& key : {name + s->index, name + '[' + s->index + ']'}) {
-    if (const auto it = names.variables.find(key); it != names.variables.end()) return it->second;
+  for (const std::string& key : {s->name + s->index, s->name + '[' + s->index + ']'}) {
+    if (const auto it = names.data.find(key); it != names.data.end()) return it->second;
   }
-  const auto any = s->index.empty() ? names.variables.end() : names.variables.find(name + "[*]");
-  if (any == names.variables.end()) return std::nullopt;
+  const auto any = s->index.empty() ? names.data.end() : names.data.find(s->name + "[*]");
+  if (any == names.data.end()) return std::nullopt;
   std::string text = any->second;
   if (const auto star = text.find('*'); star != std::string::npos) text.replace(star, 1, s->index);
   return text;
 }
 
 void name_given_data(Program& program, const LegaliseContext& context) {
-  if (context.names == nullptr || program.dialect == context.target.dialect) return;
-  const auto& names = context.names->variables;
-  if (std::none_of(names.begin(), names.end(), [](const auto& n) { return n.first.front() == given_mark; })) return;
+  if (context.names == nullptr || context.names->data.empty() || program.dialect == context.target.dialect) return;
   GivenData pass(program, context);
   for (auto& r : program.routines) for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
 }

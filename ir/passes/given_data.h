@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/given_name.h"
 #include "ir/passes/legalise.h"
 
 namespace cnctrans::ir::passes {

@@ -1,7 +1,6 @@
 #include "ir/passes/given_names.h"
 
 #include "base/text.h"
-#include "ir/given_name.h"
 
 namespace cnctrans::ir::passes {
 
@@ -35,11 +34,6 @@ std::optional<Numbers> numbers_of(std::string_view text) {
   return first;
 }
 
-/// Machine data stand in the map behind a mark.
-bool is_datum(std::string_view from) {
-  return from.starts_with(given_mark);
-}
-
 }  // namespace
 
 std::string name_in_map(const std::string& name) {
@@ -57,7 +51,6 @@ std::string place_in_map(const std::string& first, std::int64_t size) {
 GivenNames::GivenNames(const LegaliseContext& context, VariablePools& pools) : context_(context), pools_(pools) {
   if (context.names == nullptr) return;
   for (const auto& [from, to] : context.names->variables) {
-    if (is_datum(from)) continue;
     const auto wanted = numbers_of(to);
     const VariablePool* pool = wanted ? pools.pool_with(wanted->prefix, wanted->first) : nullptr;
     if (pool == nullptr || wanted->last > pool->hi) {
@@ -76,14 +69,12 @@ GivenNames::GivenNames(const LegaliseContext& context, VariablePools& pools) : c
     places_[from] = Place{pool, wanted->first, wanted->last - wanted->first + 1, to};
   }
   std::set<std::string> places;  // one may stand for several data of the machine
-  for (const auto& [from, to] : context.names->variables) {
-    if (!is_datum(from)) continue;
+  for (const auto& [from, to] : context.names->data) {
     const auto wanted = one_number(to);
     const VariablePool* pool = wanted ? pools.pool_with(wanted->prefix, wanted->first) : nullptr;
     if (pool == nullptr || !places.insert(wanted->prefix + std::to_string(wanted->first)).second) continue;
     if (!pools.take(pool->prefix, wanted->first))
-      context.diagnostics.error("TRN-440", {},
-                                "the map of names gives " + to + " to " + from.substr(1) + " and to a variable",
+      context.diagnostics.error("TRN-440", {}, "the map of names gives " + to + " to " + from + " and to a variable",
                                 "give one of them another variable in the map");
   }
 }
@@ -112,11 +103,13 @@ std::optional<VarRef> GivenNames::place_of(const std::string& name, bool compens
 std::set<std::pair<std::string, std::int64_t>> given_numbers(const LegaliseContext& context) {
   std::set<std::pair<std::string, std::int64_t>> out;
   if (context.names == nullptr) return out;
-  for (const auto& [from, to] : context.names->variables) {
+  const auto take = [&out](const std::string& to) {
     const auto wanted = numbers_of(to);
     for (std::int64_t n = wanted ? wanted->first : 1; n <= (wanted ? wanted->last : 0); ++n)
       out.insert({wanted->prefix, n});
-  }
+  };
+  for (const auto& [from, to] : context.names->variables) take(to);
+  for (const auto& [from, to] : context.names->data) take(to);
   return out;
 }
 

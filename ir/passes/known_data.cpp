@@ -159,7 +159,9 @@ class KnownData {
       case Datum::scale_factor:
       case Datum::axis_scale:
       case Datum::rotation_angle: return framed(frames_.before(s), ref);
-      case Datum::other: return ref.args.empty() ? of_run(facts, ref) : written_elsewhere(ref);
+      case Datum::other:
+        if (ref.given) return std::nullopt;
+        return ref.args.empty() ? of_run(facts, ref) : written_elsewhere(ref);
       case Datum::call_has_argument: return arguments_given(ref);
       default: return std::nullopt;
     }

@@ -16,6 +16,8 @@ struct NameMap {
   std::map<std::string, std::string> routines;
   /// Variables: "R5", "DEPTH", "DEPTH(L20)" for one of a single subprogram -> variable of the target ("P105").
   std::map<std::string, std::string> variables;
+  /// Machine data of the source, written by hand: "PLCM[12]", "PLCM[*]", "KEY" -> what stands for it on the target.
+  std::map<std::string, std::string> data;
   bool operator==(const NameMap&) const = default;
 
   /// How a subprogram stands in the map.

@@ -230,7 +230,7 @@ TEST(Fields, NoMemberIsForgotten) {
   EXPECT_EQ((member_count<Assign::Item>()), 5U);
   EXPECT_EQ((member_count<Declare::Item>()), 3U);
   EXPECT_EQ((member_count<VarRef>()), 4U);
-  EXPECT_EQ((member_count<SystemRef>()), 4U);
+  EXPECT_EQ((member_count<SystemRef>()), 5U);
   EXPECT_EQ((member_count<Number>()), 3U);
   EXPECT_EQ((member_count<Unary>()), 2U);
   EXPECT_EQ((member_count<Binary>()), 4U);

@@ -272,6 +272,7 @@ class RandomProgram {
     fill(s.datum);
     if (chance(50)) s.axis = random_axis();
     s.text = text();
+    s.given = chance(20);
     for (unsigned n = below(3); n != 0; --n) s.args.push_back(expr(depth - 1));
     return s;
   }
