@@ -111,10 +111,9 @@ class NamesFile {
     std::error_code ignored;
     if (a_.names.empty() || !fs::exists(a_.names, ignored)) return true;
     std::string error;
-    const SourcePtr text = SourceText::open(a_.names, &error);
-    auto found = text ? translator::parse_names(text->text(), a_.from, a_.to, &error) : std::nullopt;
+    auto found = translator::read_names(a_.names, a_.from, a_.to, &error);
     if (!found) {
-      usage_error(a_, a_.names + ": " + error);
+      usage_error(a_, error);
       return false;
     }
     map = *std::move(found);

@@ -94,6 +94,8 @@ void add_converting(CLI::App& app, Arguments& a) {
 CLI::App* add_batch(CLI::App& app, Arguments& a) {
   CLI::App* sub = app.add_subcommand("batch", "translate and verify every program below a folder");
   add_writing(*sub, a);
+  add_exploring(*sub, a);
+  sub->add_option("--names", a.names, "file with the names of programs, subprograms and variables: read, not changed");
   sub->add_option("folders", a.inputs, "folder of the programs, folder for the results")->required()->type_name("DIR");
   sub->add_option("--jobs", a.jobs, "programs side by side")->check(CLI::Range(1, 1024));
   sub->add_option("--shard", a.shard, "K/N: only every N-th program, from number K on");

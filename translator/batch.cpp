@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "translator/batch_record.h"
+#include "translator/names_file.h"
 #include "translator/readable.h"
 #include "translator/version.h"
 
@@ -68,6 +69,8 @@ std::string job_sum(const BatchOptions& o) {
                                  t.raise_structure, t.encoding ? static_cast<int>(*t.encoding) : -1,
                                  t.eol ? static_cast<int>(*t.eol) : -1, t.run.max_events);
   for (const auto& l : t.libraries) text += "|" + l;
+  if (t.names != nullptr) text += "|" + names_text(*t.names, t.from, t.to);
+  if (t.explore != 0) text += "|explore " + std::to_string(t.explore);
   for (const auto& [name, value] : t.run.set) text += "|" + name + "=" + value;
   return sum_of(text + "|" + std::to_string(t.run.skip_mask) + "|" + std::to_string(t.run.max_steps));
 }
@@ -251,6 +254,7 @@ class Batch {
     r.detail = one_line(std::move(r.detail));
     for (FileId i = 1; i < result.files.size(); ++i) note_read(result.files.name(i), r);
     note_read((in / program).string(), r);
+    for (const auto& machine : {t.machine, t.target_machine}) note_read(machine, r);
     const bool bad = result.verified && !result.verdict.good() && r.status != "no motion";
     for (const auto& out : result.outputs) {
       const std::string name = bad ? out.name + ".unverified" : out.name;
@@ -263,7 +267,8 @@ class Batch {
     const fs::path below = fs::path(path).lexically_relative(options_.in);
     const bool inside = !below.empty() && *below.begin() != "..";
     const std::string sum = sum_of_file(path);
-    if (!sum.empty()) r.read[inside ? below.generic_string() : path] = sum;
+    std::error_code ignored;
+    if (!sum.empty()) r.read[inside ? below.generic_string() : fs::absolute(path, ignored).generic_string()] = sum;
   }
 
   /// The last shard that comes here sees the results of all: the lock makes sure that its summary is the one that

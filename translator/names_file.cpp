@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/source.h"
 #include "base/text.h"
 
 namespace cnctrans::translator {
@@ -54,6 +55,14 @@ std::optional<ir::NameMap> parse_names(std::string_view text, std::string_view f
       !read_part(file, "variables", true, names.variables, error) || !read_part(file, "data", true, names.data, error))
     return std::nullopt;
   return names;
+}
+
+std::optional<ir::NameMap> read_names(const std::string& path, std::string_view from, std::string_view to,
+                                      std::string* error) {
+  const SourcePtr text = SourceText::open(path, error);
+  auto found = text ? parse_names(text->text(), from, to, error) : std::nullopt;
+  if (!found) *error = path + ": " + *error;
+  return found;
 }
 
 std::string names_text(const ir::NameMap& names, std::string_view from, std::string_view to) {
