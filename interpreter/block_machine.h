@@ -40,6 +40,7 @@ struct Move {
   Kind kind = Kind::linear;
   Axes from{}, to{};
   ir::Plane plane = ir::Plane::xy;
+  ir::CompSide comp = ir::CompSide::off;
   Vec centre;
   bool ccw = false;
   std::int32_t turns = 0;
@@ -295,6 +296,7 @@ class BlockMachine final : public SystemData {
   // path (path.cpp): corners and emission
   bool send(const Move& move);
   bool emit_move(const Move& move, bool past_held);
+  void put_centre_side(Event& e, ir::CompSide side, ir::Plane plane) const;
   void add_travel(const Axes& from, const Event& e);
   bool join(Move& next);
   bool without_corner(const std::string& why);

@@ -174,7 +174,8 @@ bool BlockMachine::spline_point(const ir::Motion& m, ir::MotionKind kind) {
   c.points.beside.push_back(std::move(beside));
   c.points.weights.push_back(weight);
   c.points.intervals.push_back(interval);
-  c.blocks.push_back({move.file, move.line, linear ? feed_now() : feed_degrees(), modal_.feed_mode, emitter_.held()});
+  c.blocks.push_back(
+      {move.file, move.line, linear ? feed_now() : feed_degrees(), modal_.feed_mode, modal_.comp, emitter_.held()});
   return true;
 }
 
@@ -238,6 +239,7 @@ bool BlockMachine::close_curve(const Move* next) {
     e.line = b.line;
     e.feed = b.feed;
     e.feed_mode = b.feed_mode;
+    put_centre_side(e, b.comp, modal_.plane);
     for (const auto& p : steps) {
       const Axes from = e.to.value;
       bool moves = false;

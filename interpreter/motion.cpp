@@ -113,6 +113,8 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   path_event_.feed = linear ? feed_now() : feed_degrees();
   path_event_.feed_mode = modal_.feed_mode;
   path_event_.in_machine = false;
+  path_event_.centre_side = modal_.comp;
+  if (modal_.comp != ir::CompSide::off) path_event_.plane = modal_.plane;
   emitter_.emit(path_event_);
   return true;
 }
@@ -149,6 +151,7 @@ Move BlockMachine::move_from_here() const {
   Move move;
   move.from = move.to = p_;
   move.plane = modal_.plane;
+  move.comp = modal_.comp;
   move.feed = feed_now();
   move.feed_degrees = feed_degrees();
   move.feed_mode = modal_.feed_mode;

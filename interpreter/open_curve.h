@@ -16,6 +16,7 @@ struct OpenCurve {
     std::uint32_t line = 0;
     double feed = 0;
     ir::FeedMode feed_mode = ir::FeedMode::per_minute;
+    ir::CompSide comp = ir::CompSide::off;
     std::size_t held = 0;  ///< other events that come before its motion
   };
   ir::MotionKind kind = ir::MotionKind::spline_cubic;

@@ -47,6 +47,15 @@ Axes between(const Move& m, double part) {
 
 }  // namespace
 
+/// A mirrored axis of the plane swaps left and right on every control.
+void BlockMachine::put_centre_side(Event& e, ir::CompSide side, ir::Plane plane) const {
+  e.centre_side = side;
+  if (side == ir::CompSide::off) return;
+  e.plane = plane;
+  if (plain_frame_ || !plane_map(frame_, plane).mirrored) return;
+  e.centre_side = side == ir::CompSide::left ? ir::CompSide::right : ir::CompSide::left;
+}
+
 /// A move goes out, or waits because its end is a corner.
 bool BlockMachine::send(const Move& given) {
   if (curve_ && !close_curve(&given)) return false;
@@ -242,6 +251,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   e.feed = linear ? move.feed : *move.feed_degrees;
   e.feed_mode = move.feed_mode;
   e.in_machine = move.in_machine;
+  put_centre_side(e, move.comp, move.plane);
   switch (move.kind) {
     case Move::Kind::rapid: e.kind = EventKind::rapid; break;
     case Move::Kind::linear: e.kind = EventKind::linear; break;

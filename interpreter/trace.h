@@ -46,8 +46,11 @@ struct Event {
   Position to;
   double feed = 0;
   ir::FeedMode feed_mode = ir::FeedMode::per_minute;
-  // arc
+  // arc; with radius compensation every move
   ir::Plane plane = ir::Plane::xy;
+  /// Where the tool's centre goes beside the path, in the plane of the machine (a mirror changes it; not printed).
+  ir::CompSide centre_side = ir::CompSide::off;
+  // arc
   double center_u = 0, center_v = 0;
   bool cw = false;
   std::int32_t turns = 0;

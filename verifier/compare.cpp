@@ -175,6 +175,7 @@ class Comparison {
       return differ(end_difference(a, b), i_, j_);
     }
     std::string what = motion_difference(a, b);
+    if (what.empty()) what = centre_difference(a, b);
     if (what.empty()) what = offset_difference(a, b);
     if (!what.empty() && a.kind == EventKind::arc && negligible(a, from_a_)) return take_a();
     if (!what.empty() && a.kind == EventKind::arc && negligible(b, from_b_)) return take_b();
@@ -331,6 +332,18 @@ class Comparison {
                        here);
   }
 
+  /// The path of the tool's centre under radius compensation: with the same move, on the same side of it in the same
+  /// plane, it is the same for every radius.
+  static std::string centre_difference(const Event& a, const Event& b) {
+    if (a.centre_side == b.centre_side && (a.centre_side == ir::CompSide::off || a.plane == b.plane)) return {};
+    const auto place = [](const Event& e) {
+      if (e.centre_side == ir::CompSide::off) return std::string("on it");
+      return fmt::format("{} of it in the plane {}", ir::name(e.centre_side), ir::name(e.plane));
+    };
+    return fmt::format("the centre of the tool at the {} move is {} in the source, {} in the translation",
+                       interpreter::name(a.kind), place(a), place(b));
+  }
+
   /// A move made with a tool offset on one side and with none on the other ends elsewhere on a real machine.
   std::string offset_difference(const Event& a, const Event& b) const {
     if (a.in_machine || b.in_machine) return {};
@@ -405,7 +418,7 @@ class Comparison {
         return options_.offset_numbers && a.number != b.number
                    ? fmt::format("offset {} in the source, {} in the translation", a.number, b.number)
                    : "";
-      case EventKind::comp:
+      case EventKind::comp: return {};  // on both sides; left or right is compared move by move
       case EventKind::coolant:
         return a.state != b.state ? fmt::format("{} {} in the source, {} in the translation", interpreter::name(a.kind),
                                                 a.state, b.state)

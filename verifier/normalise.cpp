@@ -36,7 +36,7 @@ class StateFilter {
         return true;
       }
       case EventKind::coolant: return update(coolant_, e.state);
-      case EventKind::comp: return update(comp_, e.state);
+      case EventKind::comp: return update(comp_, e.state == "off" ? "off" : "on");
       case EventKind::offset: return update(offset_, std::to_string(e.number));
       default: return true;
     }

@@ -118,6 +118,33 @@ TEST(Compare, AnArcShorterThanTheToleranceMayBeMissing) {
   EXPECT_EQ(compare({arc, linear(10)}, {linear(10)}).status, Status::differs);
 }
 
+Event compensated(double x, double y, ir::CompSide side, ir::Plane plane = ir::Plane::xy) {
+  Event e = move(EventKind::linear, x, y, 1);
+  e.centre_side = side;
+  e.plane = plane;
+  return e;
+}
+Event comp(const char* state) {
+  Event e;
+  e.kind = EventKind::comp;
+  e.state = state;
+  return e;
+}
+
+TEST(Compare, TheCentreOfTheToolGoesTheSameWay) {
+  using ir::CompSide;
+  const std::vector<Event> left{comp("left"), compensated(10, 0, CompSide::left)};
+  EXPECT_EQ(compare(left, left).status, Status::verified);
+  EXPECT_EQ(compare(left, {comp("right"), compensated(10, 0, CompSide::right)}).status, Status::differs);
+  EXPECT_EQ(compare(left, {comp("left"), compensated(10, 0, CompSide::left, ir::Plane::zx)}).status, Status::differs);
+  EXPECT_EQ(compare(left, {compensated(10, 0, CompSide::off)}).status, Status::differs);
+  // A mirror on one side only: G42 there is left of the path of the machine.
+  EXPECT_EQ(compare(left, {comp("right"), compensated(10, 0, CompSide::left)}).status, Status::verified);
+  // Without compensation a straight move has no plane.
+  EXPECT_EQ(compare({compensated(10, 0, CompSide::off)}, {compensated(10, 0, CompSide::off, ir::Plane::zx)}).status,
+            Status::verified);
+}
+
 TEST(Compare, DwellsThatFollowEachOtherAreOne) {
   EXPECT_EQ(compare({linear(1), dwell(10)}, {linear(1), dwell(4), dwell(6)}).status, Status::verified);
   EXPECT_EQ(compare({linear(1), dwell(10)}, {linear(1), dwell(4), dwell(5)}).status, Status::differs);
