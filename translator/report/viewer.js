@@ -157,8 +157,21 @@
       if (scroll && i === 0) row.scrollIntoView({ block: 'nearest' });
     });
   }
+  // Of the lines on the other side (a cycle has as many as it has moves) the one that makes the same move.
+  function counterpart(side, index, other, places) {
+    var p = paths[side][index].points, found = null, least = 0.1;
+    function apart(q, i, j) { return Math.hypot(p[i] - q[j], p[i + 1] - q[j + 1], p[i + 2] - q[j + 2]); }
+    places.forEach(function (place) {
+      (movesOf[other][place] || []).forEach(function (i) {
+        var q = paths[other][i].points, d = apart(q, 0, 0) + apart(q, p.length - 3, q.length - 3);
+        if (d < least) { least = d; found = place; }
+      });
+    });
+    return found ? [found] : places;
+  }
   function pickLine(side, place, scroll, only) {
     var other = side === 'source' ? 'target' : 'source', others = linked[side][place] || [];
+    if (only) others = counterpart(side, only.index, other, others);
     clearPicked();
     mark(side, [place], scroll);
     mark(other, others, scroll);
@@ -177,7 +190,15 @@
   }
   function describe(side, place, others, only) {
     var a = side === 'source' ? [place] : others, b = side === 'source' ? others : [place];
-    function list(places) { return places.map(function (p) { return p.split(':')[1]; }).join(', ') || 'none'; }
+    function list(places) {
+      var text = '', from = 0, last = 0;
+      places.map(function (p) { return +p.split(':')[1]; }).forEach(function (n) {
+        if (n === last + 1) { last = n; return; }
+        if (from) text += from === last ? from + ', ' : from + '-' + last + ', ';
+        from = last = n;
+      });
+      return from ? text + (from === last ? from : from + '-' + last) : 'none';
+    }
     var text = 'source line ' + list(a) + ', translation line ' + list(b);
     if (only) {
       var move = paths[side][only.index], p = move.points, n = p.length;
@@ -331,6 +352,7 @@
   // For tests: the place of the middle of a move on the screen.
   window.report = {
     moves: function (side) { return paths[side].length; },
+    place: function (side, index) { return key(paths[side][index].at); },
     middle: function (side, index) {
       var m = paths[side][index], view = aim(), n = m.points.length / 3, i = Math.floor((n - 1) / 2) * 3;
       var a = screen(point(m, i), view), b = screen(point(m, i + 3), view), r = canvas.getBoundingClientRect();
