@@ -1,6 +1,9 @@
 #include "backends/common/labels.h"
 
 #include <charconv>
+#include <cmath>
+
+#include "ir/cycles/pocket_call.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -23,12 +26,13 @@ std::string_view without_leading_zeros(std::string_view digits) {
 
 LabelUse::LabelUse(const ir::Program& program) {
   for (std::size_t i = 0; i < program.routines.size(); ++i) use_body(program, i, program.routines[i].body);
-  if (renumberable_) check_targets(program);
+  if (certain_) check_targets(program);
 }
 
 void LabelUse::use(std::size_t routine, const ir::LabelRef& label, bool range) {
   if (label.computed) {
-    renumberable_ = false;
+    certain_ = false;
+    computed_ = true;
     why_not_ = "a jump computes its target";
     return;
   }
@@ -42,6 +46,22 @@ void LabelUse::use(std::size_t routine, const ir::LabelRef& label, bool range) {
   if (range) ranges_.emplace(routine, digits);
 }
 
+/// Profiles and contours that a cycle names by block numbers; a control whose labels are words names them by texts.
+void LabelUse::use_cycles(const ir::Statement& s) {
+  const auto* block = std::get_if<ir::Block>(&s.node);
+  if (block == nullptr) return;
+  for (const auto& action : block->actions) {
+    const auto* d = std::get_if<ir::CycleDefine>(&action.data);
+    const auto* named = d != nullptr && d->cycle ? std::get_if<ir::NamedCycle>(&d->cycle->node) : nullptr;
+    if (named == nullptr) continue;
+    for (const auto& [word, v] : named->words) {
+      if (!ir::cycles::is_label_word(word) || !v.literal()) continue;
+      profiles_.insert(std::to_string(std::lround(v.number)));
+      if (certain_) why_not_ = "a cycle names its profile by block numbers";
+    }
+  }
+}
+
 void LabelUse::use_body(const ir::Program& program, std::size_t routine, const ir::Body& body) {
   const auto call = [&](const ir::CallRoutine& c) {
     if (!c.has_range) return;
@@ -50,6 +70,7 @@ void LabelUse::use_body(const ir::Program& program, std::size_t routine, const i
     use(in, c.last, true);
   };
   ir::for_each_statement(body, [&](const ir::Statement& s) {
+    use_cycles(s);
     if (const auto* j = std::get_if<ir::Jump>(&s.node)) {
       use(routine, j->target, false);
     } else if (const auto* w = std::get_if<ir::Switch>(&s.node)) {
@@ -74,7 +95,7 @@ void LabelUse::check_targets(const ir::Program& program) {
       if (info.number.empty() || info.joined) return;
       const std::string digits(without_leading_zeros(info.number));
       if (!is_target(i, digits) || seen.emplace(i, digits).second) return;
-      renumberable_ = false;
+      certain_ = false;
       why_not_ = "block number " + digits + " is a jump target and stands more than once";
     };
     ir::for_each_statement(program.routines[i].body, [&](const ir::Statement& s) {
@@ -88,14 +109,17 @@ void LabelUse::check_targets(const ir::Program& program) {
     });
   }
   for (const auto& target : targets_) {  // it would keep its number, which another block gets
-    if (!renumberable_ || seen.contains(target)) continue;
-    renumberable_ = false;
+    if (!certain_ || seen.contains(target)) continue;
+    certain_ = false;
     why_not_ = "a jump names block number " + target.second + ", which is not there";
   }
 }
 
 bool LabelUse::is_target(std::size_t routine, std::string_view digits) const {
   return targets_.count({routine, std::string(without_leading_zeros(digits))}) != 0;
+}
+bool LabelUse::must_stay(std::size_t routine, std::string_view digits) const {
+  return computed_ || profiles_.count(without_leading_zeros(digits)) != 0 || is_target(routine, digits);
 }
 bool LabelUse::is_target_name(std::size_t routine, std::string_view name) const {
   return names_.count({routine, std::string(name)}) != 0;

@@ -24,17 +24,23 @@ class LabelUse {
   [[nodiscard]] bool is_target_name(std::size_t routine, std::string_view name) const;
   /// Block numbers and names that delimit a repeated range.
   [[nodiscard]] bool delimits_range(std::size_t routine, std::string_view digits) const;
-  /// Numbers can be changed: no label is computed at run time, every target number stands in its routine, once.
-  [[nodiscard]] bool renumberable() const { return renumberable_; }
+  /// Is the number needed though the others are left away: a target, or what a computed jump or a cycle may name?
+  [[nodiscard]] bool must_stay(std::size_t routine, std::string_view digits) const;
+  /// No label is computed at run time, every target number stands in its routine, once.
+  [[nodiscard]] bool certain() const { return certain_; }
+  /// Numbers can be changed: they are certain, and no cycle names its profile by them.
+  [[nodiscard]] bool renumberable() const { return certain_ && profiles_.empty(); }
   [[nodiscard]] const std::string& why_not() const { return why_not_; }
 
  private:
   void use(std::size_t routine, const ir::LabelRef& label, bool range);
+  void use_cycles(const ir::Statement& s);
   void use_body(const ir::Program& program, std::size_t routine, const ir::Body& body);
   /// Every number that something names stands in its routine, once.
   void check_targets(const ir::Program& program);
   std::set<std::pair<std::size_t, std::string>, std::less<>> targets_, names_, ranges_;
-  bool renumberable_ = true;
+  std::set<std::string, std::less<>> profiles_;  ///< numbers that cycles name; they count in the whole file
+  bool certain_ = true, computed_ = false;
   std::string why_not_;
 };
 

@@ -173,7 +173,7 @@ std::string ProgramWriter::line_head(bool numbered) {
     if (first_of_source_line_ && !info_->number.empty()) renumbering_.set(routine_, info_->number, next_number_);
     head += 'N' + std::to_string(next_number_) + ' ';
   } else if (!renumber && first_of_source_line_ && !info_->number.empty()) {
-    const bool wanted = options_.numbering != Numbering::none || labels_.is_target(routine_, info_->number);
+    const bool wanted = options_.numbering != Numbering::none || labels_.must_stay(routine_, info_->number);
     if (wanted) {
       head += same_dialect_ ? info_->number_mark : 'N';
       head += info_->number;

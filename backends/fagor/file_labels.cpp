@@ -115,7 +115,7 @@ bool has_conflict(const ir::Program& program, const std::vector<std::size_t>& or
     bool found = false;
     each_number(body, [&](const ir::LineInfo& l) {
       const auto digits = without_leading_zeros(l.number);
-      found = found || (taken.count(digits) != 0 && (use.is_target(i, digits) || !use.renumberable()));
+      found = found || (taken.count(digits) != 0 && (use.is_target(i, digits) || !use.certain()));
     });
     if (found) return true;
     each_number(body, [&](const ir::LineInfo& l) { taken.emplace(without_leading_zeros(l.number)); });
