@@ -198,7 +198,10 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   use.blocks = site.blocks;
   use.tail = tail;
   use.face = face;
-  if (run && (use.x || use.tail)) use.copy = site.blocks;
+  // Labels that are words count in their own program only: it gets the blocks too.
+  const bool here =
+      std::any_of(routine_.body.begin(), routine_.body.end(), [&use](const Statement& t) { return t.id == use.first; });
+  if (!here || (run && (use.x || use.tail))) use.copy = site.blocks;
   if (!use.x && !begins) {
     *why = "its profile does not begin with a straight move to a point";
     return std::nullopt;
