@@ -129,7 +129,7 @@ std::string programs_csv(const std::vector<BatchRecord>& records) {
     std::string outputs;
     for (const auto& o : r.outputs) outputs += (outputs.empty() ? "" : " ") + o;
     text += fmt::format("{},{},{},{},{},{},{},{},{}\n", quoted(r.program), r.status, r.lines, r.moves,
-                        shortest(r.max_length), quoted(codes_text(r.errors)), quoted(codes_text(r.warnings)),
+                        rounded(r.max_length, 6), quoted(codes_text(r.errors)), quoted(codes_text(r.warnings)),
                         quoted(outputs), quoted(r.detail));
   }
   return text;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "backends/common/labels.h"
 #include "base/saturate.h"
 #include "base/text.h"
 #include "ir/passes/given_data.h"
@@ -44,6 +45,22 @@ std::string shared_name(const ir::Program& program) {
   return {};
 }
 
+/// Behind the last end of the program stand only blocks that nothing jumps to: the profile of a cycle, say.
+bool ends_before_its_text(const ir::Program& program, std::size_t routine) {
+  const ir::Body& body = program.routines[routine].body;
+  const auto end = std::find_if(body.rbegin(), body.rend(),
+                                [](const ir::Statement& s) { return std::holds_alternative<ir::End>(s.node); });
+  if (end == body.rend()) return false;
+  const backends::LabelUse use(program);
+  if (!use.certain()) return false;
+  return std::all_of(end.base(), body.end(), [&](const ir::Statement& s) {
+    const auto& l = s.line;
+    return std::holds_alternative<ir::Block>(s.node) && !use.is_target(routine, l.number) &&
+           std::none_of(l.labels.begin(), l.labels.end(),
+                        [&](std::string_view name) { return use.is_target_name(routine, name); });
+  });
+}
+
 /// A program that simply ends with its text gets the end word.
 void end_main(ir::Program& program, Diagnostics& diagnostics) {
   for (auto& r : program.routines) {
@@ -56,7 +73,8 @@ void end_main(ir::Program& program, Diagnostics& diagnostics) {
     const ir::Statement* last = it == r.body.rend() ? nullptr : &*it;
     const auto* jump = last != nullptr ? std::get_if<ir::Jump>(&last->node) : nullptr;
     if (last == nullptr || std::holds_alternative<ir::End>(last->node) ||
-        std::holds_alternative<ir::Return>(last->node) || (jump != nullptr && !jump->condition)) {
+        std::holds_alternative<ir::Return>(last->node) || (jump != nullptr && !jump->condition) ||
+        ends_before_its_text(program, static_cast<std::size_t>(&r - program.routines.data()))) {
       return;
     }
     ir::Statement end;

@@ -173,7 +173,12 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
   const auto returns = [](const ir::Statement& s) {
     return std::holds_alternative<ir::Return>(s.node) || std::holds_alternative<ir::End>(s.node);
   };
-  if (r.kind == ir::RoutineKind::sub && !same_dialect() && (r.body.empty() || !returns(r.body.back()))) raw_line("M17");
+  const auto remark = [](const ir::Statement& s) {
+    const auto* block = std::get_if<ir::Block>(&s.node);
+    return block != nullptr && block->empty() && s.line.number.empty() && s.line.labels.empty();
+  };
+  const auto last = std::find_if_not(r.body.rbegin(), r.body.rend(), remark);
+  if (r.kind == ir::RoutineKind::sub && !same_dialect() && (last == r.body.rend() || !returns(*last))) raw_line("M17");
 }
 
 /// A call with parameters of a program in another file needs its signature at the head of the caller's.

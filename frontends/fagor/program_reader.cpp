@@ -271,14 +271,19 @@ void ProgramReader::open_subroutine(const syntax::Statement& statement) {
   state_.start_routine(true);
 }
 
-/// The subroutine ends with its last RET.
+/// The subroutine ends with its last RET. Blocks behind that have a number at their head may be named by a cycle (its
+/// profile, 9.2, 25.5): nothing runs into them.
 void ProgramReader::close_subroutine() {
   const ir::Routine& r = current();
+  bool named = true;  // the first block behind the RET has a number
   for (auto s = r.body.rbegin(); s != r.body.rend(); ++s) {
     const auto* b = std::get_if<ir::Block>(&s->node);
     if (b && b->empty() && s->line.number.empty()) continue;
-    if (std::holds_alternative<ir::Return>(s->node)) return;
-    break;
+    if (std::holds_alternative<ir::Return>(s->node)) {
+      if (named) return;
+      break;
+    }
+    named = !s->line.number.empty() && r.locality != ir::Locality::file_local;
   }
   const Span now = state_.line();
   state_.set_line(r.header.span);

@@ -50,6 +50,8 @@ TEST(FagorProgram, Subroutines) {
   EXPECT_EQ(r.statements(0).size(), 3U);  // the comment stays between the two
   EXPECT_EQ(r.statements(1).size(), 4U);
   EXPECT_EQ(read("(SUB 5)\nX1\n").codes(), "FAG-025");
+  EXPECT_EQ(read("(SUB 5)\nX1\n(RET)\nX2\nN10 X3\n").codes(), "FAG-025");
+  EXPECT_EQ(read("(SUB 5)\nX1\n(RET)\n\nN10 X2\nX3\n").codes(), "");  // a profile, say
   EXPECT_EQ(read("(SUB 5)\n(RET)\n(SUB 5)\n(RET)").codes(), "FAG-025");
   EXPECT_EQ(read("X1\n(RET)").codes(), "FAG-024");
   const auto only = read("%SUBS,MX,\n; text\n(SUB 5)\n(RET)\n");
