@@ -271,6 +271,7 @@ void ArcPass::both_ends(Arc& arc, bool needed) {
     w.axis = axis;
     w.scale = radius_scale(w.axis);
     if (arc.distance == Distance::incremental) {
+      w.mode = WordMode::incremental;
       w.value = Value{0.0};
     } else {
       auto start = start_of(arc, w.axis);

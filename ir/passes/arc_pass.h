@@ -292,6 +292,7 @@ class ArcPass {
       CoordWord w;
       w.axis = axis;
       w.scale = radius_scale(axis);
+      w.mode = WordMode::incremental;
       w.value = Value{0.0};
       m.coords.push_back(w);
     }

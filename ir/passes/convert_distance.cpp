@@ -21,6 +21,11 @@ bool is_polar(const Motion& m) {
   return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
 }
 
+/// A word that the pass over arcs has put beside others for an axis that stays where it stands: an increment of 0.
+bool holds_still(const CoordWord& c) {
+  return c.mode == WordMode::incremental && c.pos.column == 0 && c.value.is(0);
+}
+
 /// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates. The bits
 /// from first_plane_bit on say which planes may be in force (polar words move both axes of the plane).
 struct UnmovedAxes {
@@ -41,7 +46,9 @@ struct UnmovedAxes {
         state = (state & axis_bits) | one << (first_plane_bit + m->value);
     }
     if (!b->has_motion) return;
-    for (const auto& c : b->motion.coords) state &= ~(one << c.axis);
+    for (const auto& c : b->motion.coords) {
+      if (!holds_still(c)) state &= ~(one << c.axis);
+    }
     if (is_polar(b->motion)) state &= ~polar_axes(state);
   }
   /// Axes that polar words move whichever of the planes is in force.
@@ -392,10 +399,11 @@ class DistancePass {
     }
     if (!b.has_motion || dirty_ == 0) return false;
     const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
-      return (dirty_ >> c.axis & 1U) != 0 && distance_of(c, b, facts) != Distance::absolute;
+      return (dirty_ >> c.axis & 1U) != 0 && !holds_still(c) && distance_of(c, b, facts) != Distance::absolute;
     });
     const bool settled = relative && made_absolute(b, facts);
     for (const auto& c : b.motion.coords) {
+      if (holds_still(c)) continue;
       const std::uint32_t bit = 1U << c.axis;
       const bool turned = (turned_ & bit) != 0;
       turned_ &= ~bit;

@@ -49,9 +49,7 @@ class RangeEnds {
     const LineInfo like = body[begin].line;
     const auto labels = labels_on(like);
     const bool ends = std::any_of(labels.begin(), labels.end(), [this](const LabelRef& l) { return uses_.is_end(l); });
-    const bool grows = may_grow(body[end - 1]) && std::all_of(labels.begin(), labels.end(), [this](const LabelRef& l) {
-                         return carriers_[{l.is_number, l.text}] == 1;
-                       });
+    const bool grows = may_grow(body[end - 1]) && once(labels);
     if (ends && grows) {
       put(body, begin, end, out);
       const LabelRef fresh = editor_.fresh_label();
@@ -59,13 +57,24 @@ class RangeEnds {
       for (const auto& l : labels) moved_.emplace_back(l, fresh);
       return;
     }
-    if (ends && end - begin > 1) {
+    if (ends && end - begin > 1 && once(labels)) {
       const LabelRef fresh = editor_.fresh_label();
       body[end - 1].line.joined = false;
       set_label(body[end - 1].line, fresh, program_);
       for (const auto& l : labels) moved_.emplace_back(l, fresh);
+    } else if (ends && end - begin > 1 && labels.size() == 1 && !uses_.is_target(labels[0])) {
+      // One of several marks of this name (ENDLABEL): it goes along, its name is settled later.
+      body[begin].line.labels.clear();
+      if (labels[0].is_number) body[begin].line.number = {};
+      body[end - 1].line.joined = false;
+      set_label(body[end - 1].line, labels[0], program_);
     }
     put(body, begin, end, out);
+  }
+  /// No other line has one of the labels.
+  [[nodiscard]] bool once(const std::vector<LabelRef>& labels) {
+    return std::all_of(labels.begin(), labels.end(),
+                       [this](const LabelRef& l) { return carriers_[{l.is_number, l.text}] == 1; });
   }
   static void put(Body& body, std::size_t begin, std::size_t end, Body& out) {
     for (std::size_t k = begin; k < end; ++k) out.push_back(std::move(body[k]));
@@ -156,7 +165,7 @@ class EndMarks {
       return carried_once(l) && (l.is_number ? !target_.repeat_needs_identifiers : target_.identifier_labels);
     });
     const LabelRef to = fits != have.end() ? *fits : have.front();
-    if (!carried_once(to)) return false;
+    if (!carried_once(to) || !carried_once(mark)) return false;  // ENDLABEL, say, ends other ranges elsewhere
     for (auto& r : program_.routines) {
       for_each_statement(r.body, [&](Statement& x) {
         each_label_ref(x, [&](LabelRef& l, bool is_end) {
