@@ -29,6 +29,8 @@ constexpr std::array specs{
     OptionSpec{"corner.without_successor", "error|left_out", "error",
                "a corner function that no second element in the plane follows: refused, or left out with a warning"},
     OptionSpec{"call.saves_modals", "no|yes", "no", "a subprogram can give its caller the modal state back (SAVE)"},
+    OptionSpec{"comp.interruptions", "taken|refused", "taken",
+               "a stop (M00, M01) or a move in machine coordinates while radius compensation is on"},
     OptionSpec{"comp.rapid", "kept|suspended", "kept",
                "a rapid move while radius compensation is on: compensated, or carried out without it"},
     OptionSpec{"corner.straight_on", "left_out|refused", "left_out",

@@ -1,12 +1,15 @@
 // Rapid moves while radius compensation is on (equivalences 16): some controls suspend the compensation for such a
 // block and take it up again after it, others keep it. The programmed path is the same, the centre of the tool is not.
 #include <algorithm>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "base/text.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/rewrite.h"
 
 namespace cnctrans::ir::passes {
 
@@ -38,11 +41,11 @@ bool moves_in_plane(const Block& b, const Facts& facts) {
   });
 }
 
-/// What no control takes while radius compensation is on: another tool, offset, work offset or plane.
+/// What no control takes while radius compensation is on: another tool, offset, work offset, frame or plane.
 const Action* forbidden(const Block& b, const Facts& before) {
   for (const auto& a : b.actions) {
     if (std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
-        std::holds_alternative<ToolOffset>(a.data))
+        std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<FrameOp>(a.data))
       return &a;
     if (const auto* w = std::get_if<WorkOffset>(&a.data);
         w != nullptr && before.work_offset != (w->off               ? 0
@@ -56,11 +59,21 @@ const Action* forbidden(const Block& b, const Facts& before) {
   return nullptr;
 }
 
+/// What some controls do not take there: a stop, a move in machine coordinates.
+bool interrupts(const Block& b) {
+  return (b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::machine) ||
+         std::any_of(b.actions.begin(), b.actions.end(),
+                     [](const Action& a) { return std::holds_alternative<Stop>(a.data); });
+}
+
 /// Controls stop with an alarm there, or go on with another centre of the tool each.
-void check_changes(const Program& program, const LegaliseContext& context) {
+void check_changes(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !program_compensates(program, context.source_machine)) return;
   Program numbered = program;
   const FactsOf facts(numbered, context);
+  const bool refuses = context.target_machine.option("comp.interruptions") == "refused" &&
+                       context.source_machine.option("comp.interruptions") != "refused";
+  std::set<std::uint32_t> refused;
   for (const auto& r : numbered.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
@@ -68,14 +81,35 @@ void check_changes(const Program& program, const LegaliseContext& context) {
       const Facts& before = facts.before(s);
       const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
       if (!before.reachable || !side || side == CompSide::off || now == CompSide::off) return;
+      if (refuses && interrupts(*b)) {
+        refused.insert(s.id);
+        return;
+      }
       const Action* a = forbidden(*b, before);
       if (a == nullptr) return;
       context.diagnostics.warning(
           "TRN-395", word_span(s.line.span, a->pos),
-          "the tool, its offset, the work offset or the plane changes while radius compensation "
+          "the tool, its offset, the work offset, the frame or the plane changes while radius compensation "
           "is on: most controls refuse that, and the others cut another contour",
           "end the compensation before the change and start it again after it");
     });
+  }
+  if (refused.empty()) return;
+  std::vector<std::uint32_t> ids;  // the copy has the same statements in the same order
+  for (const auto& r : numbered.routines) {
+    for_each_statement(r.body, [&ids](const Statement& s) { ids.push_back(s.id); });
+  }
+  std::size_t at = 0;
+  std::vector<Statement*> there;
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      if (refused.contains(ids[at++])) there.push_back(&s);
+    });
+  }
+  for (Statement* s : there) {
+    refuse(*s, program, context, "TRN-399",
+           "a stop or a move in machine coordinates while radius compensation is on: the target refuses it",
+           "end the compensation before it and start it again after it");
   }
 }
 

@@ -73,8 +73,9 @@ class RangeEnds {
   }
   /// No other line has one of the labels.
   [[nodiscard]] bool once(const std::vector<LabelRef>& labels) {
-    return std::all_of(labels.begin(), labels.end(),
-                       [this](const LabelRef& l) { return carriers_[{l.is_number, l.text}] == 1; });
+    return std::all_of(labels.begin(), labels.end(), [this](const LabelRef& l) {
+      return carriers_[{l.is_number, l.text}] == 1;
+    });
   }
   static void put(Body& body, std::size_t begin, std::size_t end, Body& out) {
     for (std::size_t k = begin; k < end; ++k) out.push_back(std::move(body[k]));

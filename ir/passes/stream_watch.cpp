@@ -125,6 +125,7 @@ bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const 
   if (state_.comp != CompSide::off && in_block(block, Setting::comp, state_.comp) != CompSide::off &&
       (std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolChange>(a.data) ||
        std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+       std::holds_alternative<Stop>(a.data) ||
        (plane != nullptr && plane->value != static_cast<std::uint8_t>(state_.plane))))
     return true;
   if (const auto* m = std::get_if<ModalSet>(&a.data)) {
