@@ -28,6 +28,24 @@ bool runs_at_least_once(const ExprPtr& count) {
   const auto value = constant_value(count);
   return value && *value >= 1;
 }
+bool runs_once_at_most(const ExprPtr& count) {
+  if (!count) return true;
+  const auto value = constant_value(count);
+  return value && *value <= 1;
+}
+
+/// Blocks of the routine are run from another one, or nobody knows which: its ranges have other ends too.
+bool run_in_part_elsewhere(const Program& program, const Routine& routine) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* p = std::get_if<Repeat>(&s.node)) found = found || (p->has_program && p->program == routine.name);
+      if (const auto* c = std::get_if<CallRoutine>(&s.node))
+        found = found || (c->has_range && (c->computed || c->routine == routine.name));
+    });
+  }
+  return found;
+}
 
 class Builder {
  public:
@@ -50,6 +68,7 @@ class Builder {
       std::sort(ids.begin(), ids.end());
       ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     }
+    end_ranges();
     return std::move(flow_);
   }
 
@@ -57,6 +76,7 @@ class Builder {
   /// A range of lines run again by `repeat`: after `end` comes `first` again, or what follows the Repeat.
   struct Range {
     std::uint32_t repeat, first, end;
+    bool again;  ///< more than once
   };
 
   // Tables by id, groups of joined statements, Repeats.
@@ -90,7 +110,8 @@ class Builder {
       if (!range) continue;
       const auto& [first, last] = *range;
       const auto end = line_end_.find(last.statement);
-      ranges_.push_back({s->id, first.statement, end == line_end_.end() ? last.statement : end->second});
+      ranges_.push_back(
+          {s->id, first.statement, end == line_end_.end() ? last.statement : end->second, !runs_once_at_most(r.count)});
     }
   }
 
@@ -99,11 +120,69 @@ class Builder {
     for (const auto& r : ranges_) {
       Ids& more = after_range_[r.end];
       const std::size_t before = more.size();
-      add_id(more, r.first);
+      if (r.again) add_id(more, r.first);
       add_ids(more, continuation_[r.repeat]);
       grown |= more.size() != before;
     }
     return grown;
+  }
+
+  /// The last statement of a range leads on in the text only where something else than the range comes to it.
+  void end_ranges() {
+    constexpr std::size_t most_states = 2'000'000;
+    if (after_range_.empty() || routine_.body.empty() || flow_.successors.size() * (ranges_.size() + 1) > most_states ||
+        run_in_part_elsewhere(program_, routine_))
+      return;
+    std::unordered_map<std::uint32_t, std::size_t> range_of;  // of a Repeat
+    for (std::size_t k = 0; k < ranges_.size(); ++k) range_of[ranges_[k].repeat] = k + 1;
+    // What comes next inside the range k (counted from 1; 0: in none), which ends at its last statement.
+    std::vector<std::vector<bool>> seen(ranges_.size() + 1, std::vector<bool>(flow_.successors.size()));
+    std::vector<std::pair<std::size_t, std::uint32_t>> open;
+    const auto reach = [&](std::size_t k, std::uint32_t id) {
+      if (id == 0 || seen[k][id]) return;
+      seen[k][id] = true;
+      open.emplace_back(k, id);
+    };
+    reach(0, routine_.body.front().id);
+    while (!open.empty()) {
+      const auto [k, id] = open.back();
+      open.pop_back();
+      const bool ends = k != 0 && ranges_[k - 1].end == id;
+      const auto called = range_of.find(id);
+      if (called != range_of.end()) reach(called->second, ranges_[called->second - 1].first);
+      if (ends && !jumps(id)) continue;
+      if (called != range_of.end()) {
+        for (const auto next : continuation_[id]) reach(k, next);
+        continue;
+      }
+      for (const auto next : flow_.successors[id]) {
+        if (!only_behind_range(id, next)) reach(k, next);
+      }
+    }
+    for (const auto& [id, behind] : after_range_) {
+      bool otherwise = seen[0][id] || jumps(id) || skipped_.count(id) != 0;
+      for (std::size_t k = 1; k <= ranges_.size(); ++k)
+        otherwise = otherwise || (seen[k][id] && ranges_[k - 1].end != id);
+      if (otherwise || range_of.count(id) != 0) continue;
+      auto& ids = flow_.successors[id];
+      std::erase_if(ids,
+                    [&, b = &behind](std::uint32_t to) { return std::find(b->begin(), b->end(), to) == b->end(); });
+    }
+  }
+  /// It can go elsewhere than to the next statement.
+  [[nodiscard]] bool jumps(std::uint32_t id) const {
+    const auto& node = flow_.statements[id]->node;
+    return !std::holds_alternative<Block>(node) && !std::holds_alternative<Assign>(node) &&
+           !std::holds_alternative<Message>(node) && !std::holds_alternative<Opaque>(node) &&
+           !std::holds_alternative<CallRoutine>(node);
+  }
+  /// The range that ends with the statement has brought this successor along, not the text.
+  [[nodiscard]] bool only_behind_range(std::uint32_t id, std::uint32_t next) const {
+    const auto behind = after_range_.find(id);
+    if (behind == after_range_.end()) return false;
+    const auto text = in_text_.find(id);
+    const auto in = [next](const Ids& ids) { return std::find(ids.begin(), ids.end(), next) != ids.end(); };
+    return in(behind->second) && (text == in_text_.end() || !in(text->second));
   }
 
   static std::uint32_t entry(const Body& b, std::uint32_t otherwise) { return b.empty() ? otherwise : b.front().id; }
@@ -119,7 +198,10 @@ class Builder {
   void body(const Body& b, const Ids& after, const Ids* exit) {
     for (std::size_t i = 0; i < b.size(); ++i) {
       Ids next = i + 1 < b.size() ? Ids{b[i + 1].id} : after;
-      if (const auto more = after_range_.find(b[i].id); more != after_range_.end()) add_ids(next, more->second);
+      if (const auto more = after_range_.find(b[i].id); more != after_range_.end()) {
+        in_text_[b[i].id] = next;
+        add_ids(next, more->second);
+      }
       statement(b[i], next, exit);
       if (skipped_.count(b[i].id) != 0) add_ids(flow_.successors[b[i].id], next);
     }
@@ -240,6 +322,7 @@ class Builder {
   std::vector<const Statement*> repeats_;
   std::vector<Range> ranges_;
   std::unordered_map<std::uint32_t, Ids> after_range_;
+  std::unordered_map<std::uint32_t, Ids> in_text_;  ///< what follows the end of a range in the text
   /// Repeats: what follows. Structured statements: what a label on their closing line leads to.
   std::unordered_map<std::uint32_t, Ids> continuation_;
   std::vector<std::pair<std::uint32_t, LabelSite>> jumps_;

@@ -101,7 +101,7 @@ TEST(Cfg, RepeatRangesComeBackBehindTheRepeat) {
             (Edges{{2}, {1, 3, 5}, {4}, {1}, {0}}));
   EXPECT_EQ(edges("N10 block\nblock\nrepeat N10 N10 count R[1]\nblock\n").at(2), (std::vector<std::uint32_t>{1, 4}))
       << "a count that may be 0";
-  EXPECT_EQ(edges("N20 block\nN10 block\nrepeat N10 N20 order_free\nblock\n"), (Edges{{2}, {1, 3, 4}, {1}, {0}}));
+  EXPECT_EQ(edges("N20 block\nN10 block\nrepeat N10 N20 order_free\nblock\n"), (Edges{{2}, {3, 4}, {1}, {0}}));
   EXPECT_EQ(edges("A: block\nblock\nrepeat A \"\" count 2\nblock\n"), (Edges{{2}, {3}, {1, 4}, {0}}))
       << "without a second label: up to the repeat";
 }
@@ -109,26 +109,39 @@ TEST(Cfg, RepeatRangesComeBackBehindTheRepeat) {
 TEST(Cfg, RepeatRangeWithDuplicateLabels) {
   // Backward: the nearest A before the repeat, then the next B from there on.
   EXPECT_EQ(edges("A: block\nB: block\nA: block\nB: block\nrepeat A B search backward\nblock\n").at(3),
-            (std::vector<std::uint32_t>{3, 5, 6}));
+            (std::vector<std::uint32_t>{5, 6}));
   EXPECT_EQ(edges("A: block\nB: block\nA: block\nB: block\nrepeat A B\nblock\n").at(1),
-            (std::vector<std::uint32_t>{1, 3, 6}));
+            (std::vector<std::uint32_t>{3, 6}));
   EXPECT_EQ(edges("B: block\nA: block\nrepeat A B\nblock\n").at(2), (std::vector<std::uint32_t>{}))
       << "the wrong order";
 }
 
 TEST(Cfg, RepeatRangeEndsBehindEverythingOnItsLastLine) {
-  EXPECT_EQ(edges("N10 block\n& block\nblock\nrepeat N10 N10\nblock\n"), (Edges{{2}, {1, 3, 5}, {4}, {1}, {0}}));
+  EXPECT_EQ(edges("N10 block\n& block\nblock\nrepeat N10 N10\nblock\n"), (Edges{{2}, {3, 5}, {4}, {1}, {0}}));
+}
+
+TEST(Cfg, RepeatRangeThatNothingFallsIntoEndsWithItsLastStatement) {
+  EXPECT_EQ(edges("repeat N10 N20\njump N99\nN10 block\nN20 block\nblock\nN99 block\n"),
+            (Edges{{3}, {6}, {4}, {2}, {6}, {0}}));
+  EXPECT_EQ(edges("repeat N10 N20\nN10 block\nN20 block\nblock\n"), (Edges{{2}, {3}, {2, 4}, {0}}))
+      << "the text comes to it, too";
+  EXPECT_EQ(edges("repeat N10 N30\nend_program\nN10 block\nrepeat N40 N40\nN30 block\nN40 block\nblock\n"),
+            (Edges{{3}, {0}, {4}, {6}, {2}, {5}, {0}}))
+      << "one range inside another";
+  EXPECT_EQ(edges("repeat N10 N20\nrepeat N10 N30\nend_program\nN10 block\nN20 block\nN30 block\n").at(4),
+            (std::vector<std::uint32_t>{2, 6}))
+      << "a longer range comes through";
 }
 
 TEST(Cfg, RepeatRangeThatEndsInAStructure) {
   EXPECT_EQ(edges("N10 if R[1] {\nblock\n}\nblock\nrepeat N10 N10\nblock\n"),
-            (Edges{{1, 2, 3, 5}, {1, 3, 5}, {4}, {1}, {0}}));
+            (Edges{{2, 3, 5}, {3, 5}, {4}, {1}, {0}}));
 }
 
 TEST(Cfg, NestedRepeatRanges) {
-  // 2 repeats 1; 4 repeats 1..2: behind 2 comes 3 (flow), 1 (again), 5 (behind 4). Behind 1: itself, 2, and behind 2.
+  // 2 repeats 1; 4 repeats 1..2: behind 2 comes 3 (flow), 5 (behind 4). Behind 1: 2, and behind 2.
   EXPECT_EQ(edges("N10 block\nN20 repeat N10 N10\nblock\nrepeat N10 N20\nblock\n"),
-            (Edges{{1, 2, 3, 5}, {1}, {4}, {1}, {0}}));
+            (Edges{{2, 3, 5}, {1}, {4}, {1}, {0}}));
 }
 
 TEST(Cfg, BlockSkipGoesOnBehindTheStatementOrTheRestOfItsLine) {
