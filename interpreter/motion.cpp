@@ -38,7 +38,10 @@ bool names_turned_axes(const ir::Motion& m) {
 bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   const auto& m = b.motion;
   auto kind = m.kind;
-  if (kind == ir::MotionKind::modal) {
+  // A straight code beside a point of a curve with a number says nothing: its blocks are points.
+  const bool point = curve_from_first_point_ && ir::is_spline(modal_.motion) &&
+                     (kind == ir::MotionKind::rapid || kind == ir::MotionKind::linear);
+  if (kind == ir::MotionKind::modal || point) {
     kind = modal_.motion;
   } else if (m.keeps_modal) {
     modal_.motion = left_in_force(kind);
@@ -119,10 +122,10 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   return true;
 }
 
+namespace {
+
 /// Absolute target on a modulo axis, unwrapped from where the axis stands.
-double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
-  const double here = p_[w.axis];
-  auto direction = w.direction;
+double unwrapped(ir::RotaryDirection direction, double v, double here) {
   double target = v;
   if (direction == ir::RotaryDirection::by_sign) {
     direction = std::signbit(v) ? ir::RotaryDirection::negative : ir::RotaryDirection::positive;
@@ -145,6 +148,12 @@ double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
     case ir::RotaryDirection::by_sign: return v;
   }
   return here + turn;
+}
+
+}  // namespace
+
+double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
+  return unwrapped(w.direction, v, p_[w.axis]);
 }
 
 Move BlockMachine::move_from_here() const {
@@ -315,7 +324,10 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
         w.mode == ir::WordMode::incremental ||
         (w.mode == ir::WordMode::modal && !policy_.machine_absolute && modal_.distance == ir::Distance::incremental);
     const double x = coordinate(w.axis, w.value, w.scale, !incremental) * (axis_[w.axis].rotary ? 1 : metric);
-    machine[w.axis] = incremental ? machine[w.axis] + x : x;
+    if (incremental)
+      machine[w.axis] += x;
+    else
+      machine[w.axis] = w.direction == ir::RotaryDirection::as_value ? x : unwrapped(w.direction, x, machine[w.axis]);
     base_pending_ &= ~(1U << w.axis);
   }
   if (failure_.set) return false;

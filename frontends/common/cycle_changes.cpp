@@ -18,6 +18,7 @@ struct Change {
   const ir::HoleCycle* cycle = nullptr;
   const ir::Statement* above = nullptr;  ///< whose cycle it was joined with
   const ir::HoleCycle* before = nullptr;
+  bool far = false;  ///< `above` stands in another routine
 };
 
 const ir::Action* cycle_in(const ir::Statement& s) {
@@ -30,7 +31,14 @@ const ir::Action* cycle_in(const ir::Statement& s) {
   return nullptr;
 }
 
-std::vector<Change> changes_of(const ir::Program& program, const std::function<bool(const ir::Action&)>& is_change) {
+std::vector<Change> changes_of(const ir::Program& program, const std::function<bool(const ir::Action&)>& is_change,
+                               const std::map<std::uint32_t, std::uint32_t>& joined) {
+  struct Place {
+    std::size_t routine = 0;
+    const ir::Statement* statement = nullptr;
+    const ir::HoleCycle* cycle = nullptr;
+  };
+  std::map<std::uint32_t, Place> by_line;
   std::vector<Change> found;
   for (std::size_t r = 0; r < program.routines.size(); ++r) {
     const ir::Statement* above = nullptr;
@@ -39,10 +47,20 @@ std::vector<Change> changes_of(const ir::Program& program, const std::function<b
       const ir::Action* a = cycle_in(s);
       if (a == nullptr) return;
       const auto* cycle = std::get_if<ir::HoleCycle>(&std::get<ir::CycleDefine>(a->data).cycle->node);
-      if (above != nullptr && is_change(*a)) found.push_back({r, &s, cycle, above, before});
+      if ((above != nullptr || joined.count(s.line.span.line) != 0) && is_change(*a))
+        found.push_back({r, &s, cycle, above, before});
       above = &s;
       before = cycle;
+      if (!joined.empty()) by_line.emplace(s.line.span.line, Place{r, &s, cycle});
     });
+  }
+  for (Change& c : found) {
+    const auto line = joined.find(c.statement->line.span.line);
+    const auto at = line == joined.end() ? by_line.end() : by_line.find(line->second);
+    if (at == by_line.end()) continue;
+    c.above = at->second.statement;
+    c.before = at->second.cycle;
+    c.far = at->second.routine != c.routine;
   }
   return found;
 }
@@ -98,7 +116,7 @@ class Between {
       called.insert(reached.begin(), reached.end());
     }
     for (const auto& w : writes_.all()) {
-      const bool here = (w.routine == c.routine && passed.count(w.at) != 0) || called.count(w.routine) != 0;
+      const bool here = c.far || (w.routine == c.routine && passed.count(w.at) != 0) || called.count(w.routine) != 0;
       if (!here) continue;
       for (const auto& word : words) {
         if (writes_.touches(w, word, c.routine)) return true;
@@ -135,16 +153,17 @@ class Between {
 }  // namespace
 
 std::vector<ChangeFinding> judge_changes(ir::Program& program, const ir::ModalState& power_on,
-                                         const std::function<bool(const ir::Action&)>& is_change) {
+                                         const std::function<bool(const ir::Action&)>& is_change,
+                                         const std::map<std::uint32_t, std::uint32_t>& joined) {
   ir::number_statements(program);
-  const auto changes = changes_of(program, is_change);
+  const auto changes = changes_of(program, is_change, joined);
   if (changes.empty()) return {};
   const ir::FactTable table = ir::analyse(program, power_on);
   std::vector<ChangeFinding> findings;
   std::optional<Between> between;
   for (const Change& c : changes) {
     const ir::Facts& before = table.before(c.statement->id);
-    if (!before.reachable) continue;
+    if (!before.reachable || c.above == nullptr || c.before == nullptr) continue;
     if (before.cycle_from != c.above->id) {
       const bool outside = before.cycle_from == 0 && !before.cycle_active_known;
       findings.push_back({c.statement, outside ? ChangeFault::outside : ChangeFault::another});

@@ -2,7 +2,9 @@
 // the text; the flow of the program decides whether that was right.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -22,9 +24,11 @@ struct ChangeFinding {
 };
 
 /// The changes of `program` whose joining was wrong, in text order (numbers the statements). `is_change`: the action,
-/// which defines a modal hole cycle, changes one.
+/// which defines a modal hole cycle, changes one. `joined`: line of a change -> line of the cycle that it was joined
+/// with; not named: the one above it in its routine.
 std::vector<ChangeFinding> judge_changes(ir::Program& program, const ir::ModalState& power_on,
-                                         const std::function<bool(const ir::Action&)>& is_change);
+                                         const std::function<bool(const ir::Action&)>& is_change,
+                                         const std::map<std::uint32_t, std::uint32_t>& joined = {});
 
 /// The findings as errors of one code; `outside` is a warning.
 void report_changes(const std::vector<ChangeFinding>& findings, std::string_view code, Diagnostics& diagnostics);

@@ -12,11 +12,13 @@ using namespace slot;
 
 void Lowering::resolve_arc(bool explicit_code) {
   auto& m = out_->motion;
-  const PlaneLetters p = centre_letters(state_.plane);
-  const std::array<char, 3> order{p.u, p.v, p.w};
   std::size_t given = 0;
-  for (const char c : order) given += has(letter(c)) ? 1U : 0U;
+  for (const char c : {'I', 'J', 'K'}) given += has(letter(c)) ? 1U : 0U;
   const Word* radius = has(letter('R')) ? use(letter('R')) : nullptr;
+  // Two centre words are the centre whatever the plane is; of three, or beside a radius, one is the pitch.
+  const bool by_plane = given == 1 || given == 3 || (given != 0 && radius != nullptr);
+  const PlaneLetters p = centre_letters(by_plane ? plane() : state_.plane);
+  const std::array<char, 3> order{p.u, p.v, p.w};
   const bool pitch = has(letter(p.w)) && (radius != nullptr || given == 3);
   const std::size_t centres = given - (pitch ? 1U : 0U);
   ir::contour::Marks contour;

@@ -5,9 +5,10 @@
 
 namespace cnctrans::frontends::num {
 
-void judge_cycle_changes(ir::Program& program, const ir::ModalState& power_on, Diagnostics& diagnostics) {
+void judge_cycle_changes(ir::Program& program, const ir::ModalState& power_on,
+                         const std::map<std::uint32_t, std::uint32_t>& joined, Diagnostics& diagnostics) {
   const auto is_change = [](const ir::Action& a) { return a.text.empty(); };  // a change has no code of its own
-  report_changes(judge_changes(program, power_on, is_change), "NUM-048", diagnostics);
+  report_changes(judge_changes(program, power_on, is_change, joined), "NUM-048", diagnostics);
 }
 
 }  // namespace cnctrans::frontends::num

@@ -15,9 +15,9 @@ namespace facts = dialects::num;
 using slot::e;
 using slot::letter;
 
-ir::AxisId Lowering::cycle_axis() const {
+ir::AxisId Lowering::cycle_axis() {
   if (settings_.lathe) return ir::axis::z;
-  return state_.tool_axis != ir::axis::none ? state_.tool_axis : ir::plane_axes(state_.plane).w;
+  return state_.tool_axis != ir::axis::none ? state_.tool_axis : ir::plane_axes(plane()).w;
 }
 
 void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here) {
@@ -34,9 +34,12 @@ void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cy
   define.here = here;
   ir::Action& action = act(at, Step::special, std::move(define));
   if (&at != marks_.cycle) action.text = {};
-  state_.cycle = std::move(cycle);
-  state_.cycle_inch = state_.inch;
+  if (&at != marks_.cycle) changed_cycles_[report_.line().line] = state_.cycle.line;
+  state_.cycle.words = std::move(cycle);
+  state_.cycle.inch = state_.inch;
+  state_.cycle.line = report_.line().line;
   state_.cycle_stale.clear();
+  if (collects_) cycles_[state_.cycle.line] = state_.cycle;
 }
 
 /// Words that all cycles share, into `cycle`; what is not given stays.
@@ -57,11 +60,11 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
   };
   if (const Word* er = use(e('R'))) {
     cycle.retract = level(*er);
-    if (!has(e('H')) && !state_.cycle_has_impact_plane) cycle.reference = cycle.retract;
+    if (!has(e('H')) && !state_.cycle.has_impact_plane) cycle.reference = cycle.retract;
   }
   if (const Word* eh = use(e('H'))) {
     cycle.reference = level(*eh);
-    state_.cycle_has_impact_plane = true;
+    state_.cycle.has_impact_plane = true;
   }
   if (const Word* ef = use(e('F'))) {
     if (number != 82 && number != 83 && number != 87 && number != 89) {
@@ -211,16 +214,16 @@ void Lowering::define_cycle(const Word& g) {
   // Without ER the tool goes back to the height from which the cycle was called.
   cycle.retract = cycle.reference =
       ir::Level{ir::Value(0), ir::LevelBase::from_initial, ir::LevelBase::from_initial, true};
-  state_.cycle_has_impact_plane = false;
+  state_.cycle.has_impact_plane = false;
   if (!cycle_words(cycle, number)) return;
   const bool pecks = cycle.kind == ir::HoleKind::peck_full || cycle.kind == ir::HoleKind::peck_break;
   if (pecks && cycle.pecks.law == ir::PeckLaw::none) cycle.kind = ir::HoleKind::drill;
-  state_.cycle_code = number;
+  state_.cycle.code = number;
   out_->has_motion = out_->has_motion || !out_->motion.coords.empty();
   put_cycle(g, std::make_shared<const ir::HoleCycle>(std::move(cycle)), true);
 }
 
-bool Lowering::moves_cycle_axis() const {
+bool Lowering::moves_cycle_axis() {
   for (const auto& c : out_->motion.coords) {
     if (c.axis == cycle_axis()) return true;
   }
@@ -253,7 +256,7 @@ void rescale(ir::HoleCycle& cycle, double factor) {
 
 /// The words that a block with ER, EH, P .. leaves alone keep their values: they are read when the cycle is defined.
 bool Lowering::refuses_stale_words(const ir::HoleCycle& before, const Word& at) {
-  const bool plane = has(e('R')), impact = has(e('H')) || (plane && !state_.cycle_has_impact_plane);
+  const bool plane = has(e('R')), impact = has(e('H')) || (plane && !state_.cycle.has_impact_plane);
   const bool pecks = has(letter('P')) || has(letter('Q')) || has(e('S'));
   const std::pair<const ir::Value*, bool> words[] = {
       {&before.bottom.value, false},       {&before.retract.value, plane},     {&before.reference.value, impact},
@@ -275,7 +278,7 @@ bool Lowering::refuses_stale_words(const ir::HoleCycle& before, const Word& at) 
 }
 
 void Lowering::note_assigned(const std::vector<ir::Assign::Item>& items) {
-  if (!state_.cycle) return;
+  if (!state_.cycle.words) return;
   for (const auto& item : items) {
     if (!item.to_system) state_.cycle_stale.push_back(item.target);
   }
@@ -283,14 +286,15 @@ void Lowering::note_assigned(const std::vector<ir::Assign::Item>& items) {
 
 /// ER, EH, P, Q ... while a cycle is active.
 void Lowering::change_cycle() {
-  ir::HoleCycle cycle = *state_.cycle;
-  if (state_.cycle_inch != state_.inch) rescale(cycle, state_.cycle_inch ? 25.4 : 1 / 25.4);
+  ir::HoleCycle cycle = *state_.cycle.words;
+  uses(Modal::unit);
+  if (state_.cycle.inch != state_.inch) rescale(cycle, state_.cycle.inch ? 25.4 : 1 / 25.4);
   const Word* at = nullptr;
   for (const int s : {e('R'), e('H'), e('F'), e('P'), e('S'), letter('P'), letter('Q')}) {
     if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
   }
   if (refuses_new_depth()) return;
-  if (state_.cycle_code == 45) {
+  if (state_.cycle.code == 45) {
     report_.refuse("NUM-026", at->pos, "the words of a pocket can't be changed while it is active",
                    "write the cycle again");
     return;
@@ -298,9 +302,9 @@ void Lowering::change_cycle() {
   if (refuses_stale_words(cycle, *at)) return;
   const bool plane_given = has(e('R'));
   const bool to_plane = plane_given && out_->motion.coords.empty();
-  if (!cycle_words(cycle, state_.cycle_code)) return;
+  if (!cycle_words(cycle, state_.cycle.code)) return;
   if (cycle.pecks.law != ir::PeckLaw::none) {
-    cycle.kind = state_.cycle_code == 83 ? ir::HoleKind::peck_full : ir::HoleKind::peck_break;
+    cycle.kind = state_.cycle.code == 83 ? ir::HoleKind::peck_full : ir::HoleKind::peck_break;
   }
   if (to_plane) {
     // The block goes to the plane at once and drills nothing.

@@ -48,8 +48,9 @@ void Lowering::resolve_distance() {
   }
 }
 
-std::optional<ir::Distance> Lowering::distance_at(std::uint32_t column) const {
+std::optional<ir::Distance> Lowering::distance_at(std::uint32_t column) {
   const auto own = own_distance(column);
+  if (!own) uses(Modal::distance);
   return own || !state_.known ? own : marks_.distance_before;
 }
 
@@ -231,7 +232,7 @@ void Lowering::tool_axis(const Word& g16) {
     const bool alone = block_->words.size() == 2 && block_->statements.empty();
     if (axis == ir::axis::z && plus && alone)
       return leave_out(g16, "NUM-034", "R+ names the tool axis that counts anyway", 2);
-    return other_tool_axis(g16, w, plus && (axis == ir::axis::z || ir::plane_axes(state_.plane).w == axis));
+    return other_tool_axis(g16, w, plus && (axis == ir::axis::z || ir::plane_axes(plane()).w == axis));
   }
   unknown(g16, "G16 needs P, Q or R with a sign");
 }

@@ -1,5 +1,6 @@
 #include "frontends/num/frontend.h"
 
+#include <map>
 #include <utility>
 
 #include "base/saturate.h"
@@ -9,6 +10,7 @@
 #include "dialects/num/variables.h"
 #include "frontends/common/own_lengths.h"
 #include "frontends/common/word_scanner.h"
+#include "frontends/num/arrivals.h"
 #include "frontends/num/compensation.h"
 #include "frontends/num/cycle_changes.h"
 #include "frontends/num/cycle_moves.h"
@@ -102,14 +104,48 @@ class NumStream : public StreamReader {
   bool started_ = false, ended_ = false;
 };
 
+using ChangedCycles = std::map<std::uint32_t, std::uint32_t>;
+
+/// The file, read once more as long as the ways of the program bring other facts to a block than it was read with
+/// (arrivals.h). A reading can bring calls to light that the one before it had not understood.
+ir::Program read_by_the_ways(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                             ReadStats& counts, ChangedCycles& changed) {
+  constexpr int most_readings = 6;
+  const ir::ModalState& power_on = options.profile->power_on;
+  const ReadStats before = counts;
+  Diagnostics empty = diagnostics;  // with its limits
+  empty.clear();
+  Arrivals arrivals;
+  std::map<std::uint32_t, ActiveCycle> cycles;
+  for (int reading = 1;; ++reading) {
+    counts = before;
+    Diagnostics said = empty;
+    FileReader reader(source, file, options, said, counts);
+    if (reading > 1) reader.know_arrivals(arrivals, std::move(cycles));
+    ir::Program program = reader.read();
+    const auto& uses = reader.lowering().modal_uses();
+    arrivals = arrivals_at(program, uses, power_on);
+    if (reading < most_readings && !agrees(uses, arrivals)) {
+      cycles = reader.lowering().cycles();
+      continue;
+    }
+    diagnostics.append(said);
+    judge_uses(program, uses, arrivals, diagnostics);
+    changed = reader.lowering().changed_cycles();
+    return program;
+  }
+}
+
 class NumFrontend : public Frontend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return "num"; }
   ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                    ReadStats* stats) const override {
     ReadStats own;
-    ir::Program program = FileReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
-    judge_cycle_changes(program, options.profile->power_on, diagnostics);
+    ReadStats& counts = stats != nullptr ? *stats : own;
+    ChangedCycles changed;
+    ir::Program program = read_by_the_ways(source, file, options, diagnostics, counts, changed);
+    judge_cycle_changes(program, options.profile->power_on, changed, diagnostics);
     judge_cycle_moves(program, options.profile->power_on, diagnostics);
     settle_own_lengths(program, options.profile->power_on,
                        {facts::reapproach, facts::oriented_clearance, facts::pocket_clearance}, diagnostics);

@@ -65,7 +65,7 @@ bool Lowering::contour_end(ir::contour::Marks& marks) {
 
 /// EA and EX under G91: from the present point.
 void Lowering::polar_step(const Word& ea, const Word& ex) {
-  const auto plane = ir::plane_axes(state_.plane);
+  const auto plane = ir::plane_axes(this->plane());
   const double angle = ea.number * std::numbers::pi / 180;
   for (const auto& [axis, step] :
        {std::pair{plane.u, ex.number * std::cos(angle)}, std::pair{plane.v, ex.number * std::sin(angle)}}) {
@@ -94,7 +94,7 @@ void Lowering::line_words() {
     extra.has_line_angle = true;
     extra.line_angle = value(*ea);
   }
-  const auto plane = ir::plane_axes(state_.plane);
+  const auto plane = ir::plane_axes(this->plane());
   std::size_t in_plane = 0;
   for (const auto& c : m.coords) in_plane += c.axis == plane.u || c.axis == plane.v ? 1U : 0U;
   const bool closes = state_.contour_open || !state_.known;
@@ -121,10 +121,11 @@ void Lowering::line_words() {
 /// G29, G43: the correction of a mould along the normal (P Q R) of its surface, and the tool's axis (I J K) of five
 /// axes [9.5]. The positions are those of the program; what the control adds to them no trace shows.
 void Lowering::spatial_correction() {
+  uses(Modal::motion);
   const ir::MotionKind kind = marks_.motion ? out_->motion.kind : state_.motion;
   const Word* g = marks_.spatial;
   if (g != nullptr) {
-    if (state_.cycle || (marks_.motion && !is_straight(kind)))
+    if (state_.cycle.words || (marks_.motion && !is_straight(kind)))
       return report_.refuse("NUM-060", g->pos, "3D correction takes lines, and no cycle", "", "beside.compensation");
     state_.spatial = true;
     act(*g, Step::special, ir::OpaqueWord{text_of(*g)}, ir::Order::after);  // a translation refuses it
@@ -172,6 +173,7 @@ void Lowering::thread_segment() {
 void Lowering::interruptible() {
   auto& m = out_->motion;
   const Word& g = *marks_.interruptible;
+  uses(Modal::motion);
   const ir::MotionKind kind = marks_.motion ? m.kind : state_.motion;
   const auto refuse = [&](std::string_view what) {
     report_.refuse("NUM-045", g.pos, "`" + std::string(text_of(g)) + "`: " + std::string(what), {}, "motion.probe");

@@ -76,6 +76,18 @@ std::string_view without_tape_bytes(std::string_view text) {
   return text;
 }
 
+/// `X OFF`: the reader of the tape stops.
+bool ends_tape(std::string_view text) {
+  constexpr std::string_view mark = "XOFF";
+  std::size_t at = 0;
+  for (const char c : text) {
+    if (c == ' ' || c == '\t') continue;
+    if (at == mark.size() || (c | 0x20) != (mark[at] | 0x20)) return false;
+    ++at;
+  }
+  return at == mark.size();
+}
+
 bool blank(std::string_view text) {
   return text.find_first_not_of(" \t") == std::string_view::npos;
 }
@@ -90,7 +102,9 @@ FileReader::FileReader(const SourcePtr& source, FileId file, const ReadOptions& 
       stats_(stats),
       settings_(make_settings(*options.profile)),
       lower_(settings_, diagnostics),
-      reader_(options.reader, settings_.structured) {}
+      reader_(options.reader, settings_.structured) {
+  lower_.collect_uses();
+}
 
 ir::Program FileReader::read() {
   program_.dialect = "num";
@@ -282,7 +296,7 @@ void FileReader::check_label() {
 void FileReader::line(const SourceLine& source_line) {
   ++stats_.lines;
   const std::string_view text = without_tape_bytes(source_line.text);
-  if (text.empty() && !source_line.text.empty()) return tape_mark(source_line.text);
+  if ((text.empty() && !source_line.text.empty()) || ends_tape(text)) return tape_mark(source_line.text);
   span_ = line_span(file_, source_line);
   text_ = text;
   if (text_.size() > facts::block_length)

@@ -2,6 +2,7 @@
 // symbols.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,11 @@ class FileReader {
   FileReader(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
              ReadStats& stats);
 
+  /// Reads with what the ways of the program bring, as an earlier reading found it.
+  void know_arrivals(const Arrivals& arrivals, std::map<std::uint32_t, ActiveCycle> cycles) {
+    lower_.know_arrivals(arrivals, std::move(cycles));
+  }
+  [[nodiscard]] const Lowering& lowering() const { return lower_; }
   /// The whole file; call once.
   ir::Program read();
 

@@ -13,6 +13,7 @@
 
 #include "dialects/num/gcodes.h"
 #include "frontends/common/syntax.h"
+#include "frontends/num/arrivals.h"
 #include "frontends/num/expressions.h"
 #include "frontends/num/report.h"
 #include "frontends/num/settings.h"
@@ -21,25 +22,34 @@
 
 namespace cnctrans::frontends::num {
 
-/// State along the text, for what can only be read with it. It follows the order of lines, not of execution.
+/// The hole cycle in force.
+struct ActiveCycle {
+  std::shared_ptr<const ir::HoleCycle> words;  ///< null: none
+  int code = 0;                                ///< its G number
+  bool has_impact_plane = false;               ///< EH was given: the plane stays when ER changes (11.1)
+  bool inch = false;                           ///< the unit of its words
+  std::uint32_t line = 0;                      ///< where it was defined or changed last; 0: none
+};
+
+/// State along the text, for what can only be read with it. It follows the order of lines; where the ways of the
+/// program bring something else to a line, arrive() puts it right.
 struct TextState {
   std::int64_t program = -1;  ///< number of the program at hand
-  bool known = true;          ///< false at the start of a called program: the caller's state counts
+  bool main = true;           ///< it begins in the power-on state
+  bool known = true;          ///< false in a called program, unless the ways say what its callers have set
   ir::Distance distance = ir::Distance::absolute;
   ir::Plane plane = ir::Plane::xy;
   ir::MotionKind motion = ir::MotionKind::linear;
-  std::shared_ptr<const ir::HoleCycle> cycle;  ///< the hole cycle in force
-  int cycle_code = 0;                          ///< its G number
-  bool cycle_has_impact_plane = false;         ///< EH was given: the plane stays when ER changes (11.1)
-  bool cycle_inch = false;                     ///< the unit of its words
-  std::vector<ir::VarRef> cycle_stale;         ///< variables written since its definition
-  ir::AxisId tool_axis = ir::axis::none;       ///< by G16; none: the normal of the plane (Z on a lathe)
-  bool spatial = false;                        ///< G29 or G43
-  bool contour_open = false;                   ///< the last element's end follows from the next one
-  bool inch = false;                           ///< G70
-  ir::Surface surface = ir::Surface::none;     ///< G21, G22
-  bool turning_profile = false;                ///< between G64 and G80: blocks are a contour, not moves
-  std::shared_ptr<ir::Cycle> stock;            ///< the G64 whose blank is being read
+  ActiveCycle cycle;
+  std::vector<ir::VarRef> cycle_stale;      ///< variables written since its definition
+  bool several_cycles = false;              ///< the ways come to this line with different cycles
+  ir::AxisId tool_axis = ir::axis::none;    ///< by G16; none: the normal of the plane (Z on a lathe)
+  bool spatial = false;                     ///< G29 or G43
+  bool contour_open = false;                ///< the last element's end follows from the next one
+  bool inch = false;                        ///< G70
+  ir::Surface surface = ir::Surface::none;  ///< G21, G22
+  bool turning_profile = false;             ///< between G64 and G80: blocks are a contour, not moves
+  std::shared_ptr<ir::Cycle> stock;         ///< the G64 whose blank is being read
   std::size_t blank_points = 0;
   std::optional<ir::Value> blank_x, blank_z;  ///< the last point
 };
@@ -90,6 +100,17 @@ class Lowering {
 
   /// A block between G64 and G80: a point of the blank. False after a refusal.
   bool blank_point(const ir::Block& block);
+  /// Reads with what the ways of the program bring to lines, and the cycles that an earlier reading found.
+  void know_arrivals(const Arrivals& arrivals, std::map<std::uint32_t, ActiveCycle> cycles) {
+    arrivals_ = &arrivals;
+    earlier_cycles_ = std::move(cycles);
+  }
+  /// Collects modal_uses(); a program read line by line has one way.
+  void collect_uses() { collects_ = true; }
+  [[nodiscard]] const std::vector<ModalUse>& modal_uses() const { return uses_; }
+  [[nodiscard]] const std::map<std::uint32_t, ActiveCycle>& cycles() const { return cycles_; }
+  /// Line of a change of a cycle -> line of the cycle that it was joined with.
+  [[nodiscard]] const std::map<std::uint32_t, std::uint32_t>& changed_cycles() const { return changed_cycles_; }
   /// The program of this Gxxx is at hand.
   void add_macro(std::int64_t number) { macros_.insert(number); }
 
@@ -130,11 +151,16 @@ class Lowering {
   void only_text(const Word& w, const dialects::num::GCode& row);
   void leave_out(const Word& w, std::string_view code, const std::string& what, std::size_t words);
 
+  // way.cpp: what the lines above and the ways of the program bring to the line
+  void arrive(std::uint32_t line);
+  void uses(Modal fact);
+  [[nodiscard]] ir::Plane plane();
+
   // resolve.cpp: what the words mean together
   void resolve();
   void resolve_distance();
   /// What a word at this column counts as; nullopt: the state of the caller decides.
-  [[nodiscard]] std::optional<ir::Distance> distance_at(std::uint32_t column) const;
+  [[nodiscard]] std::optional<ir::Distance> distance_at(std::uint32_t column);
   /// What a G90 or G91 of the block says about a word at this column.
   [[nodiscard]] std::optional<ir::Distance> own_distance(std::uint32_t column) const;
   void resolve_motion();
@@ -171,7 +197,7 @@ class Lowering {
   void change_cycle();
   void pocket(const Word& g);  // pockets.cpp
   bool pocket_levels(ir::HoleCycle& cycle);
-  [[nodiscard]] bool moves_cycle_axis() const;
+  [[nodiscard]] bool moves_cycle_axis();
   bool refuses_new_depth();
   bool refuses_stale_words(const ir::HoleCycle& before, const Word& at);
   bool cycle_words(ir::HoleCycle& cycle, int number);
@@ -179,7 +205,7 @@ class Lowering {
   void oriented_clearance(ir::HoleCycle& cycle);
   bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);
   void put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cycle, bool here);
-  [[nodiscard]] ir::AxisId cycle_axis() const;
+  [[nodiscard]] ir::AxisId cycle_axis();
 
   // turning.cpp
   void turning_cycle(const Word& g);
@@ -201,6 +227,11 @@ class Lowering {
   Expressions expressions_;
   TextState state_;
   std::set<std::int64_t> macros_;
+  const Arrivals* arrivals_ = nullptr;
+  bool collects_ = false;
+  std::vector<ModalUse> uses_;
+  std::map<std::uint32_t, ActiveCycle> cycles_, earlier_cycles_;  ///< by the line that defines or changes one
+  std::map<std::uint32_t, std::uint32_t> changed_cycles_;
 
   /// Words of the line at hand that change what others mean; null: not given.
   struct Marks {
@@ -222,6 +253,7 @@ class Lowering {
     const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above
     bool motion = false;                  ///< a motion code stands in the block
+    bool plane = false, unit = false;     ///< a plane function; G70 or G71
     bool cycle_off = false;
     bool distance_after = false;  ///< the mode changes after the move: words stand before its code
     ir::Distance distance_before = ir::Distance::absolute;  ///< in force before the block

@@ -61,7 +61,7 @@ void Lowering::pocket(const Word& g) {
     const bool radius = !sides && row.parameter == "corner";
     cycle.mill.words.emplace_back(radius ? "radius" : std::string(row.parameter), value(*w));
   }
-  state_.cycle_code = 45;
+  state_.cycle.code = 45;
   out_->has_motion = out_->has_motion || !out_->motion.coords.empty();
   put_cycle(g, std::make_shared<const ir::HoleCycle>(std::move(cycle)), true);
 }

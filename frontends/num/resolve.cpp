@@ -80,8 +80,15 @@ void Lowering::resolve_motion() {
   if (marks_.spatial != nullptr || state_.spatial) spatial_correction();
   if (report_.refused()) return;
   if (marks_.cycle != nullptr) return define_cycle(*marks_.cycle);
-  if (state_.cycle) {
-    const bool own_motion = marks_.motion && marks_.dwell == nullptr, words = (present_ & cycle_slots) != 0;
+  const bool words = (present_ & cycle_slots & ~used_) != 0 && marks_.interruptible == nullptr;
+  if (words) uses(Modal::cycle);
+  if (words && !state_.cycle.words && state_.several_cycles)
+    return report_.refuse("NUM-048", {},
+                          "these words change the cycle in force, and which one that is depends on the way to this "
+                          "block",
+                          "write the whole cycle here");
+  if (state_.cycle.words) {
+    const bool own_motion = marks_.motion && marks_.dwell == nullptr;
     if (own_motion && words) {
       report_.refuse("NUM-026", m.code_pos, "a motion function while a drilling cycle is active",
                      "write G80 before it");
@@ -93,6 +100,7 @@ void Lowering::resolve_motion() {
   if (marks_.three_points != nullptr) return through_points();
   if (marks_.thread != nullptr) return thread_segment();
   const bool contour = (present_ & geometry_slots & ~used_) != 0;
+  if (contour || (present_ & arc_slots & ~used_) != 0) uses(Modal::motion);
   if (contour && !is_arc(marks_.motion ? m.kind : state_.motion)) {
     line_words();
   } else if (contour || (present_ & arc_slots & ~used_) != 0 || (marks_.motion && is_arc(m.kind))) {

@@ -133,6 +133,7 @@ bool Lowering::blank_point(const ir::Block& block) {
     return false;
   };
   if (!state_.stock) return refuse("a point of a blank without its G64");
+  if (marks_.distance_count == 0) uses(Modal::distance);
   bool plain = block.actions.empty() && block.motion.centers.empty() && !block.motion.extra &&
                block.motion.frame == ir::FrameUse::normal && !block.motion.coords.empty();
   for (const auto& c : block.motion.coords) {

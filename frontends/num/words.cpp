@@ -54,7 +54,7 @@ Lowering::Lowering(const Settings& settings, Diagnostics& diagnostics)
 void Lowering::start_program(bool main, std::int64_t number) {
   state_ = TextState{};
   state_.program = number;
-  state_.known = main;
+  state_.main = state_.known = main;
   state_.distance = settings_.power_on.distance;
   state_.plane = settings_.power_on.plane;
   state_.motion = settings_.power_on.motion;
@@ -290,11 +290,13 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::motion: return motion_code(w, static_cast<ir::MotionKind>(row.value));
     case GKind::plane:
       state_.plane = static_cast<ir::Plane>(row.value);
+      marks_.plane = true;
       return setting(w, ir::Setting::plane, state_.plane);
     case GKind::comp:
       state_.spatial = false;
       return setting(w, ir::Setting::comp, static_cast<ir::CompSide>(row.value));
     case GKind::units:
+      marks_.unit = true;
       state_.inch = static_cast<ir::Units>(row.value) == ir::Units::inch;
       return setting(w, ir::Setting::units, static_cast<ir::Units>(row.value));
     case GKind::feed_mode: return setting(w, ir::Setting::feed_mode, static_cast<ir::FeedMode>(row.value));
@@ -340,7 +342,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::cycle_off:
       act(w, Step::setting, ir::CycleCancel{});
       marks_.cycle_off = true;
-      state_.cycle.reset();
+      state_.cycle = {};
       state_.turning_profile = false;
       state_.stock.reset();
       return;
@@ -465,6 +467,7 @@ bool Lowering::words(const syntax::Block& b, const Span& line, std::string_view 
   out_ = &out;
   flow_ = &flow;
   marks_ = Marks{};
+  if (arrivals_ != nullptr) arrive(line.line);
   marks_.distance_before = state_.distance;
   present_ = used_ = 0;
   steps_.clear();
