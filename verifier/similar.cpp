@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
 #include "base/text.h"
+#include "ir/cycles/left_material.h"
 #include "verifier/similar_pocket.h"
 #include "verifier/similar_tap.h"
 #include "verifier/similar_thread.h"
@@ -22,25 +22,16 @@ using interpreter::EventKind;
 
 namespace {
 
-constexpr double step = 0.05;  ///< between the points at which a path is looked at, mm
-constexpr std::size_t cells = 4000;
+using Point = ir::cycles::RolePoint;
+using Line = ir::cycles::RoleLine;
+using Frame = ir::cycles::TurnRole;
+constexpr double step = ir::cycles::role_step;
 
-/// By role: `p` leads away from the part, the tool comes from plus q.
-struct Point {
-  double p = 0, q = 0;
-};
-using Line = std::vector<Point>;
-
-struct Frame {
-  bool face = false;
-  double out = 1, back = 1;
-  [[nodiscard]] Point of(double x, double z) const { return {out * (face ? z : x), back * (face ? x : z)}; }
-  [[nodiscard]] Line of(const std::vector<CyclePoint>& points) const {
-    Line line;
-    for (const auto& c : points) line.push_back(of(c.x, c.z));
-    return line;
-  }
-};
+Line line_of(const Frame& f, const std::vector<CyclePoint>& points) {
+  Line line;
+  for (const auto& c : points) line.push_back(f.of(c.x, c.z));
+  return line;
+}
 
 double distance(const Point& a, const Point& b) {
   return std::hypot(a.p - b.p, a.q - b.q);
@@ -95,27 +86,9 @@ struct Move {
 };
 
 Line points_of(const Frame& f, const CyclePoint& from, const Event& e) {
-  const double x = e.to.value[ir::axis::x], z = e.to.value[ir::axis::z];
-  Line out{f.of(from.x, from.z)};
-  if (e.kind == EventKind::arc) {
-    const double r = std::hypot(from.x - e.center_v, from.z - e.center_u);
-    const double start = std::atan2(from.x - e.center_v, from.z - e.center_u);
-    double sweep = std::atan2(x - e.center_v, z - e.center_u) - start;
-    constexpr double full = 6.283185307179586;
-    if (!e.cw && sweep <= 0) sweep += full;
-    if (e.cw && sweep >= 0) sweep -= full;
-    const double parts = std::clamp(std::ceil(r * std::fabs(sweep) / step), 8.0, 1e5);
-    for (double k = 1; k < parts; ++k) {
-      const double a = start + sweep * k / parts;
-      out.push_back(f.of(e.center_v + r * std::sin(a), e.center_u + r * std::cos(a)));
-    }
-    out.push_back(f.of(x, z));
-    return out;
-  }
-  const double way = std::hypot(x - from.x, z - from.z), parts = std::clamp(std::ceil(way / step), 1.0, 1e5);
-  for (double k = 1; k <= parts; ++k)
-    out.push_back(f.of(from.x + (x - from.x) * k / parts, from.z + (z - from.z) * k / parts));
-  return out;
+  const ir::cycles::TurnPoint a{from.x, from.z}, b{e.to.value[ir::axis::x], e.to.value[ir::axis::z]};
+  if (e.kind == EventKind::arc) return ir::cycles::role_arc(f, a, b, {e.center_v, e.center_u}, !e.cw);
+  return ir::cycles::role_straight(f, a, b);
 }
 
 std::vector<Move> moves_of(const Frame& f, const CyclePasses& side) {
@@ -135,50 +108,6 @@ bool cuts(const Event& e) {
   return e.kind == EventKind::linear || e.kind == EventKind::arc;
 }
 
-/// The material over the contour, as columns along q: how high each still stands.
-class Columns {
- public:
-  Columns(double from, double to) : from_(from), width_((to - from) / double(cells)), height_(cells + 1, none) {}
-  static constexpr double none = -std::numeric_limits<double>::infinity();
-
-  /// The tool passes: `up`, the highest that it comes; else what it leaves.
-  void pass(const Line& points, bool up) {
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const Point &a = points[i - 1], &b = points[i];
-      const double way = b.q - a.q, low = (std::min(a.q, b.q) - from_) / width_, high = low + std::fabs(way) / width_;
-      const bool upright = std::fabs(way) < 1e-9;
-      const double first = upright ? std::round(low) : std::ceil(low - 1e-6);
-      const double last = upright ? first : std::floor(high + 1e-6);
-      for (double n = std::max(first, 0.0); n <= std::min(last, double(cells)); ++n) {
-        const auto k = static_cast<std::size_t>(n);
-        const double at = from_ + width_ * n;
-        const double part = std::fabs(way) < 1e-9 ? -1 : std::clamp((at - a.q) / way, 0.0, 1.0);
-        const double p = part < 0 ? (up ? std::max(a.p, b.p) : std::min(a.p, b.p)) : a.p + (b.p - a.p) * part;
-        height_[k] = up ? std::max(height_[k], p) : std::min(height_[k], p);
-      }
-    }
-  }
-  /// The lowest, or the highest, of the columns around q.
-  [[nodiscard]] double around(double q, bool lowest) const {
-    const std::size_t k = index(q);
-    double best = height_[k];
-    constexpr std::size_t by = 2;
-    for (std::size_t i = k < by ? 0 : k - by; i <= std::min(k + by, cells); ++i)
-      best = lowest ? std::min(best, height_[i]) : std::max(best, height_[i]);
-    return best;
-  }
-  [[nodiscard]] bool inside(double q) const { return q >= from_ && q <= from_ + width_ * double(cells); }
-  [[nodiscard]] double place(std::size_t k) const { return from_ + width_ * double(k); }
-  [[nodiscard]] double at(std::size_t k) const { return height_[k]; }
-
- private:
-  [[nodiscard]] std::size_t index(double q) const {
-    return static_cast<std::size_t>(std::clamp(std::round((q - from_) / width_), 0.0, double(cells)));
-  }
-  double from_, width_;
-  std::vector<double> height_;
-};
-
 class Stock {
  public:
   Stock(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances)
@@ -194,16 +123,13 @@ class Stock {
     if (a.rough.empty() && a.finish.empty()) return "the contour of a cycle is not known";
     const auto& contour = a.rough.empty() ? a.finish : a.rough;
     frame_ = {a.face, a.out, 1};
-    const Line plain = frame_.of(contour);
-    const Point low = plain.front().p <= plain.back().p ? plain.front() : plain.back();
-    const Point high = plain.front().p <= plain.back().p ? plain.back() : plain.front();
-    if (low.q < high.q) frame_.back = -1;
+    frame_.come_from_the_low_end(line_of(frame_, contour));
     for (const bool finish : {false, true}) {
       const std::string what = contours(finish);
       if (!what.empty()) return what;
     }
     const auto there = moves_of(frame_, a_), here = moves_of(frame_, b_);
-    top_ = highest(frame_.of(contour));
+    top_ = highest(line_of(frame_, contour));
     for (const auto& m : there) {
       if (cuts(*m.event)) top_ = std::max(top_, highest(m.points));
     }
@@ -220,7 +146,7 @@ class Stock {
     return run.finish.empty() ? "does nothing" : "only finishes";
   }
   [[nodiscard]] Line contour(const CycleRun& run, bool finish) const {
-    return frame_.of(finish ? run.finish : run.rough);
+    return line_of(frame_, finish ? run.finish : run.rough);
   }
 
   std::string contours(bool finish) {
@@ -294,74 +220,20 @@ class Stock {
     return fmt::format("X{} Z{}", rounded(frame_.face ? v : u, 3), rounded(frame_.face ? u : v, 3));
   }
 
-  /// What the source's passes cut is taken for the blank: the translation may leave no more of it, and may not move
-  /// through it in rapid.
+  /// What the source's passes cut is taken for the blank.
   std::string material(const std::vector<Move>& there, const std::vector<Move>& here) const {
-    const Line bound = contour(*a_.run, a_.run->rough.empty());
-    double from = bound.front().q, to = from;
-    for (const auto& p : bound) {
-      from = std::min(from, p.q);
-      to = std::max(to, p.q);
-    }
-    if (to - from < 1e-6) return {};
-    Columns blank(from, to);
-    for (const auto& m : there) {
-      if (cuts(*m.event)) blank.pass(clipped(m.points, from, to), true);
-    }
-    Columns left = blank, mine = blank;
-    std::string what;
-    for (const bool finishing : {false, true}) {
-      for (const auto& m : there) {
-        if (cuts(*m.event) && m.comp == finishing) left.pass(clipped(m.points, from, to), false);
-      }
-      bool finished = false;  // the ways behind a finishing pass go through what it has cut
-      for (const auto& m : here) {
-        finished = finished || (cuts(*m.event) && m.comp);
-        if (!cuts(*m.event)) {
-          if (finished == finishing && what.empty()) what = dives(m, mine);
-        } else if (m.comp == finishing) {
-          mine.pass(clipped(m.points, from, to), false);
-        }
-      }
-      if (what.empty()) what = more(mine, left);
-    }
-    return what;
-  }
-  /// Through what still stands, in rapid.
-  std::string dives(const Move& m, const Columns& mine) const {
-    for (const auto& p : m.points) {
-      if (mine.inside(p.q) && p.p < mine.around(p.q, true) - 2 * t_.contour)
-        return "a rapid move of the translation's cycle goes through material that is not cut yet, at " + said(p);
-    }
-    return {};
-  }
-  std::string more(const Columns& mine, const Columns& left) const {
-    for (std::size_t k = 0; k <= cells; ++k) {
-      if (left.at(k) == Columns::none) continue;
-      const double q = left.place(k);
-      if (mine.at(k) > left.around(q, false) + 2 * t_.contour)
-        return "the translation's cycle leaves more than the source's, at " + said({mine.at(k), q});
-    }
-    return {};
-  }
-  /// The part of a move over the contour.
-  static Line clipped(const Line& points, double from, double to) {
-    Line out;
-    const auto cut = [](const Point& a, const Point& b, double q) {
-      return Point{a.p + (b.p - a.p) * (q - a.q) / (b.q - a.q), q};
+    const auto by_role = [](const std::vector<Move>& moves) {
+      std::vector<ir::cycles::RoleMove> out;
+      out.reserve(moves.size());
+      for (const auto& m : moves) out.push_back({m.points, cuts(*m.event), m.comp});
+      return out;
     };
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      Point a = points[i - 1], b = points[i];
-      if (std::max(a.q, b.q) < from || std::min(a.q, b.q) > to) continue;
-      const Point whole_a = a, whole_b = b;
-      for (Point* end : {&a, &b}) {
-        if (end->q < from) *end = cut(whole_a, whole_b, from);
-        if (end->q > to) *end = cut(whole_a, whole_b, to);
-      }
-      if (out.empty()) out.push_back(a);
-      out.push_back(b);
-    }
-    return out;
+    const auto fault =
+        ir::cycles::material_fault(contour(*a_.run, a_.run->rough.empty()), by_role(there), by_role(here), t_.contour);
+    if (!fault) return {};
+    return (fault->in_rapid ? "a rapid move of the translation's cycle goes through material that is not cut yet, at "
+                            : "the translation's cycle leaves more than the source's, at ") +
+           said(fault->at);
   }
 
   const CyclePasses &a_, &b_;

@@ -123,7 +123,11 @@ void CyclePass::own_labels(SimilarForm& form) {
   const auto clash = [&](const ProfileUse& o) {
     return o.first_label == use.first_label || o.last_label == use.last_label;
   };
-  while (std::any_of(uses_of_profiles_.begin(), uses_of_profiles_.end(), clash)) {
+  const auto used = use.numbers ? block_numbers(editor_.program) : std::set<std::int64_t>{};
+  const auto taken = [&] {
+    return use.numbers && (used.count(std::stol(use.first_label)) != 0 || used.count(std::stol(use.last_label)) != 0);
+  };
+  while (taken() || std::any_of(uses_of_profiles_.begin(), uses_of_profiles_.end(), clash)) {
     if (use.copy.empty()) use.copy = use.blocks;
     for (auto* label : {&use.first_label, &use.last_label})
       *label = use.numbers ? std::to_string(std::stol(*label) + 20) : *label + 'A';

@@ -122,17 +122,18 @@ bool plain_element(const Block& b, bool here) {
                        b.repeat_given == 0);
 }
 
-/// The greatest block number of the program, up to the next ten.
-std::int64_t last_number(const Program& program) {
+/// Two free numbers, ten apart, behind those of the blocks.
+std::int64_t free_numbers(const Program& program, const Body& blocks) {
   std::int64_t most = 0;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      for (const auto& l : labels_on(s.line)) {
-        if (l.is_number && l.text.size() < 10) most = std::max<std::int64_t>(most, std::stol(l.text));
-      }
-    });
+  for (const auto& s : blocks) {
+    for (const auto& l : labels_on(s.line)) {
+      if (l.is_number && l.text.size() < 10) most = std::max<std::int64_t>(most, std::stol(l.text));
+    }
   }
-  return (most + 9) / 10 * 10;
+  const auto used = block_numbers(program);
+  std::int64_t n = (most + 9) / 10 * 10 + 10;
+  while (used.count(n) != 0 || used.count(n + 10) != 0) n += 10;
+  return n;
 }
 
 std::string label_of_use(const Program& program, const std::string& prefix, const NamedCycle& named,
@@ -178,11 +179,11 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   if (numbers) {
     *why = "its profile does not begin with a straight move to a point";
     if (!begins) return std::nullopt;
-    const auto last = last_number(program_);
-    if (last + 20 > context_.target.label_max) return std::nullopt;
+    const auto number = free_numbers(program_, site.blocks);
+    if (number + 10 > context_.target.label_max) return std::nullopt;
     use.first = site.blocks[1].id;  // the point before it stands among the words
-    use.first_label = std::to_string(last + 10);
-    use.last_label = std::to_string(last + 20);
+    use.first_label = std::to_string(number);
+    use.last_label = std::to_string(number + 10);
     use.blocks = {site.blocks.begin() + 1, site.blocks.end()};
     if (run) use.copy = use.blocks;
     why->clear();

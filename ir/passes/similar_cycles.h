@@ -70,6 +70,8 @@ struct SimilarSource {
 std::optional<SimilarForm> similar_stock(const SimilarSource& source, std::string* why);
 std::optional<SimilarForm> similar_thread(const SimilarSource& source, std::string* why);
 
+/// The block numbers that stand in the program.
+std::set<std::int64_t> block_numbers(const Program& program);
 /// Takes the blocks of those profiles out of `blocks`.
 void keep_used(const Program& program, const std::vector<ProfileUse>& uses, std::set<std::uint32_t>& blocks);
 /// A copy of the blocks with the labels, to stand behind the end of the program.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/text.h"
+#include "ir/cycles/left_material.h"
 #include "ir/passes/machining_moves.h"
 #include "ir/passes/similar_cycles.h"
 
@@ -189,6 +190,7 @@ class StockForms {
     const bool straight = std::abs(mine_.left.face ? a.x - b.x : a.z - b.z) < tiny;
     if (!straight || theirs.left.face != mine_.left.face || theirs.left.out != mine_.left.out) return std::nullopt;
     if (recess() || mine_.first_pass() > theirs.top() + tiny) return std::nullopt;
+    if (!cuts_as_much(theirs)) return std::nullopt;
     auto out = written(form, theirs);
     const double k = s_.modes.diameter == DiameterMode::radius || mine_.left.face ? 1 : 2;
     out.tail = std::round(mine_.left.out * to * k * 1e6) / 1e6;
@@ -216,7 +218,50 @@ class StockForms {
       return no("the blank stands " + shortest(std::round(high * 1e3) / 1e3) +
                 " mm and more over the highest point of the contour, where the target's cycle begins"),
              false;
-    return true;
+    return cuts_as_much(theirs);
+  }
+
+  /// By the measure that the verifier takes; computed words are not what they will be.
+  bool cuts_as_much(const Played& theirs) {
+    if (computed_) return true;
+    constexpr double room = 0.004;  // mm, of two contours
+    cycles::TurnRole role{mine_.left.face, mine_.left.out, 1};
+    const auto bound_of = [&] {
+      cycles::RoleLine line;
+      for (const auto& e : mine_.left.rough) {
+        const auto part = e.arc ? cycles::role_arc(role, e.from, e.to, e.centre, e.ccw)
+                                : cycles::RoleLine{role.of(e.from), role.of(e.to)};
+        line.insert(line.end(), part.begin(), part.end());
+      }
+      return line;
+    };
+    role.come_from_the_low_end(bound_of());
+    const auto fault =
+        cycles::material_fault(bound_of(), by_role(role, mine_, s_.at), by_role(role, theirs, at_), room);
+    if (!fault) return true;
+    const double u = role.out * fault->at.p, v = role.back * fault->at.q;
+    const double k = s_.modes.diameter == DiameterMode::radius ? 1 : 2;
+    const auto shown = [](double n) { return shortest(std::round(n * 1e3) / 1e3 + 0.0); };
+    return no(std::string(fault->in_rapid ? "the target's cycle would go through the blank in rapid, at X"
+                                          : "the target's cycle would leave some of the blank, at X") +
+              shown(k * (role.face ? v : u)) + " Z" + shown(role.face ? u : v)),
+           false;
+  }
+  /// The moves from where the first one ends, or from the tool's place where that is known.
+  static std::vector<cycles::RoleMove> by_role(const cycles::TurnRole& role, const Played& played, TurnPoint at) {
+    std::vector<cycles::RoleMove> out;
+    bool finishing = false;
+    for (const auto& m : played.moves) {
+      finishing = m.step == TurnStep::comp_left || m.step == TurnStep::comp_right ||
+                  (finishing && m.step != TurnStep::comp_off);
+      const bool arc = m.step == TurnStep::arc, cuts = arc || m.step == TurnStep::feed;
+      if (!cuts && m.step != TurnStep::rapid) continue;
+      if (!std::isnan(at.x) && !std::isnan(at.z))
+        out.push_back({arc ? cycles::role_arc(role, at, m.to, m.centre, m.ccw) : cycles::role_straight(role, at, m.to),
+                       cuts, finishing});
+      at = m.to;
+    }
+    return out;
   }
 
   // --- against the contour alone --------------------------------------------------------------------------------
@@ -374,117 +419,6 @@ class StockForms {
 
 std::optional<SimilarForm> similar_stock(const SimilarSource& source, std::string* why) {
   return StockForms(source, why).find();
-}
-
-void keep_used(const Program& program, const std::vector<ProfileUse>& uses, std::set<std::uint32_t>& blocks) {
-  for (const auto& use : uses) {
-    if (!use.copy.empty()) continue;
-    for (const auto& r : program.routines) {
-      bool inside = false;
-      for (const auto& s : r.body) {
-        inside = inside || s.id == use.first;
-        if (inside) blocks.erase(s.id);
-        if (s.id == use.last) inside = false;
-      }
-    }
-  }
-}
-
-namespace {
-
-Statement straight_to(const LineInfo& like, const std::optional<Value>& x, const std::optional<Value>& z) {
-  Block b;
-  b.has_motion = true;
-  b.motion.kind = MotionKind::linear;
-  b.motion.explicit_code = true;
-  for (const auto& [axis, v] : {std::pair(axis::x, x), std::pair(axis::z, z)}) {
-    if (!v) continue;
-    CoordWord w;
-    w.axis = axis;
-    w.value = *v;
-    b.motion.coords.push_back(w);
-  }
-  return made(like, std::move(b));
-}
-std::optional<Statement> tail_of(const ProfileUse& use, const LineInfo& like) {
-  if (!use.tail) return std::nullopt;
-  const auto to = std::optional(Value(*use.tail));
-  return use.face ? straight_to(like, {}, to) : straight_to(like, to, {});
-}
-/// The first block of a range is read without what stands before it.
-void say_straight(Statement& s) {
-  auto& b = std::get<Block>(s.node);
-  if (!b.has_motion || b.motion.kind != MotionKind::modal) return;
-  b.motion.kind = MotionKind::linear;
-  b.motion.explicit_code = true;
-}
-LabelRef first_of(const ProfileUse& use) {
-  return LabelRef{use.first_label, use.numbers, nullptr};
-}
-LabelRef last_of(const ProfileUse& use) {
-  return LabelRef{use.last_label, use.numbers, nullptr};
-}
-
-}  // namespace
-
-void ProfileUse::name(NamedCycle& cycle) const {
-  const auto value = [this](const std::string& label) {
-    return numbers ? Value(double(std::stol(label))) : Value(string_literal(label));
-  };
-  for (auto& [w, v] : cycle.words) {
-    if (w == "first_label") v = value(first_label);
-    if (w == "last_label") v = value(last_label);
-  }
-}
-
-Body copied_profile(const ProfileUse& use, Program& program) {
-  Body out;
-  for (const auto& s : use.copy) {
-    out.push_back(s);
-    out.back().id = 0;
-    out.back().line.number = {};
-    out.back().line.labels.clear();
-    std::erase_if(std::get<Block>(out.back().node).actions,
-                  [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
-  }
-  if (use.x && use.z) out.insert(out.begin(), straight_to(out.front().line, use.x, use.z));
-  if (auto tail = tail_of(use, out.back().line)) out.push_back(std::move(*tail));
-  say_straight(out.front());
-  set_label(out.front().line, first_of(use), program);
-  set_label(out.back().line, last_of(use), program);
-  return out;
-}
-
-void label_profiles(Program& program, const std::vector<ProfileUse>& uses) {
-  std::vector<ProfileUse> done;
-  for (const auto& use : uses) {
-    if (!use.copy.empty() || std::find(done.begin(), done.end(), use) != done.end()) continue;
-    done.push_back(use);
-    for (auto& r : program.routines) {
-      for (std::size_t i = 0; i < r.body.size(); ++i) {
-        if (r.body[i].id == 0) continue;
-        const bool first = r.body[i].id == use.first, last = r.body[i].id == use.last;
-        const auto place = [&] { return r.body.begin() + static_cast<std::ptrdiff_t>(i); };
-        if (first && use.x && use.z) {
-          Statement s = straight_to(r.body[i].line, use.x, use.z);
-          set_label(s.line, first_of(use), program);
-          r.body.insert(place(), std::move(s));
-          ++i;
-        } else if (first) {
-          say_straight(r.body[i]);
-          set_label(r.body[i].line, first_of(use), program);
-        }
-        if (!last) continue;
-        if (auto tail = tail_of(use, r.body[i].line)) {
-          set_label(tail->line, last_of(use), program);
-          r.body.insert(place() + 1, std::move(*tail));
-        } else {
-          set_label(r.body[i].line, last_of(use), program);
-        }
-        break;
-      }
-    }
-  }
 }
 
 }  // namespace cnctrans::ir::passes
