@@ -1,7 +1,10 @@
 // Default words of actions and motions: what ISO-like languages have in common; the rest is refused.
+#include <algorithm>
+
 #include "backends/common/program_writer.h"
 #include "base/text.h"
 #include "ir/opaque_words.h"
+#include "ir/search.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -128,6 +131,21 @@ bool unknown_fall(const Style& style, const ir::Motion& m) {
          !m.extra->lead_change.literal();
 }
 
+/// A point of a hole cycle. A control that goes there in rapid, whichever motion function is in force, needs none: not
+/// the one, either, that comes back behind a code that was written for a single move.
+template <class Before>
+bool is_hole(const ir::Statement& s, const ir::Motion& m, const Before& before) {
+  const auto* block = std::get_if<ir::Block>(&s.node);
+  const auto* define = block != nullptr ? ir::action_in<ir::CycleDefine>(*block) : nullptr;
+  if (define != nullptr)
+    return define->here && define->cycle && std::holds_alternative<ir::HoleCycle>(define->cycle->node);
+  const ir::Facts* f = before();
+  if (f == nullptr || !f->cycle_active_known || !f->cycle_active || !f->cycle_is_hole) return false;
+  const auto plane = f->settings[static_cast<std::size_t>(ir::Setting::plane)];
+  const ir::AxisId along = plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::none;
+  return plane && std::none_of(m.coords.begin(), m.coords.end(), [along](const auto& c) { return c.axis == along; });
+}
+
 }  // namespace
 
 void ProgramWriter::motion(const ir::Motion& m) {
@@ -151,7 +169,13 @@ void ProgramWriter::motion(const ir::Motion& m) {
     if (!known_already) add(std::string(code), Rank::motion_code, m.code_pos);
     tracker_.wrote(m.kind, m.keeps_modal);
   } else if (m.moves()) {
+    const MotionTracker seen = tracker_;
     auto kind = tracker_.needed(std::nullopt);
+    if (kind && !same_dialect_ && current_ != nullptr && profile().option("cycle.positioning") == "rapid" &&
+        is_hole(*current_, m, [this] { return facts(); })) {
+      tracker_ = seen;
+      kind.reset();
+    }
     if (kind == ir::MotionKind::modal) {
       const ir::Facts* f = facts();
       if (f != nullptr && !f->reachable)

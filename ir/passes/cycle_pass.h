@@ -12,6 +12,7 @@
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/machining_moves.h"
 #include "ir/passes/milling_moves.h"
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
@@ -249,14 +250,22 @@ class CyclePass {
   void tell_guessed_row(const Statement& s) const;
   void pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out);
   /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
-  void feed_for_tap(Block& b, const Active& a) const {
+  void feed_for_tap(Block& b, const Active& a) {
     if (!a.needs.feed || by_call_) return;
     std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
     b.actions.push_back(action(SetFeed{*a.needs.feed, false}));
+    tap_feed_ = true;
   }
   static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts) {
     if (!a.needs.feed || !facts.feed) return std::nullopt;
     return action(SetFeed{Value{*facts.feed}, false});
+  }
+  /// Behind the tap, where the block has no F of its own. Also when the tap was off already, or another cycle follows.
+  void feed_comes_back(Block& b, const Facts& facts) {
+    if (!std::exchange(tap_feed_, false)) return;
+    const bool own = std::any_of(b.actions.begin(), b.actions.end(),
+                                 [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
+    if (!own && facts.feed) b.actions.push_back(action(SetFeed{Value{*facts.feed}, false}));
   }
   /// The way to the hole would be driven at the tap's feed.
   bool refuse_feed_of_tap(Statement& s, const Active& a) {
@@ -271,13 +280,13 @@ class CyclePass {
 
   void cancel_statement(Statement&& s, Body& out) {
     const bool on = active_->on_target || active_->maybe_on_target;
-    const auto feed = feed_after_tap(*active_, facts_.before(s));
+    tap_feed_ = tap_feed_ || (on && !by_call_ && active_->needs.feed);
     active_.reset();
     if (on) {
       if (!by_call_) {
         Block b;
         b.actions.push_back(action(CycleCancel{}));
-        if (feed) b.actions.push_back(*feed);
+        feed_comes_back(b, facts_.before(s));
         s.node = std::move(b);
       }
       out.push_back(std::move(s));
@@ -305,6 +314,7 @@ class CyclePass {
       return position(std::move(s), out);
     }
     check_axis_word(s, facts_.before(s), active_ ? active_->source : nullptr, context_);
+    if (!active_ || !active_->needs.feed) tap_feed_ = tap_feed_ && action_in<SetFeed>(b) == nullptr;
     const bool cancelled = take_cancel(b);
     const auto definition = take_definition(b, pos);
     Body pieces;
@@ -443,6 +453,7 @@ class CyclePass {
   std::vector<Span> unsure_;             ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
+  bool tap_feed_ = false;      ///< the F in force on the target is that of a tap
   std::optional<Active> ran_;  ///< what the block at hand runs by its definition
 };
 

@@ -74,17 +74,15 @@ void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& p
   // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
   const Facts& facts = facts_.before(s);
   const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
-  const auto feed = active_ && !by_call_ ? feed_after_tap(*active_, facts) : std::nullopt;
   const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
+  tap_feed_ = tap_feed_ || (on && !by_call_ && active_ && active_->needs.feed);
   active_.reset();
-  if (!on || defines_again) return;
-  if (by_call_)
+  if (defines_again) return;
+  if (on && by_call_)
     pieces.push_back(off_statement(s.line, true));
-  else
+  else if (on)
     b.actions.insert(b.actions.begin(), action(CycleCancel{}));
-  const bool own = std::any_of(b.actions.begin(), b.actions.end(),
-                               [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
-  if (feed && !own) b.actions.push_back(*feed);
+  feed_comes_back(b, facts);
 }
 
 bool CyclePass::levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const {

@@ -289,6 +289,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
+  if (!a.native || !a.needs.feed) feed_comes_back(b, facts);
   a.from = s.id;
   a.said_by.push_back(s.id);
   lacking_ = lacking_ || (d.modal && !a.native);
@@ -363,7 +364,10 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
       late_.push_back(distance_set(Distance::incremental));
     }
     b.actions.push_back(action(native));
-    if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) late_.push_back(*feed);
+    if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) {
+      late_.push_back(*feed);
+      tap_feed_ = false;
+    }
     if (leave) {
       const LineInfo like = s.line;
       const std::size_t main = pieces.size();
