@@ -192,7 +192,11 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
       if (assign == nullptr) return;
       for (const auto& item : assign->items) {
         if (!item.to_system) continue;
-        radius_written_ = radius_written_ || item.system.datum == Datum::tool_radius;
+        if (item.system.datum != Datum::tool_radius) continue;
+        radius_written_ = true;
+        const auto row = item.system.args.size() == 1 ? constant_value(item.system.args[0]) : std::nullopt;
+        radius_anywhere_ = radius_anywhere_ || !row;
+        if (row) radius_names_[*row] = datum_name(item.system);
       }
     });
   }
@@ -283,6 +287,11 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
       return *it->second * scale;
     }
     if (const auto it = machine.data.find(name); it != machine.data.end()) return it->second * scale;
+  }
+  // As the program itself writes it for the offset in force.
+  if (const auto own = site.offset ? radius_names_.find(*site.offset) : radius_names_.end();
+      own != radius_names_.end() && !radius_anywhere_) {
+    if (const auto& value = written_.at(own->second)) return *value;
   }
   if (radius_written_) return *error = "the program writes the radius of its tools", std::nullopt;
   if (!machine.tools.empty()) {

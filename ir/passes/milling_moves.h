@@ -61,7 +61,9 @@ class MillCycles {
 
   const LegaliseContext& context_;
   const FeedsBefore& feeds_;
-  bool radius_written_ = false;  ///< by the program, under any name
+  bool radius_written_ = false;                 ///< by the program, under any name
+  bool radius_anywhere_ = false;                ///< of a computed offset
+  std::map<double, std::string> radius_names_;  ///< by the number of the offset
   mutable std::optional<End> end_;
   void find_contours(const Program& program, const Routine& routine);
   std::set<std::uint32_t> contour_blocks_;
