@@ -1,5 +1,6 @@
 // The programmable frame along a program, calls included.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -60,32 +61,57 @@ void pass_by_repeats(ControlFlow& flow) {
     const auto& next = flow.successors[from];
     return std::find(next.begin(), next.end(), to) != next.end();
   };
+  struct Range {
+    std::uint32_t first = 0, last = 0;
+  };
+  const auto range_of = [&](std::uint32_t id) {
+    const auto* r = flow.statements[id] != nullptr ? std::get_if<Repeat>(&flow.statements[id]->node) : nullptr;
+    if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty()) return Range{};
+    const std::uint32_t a = labelled(r->first), b = labelled(r->last);
+    return Range{std::min(a, b), std::max(a, b)};
+  };
   const auto changes = [](const Statement* s) {
     if (s == nullptr) return false;
-    if (std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<Repeat>(s->node) ||
-        std::holds_alternative<ModalCall>(s->node) || std::holds_alternative<Opaque>(s->node))
+    if (std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<ModalCall>(s->node) ||
+        std::holds_alternative<Opaque>(s->node))
       return true;
     const auto* b = std::get_if<Block>(&s->node);
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(),
                                        [](const Action& a) { return std::holds_alternative<FrameOp>(a.data); });
   };
+  // Neither the range nor what it repeats itself changes a frame.
+  constexpr int deepest = 8;
+  const std::function<bool(const Range&, int)> leaves_alone = [&](const Range& range, int depth) {
+    if (range.first == 0 || depth > deepest) return false;
+    for (std::uint32_t i = range.first; i <= range.last; ++i) {
+      const Statement* s = flow.statements[i];
+      if (changes(s)) return false;
+      if (s != nullptr && std::holds_alternative<Repeat>(s->node) && !leaves_alone(range_of(i), depth + 1))
+        return false;
+    }
+    return true;
+  };
+  // A range that ends with a Repeat ends where the range of that one ends.
+  const auto exit_of = [&](std::uint32_t last) {
+    for (int depth = 0; depth < deepest; ++depth) {
+      const Range inner = range_of(last);
+      if (inner.first == 0) break;
+      last = inner.last;
+    }
+    return last;
+  };
   std::map<std::uint32_t, std::set<std::uint32_t>> behind;  // last statement of a range -> behind its repeats
   for (std::uint32_t id = 1; id + 1 < flow.statements.size(); ++id) {
-    const auto* r = flow.statements[id] != nullptr ? std::get_if<Repeat>(&flow.statements[id]->node) : nullptr;
-    if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty()) continue;
-    const std::uint32_t a = labelled(r->first), b = labelled(r->last);
-    const std::uint32_t first = std::min(a, b), last = std::max(a, b), next = id + 1;
+    const Range range = range_of(id);
+    const std::uint32_t first = range.first, last = range.last, next = id + 1;
     if (first == 0 || (id >= first && id <= last) || flow.statements[next] == nullptr) continue;
-    if (!leads_to(last, next)) continue;
-    bool clean = true;
-    for (std::uint32_t i = first; i <= last; ++i) clean = clean && !changes(flow.statements[i]);
-    if (!clean) continue;
+    if (!leads_to(exit_of(last), next) || !leaves_alone(range, 0)) continue;
     const auto begin = flow.statements.begin();
     if (first > 1 && leads_to(first - 1, first) &&
         std::all_of(begin + first, begin + last + 1, indifferent))  // then nobody there looks at what holds here
       std::erase_if(flow.successors[id], [first, last](std::uint32_t n) { return n >= first && n <= last; });
     flow.successors[id].push_back(next);
-    if (next != last + 1) behind[last].insert(next);
+    if (next != last + 1) behind[exit_of(last)].insert(next);
   }
   for (const auto& entry : behind) {
     std::erase_if(flow.successors[entry.first], [&ids = entry.second](std::uint32_t n) { return ids.count(n) != 0; });
