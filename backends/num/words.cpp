@@ -124,6 +124,7 @@ bool Writer::spelling_is_whole_word(const ir::Action& a) const {
 
 void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
   if (s.number != 1 || s.lower) return refuse(no_word, a.pos, "this spindle limit has no counterpart here");
+  tell_limit(a, s);
   if (!line().empty() && !same_dialect()) next_line();
   add("G92", Rank::setting, same_dialect() ? a.pos : WordPos{});
   add(word("S", s.value, a.pos), Rank::spindle, a.pos);

@@ -40,6 +40,7 @@ class Writer final : public ProgramWriter {
   bool css_ = false;  ///< G96 was written last, G97 not since
   void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
+  void tell_limit(const ir::Action& a, const ir::SpindleLimit& s);
   void work_offset(const ir::Action& a, const ir::WorkOffset& w) override;
   void frame_op(const ir::Action& a, const ir::FrameOp& f) override;
   void surface_set(const ir::Action& a, const ir::SurfaceSet& s) override;
