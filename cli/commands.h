@@ -39,7 +39,7 @@ struct Arguments {
   std::string skip;
   std::optional<std::uint64_t> max_events;  ///< else by command: 50 million, or 2 million where traces are kept
   std::uint64_t max_steps = 500'000'000;
-  std::string trace, vars;
+  std::string trace, vars, written;
   bool json = false;
   bool places = false;
   std::string shell;

@@ -159,6 +159,8 @@ int main(int argc, char** argv) {
   add_running(*run, a);
   run->add_option("--trace", a.trace, "write the events, one JSON object a line (- is standard output)");
   run->add_option("--vars", a.vars, "write the final values of variables as JSON");
+  run->add_option("--written", a.written, "folder for the programs that the program writes (OPEN, WRITE)")
+      ->type_name("DIR");
   CLI::App* verify = app.add_subcommand("verify", "compare a program with a translation made by anyone");
   verify->add_option("--from", a.from, "dialect of the source")->required();
   verify->add_option("--to", a.to, "dialect of the translation")->required();

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "base/text.h"
@@ -83,6 +84,17 @@ std::string vars_json(const interpreter::Result& result) {
   return text + "}\n";
 }
 
+/// What the program has written, each file in the folder of --written. No file that the run has read is written over.
+bool write_files(const Arguments& a, const translator::RunResult& result) {
+  for (const auto& [name, text] : result.written) {
+    const std::string path = (std::filesystem::path(a.written) / name).string();
+    Target file(a);
+    if (file.open(path)) file.write(text);
+    if (!file.close(result.files)) return false;
+  }
+  return true;
+}
+
 int exit_of(interpreter::EndReason reason) {
   switch (reason) {
     case interpreter::EndReason::program_end: return ok;
@@ -101,6 +113,8 @@ int run(const Arguments& a) {
   if (a.inputs.size() != 1) return usage_error(a, "run takes one program");
   std::vector<std::string> read = machine_files(a);
   read.push_back(a.inputs.front());
+  if (!a.written.empty() && !std::filesystem::is_directory(a.written))
+    return usage_error(a, "--written " + a.written + ": no such folder");
   if (const auto why = output_conflict({{"--trace", a.trace}, {"--vars", a.vars}}, read); !why.empty())
     return usage_error(a, why);
   Target trace(a), vars(a);
@@ -119,6 +133,7 @@ int run(const Arguments& a) {
     vars.write(vars_json(result.result));
     if (!vars.close(result.files)) return usage;
   }
+  if (!a.written.empty() && !write_files(a, result)) return usage;
   a.messages->add(result.diagnostics, result.files);
   const auto& r = result.result;
   if (!a.quiet && a.trace.empty() && a.vars.empty()) {

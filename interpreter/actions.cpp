@@ -198,6 +198,7 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
         pole_ = {};
         pole_set_ = false;
       }
+      if (policy_.plane_ends_cycle && m.value != static_cast<std::uint8_t>(modal_.plane)) hole_.reset();
       break;
     default: break;
   }

@@ -37,6 +37,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.offsets_at_once = is("work_offset.write", "at_once");
   policy_.preset_is_offset = is("frame.preset", "with_work_offset");
   curve_tolerance_ = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
+  policy_.plane_ends_cycle = is("cycle.plane_function", "ends");
   policy_.data_modal = is("machine_data.units", "modal");
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;

@@ -160,6 +160,7 @@ class BlockMachine final : public SystemData {
          pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
          offsets_at_once = false, preset_is_offset = false, straight_tangents = false, polar_radius_stays = false;
     bool data_modal = false;  ///< machine data in the units of the program
+    bool plane_ends_cycle = false;
   };
   struct Pending {
     Move move;

@@ -95,7 +95,9 @@ Flow* Runner::callee_of(const ir::CallRoutine& c) {
     }
     if (failure_.set) return nullptr;
   }
-  auto* flow = routines_.find(name, *flow_);
+  Flow* flow = nullptr;
+  if (!written_routine(name, flow)) return nullptr;
+  if (flow == nullptr) flow = routines_.find(name, *flow_);
   if (flow == nullptr && !c.optional) {
     if (profile_.option("call.missing") == "passed_over") {
       if (c.computed)
@@ -103,7 +105,9 @@ Flow* Runner::callee_of(const ir::CallRoutine& c) {
                              "there is no subprogram " + routine_text(name) + "; the run goes past the call");
       return nullptr;
     }
-    failure_.fail(code::routine_missing, "there is no subprogram " + routine_text(name));
+    const bool program = !name.text.empty() && name.text.find_first_not_of("0123456789") == std::string::npos;
+    failure_.fail(code::routine_missing,
+                  (program ? "there is no program " : "there is no subprogram ") + routine_text(name));
   }
   return flow;
 }
@@ -411,6 +415,7 @@ void Runner::give_back(const ir::Return& r) {
 }
 
 void Runner::end_program(const ir::End& e) {
+  open_file_ = no_file;
   if (e.returns_from_sub && calls_.size() > 1) {
     repeats_.resize(calls_.back().repeats);
     leave(true);

@@ -2,8 +2,10 @@
 #include <map>
 #include <vector>
 
+#include "interpreter/expressions.h"
 #include "interpreter/routines.h"
 #include "interpreter/run_codes.h"
+#include "ir/file_line.h"
 #include "ir/missing_features.h"
 
 namespace cnctrans::interpreter {
@@ -19,7 +21,7 @@ bool is_read(const ir::Opaque& o) {
 class Checker {
  public:
   Checker(const ir::Program& program, const Options& options, Diagnostics& diagnostics)
-      : routines_(program, options, nullptr), diagnostics_(diagnostics) {}
+      : program_(program), routines_(program, options, nullptr), diagnostics_(diagnostics) {}
 
   void run() {
     auto* main = routines_.main();
@@ -160,15 +162,33 @@ class Checker {
   }
 
   void missing_routine(const ir::Statement& s, const ir::RoutineName& name) {
-    diagnostics_.error(code::unknown_routine, s.line.span, "there is no subprogram " + routine_text(name),
+    const bool program = !name.text.empty() && name.text.find_first_not_of("0123456789") == std::string::npos;
+    diagnostics_.error(code::unknown_routine, s.line.span,
+                       (program ? "there is no program " : "there is no subprogram ") + routine_text(name),
                        "name the folder it is in with --lib");
+  }
+
+  /// The run may write the program before it calls it.
+  bool writes_program(const ir::RoutineName& name) const {
+    bool writes = false;
+    for (const auto& r : program_.routines) {
+      ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+        const auto* m = std::get_if<ir::Message>(&s.node);
+        const auto file = m != nullptr ? ir::file_statement(*m) : std::nullopt;
+        if (!file || !file->name || name.text.empty()) return;
+        const auto number = ir::constant_value(file->name);
+        const auto* text = std::get_if<ir::String>(&file->name->node);
+        writes = writes || (number ? number_text(*number) == name.text : text == nullptr || text->text == name.text);
+      });
+    }
+    return writes;
   }
 
   void call(Flow& flow, const ir::Statement& s, const ir::CallRoutine& c) {
     if (c.computed) return;
     auto* callee = routines_.find(c.routine, flow);
     if (callee == nullptr) {
-      if (!c.optional) missing_routine(s, c.routine);
+      if (!c.optional && !writes_program(c.routine)) missing_routine(s, c.routine);
       return;
     }
     if (c.has_range) {
@@ -194,6 +214,7 @@ class Checker {
     }
   }
 
+  const ir::Program& program_;
   Routines routines_;
   Diagnostics& diagnostics_;
   std::map<Flow*, std::vector<bool>> seen_;

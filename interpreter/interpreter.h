@@ -27,10 +27,19 @@ struct Options {
   /// Finds a routine that the program itself does not have (library); null when there is none. The program returned
   /// stays alive as long as the callback does; its spaces are matched to the main program's by prefix.
   std::function<const ir::Program*(const ir::RoutineName&)> library;
+  /// Reads a program that the run itself has written; null, and why: it can't be run.
+  std::function<const ir::Program*(const std::string& name, const std::string& text, std::string& why)> read_written;
   /// The error that reading gave for one of these lines; null: none. A statement there is not carried out.
   std::function<const Diagnostic*(FileId file, std::uint32_t first_line, std::uint32_t last_line)> fault;
   /// Gets the cycles of a lathe that are carried out, in order; null: nobody asks.
   std::vector<CycleRun>* cycles = nullptr;
+};
+
+/// A file of the control that the run has written.
+struct WrittenFile {
+  std::string name;   ///< as the program says it
+  std::string text;   ///< its lines
+  bool more = false;  ///< there may be lines before these: it was not begun by this run
 };
 
 struct Result {
@@ -48,6 +57,7 @@ struct Result {
   /// What conditions came to, by Statement::id: `held`, `failed`, both, or 0 where none was asked.
   std::vector<std::uint8_t> outcomes;
   static constexpr std::uint8_t held = 1, failed = 2;
+  std::vector<WrittenFile> written;
   /// Radii of tools that nobody gives, mm, and the first milling cycle that ran with each.
   std::vector<std::pair<Span, double>> assumed_radii;
 };

@@ -48,7 +48,10 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   }
   if (curve_ && !leave_curve(kind)) return false;
   if (m.explicit_code && ir::is_spline(kind)) curve_broken_ = false;
-  if (kind == ir::MotionKind::reference_point) return reference_move(m);
+  if (kind == ir::MotionKind::reference_point) {
+    if (policy_.plane_ends_cycle) hole_.reset();  // the search for home ends it as well
+    return reference_move(m);
+  }
   if (kind == ir::MotionKind::fixed_point) return fixed_point_move(m);
   if (!m.moves()) return true;
   if (!m.coords.empty() && m.centers.empty() && !m.extra &&

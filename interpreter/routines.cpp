@@ -58,6 +58,11 @@ Flow* Routines::find(const ir::RoutineName& name, const Flow& caller) {
   return flow(*other, r == nullptr ? other->routines.front() : *r);
 }
 
+Flow* Routines::main_of(const ir::Program& program) {
+  const auto* r = program.main();
+  return r == nullptr ? nullptr : flow(program, *r);
+}
+
 std::vector<Flow*> Routines::all_of_main() {
   std::vector<Flow*> all;
   for (const auto& r : program_.routines) all.push_back(flow(program_, r));

@@ -19,6 +19,8 @@ class Routines {
   Flow* main();
   /// A called routine: of the caller's program, of the main program, of the library. Null when it is nowhere.
   Flow* find(const ir::RoutineName& name, const Flow& caller);
+  /// The main part of a program that the run has written.
+  Flow* main_of(const ir::Program& program);
   [[nodiscard]] bool of_main_program(const Flow& flow) const { return flow.program == &program_; }
   /// Every routine of the main program.
   std::vector<Flow*> all_of_main();

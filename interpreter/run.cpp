@@ -157,6 +157,7 @@ Result Runner::finish(EndReason reason, const Span& where) {
   r.variables = variables_.report();
   r.covered.assign(covered_.begin(), covered_.end());
   r.outcomes = outcomes_;
+  r.written = std::move(written_);
   for (const auto& a : machine_.assumed_radii()) r.assumed_radii.emplace_back(a.where, a.radius);
   return r;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "interpreter/block_machine.h"
 #include "interpreter/interpreter.h"
 #include "interpreter/routines.h"
+#include "ir/file_line.h"
 
 namespace cnctrans::interpreter {
 
@@ -90,6 +92,13 @@ class Runner {
   void choose(const ir::Switch& s);
   void message(const ir::Message& m, const Span& where);
   void declare(const ir::Declare& d);
+
+  // files.cpp
+  bool write_file(const ir::FileStatement& f, const std::string& text);
+  bool file_name(const ir::ExprPtr& e, std::string& out);
+  WrittenFile* written(const std::string& name);
+  bool written_routine(const ir::RoutineName& name, Flow*& out);
+
   void declare_one(const ir::Declare& d, const ir::Declare::Item& item);
   bool computed_label(const ir::ExprPtr& e, std::string& key);
   bool label_of(const ir::LabelRef& l, std::string& key);
@@ -138,6 +147,10 @@ class Runner {
   std::uint64_t steps_ = 0, blocks_ = 0, next_check_ = 0, silent_since_ = 0, seen_events_ = 0;
   std::vector<std::uint8_t> covered_, outcomes_;
   std::size_t local_levels_ = 0;
+  std::vector<WrittenFile> written_;
+  std::size_t open_file_ = no_file;  ///< the one opened last
+  static constexpr std::size_t no_file = ~std::size_t{0};
+  std::map<std::string, const ir::Program*> read_written_;  ///< by their text
   Span last_;
 };
 

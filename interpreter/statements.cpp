@@ -237,7 +237,8 @@ bool Runner::whole_number(const ir::ExprPtr& e, std::int64_t otherwise, std::int
 void Runner::message(const ir::Message& m, const Span& where) {
   if (m.kind == ir::MessageKind::clear) return;
   std::string text;
-  const bool into_file = !m.file_line.empty();
+  const auto file = ir::file_statement(m);
+  const bool into_file = file.has_value();
   for (const auto& part : m.parts) {
     if (!part) continue;
     std::string shown = evaluator_.shown(evaluator_.id_of(part));
@@ -247,7 +248,8 @@ void Runner::message(const ir::Message& m, const Span& where) {
     }
     text += shown;
   }
-  if (failure_.set) return;
+  if (failure_.set || (file && !write_file(*file, text))) return;
+  if (file && file->use != ir::FileUse::line) return;
   machine_.message(text, where);
   if (emitter_.limit_reached()) state_ = State::event_limit;
   if (m.kind != ir::MessageKind::error) return;

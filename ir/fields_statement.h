@@ -118,6 +118,7 @@ void fields(V& v, T& x) {
   v.exprs("parts", x.parts);
   v.opt("number", x.number);
   v.opt("into_file", x.file_line);
+  v.opt("file_use", x.file_use, FileUse::line);
 }
 template <class V, Is<Declare> T>
 void fields(V& v, T& x) {

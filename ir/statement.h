@@ -181,12 +181,20 @@ struct End {
   bool returns_from_sub = false;
 };
 enum class MessageKind : std::uint8_t { show, clear, error };
+/// What a statement does with a file of the control.
+enum class FileUse : std::uint8_t {
+  create,   ///< opens it; an error where there is one of that name
+  replace,  ///< opens it; what it held is gone
+  append,   ///< opens it; lines come behind what it holds
+  line      ///< a line: into the file it names, else into the one opened last
+};
 struct Message {
   MessageKind kind = MessageKind::show;
   std::vector<ExprPtr> parts;  ///< strings and numbers, joined
-  ExprPtr number;              ///< error number
-  /// A line that the program puts into a file of the control: the statement as it was written. A run shows it.
+  ExprPtr number;              ///< error number; of a statement for a file its name or number, null: none is named
+  /// A statement for a file of the control, as it was written (ir/file_line.h). A run shows its lines.
   std::string file_line;
+  FileUse file_use = FileUse::line;
 };
 /// Definition of variables.
 struct Declare {

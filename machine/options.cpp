@@ -61,6 +61,9 @@ constexpr std::array specs{
                "where the left start of a shaped groove in the face lies; unknown: such grooves are refused"},
     OptionSpec{"cycle.groove_edge", "minus|plus", "minus",
                "which corner of its insert is the programmed point of a grooving tool whose nose is not 1 to 4"},
+    OptionSpec{"file.lines", "opened|named", "opened",
+               "how a program writes lines into a program of the control: into the one it has opened, or each says "
+               "which one"},
     OptionSpec{"frame.change_keeps", "machine|programmed", "machine",
                "what an incremental word adds to after a frame change: the present point seen in the new frame, or the "
                "coordinate programmed last (the difference of the frames is travelled)"},

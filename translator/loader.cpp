@@ -58,7 +58,11 @@ struct LatheEvidence {
 
 /// The file is called as the routine: by its name, or by its number with or without what the control puts before it.
 bool stem_names(std::string_view stem, const ir::RoutineName& name, std::string_view before_number) {
-  if (!name.text.empty()) return stem == name.text;
+  const auto digits = [](std::string_view text) {
+    const bool all = !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+    return all ? text.substr(std::min(text.find_first_not_of('0'), text.size() - 1)) : std::string_view{};
+  };
+  if (!name.text.empty()) return stem == name.text || (!digits(stem).empty() && digits(stem) == digits(name.text));
   if (name.number < 0) return false;
   const std::string number = std::to_string(name.number);
   if (!before_number.empty() && stem.starts_with(before_number) && stem.substr(before_number.size()) == number)
@@ -289,6 +293,28 @@ const ir::Program* Loader::find(const ir::RoutineName& name) {
     return use(c);
   }
   return nullptr;
+}
+
+std::string Loader::written_file(std::string_view name) const {
+  std::string file = dialect_.written_file != nullptr
+                         ? dialect_.written_file(name, profile_.kind == machine::Kind::lathe)
+                         : std::string(name);
+  for (char& c : file) {
+    const bool plain = letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+    if (!plain) c = '_';
+  }
+  return file;
+}
+
+const ir::Program* Loader::read_written(const std::string& name, const std::string& text, std::string& why) {
+  Diagnostics said;
+  const ir::Program* program = read_source(SourceText::from_string(written_file(name), text), said);
+  for (const auto& d : said.all()) {
+    if (d.severity != Severity::error) continue;
+    why = "line " + std::to_string(d.span.line) + ": " + d.message;
+    return nullptr;
+  }
+  return program;
 }
 
 }  // namespace cnctrans::translator

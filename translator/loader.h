@@ -42,6 +42,10 @@ class Loader {
                                  frontends::ReadStats* stats = nullptr);
   /// The program that holds the routine, or nullptr: header number or name first, then the stem of the file.
   const ir::Program* find(const ir::RoutineName& name);
+  /// Reads what a run has written under a name of the control; nullptr, and why: it can't be read.
+  const ir::Program* read_written(const std::string& name, const std::string& text, std::string& why);
+  /// The name of its file.
+  [[nodiscard]] std::string written_file(std::string_view name) const;
   /// Library programs read so far, in the order they were asked for.
   [[nodiscard]] const std::vector<const ir::Program*>& called() const { return called_; }
   /// Diagnostics of library files that were used.

@@ -102,7 +102,11 @@ RunResult run(const Input& input, const RunOptions& options, const MakeSink& mak
   interpreter::Options run_options = options.run;
   run_options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
   run_options.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };
+  run_options.read_written = [&loader](const std::string& name, const std::string& text, std::string& why) {
+    return loader.read_written(name, text, why);
+  };
   result.result = interpreter::run(*program, profile, run_options, *sink, running);
+  for (const auto& f : result.result.written) result.written.emplace_back(loader.written_file(f.name), f.text);
   result.diagnostics.append(loader.library_diagnostics());
   // A line that the run has not come to spoils nothing.
   if (result.result.reason != interpreter::EndReason::error) result.diagnostics = as_warnings(result.diagnostics);

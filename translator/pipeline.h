@@ -114,6 +114,7 @@ struct RunResult {
   Diagnostics diagnostics;
   FileTable files;
   std::vector<std::string> axis_names;
+  std::vector<std::pair<std::string, std::string>> written;  ///< files that the program has written: name, text
   std::string error;
 };
 /// Makes the receiver of the events; gets the file table and the axis names that events refer to.

@@ -21,6 +21,9 @@ Replayed replay(const Side& side, interpreter::Options options) {
   Replayed r;
   options.library = [&side](const ir::RoutineName& name) { return side.loader.find(name); };
   options.fault = [&side](FileId f, std::uint32_t from, std::uint32_t to) { return side.loader.fault(f, from, to); };
+  options.read_written = [&side](const std::string& name, const std::string& text, std::string& why) {
+    return side.loader.read_written(name, text, why);
+  };
   interpreter::TraceRecorder recorder;
   options.cycles = &r.cycles;
   machine::Profile profile = side.profile;

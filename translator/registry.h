@@ -37,6 +37,8 @@ struct Dialect {
   std::shared_ptr<const backends::Backend> backend;
   /// Of files that define names for every program of a machine: their extension, or the end of their name behind `_`.
   std::vector<std::string_view> definition_extensions{};
+  /// The file that holds what a program has written under a name of the control; null: no program writes files.
+  std::string (*written_file)(std::string_view name, bool lathe) = nullptr;
 };
 
 /// All dialects in the order `cnctrans dialects` lists them.

@@ -5,7 +5,9 @@
 #include "backends/common/labels.h"
 #include "base/saturate.h"
 #include "base/text.h"
+#include "ir/cycle_ends.h"
 #include "ir/passes/given_data.h"
+#include "ir/passes/number_programs.h"
 #include "translator/attempt.h"
 #include "translator/called.h"
 #include "translator/contours.h"
@@ -127,6 +129,7 @@ class Translation {
   /// In its own language for its own machine a program is legal as it stands.
   [[nodiscard]] bool as_it_stands() const;
   void check_calls();
+  void end_cycles();
 
   const TranslateOptions& options_;
   TranslateResult& result_;
@@ -169,15 +172,30 @@ void Translation::read() {
   Loader& loader = reading_.loader();
   join_libraries(source_, loader, result_.diagnostics);
   result_.diagnostics.append(loader.library_diagnostics());
+  end_cycles();
   check_calls();
   result_.files = loader.files();
-  if (same_language()) work_ = source_;
+  if (same_language()) {
+    work_ = source_;
+    ir::passes::number_programs(work_, result_.diagnostics, false);
+  }
   declare_names(source_, loader.definitions(), false, result_.diagnostics);
   if (!same_language()) {
     work_ = source_;
     // The main program comes first, wherever its archive has it.
     std::stable_partition(work_.routines.begin(), work_.routines.end(),
                           [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
+  }
+}
+
+/// A subprogram of another file selects another plane while a cycle of its caller is in force.
+void Translation::end_cycles() {
+  const machine::Profile& profile = reading_.profile();
+  if (profile.option("cycle.plane_function") != "ends" || same_language()) return;
+  for (const ir::Statement* s : ir::end_cycles_with_plane(source_, profile.power_on)) {
+    result_.diagnostics.error("TRN-620", s->line.span,
+                              "whether this plane function ends the cycle in force depends on the way that leads here",
+                              "end the cycle before it");
   }
 }
 

@@ -329,10 +329,7 @@ void ProgramWriter::dispatch(const ir::Statement& s) {
     void operator()(const ir::Return& n) const { w.return_from(n); }
     void operator()(const ir::End& n) const { w.end_program(n); }
     void operator()(const ir::Message& n) const {
-      if (!w.same_dialect() && !n.file_line.empty()) {
-        return w.refuse("TRN-570", {}, "a line for a file of the control is not translated",
-                        "take it out, or show it as a message");
-      }
+      if (const auto file = w.same_dialect() ? std::nullopt : ir::file_statement(n)) return w.file_statement(n, *file);
       w.message(n);
     }
     void operator()(const ir::Declare& n) const { w.declare(n); }

@@ -17,6 +17,7 @@
 #include "backends/common/motion_tracker.h"
 #include "backends/common/style.h"
 #include "ir/dataflow.h"
+#include "ir/file_line.h"
 
 namespace cnctrans::backends {
 
@@ -54,6 +55,8 @@ class ProgramWriter {
   virtual void return_from(const ir::Return& r);
   virtual void end_program(const ir::End& e);
   virtual void message(const ir::Message& m);
+  /// A line for a file of the control, out of another language. Default: refused.
+  virtual void file_statement(const ir::Message& m, const ir::FileStatement& f);
   virtual void declare(const ir::Declare& d);
   virtual void label();                      ///< default: the line with its number or labels only
   virtual void opaque(const ir::Opaque& o);  ///< default: own text as it is, else the remark of a refusal

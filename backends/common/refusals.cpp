@@ -185,6 +185,9 @@ void ProgramWriter::end_program(const ir::End& /*e*/) {
 void ProgramWriter::message(const ir::Message& /*m*/) {
   refuse(no_statement, {}, "this message has no counterpart here");
 }
+void ProgramWriter::file_statement(const ir::Message& /*m*/, const ir::FileStatement& /*f*/) {
+  refuse("TRN-570", {}, "a line for a file of the control is not translated", "take it out, or show it as a message");
+}
 void ProgramWriter::declare(const ir::Declare& /*d*/) {
   refuse(no_statement, {}, "a definition of variables has no counterpart here");
 }

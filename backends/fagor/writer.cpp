@@ -8,6 +8,7 @@
 #include "backends/fagor/tables.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
+#include "ir/file_line.h"
 #include "ir/search.h"
 
 namespace cnctrans::backends::fagor {
@@ -279,6 +280,14 @@ void Writer::if_else(const ir::If& i) {
   nested_body({});  // a call inside may have changed every setting: nothing is known any more
 }
 
+namespace {
+/// A program is named by its number; empty: this is none.
+std::string number_of_program(const ir::RoutineName& name) {
+  if (name.number >= 0) return std::to_string(name.number);
+  return name.text.find_first_not_of("0123456789") == std::string::npos ? name.text : std::string{};
+}
+}  // namespace
+
 std::string Writer::range_text(const ir::Repeat& r) {
   if (r.search != ir::Search::whole_first || r.first.computed || r.last.computed || r.last.text.empty()) {
     text_problem("this way to name a repeated range of blocks has no counterpart here");
@@ -288,8 +297,9 @@ std::string Writer::range_text(const ir::Repeat& r) {
   std::string text = "RPT ";
   if (r.has_program) {
     if (!same_dialect()) text_problem("repeating blocks of another program has no counterpart here");
-    if (r.program.number < 0) text_problem("the program of the repeated range has no number");
-    text += 'N' + r.first.text + ",N" + r.last.text + ",P" + std::to_string(r.program.number);
+    const std::string number = number_of_program(r.program);
+    if (number.empty()) text_problem("the program of the repeated range has no number");
+    text += 'N' + r.first.text + ",N" + r.last.text + ",P" + number;
   } else {
     text += number_target(r.first);
     text += ',' + number_target(r.last);
@@ -334,9 +344,13 @@ bool Writer::runs_program(const ir::CallRoutine& c, std::string_view keyword) co
 /// `keyword` empty: CALL, or PCALL when the callee has a level of its own.
 std::string Writer::call_text(std::string_view keyword, const ir::CallRoutine& c) {
   const std::string_view whole = keyword.empty() ? "EXEC" : "MEXEC";
-  if (runs_program(c, whole))
+  if (runs_program(c, whole)) {
+    const auto* number = c.computed ? std::get_if<ir::Call>(&c.computed->node) : nullptr;
+    const bool named = number != nullptr && number->function == ir::Function::to_string;
     return std::string(whole) + " P" +
-           (c.computed ? '(' + expression_text(c.computed) + ')' : std::to_string(c.routine.number));
+           (c.computed ? '(' + expression_text(named ? number->args[0] : c.computed) + ')'
+                       : number_of_program(c.routine));
+  }
   const bool level = c.level == ir::CallLevel::new_level;
   std::string text(!keyword.empty() ? keyword : level ? "PCALL" : "CALL");
   text += ' ';
@@ -412,6 +426,7 @@ std::string Writer::error_number(const ir::ExprPtr& number) {
 }
 
 std::string Writer::message_text(const ir::Message& m) {
+  if (!m.file_line.empty()) return m.file_line;
   std::string text;
   bool changed = false;
   for (const ir::ExprPtr& part : m.parts) {

@@ -253,9 +253,11 @@ std::string Writer::call_text(const ir::CallRoutine& c) {
     return text + "BLOCK " + border(c.first) + " TO " + border(c.last);
   }
   if (c.computed) {
+    const auto* rounded = std::get_if<ir::Call>(&c.computed->node);
+    const bool number = !same_dialect() && rounded != nullptr && rounded->function == ir::Function::to_string;
+    if (number) return "CALL \"L\"<<" + expressions_.operand(rounded->args[0], primary_level, false);
     if (c.computed->type == ir::Type::string) return "CALL " + expressions_.print(c.computed);
     // Reading rounds the number to a whole one; the language does that by itself.
-    const auto* rounded = std::get_if<ir::Call>(&c.computed->node);
     const bool implied = rounded != nullptr && rounded->args.size() == 1 &&
                          (rounded->function == ir::Function::round || rounded->function == ir::Function::to_integer);
     return "CALL \"L\"<<" + expressions_.operand(implied ? rounded->args[0] : c.computed, primary_level, false);

@@ -49,6 +49,7 @@ class Writer final : public ProgramWriter {
   void return_from(const ir::Return& r) override;
   void end_program(const ir::End& e) override;
   void message(const ir::Message& m) override;
+  void file_statement(const ir::Message& m, const ir::FileStatement& f) override;  // files.cpp
   void declare(const ir::Declare& d) override;
   void opaque_word(const ir::Action& a, const ir::OpaqueWord& w) override;
 

@@ -264,18 +264,6 @@ void judge_depths(ir::Program& program, LowerState& state) {
   for (const auto& r : program.routines) ir::for_each_statement(r.body, check);
 }
 
-/// The IR names routines by their number: a program and a subroutine of one number can't be told apart.
-void judge_executed(const ir::Program& program, LowerState& state) {
-  for (const auto& [where, number] : state.facts.executed) {
-    const auto* routine = program.find({number, {}});
-    if (routine == nullptr || routine->kind != ir::RoutineKind::sub) continue;
-    state.set_line(where);
-    state.error("FAG-050", {},
-                "the program " + std::to_string(number) + " is run, and a subroutine of this file has the same number",
-                "give one of them another number");
-  }
-}
-
 /// G60 to G65 repeat the machining in force (25.4): an error where the file has none at all.
 void judge_patterns(const ir::Program& program, LowerState& state) {
   if (program.main() == nullptr || calls_outside(program)) return;
@@ -370,7 +358,6 @@ void finish_program(ir::Program& program, LowerState& state) {
   own.reapproach = 1;  // G83, G69 (25.3)
   frontends::settle_own_lengths(program, state.profile().power_on, own, state.diagnostics());
   judge_surfaces(program, state);
-  judge_executed(program, state);
   judge_patterns(program, state);
   judge_cycle_changes(program, state);
   end_cycles(program, state);

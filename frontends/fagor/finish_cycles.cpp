@@ -1,44 +1,14 @@
 // What the flow of the program makes of cycles and modal subroutines that were read by the text.
 #include <algorithm>
-#include <optional>
 
 #include "frontends/common/cycle_changes.h"
 #include "frontends/fagor/finish_parts.h"
-#include "ir/dataflow.h"
+#include "ir/cycle_ends.h"
 #include "ir/search.h"
 
 namespace cnctrans::fagor {
 
 namespace {
-
-const ir::CycleDefine* hole_in(const ir::Block& b) {
-  for (const auto& a : b.actions) {
-    const auto* d = std::get_if<ir::CycleDefine>(&a.data);
-    if (d != nullptr && d->modal && d->cycle && std::holds_alternative<ir::HoleCycle>(d->cycle->node)) return d;
-  }
-  return nullptr;
-}
-
-/// The plane function of the block; none: there is no such function.
-std::optional<std::uint8_t> plane_in(const ir::Block& b) {
-  std::optional<std::uint8_t> plane;
-  for (const auto& a : b.actions) {
-    const auto* set = std::get_if<ir::ModalSet>(&a.data);
-    if (set != nullptr && set->setting == ir::Setting::plane) plane = set->value;
-  }
-  return plane;
-}
-
-bool any_hole(const ir::Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      found = found || (b != nullptr && hole_in(*b) != nullptr);
-    });
-  }
-  return found;
-}
 
 /// Which modal call is in force at a block, as far as the text can tell.
 enum class Modal : std::uint8_t { none, subroutine, program, unknown };
@@ -54,25 +24,7 @@ void judge_cycle_changes(ir::Program& program, LowerState& state) {
 }
 
 void end_cycles(ir::Program& program, LowerState& state) {
-  if (!any_hole(program) || in_order_of_text(program)) return;
-  ir::number_statements(program);
-  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
-  for (auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&](ir::Statement& s) {
-      auto* b = std::get_if<ir::Block>(&s.node);
-      if (b == nullptr || hole_in(*b) != nullptr || ir::action_in<ir::CycleCancel>(*b) != nullptr) return;
-      const ir::Facts& before = table.before(s.id);
-      const bool maybe = before.cycle_active || before.cycle_from == ir::Facts::several_cycles;
-      if (!before.reachable || !maybe) return;
-      const auto plane = plane_in(*b);
-      const auto known = before.settings[static_cast<std::size_t>(ir::Setting::plane)];
-      const bool home = b->has_motion && b->motion.kind == ir::MotionKind::reference_point;
-      if (!home && (!plane || !known || *known == *plane)) return;
-      ir::Action end;
-      end.data = ir::CycleCancel{};
-      b->actions.insert(b->actions.begin(), std::move(end));
-    });
-  }
+  if (!in_order_of_text(program)) (void)ir::end_cycles_with_plane(program, state.profile().power_on);
 }
 
 void judge_repeats(ir::Program& program, LowerState& state) {

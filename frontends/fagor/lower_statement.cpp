@@ -11,6 +11,7 @@
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/words.h"
 #include "frontends/fagor/lower_expr.h"
+#include "frontends/fagor/lower_files.h"
 #include "ir/missing_features.h"
 
 namespace cnctrans::fagor {
@@ -37,6 +38,11 @@ bool whole(double n, double limit) {
   return n >= 0 && n <= limit && n == std::floor(n);
 }
 
+/// A program has its number as a name: no subroutine of that number is meant (error 1064 where there is none).
+ir::RoutineName program_name(double number) {
+  return {-1, std::to_string(saturate<std::int64_t>(number))};
+}
+
 class StatementLowerer {
  public:
   StatementLowerer(const syntax::Block& block, std::string_view text, LowerState& state)
@@ -53,6 +59,7 @@ class StatementLowerer {
   Node execute(const syntax::Statement& s);
   Node message(const syntax::Statement& s);
   Node error(const syntax::Statement& s);
+  Node file(const syntax::Statement& s);
   Node kept(const syntax::Statement& s, std::string_view feature, bool harmless);
   Node malformed(const syntax::Statement& s, std::string what);
   ir::LabelRef label(const Expr& e);
@@ -165,7 +172,7 @@ Node StatementLowerer::repeat(const syntax::Statement& s) {
   if (s.args.size() > 2) {
     r.has_program = true;
     if (s.args[2].kind != ExprKind::number) return kept(s, "language.statement", false);
-    r.program.number = saturate<std::int64_t>(s.args[2].number);
+    r.program = program_name(s.args[2].number);
   }
   for (const auto& w : block_.words) {
     if (!w.has_value || (w.expr < 0 && !whole(w.number, static_cast<double>(facts::max_repeat)))) {
@@ -216,11 +223,10 @@ Node StatementLowerer::execute(const syntax::Statement& s) {
   const Expr& e = s.args[0];
   ir::CallRoutine call;
   if (e.kind != ExprKind::number) {
-    call.computed = lower_expr(e, state_);
+    call.computed = ir::call(ir::Function::to_string, {lower_expr(e, state_)});
   } else {
     if (!whole(e.number, most)) state_.error("FAG-013", e.pos, "a program has a number from 0 to 999999");
-    call.routine.number = saturate<std::int64_t>(e.number);
-    state_.facts.executed.emplace_back(state_.line(), call.routine.number);
+    call.routine = program_name(e.number);
   }
   if (s.keyword == "EXEC") return call;
   state_.facts.modal_programs.insert(state_.line().line);
@@ -254,6 +260,15 @@ Node StatementLowerer::error(const syntax::Statement& s) {
   return m;
 }
 
+/// The statement is kept as it was written, without brackets, for its own language.
+Node StatementLowerer::file(const syntax::Statement& s) {
+  const std::size_t first = text_.find_first_not_of(" \t", 1) + s.pos.column - block_.statements.front().pos.column;
+  std::string source(trim(text_.substr(std::min(first, text_.size()), s.pos.length)));
+  auto m = s.keyword == "OPEN" ? lower_open(s, std::move(source), state_) : lower_write(s, std::move(source), state_);
+  if (m) return std::move(*m);
+  return ir::Opaque{std::string(text_), "text.unread", false};
+}
+
 Node StatementLowerer::lower(const syntax::Statement& s) {
   const std::string& k = s.keyword;
   if (k == "=") return assign(s);
@@ -262,6 +277,7 @@ Node StatementLowerer::lower(const syntax::Statement& s) {
   if (k == "RPT") return repeat(s);
   if (k == "CALL" || k == "LL" || k == "PCALL" || k == "MCALL") return call(s);
   if (k == "EXEC" || k == "MEXEC") return execute(s);
+  if (k == "OPEN" || k == "WRITE") return file(s);
   if (k == "MSG") return message(s);
   if (k == "ERREUR") {
     state_.note("FAG-039", s.pos, "ERREUR is how the French manual prints ERROR; the control knows ERROR only");
@@ -335,8 +351,9 @@ void remember(const ir::Assign& a, bool skipped, LowerState& state) {
 
 void lower_statement(const syntax::Block& block, std::string_view text, LowerState& state, ir::Statement& out) {
   const syntax::Statement& s = block.statements.front();
-  if (s.keyword != "=" && s.keyword != "MSG") state.forget_constants();
-  if (s.keyword != "=" && s.keyword != "MSG" && s.keyword != "GOTO") state.comp_sure = state.plane_changed = false;
+  const bool beside = s.keyword == "=" || s.keyword == "MSG" || s.keyword == "OPEN" || s.keyword == "WRITE";
+  if (!beside) state.forget_constants();
+  if (!beside && s.keyword != "GOTO") state.comp_sure = state.plane_changed = false;
   if (s.keyword == "MCALL" || s.keyword == "MEXEC") state.no_constants();
   if (!block.words.empty() && s.keyword != "RPT") {
     state.error("FAG-016", block.words.front().pos, "a repeat count after a ( ) statement is for RPT only");

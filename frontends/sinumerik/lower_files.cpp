@@ -7,6 +7,7 @@
 #include "dialects/sinumerik/operators.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/row_parts.h"
+#include "ir/file_line.h"
 
 namespace cnctrans::sinumerik {
 
@@ -55,7 +56,9 @@ bool StatementLowering::file_statement(const syntax::Statement& s, Parts& parts)
     put_beside("beside.data", s.pos, parts);
     return true;
   }
-  shown.file_line = c_.slice(s.pos);
+  auto name = can_be_shown(s.args[1]) ? exprs_.lower(s.args[1]) : nullptr;
+  if (name && name->type != ir::Type::string) name = nullptr;  // a file the run does not know
+  ir::mark_file(shown, ir::FileUse::line, std::string(c_.slice(s.pos)), std::move(name));
   c_.note("SIN-072", s.pos,
           "WRITE puts a line into a file of the control: a run shows it as a message, and the variable of the error "
           "becomes 0");

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "ir/file_line.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/flow_states.h"
@@ -173,6 +174,7 @@ class KnownTexts {
 
  private:
   void say(Statement& s, const Routine& r) {
+    if (const auto* m = std::get_if<Message>(&s.node); m != nullptr && file_statement(*m)) return;  // not written
     const auto* before = states_.before(s);
     if (before == nullptr) return;
     KnownLiterals::State state = *before;

@@ -8,6 +8,7 @@
 #include "ir/passes/passes.h"
 #include "ir/passes/stream_watch.h"
 #include "ir/passes/thread_leads.h"
+#include "ir/passes/written_files.h"
 
 namespace cnctrans::ir {
 
@@ -43,6 +44,7 @@ constexpr std::array pipeline{
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},
+    Pass{"written_files", passes::name_written_files, false},
     Pass{"repeats", passes::lower_repeats, false},
     Pass{"structure", passes::raise_structure, false},
     Pass{"control", passes::lower_control, false},

@@ -2,6 +2,7 @@
 // temporary just before their block.
 #include <algorithm>
 
+#include "ir/file_line.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/passes.h"
 
@@ -133,7 +134,9 @@ class ExpressionPass {
       u->condition = lowering.condition(u->condition);
     } else if (auto* r = std::get_if<Repeat>(&s.node)) {
       r->count = count(lowering, r->count);
-    } else if (auto* m = std::get_if<Message>(&s.node)) {
+    } else if (auto* m = std::get_if<Message>(&s.node); m != nullptr && file_statement(*m)) {
+      // its line is written as it is, or refused
+    } else if (m != nullptr) {
       for (auto& p : m->parts) {
         if (p && !is_primary(p)) p = context_.target.word_expression ? lowering.lower(p) : lowering.primary(p);
       }

@@ -6,6 +6,7 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "ir/passes/number_programs.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
 
@@ -272,7 +273,61 @@ class RoutineNames {
 
 }  // namespace
 
+void number_programs(Program& program, Diagnostics& diagnostics, bool all_calls) {
+  const auto number_in = [](const RoutineName& n) {
+    return n.text.find_first_not_of("0123456789") == std::string::npos ? digits_of(n.text) : -1;
+  };
+  std::map<std::string, RoutineName> numbers;
+  bool moved = false;
+  for (auto& r : program.routines) {
+    std::int64_t n = r.kind == RoutineKind::sub ? number_in(r.name) : -1;
+    if (n < 0) continue;
+    const bool taken = program.find(RoutineName{n, {}}) != nullptr;
+    if (taken) n = 1;
+    while (taken && program.find(RoutineName{n, {}}) != nullptr) ++n;
+    moved = moved || taken;
+    numbers[r.name.text] = RoutineName{n, {}};
+    r.name = RoutineName{n, {}};
+  }
+  const auto change = [&](RoutineName& name, const Statement& s) {
+    const auto n = number_in(name);
+    if (const auto it = numbers.find(name.text); n >= 0 && it != numbers.end()) {
+      name = it->second;
+    } else if (!all_calls) {
+      return;
+    } else if (n >= 0 && program.find(RoutineName{n, {}}) == nullptr) {
+      name = RoutineName{n, {}};
+    } else if (n >= 0) {
+      diagnostics.error("TRN-621", s.line.span,
+                        "the program " + name.text + " is not at hand, and a subprogram has the same number",
+                        "add the folder with the program with --lib, or give the subprogram another number");
+    }
+  };
+  const auto call = [&](CallRoutine& c, const Statement& s) {
+    const auto* text = c.computed ? std::get_if<Call>(&c.computed->node) : nullptr;
+    if (!c.computed) {
+      change(c.routine, s);
+    } else if (all_calls && moved && text != nullptr && text->function == Function::to_string) {
+      diagnostics.error("TRN-621", s.line.span,
+                        "a program chosen when the program runs, and one of them has the number of a subprogram",
+                        "give the subprogram another number");
+    }
+  };
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      if (auto* c = std::get_if<CallRoutine>(&s.node)) {
+        call(*c, s);
+      } else if (auto* m = std::get_if<ModalCall>(&s.node)) {
+        if (!m->off && !m->cycle) call(m->call, s);
+      } else if (auto* rep = std::get_if<Repeat>(&s.node)) {
+        if (rep->has_program) change(rep->program, s);
+      }
+    });
+  }
+}
+
 void name_routines(Program& program, const LegaliseContext& context) {
+  number_programs(program, context.diagnostics, true);
   RoutineNames names(program, context);
   names.part_namesakes();
   if (context.target.named_routines)

@@ -85,11 +85,13 @@ TEST(FagorProgram, Flow) {
   EXPECT_EQ(line("(MDOFF)"), "modal_call off here");
   EXPECT_EQ(read("(P1=1) N3").codes(), "FAG-016");
   EXPECT_EQ(read("NP1 X5").codes(), "FAG-015") << "a label is no parameter";
-  EXPECT_EQ(line("(EXEC P12)"), "call 12");
-  EXPECT_EQ(line("(EXEC P(P1+1))"), "call unnamed computed P[1] + 1");
+  EXPECT_EQ(line("(EXEC P12)"), "call \"12\"");
+  EXPECT_EQ(line("(EXEC P(P1+1))"), "call unnamed computed to_string(P[1] + 1)");
   EXPECT_EQ(read("(EXEC P12,HD)").codes(), "FAG-022");
-  EXPECT_EQ(read("(EXEC P12)\nM30\n(SUB 12)\n(RET)").codes(), "FAG-050");
-  EXPECT_EQ(read("(WRITE G1 X5)").codes(), "FAG-023");
+  EXPECT_EQ(read("(EXEC P12)\nM30\n(SUB 12)\n(RET)").codes(), "") << "another program, not the subroutine";
+  EXPECT_EQ(read("(WRITE G1 X5)").codes(), "");
+  EXPECT_EQ(read("(OPEN P5, A, D)").codes(), "FAG-100");
+  EXPECT_EQ(read("(WRITE XP99)").codes(), "FAG-018");
 }
 
 TEST(FagorProgram, Messages) {
