@@ -9,6 +9,11 @@ bool comes_in_two_moves(const CyclePtr& native, const LegaliseContext& context) 
          !(hole->retract.base == hole->reference.base && equal(hole->retract.value, hole->reference.value));
 }
 
+bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, const Block& b, const Facts& facts) {
+  if (hole.retract.given || defined_at) return true;
+  return setting_in<RetractPlane>(b, facts, Setting::retract_plane) == RetractPlane::reference;
+}
+
 std::optional<Block> code_before_cycle(Block& b, const Facts& facts, const LegaliseContext& context) {
   const bool own_code = b.has_motion && b.motion.kind == MotionKind::rapid && b.motion.explicit_code &&
                         b.motion.keeps_modal && facts.motion != MotionKind::rapid;
@@ -110,6 +115,36 @@ void CyclePass::rise_and_define(Statement&& s, const Active& a, bool modal, Body
     pieces.push_back(
         make_block(like, action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::incremental)})));
   put_group(out, std::move(pieces), main);
+}
+
+std::optional<Level> CyclePass::kept_bottom(const HoleCycle& change, const Block& b, const Facts& facts) const {
+  const auto& before = std::get<HoleCycle>(active_->source->node);
+  Level kept = before.bottom;
+  const bool along = kept.base == LevelBase::from_reference || kept.base == LevelBase::from_surface;
+  if (!along || !change.reference.given) return kept;
+  const auto initial = in_units(active_->defined_at, b, facts);
+  const Level& reference = before.reference;
+  if (kept.base == LevelBase::from_surface || !kept.value.literal() || !reference.value.literal()) return std::nullopt;
+  if (reference.base == LevelBase::absolute) {
+    kept.value = Value(reference.value.number + kept.value.number);
+  } else if (reference.base == LevelBase::from_initial && initial) {
+    kept.value = Value(*initial + reference.value.number + kept.value.number);
+  } else {
+    return std::nullopt;
+  }
+  kept.base = LevelBase::absolute;
+  return kept;
+}
+
+bool CyclePass::refuse_lost_bottom(Statement& s, const CycleDefine& d, Body& out) {
+  const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
+  if (hole == nullptr || !hole->keeps_initial || hole->bottom.given) return false;
+  if (kept_bottom(*hole, std::get<Block>(s.node), facts_.before(s))) return false;
+  refuse(s, program_, context_, "TRN-330",
+         "the reference plane of a cycle is changed, and at which height its bottom stays is not known here",
+         "write the cycle again, or its depth (I) as well");
+  out.push_back(std::move(s));
+  return true;
 }
 
 }  // namespace cnctrans::ir::passes

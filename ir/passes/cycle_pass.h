@@ -211,13 +211,20 @@ class CyclePass {
     a.source = with_fixed_bases(cycle, setting_in<Distance>(b, facts, Setting::distance));
     a.trigger = trigger;
     if (const auto* hole = std::get_if<HoleCycle>(&cycle->node); hole != nullptr && hole->keeps_initial) {
-      a.source = changed(std::get<HoleCycle>(a.source->node));
+      a.source = changed(std::get<HoleCycle>(a.source->node), b, facts);
       a.height = active_->height;
       a.defined_at = active_->defined_at;
       a.said_by = active_->said_by;
       if (auto native =
               native_form(a.source, b, facts, context_, in_units(a.defined_at, b, facts), sense_.now(), &a.needs))
         a.native = *native;
+      // Over the holes the tool stands elsewhere than at the definition, whose height nobody knows.
+      const auto w = tool_axis(cycle, b, facts);
+      if (w && height_mm(b, facts, *w) && !back_is_known(std::get<HoleCycle>(a.source->node), a.defined_at, b, facts))
+        a.native = nullptr;
+      if (a.native && w && !by_call_ && std::holds_alternative<HoleCycle>(a.native->node) &&
+          !stands_right(std::get<HoleCycle>(a.native->node), in_units(height_.at(*w), b, facts)))
+        a.native = nullptr;
       return a;
     }
     a.axis = tool_axis(cycle, b, facts);
@@ -234,12 +241,16 @@ class CyclePass {
     if (feeds_.at(s, b, facts).none) facts.feed = 0;
     return facts;
   }
+  /// The bottom that a change does not name: it stays at its height, also where it is said from a reference plane that
+  /// moves. nullopt: that height is not known (cycle_heights.cpp).
+  [[nodiscard]] std::optional<Level> kept_bottom(const HoleCycle& change, const Block& b, const Facts& facts) const;
+  bool refuse_lost_bottom(Statement& s, const CycleDefine& d, Body& out);
   /// The cycle in force with the words of the change.
-  CyclePtr changed(HoleCycle change) const {
+  CyclePtr changed(HoleCycle change, const Block& b, const Facts& facts) const {
     const auto& before = std::get<HoleCycle>(active_->source->node);
     change.keeps_initial = false;
+    if (!change.bottom.given) change.bottom = kept_bottom(change, b, facts).value_or(before.bottom);
     if (!change.reference.given) change.reference = before.reference;
-    if (!change.bottom.given) change.bottom = before.bottom;
     auto whole = std::make_shared<Cycle>();
     whole->node = std::move(change);
     return whole;

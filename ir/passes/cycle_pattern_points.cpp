@@ -41,6 +41,7 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
     return;
   }
   if (guessed) tell_guessed_row(s);
+  balance_increments(*points, s, b, facts, context_);
   const auto id = s.id;
   const LineInfo like = s.line;
   const FeedBefore feed = feeds_.at(s, b, facts);

@@ -1,7 +1,10 @@
 // Patterns of points (equivalences 23): in the words of the target, else a block for each point.
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "base/text.h"
 #include "ir/cycles/pattern.h"
 #include "ir/passes/lower_cycles.h"
 
@@ -163,6 +166,32 @@ std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& li
     blocks.push_back(made(line, std::move(block)));
   }
   return blocks;
+}
+
+void balance_increments(Body& points, const Statement& s, const Block& b, const Facts& facts,
+                        const LegaliseContext& context) {
+  const bool inch = setting_in<Units>(b, facts, Setting::units) == Units::inch;
+  const double place = std::pow(10, inch ? context.target.word_decimals_inch : context.target.word_decimals);
+  std::map<AxisId, std::pair<double, double>> way;  // exact, and as it is written
+  double most = 0;
+  for (auto& p : points) {
+    auto* block = std::get_if<Block>(&p.node);
+    if (block == nullptr || !block->has_motion || !block->motion.centers.empty()) continue;
+    for (auto& c : block->motion.coords) {
+      if (c.mode != WordMode::incremental || !c.value.literal()) continue;
+      auto& [exact, written] = way[c.axis];
+      exact += c.value.number;
+      c.value = Value{rounded(std::round(exact * place) / place - written)};
+      written += c.value.number;
+      most = std::max(most, std::fabs(exact - written));
+    }
+  }
+  if (most < 1e-8) return;
+  context.diagnostics.warning("TRN-626", s.line.span,
+                              "the points of the pattern are written as increments, since the place before it is not "
+                              "known: rounded for the target, every point stands at most " +
+                                  shortest(0.5 / place) + " beside its place on each axis",
+                              "move the tool to a place in the plane before it");
 }
 
 std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b, const Facts& facts,

@@ -170,13 +170,6 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
-/// The plane to which the cycle goes back: that of its definition at `defined_at` counts where it goes back to the
-/// initial plane.
-static bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, const Block& b, const Facts& facts) {
-  if (hole.retract.given || defined_at) return true;
-  return setting_in<RetractPlane>(b, facts, Setting::retract_plane) == RetractPlane::reference;
-}
-
 bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
   const bool sets = sets_retract_plane(b);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
@@ -202,8 +195,8 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   std::optional<double> height = active_->height;
   const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
   // Over the holes the tool stands elsewhere than at the definition, whose height nobody knows.
-  const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
   if (w && !height) height = height_mm(b, facts, *w);
+  const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
   const bool milling = hole != nullptr && hole->kind == HoleKind::mill;
   if (milling && !lost && put_similar_pocket(*hole, s, pieces, height, false, out)) return;
   if (lost)
@@ -285,7 +278,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     const NamedCycle cycle = *named;
     return write_out_machining(std::move(s), cycle, std::move(pieces), out);
   }
-  if (refuse_unknown_plane(s, d.cycle, out) || refuse_stale_change(s, d, out)) return;
+  if (refuse_unknown_plane(s, d.cycle, out) || refuse_stale_change(s, d, out) || refuse_lost_bottom(s, d, out)) return;
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);

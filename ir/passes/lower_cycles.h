@@ -64,6 +64,10 @@ const NamedCycle* pattern_in(const Block& b);
 /// when the row begins at the end nearer to the tool, whose place is not known and is taken to be the zero point.
 std::optional<Body> pattern_blocks(const NamedCycle& pattern, const LineInfo& like, const Block& b, const Facts& facts,
                                    bool* guessed, std::string* error);
+/// Increments from an unknown place, with the decimals of the target: so rounded that every point stands as near to its
+/// place as a single word could put it (TRN-626).
+void balance_increments(Body& points, const Statement& s, const Block& b, const Facts& facts,
+                        const LegaliseContext& context);
 /// A pattern whose words only the run knows, as a loop: `setup`, then `first` when there is one, then `next` with
 /// `counter` counted up behind it while `again` holds.
 struct PatternLoop {
@@ -132,6 +136,9 @@ bool disturbs_call(const Block& b);
 CyclePtr with_fixed_bases(const CyclePtr& cycle, std::optional<Distance> distance);
 /// A height in the program's unit at the block.
 std::optional<double> in_units(std::optional<double> mm, const Block& b, const Facts& facts);
+/// The plane to which the cycle goes back: that of its definition at `defined_at` counts where it goes back to the
+/// initial plane.
+bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, const Block& b, const Facts& facts);
 /// A block with the count 0 under a cycle goes to its point and runs nothing.
 bool position_only(const Block& b);
 /// Something of a defining block stands before the new cycle is called: F, S, or a move that is no point.

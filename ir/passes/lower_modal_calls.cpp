@@ -216,6 +216,7 @@ class ModalCalls {
       out.push_back(std::move(s));
       return;
     }
+    balance_increments(*blocks, s, std::get<Block>(s.node), facts_.before(s), context_);
     bool first = true;
     for (auto& p : *blocks) {
       if (first) p.line = like;
