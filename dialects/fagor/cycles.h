@@ -93,4 +93,9 @@ inline constexpr const CycleLetter* find_letter(const CycleRow& row, char letter
   return nullptr;
 }
 
+/// Cycles that end G41 and G42 like G40 (8.2.3); a finishing pass has the side that its profile says.
+inline constexpr bool ends_compensation_first(int code) {
+  return code == 66 || code == 68 || code == 69 || code == 83;
+}
+
 }  // namespace cnctrans::dialects::fagor

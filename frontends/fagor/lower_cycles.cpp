@@ -440,7 +440,7 @@ bool BlockLowerer::gather_cycle_word(const Word& w, char c) {
   return true;
 }
 
-/// Ch. 9: runs once, where it is programmed. Most of them end the radius compensation.
+/// Ch. 9: runs once, where it is programmed. Most of them end the radius compensation, some before their first move.
 void BlockLowerer::machining_cycle(const GWord& g) {
   cycle_ = true;
   result_->needs_program = true;
@@ -463,6 +463,7 @@ void BlockLowerer::machining_cycle(const GWord& g) {
     return;
   }
   const auto* machining = ir::cycles::find_machining(c.name);
+  if (facts::ends_compensation_first(cycle_row_->code)) compensations_off();
   ir::CycleDefine define;
   define.modal = false;
   define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(c)});

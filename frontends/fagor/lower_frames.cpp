@@ -242,6 +242,7 @@ void BlockLowerer::apply_frame(const GWord& g) {
       change.slot = ir::FrameSlot::scale;
       change.kind = ir::FrameKind::scale;
       change.uniform_scale = true;
+      state_.facts.scaled = s->expr >= 0 || s->number != 1;
       change.words.push_back({ir::axis::x, value(*s), ir::WordScale::radius, s->pos});
       break;
     }

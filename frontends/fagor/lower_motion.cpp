@@ -43,6 +43,12 @@ void BlockLowerer::coordinates(ir::Motion& m) {
     if (surface && surface_coordinate(c, w)) continue;
     if (ir::is_rotary_letter(axis)) {
       state_.facts.turned_by_axes = true;
+      if (state_.facts.scaled && !state_.facts.scaled_rotary) {
+        state_.facts.scaled_rotary = true;
+        state_.warning("FAG-101", w.pos,
+                       "the manual lets G72 S multiply every coordinate (7.6.1); degrees are taken as they are written",
+                       "write G72 with the letters of the linear axes, or G72 S1 before the rotary axis turns");
+      }
       rotary(c, w);
     }
   }

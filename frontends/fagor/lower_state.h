@@ -53,6 +53,8 @@ struct FileFacts {
   std::vector<Span> inclined_ends;  ///< G49 alone
   std::vector<Span> tool_planes;    ///< G49 T
   bool turned_by_axes = false;      ///< a word of A, B or C
+  bool scaled = false;              ///< G72 S with another factor than 1, by the text
+  bool scaled_rotary = false;       ///< and a rotary word behind it: told
   Span first_table_shift, first_machine_move, first_axis_scale;
   Span first_turned_plane;  ///< G16 with the axes of a plane exchanged
   std::vector<PlaneUse> plane_uses;
@@ -60,16 +62,15 @@ struct FileFacts {
   /// file is read once more with them.
   std::map<std::uint32_t, ir::Plane> planes_by_flow;
   bool plane_by_flow_differs = false;
-  std::map<std::uint32_t, ir::Surface> surface_lines;   ///< blocks read as coordinates of a face or cylinder, by line
-  bool surfaces = false;                                ///< G15 R, G16 XC
-  bool second_spindle = false;                          ///< G28
-  std::vector<std::pair<Span, std::int64_t>> executed;  ///< EXEC and MEXEC, with the number of the program
-  std::set<std::uint32_t> modal_programs;               ///< lines of MEXEC
-  std::vector<TextUse> text_uses;                       ///< of the spindle and of the longitudinal axis
-  bool longitudinal = false;                            ///< G15 of the mill
-  bool unlisted_parameters = false;                     ///< P26 to P99
-  bool axes_exchanged = false;                          ///< G28 with axes
-  std::set<std::string> machine_data;                   ///< variables reported as known to the machine only
+  std::map<std::uint32_t, ir::Surface> surface_lines;  ///< blocks read as coordinates of a face or cylinder, by line
+  bool surfaces = false;                               ///< G15 R, G16 XC
+  bool second_spindle = false;                         ///< G28
+  std::set<std::uint32_t> modal_programs;              ///< lines of MEXEC
+  std::vector<TextUse> text_uses;                      ///< of the spindle and of the longitudinal axis
+  bool longitudinal = false;                           ///< G15 of the mill
+  bool unlisted_parameters = false;                    ///< P26 to P99
+  bool axes_exchanged = false;                         ///< G28 with axes
+  std::set<std::string> machine_data;                  ///< variables reported as known to the machine only
 };
 
 class LowerState {

@@ -268,6 +268,7 @@ class ConditionPass {
       : context_(context),
         band_(band_of(context.target)),
         near_(equal_within(context.source_machine) > 0 && equal_within(context.target_machine) == 0),
+        far_(equal_within(context.source_machine) == 0 && equal_within(context.target_machine) > 0),
         integers_(program, 1),
         parts_(program, 1024) {}
 
@@ -319,6 +320,7 @@ class ConditionPass {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op)) return x;
         if (near_ && b->compare == Compare::exact && equality(b->op)) return nearly(s, x);
+        if (far_ && b->compare == Compare::exact && equality(b->op)) return by_order(x);
         if (b->compare == Compare::exact) return x;
         if (b->left->type == Type::string || (exact(b->left) && exact(b->right)))
           return binary(b->op, b->left, b->right);
@@ -337,6 +339,16 @@ class ConditionPass {
     if (!computed(b.left) && !computed(b.right)) return x;
     warn(s);
     return within(b);
+  }
+  /// Equality on the target has a tolerance that the source lacks; less and greater have none.
+  [[nodiscard]] ExprPtr by_order(const ExprPtr& x) const {
+    const auto& b = std::get<Binary>(x->node);
+    if (b.left->type == Type::string || (exact(b.left) && exact(b.right))) return x;
+    if (!computed(b.left) && !computed(b.right)) return x;
+    const bool eq = b.op == BinaryOp::eq;
+    return binary(eq ? BinaryOp::logical_and : BinaryOp::logical_or,
+                  binary(eq ? BinaryOp::le : BinaryOp::lt, b.left, b.right),
+                  binary(eq ? BinaryOp::ge : BinaryOp::gt, b.left, b.right));
   }
   static bool zero(const ExprPtr& side) { return constant_value(side) == 0.0; }
   /// The target takes values within 1e-12 of their size for equal, the source does not: a difference compared with 0 is
@@ -358,7 +370,15 @@ class ConditionPass {
   }
   /// A value that the program computes, with rounding errors; not one that comes from outside.
   [[nodiscard]] bool computed(const ExprPtr& e) const {
-    return e && !constant_value(e) && !parts_.exact(e) && !integers_.exact(e) && !parts_.untouched(e);
+    return e && !plain(e) && !parts_.exact(e) && !integers_.exact(e) && !parts_.untouched(e);
+  }
+  /// A number as it is written, or one that is computed without rounding.
+  static bool plain(const ExprPtr& e) {
+    const auto value = constant_value(e);
+    const auto* minus = std::get_if<Unary>(&e->node);
+    const bool written = as_number(e) != nullptr || (minus != nullptr && as_number(minus->operand) != nullptr);
+    constexpr double parts = 1024;
+    return value && (written || std::nearbyint(*value * parts) == *value * parts);
   }
   /// Computed without rounding: whole numbers, halves, quarters... The comparison needs no tolerance then.
   [[nodiscard]] bool exact(const ExprPtr& e) const { return integers_.exact(e) || parts_.exact(e); }
@@ -397,6 +417,7 @@ class ConditionPass {
   const LegaliseContext& context_;
   double band_;
   bool near_;                          ///< equality of the source has a tolerance that the target lacks
+  bool far_;                           ///< and the other way round
   IntegerVariables integers_, parts_;  ///< whole numbers, and multiples of 1/1024
 };
 

@@ -70,14 +70,16 @@ class Writer {
         Block b;
         b.actions.push_back(action(SetSpindle{live, Value{std::abs(m.speed)}}));
         b.actions.push_back(action(SpindleRun{live, m.speed < 0 ? SpindleState::ccw : SpindleState::cw}));
-        blocks.push_back(made(line_, std::move(b)));
-        return true;
+        live_turns_ = true;
+        return blocks.push_back(made(line_, std::move(b))), true;
       }
       case TurnStep::live_stop: return put(SpindleRun{live, SpindleState::off});
       case TurnStep::comp_left: return comp(CompSide::left);
       case TurnStep::comp_right: return comp(CompSide::right);
       case TurnStep::comp_off: return comp(CompSide::off);
-      default: return move(m, error);
+      default:
+        if (m.step == TurnStep::thread && live_turns_) return *error = "a tap that follows the driven tool", false;
+        return move(m, error);
     }
   }
   /// Rapid is in force afterwards; else the feed is as before.
@@ -106,6 +108,7 @@ class Writer {
 
  private:
   static constexpr std::uint8_t live = 3;
+  bool live_turns_ = false;
 
   template <class Data>
   bool put(Data data) {

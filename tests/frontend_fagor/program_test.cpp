@@ -92,6 +92,7 @@ TEST(FagorProgram, Flow) {
   EXPECT_EQ(read("(WRITE G1 X5)").codes(), "");
   EXPECT_EQ(read("(OPEN P5, A, D)").codes(), "FAG-100");
   EXPECT_EQ(read("(WRITE XP99)").codes(), "FAG-018");
+  EXPECT_EQ(read("G72 S2\nX1 B30\nB40").codes(), "FAG-101 FAG-035") << "are degrees multiplied?";
 }
 
 TEST(FagorProgram, Messages) {
