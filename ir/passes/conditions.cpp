@@ -320,7 +320,7 @@ class ConditionPass {
         const auto* b = std::get_if<Binary>(&x->node);
         if (b == nullptr || !is_comparison(b->op)) return x;
         if (near_ && b->compare == Compare::exact && equality(b->op)) return nearly(s, x);
-        if (far_ && b->compare == Compare::exact && equality(b->op)) return by_order(x);
+        if (far_ && b->compare == Compare::exact && equality(b->op)) return by_order(s, e, x);
         if (b->compare == Compare::exact) return x;
         if (b->left->type == Type::string || (exact(b->left) && exact(b->right)))
           return binary(b->op, b->left, b->right);
@@ -341,10 +341,17 @@ class ConditionPass {
     return within(b);
   }
   /// Equality on the target has a tolerance that the source lacks; less and greater have none.
-  [[nodiscard]] ExprPtr by_order(const ExprPtr& x) const {
+  ExprPtr by_order(const Statement& s, const ExprPtr& whole, const ExprPtr& x) {
     const auto& b = std::get<Binary>(x->node);
     if (b.left->type == Type::string || (exact(b.left) && exact(b.right))) return x;
     if (!computed(b.left) && !computed(b.right)) return x;
+    const auto* top = std::get_if<Binary>(&whole->node);
+    const bool structure = std::holds_alternative<If>(s.node) || std::holds_alternative<While>(s.node) ||
+                           std::holds_alternative<Until>(s.node);
+    if (structure && (top == nullptr || !is_comparison(top->op))) {  // one chain of relations, without brackets
+      warn(s);
+      return x;
+    }
     const bool eq = b.op == BinaryOp::eq;
     return binary(eq ? BinaryOp::logical_and : BinaryOp::logical_or,
                   binary(eq ? BinaryOp::le : BinaryOp::lt, b.left, b.right),
@@ -407,10 +414,11 @@ class ConditionPass {
   void warn(const Statement& s) {
     context_.diagnostics.warning(
         "TRN-115", s.line.span,
-        std::string(near_ ? "the source takes values that differ by rounding only for equal, the target "
-                          : "the source takes values that differ by less than 1e-12 of their size for equal, the "
-                            "target ") +
-            "compares exactly: written so that values within " + shortest(band_) + " count as equal",
+        far_ ? std::string("the target takes values that differ by rounding only for equal, the source does not")
+             : std::string(near_ ? "the source takes values that differ by rounding only for equal, the target "
+                                 : "the source takes values that differ by less than 1e-12 of their size for equal, "
+                                   "the target ") +
+                   "compares exactly: written so that values within " + shortest(band_) + " count as equal",
         "count with whole numbers where you can");
   }
 
