@@ -6,6 +6,7 @@
 #include "interpreter/routines.h"
 #include "interpreter/run_codes.h"
 #include "ir/file_line.h"
+#include "ir/limit_words.h"
 #include "ir/missing_features.h"
 
 namespace cnctrans::interpreter {
@@ -36,12 +37,16 @@ class Checker {
       visit(*flow, at);
     }
     for (auto* flow : routines_.all_of_main()) unreached(*flow);
+    limits();
   }
 
  private:
   void reach(Flow& flow, std::uint32_t at) {
     auto& seen = seen_[&flow];
-    if (seen.empty()) seen.resize(flow.code.size() + 1, false);
+    if (seen.empty()) {
+      seen.resize(flow.code.size() + 1, false);
+      order_.push_back(&flow);
+    }
     if (at >= flow.code.size() || seen[at]) return;
     seen[at] = true;
     work_.emplace_back(&flow, at);
@@ -199,6 +204,20 @@ class Checker {
     }
   }
 
+  /// Two words that limit the speed of the spindle, in two programs: a run takes the one that comes later.
+  void limits() {
+    ir::LimitWords words;
+    for (const auto* flow : order_) {
+      const ir::Statement* s = words.add(*flow->routine);
+      if (s == nullptr) continue;
+      diagnostics_.warning(code::limit_words, s->line.span,
+                           "the speed of the spindle is limited by another word in another program: the lower of both "
+                           "limits counts on the control, and in this run the one that comes later",
+                           "write both limits in one program, one behind the other");
+      return;
+    }
+  }
+
   /// What control never reaches cannot stop a run, but is worth a word.
   void unreached(Flow& flow) {
     const auto& seen = seen_[&flow];
@@ -218,6 +237,7 @@ class Checker {
   Routines routines_;
   Diagnostics& diagnostics_;
   std::map<Flow*, std::vector<bool>> seen_;
+  std::vector<const Flow*> order_;  ///< as they are reached first
   std::vector<std::pair<Flow*, std::uint32_t>> work_;
 };
 

@@ -6,6 +6,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/given_data.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/spindle_limits.h"
 #include "ir/passes/stream_watch.h"
 #include "ir/passes/thread_leads.h"
 #include "ir/passes/written_files.h"
@@ -22,6 +23,7 @@ struct Pass {
 
 constexpr std::array pipeline{
     Pass{"headings", passes::move_headings, false},
+    Pass{"spindle_limits", passes::check_spindle_limits, false},
     Pass{"texts", passes::write_known_texts, false},
     Pass{"called_parts", passes::separate_called_parts, false},
     Pass{"known_frames", passes::say_known_frames, false},
