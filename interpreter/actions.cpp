@@ -417,6 +417,8 @@ void BlockMachine::set_corner(const ir::Corner& c) {
     modal_corner_feed_ = p.feed;
   } else if (p.size > 0) {
     block_corner_ = p;
+  } else {
+    sharp_ = true;  // a corner of 0 in its block: none, whatever holds for the others
   }
 }
 

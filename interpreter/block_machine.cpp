@@ -92,7 +92,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   failure_.where = where;
   path_event_.file = event_.file = where.file;
   path_event_.line = event_.line = where.line;
-  block_moves_ = false;
+  block_moves_ = sharp_ = false;
   // On some machines a word of the tool axis under a cycle would be the depth, which can't change there.
   const auto axis_word = [&] {
     if (!hole_ || !b.has_motion || b.motion.frame != ir::FrameUse::normal) return false;

@@ -186,6 +186,7 @@ class BlockMachine final : public SystemData {
   bool read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_of_run(const ir::SystemRef& ref, std::span<const double> args, const std::string& name, double& out);
   bool read_at_rest(const std::string& name, double& out);
+  bool place_in_table(ir::AxisId axis, std::span<const double> args, double& out) const;
   void assume(const std::string& name, double value, const std::string& hint = {});
 
   // actions (actions.cpp)
@@ -405,6 +406,7 @@ class BlockMachine final : public SystemData {
 
   // per block
   std::optional<Pending> block_corner_;
+  bool sharp_ = false;  ///< the block writes a corner of 0
   bool block_moves_ = false, feed_stop_ = false, cycle_defined_here_ = false, cycle_waits_ = false;
   std::optional<Pending> pending_;
   ir::contour::Marks marks_;          ///< of the block at hand

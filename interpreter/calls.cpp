@@ -83,12 +83,31 @@ bool Runner::range_in(Flow& flow, const ir::LabelRef& first, const ir::LabelRef&
 
 // --- calls -----------------------------------------------------------------------------------------------------
 
+/// `/_N_SPF_DIR/_N_CB_SPF` as the program that it names: CB, by the parts that the machine's names may have.
+std::string Runner::bare_name(std::string name) const {
+  const std::string parts = profile_.option("call.decoration");
+  if (parts.empty()) return name;
+  const auto folder = name.rfind('/');
+  if (folder != std::string::npos) name.erase(0, folder + 1);
+  std::string_view rest = parts;
+  for (bool prefix = true; !rest.empty(); prefix = false) {
+    const std::string_view part = rest.substr(0, rest.find('|'));
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    if (name.size() <= part.size()) continue;
+    if (prefix && name.starts_with(part)) name.erase(0, part.size());
+    if (prefix || !name.ends_with(part)) continue;
+    name.resize(name.size() - part.size());
+    break;
+  }
+  return name;
+}
+
 Flow* Runner::callee_of(const ir::CallRoutine& c) {
   ir::RoutineName name = c.routine;
   if (c.computed) {
     const auto id = evaluator_.id_of(c.computed);
     if (evaluator_.is_text(id)) {
-      name = {-1, to_upper_ascii(trim(evaluator_.text(id)))};
+      name = {-1, bare_name(to_upper_ascii(trim(evaluator_.text(id))))};
     } else {
       const double n = std::round(evaluator_.number(id));
       name = {n >= 0 && n < 1e9 ? static_cast<std::int64_t>(n) : -1, {}};

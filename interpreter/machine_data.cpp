@@ -144,6 +144,7 @@ bool BlockMachine::read_of_run(const ir::SystemRef& ref, std::span<const double>
       out = main != nullptr ? ir::main_number(*main).value_or(-1) : -1;
       return out >= 0;
     }
+    case machine::RunDatum::numbered_position: return place_in_table(ref.axis, args, out);
     case machine::RunDatum::block_coordinate: {
       const auto found =
           args.size() == 2 ? ir::block_coordinate(program_, library_, ref.axis, args[0], args[1]) : std::nullopt;
@@ -157,6 +158,32 @@ bool BlockMachine::read_of_run(const ir::SystemRef& ref, std::span<const double>
     }
   }
   return false;
+}
+
+/// So many places on from the present one in the table of the axis; that of a rotary axis goes round.
+bool BlockMachine::place_in_table(ir::AxisId axis, std::span<const double> args, double& out) const {
+  if (axis >= ir::axis::count_max || !axis_[axis].present || args.size() != 1) return false;
+  constexpr double near = 1e-6, whole_turn = 360;
+  constexpr std::int64_t most = 1000;
+  const std::string front = "CAC[" + profile_.axis(axis)->name + ",";
+  std::vector<double> table;
+  while (table.size() < static_cast<std::size_t>(most)) {
+    const auto place = profile_.data.find(front + std::to_string(table.size()) + "]");
+    if (place == profile_.data.end()) break;
+    table.push_back(place->second);
+  }
+  const double here = p_[axis] / axis_[axis].scale_absolute;
+  const auto stands = std::find_if(table.begin(), table.end(), [&](double place) {
+    const double way = axis_[axis].rotary ? std::remainder(place - here, whole_turn) : place - here;
+    return std::abs(way) < near;
+  });
+  if (stands == table.end()) return false;
+  const auto count = static_cast<std::int64_t>(table.size());
+  std::int64_t n = stands - table.begin() + saturate<std::int64_t>(std::round(args[0]));
+  if (axis_[axis].rotary) n = (n % count + count) % count;
+  if (n < 0 || n >= count) return false;
+  out = table[static_cast<std::size_t>(n)];
+  return true;
 }
 
 bool BlockMachine::read_at_rest(const std::string& name, double& out) {

@@ -85,7 +85,7 @@ void BlockMachine::arrived(const Move& move) {
 }
 
 bool BlockMachine::hold_if_corner(const Move& move) {
-  if (!block_corner_ && (modal_corner_ <= 0 || !is_contour(move))) return false;
+  if (!block_corner_ && (sharp_ || modal_corner_ <= 0 || !is_contour(move))) return false;
   if (!in_plane(move)) {
     if (block_corner_ && without_corner("a corner function needs a move in the plane")) block_corner_.reset();
     return false;

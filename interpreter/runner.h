@@ -110,6 +110,7 @@ class Runner {
   void call(const ir::CallRoutine& c);
   void modal_call(const ir::ModalCall& m);
   void run_modal_call(std::uint32_t next);
+  [[nodiscard]] std::string bare_name(std::string name) const;
   Flow* callee_of(const ir::CallRoutine& c);
   bool range_in(Flow& flow, const ir::LabelRef& first, const ir::LabelRef& last, bool order_free, std::uint32_t& begin,
                 std::uint32_t& end);

@@ -26,6 +26,7 @@ constexpr std::array<std::pair<RunDatum, std::string_view>, run_datum_count> run
      {RunDatum::plane_normal, "plane_normal"},
      {RunDatum::program_number, "program_number"},
      {RunDatum::last_label, "last_label"},
+     {RunDatum::numbered_position, "numbered_position"},
      {RunDatum::block_coordinate, "block_coordinate"}}};
 
 bool fits(std::string_view pattern, std::string_view name) {

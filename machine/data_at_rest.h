@@ -28,12 +28,14 @@ enum class RunDatum : std::uint8_t {
   turning_speed,  ///< 1/min as programmed of a spindle that turns at a fixed speed, 0 of one that stands; assumed: the
                   ///< real speed is the machine's
   plane_normal,   ///< place of the axis that stands on the plane among the axes of the machine, from 1; 0: no such axis
-  program_number,   ///< of the running program's header; else not known
-  last_label,       ///< number of the numbered block carried out last; else not known
-  block_coordinate  ///< index: block, program. The word of the axis that the name ends with in this numbered block of
-                    ///< the main program of that number, as written; 100000 where the block has none; else not known
+  program_number,     ///< of the running program's header; else not known
+  last_label,         ///< number of the numbered block carried out last; else not known
+  numbered_position,  ///< index: a number of steps. The position of the axis so many places from its present one in the
+                      ///< machine's table of it (data CAC[axis,number]); else not known
+  block_coordinate    ///< index: block, program. The word of the axis that the name ends with in this numbered block of
+                      ///< the main program of that number, as written; 100000 where the block has none; else not known
 };
-inline constexpr std::size_t run_datum_count = 14;
+inline constexpr std::size_t run_datum_count = 15;
 struct RunAnswer {
   RunDatum datum = RunDatum::travelled;
   std::int32_t spindle = 1;  ///< of the spindle data

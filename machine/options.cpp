@@ -19,6 +19,10 @@ constexpr std::array specs{
     OptionSpec{
         "call.missing", "error|passed_over", "error",
         "a call of a subprogram that is nowhere: the program is refused, or a run goes past the call with a warning"},
+    OptionSpec{
+        "call.decoration", "text", "",
+        "what the name of a called program may have about it in a computed text: a prefix and suffixes, separated by "
+        "|; folders before it count for nothing then"},
     OptionSpec{"call.modal_words", "no|yes", "no",
                "under a modal call of a subprogram, F, S and a bare G0 or G1 run it as well, without motion"},
     OptionSpec{

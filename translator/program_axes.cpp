@@ -27,6 +27,14 @@ bool axis_word(std::string_view run, std::string_view rest, const std::string& m
   return at != std::string_view::npos && (is_digit(rest[at]) || std::string_view("+-.=([").find(rest[at]) < 6);
 }
 
+/// The name of an axis as an argument: GEOAX(3,W), POS[W].
+bool axis_argument(std::string_view text, std::size_t at, const std::string& missing) {
+  constexpr std::string_view before = "([,", behind = ")],";
+  return at > 0 && at + 1 < text.size() && before.find(text[at - 1]) != std::string_view::npos &&
+         behind.find(text[at + 1]) != std::string_view::npos &&
+         missing.find(to_upper_ascii(text.substr(at, 1))[0]) != std::string::npos;
+}
+
 /// The text may have a word of one of the letters. Comments are passed over, names of more letters too. Most bytes are
 /// passed over by one look into a table: large files are read at memory speed.
 bool mentions(std::string_view text, const Dialect& dialect, const std::string& missing) {
@@ -55,7 +63,7 @@ bool mentions(std::string_view text, const Dialect& dialect, const std::string& 
     std::size_t end = i;
     while (end < text.size() && is_letter(text[end])) ++end;
     const auto run = text.substr(i, end - i), rest = text.substr(end, 8);
-    if (axis_word(run, rest, missing)) return true;
+    if (axis_word(run, rest, missing) || axis_argument(text, i, missing)) return true;
     int code = -1;
     if (run == "G" || run == "g") std::from_chars(rest.data(), rest.data() + rest.size(), code);
     for (const auto& [g, letter] : dialect.axis_codes) {

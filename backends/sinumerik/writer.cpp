@@ -263,6 +263,8 @@ std::string Writer::attribute_word(std::string_view address, std::string_view at
   if (same_dialect() && position != nullptr && position->text == dialect::numbered_position_datum &&
       position->args.size() == 2)  // CAC, CDC, CACP, CACN
     return std::string(address) + "=C" + std::string(attribute) + '(' + expression_text(position->args[1], pos) + ')';
+  if (same_dialect() && position != nullptr && position->text == dialect::stepped_position_datum)
+    return std::string(address) + "=CIC(" + expression_text(position->args[0], pos) + ')';
   return std::string(address) + '=' + std::string(attribute) + '(' + value_text(v, pos) + ')';
 }
 

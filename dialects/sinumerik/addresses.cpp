@@ -39,8 +39,8 @@ constexpr NamedWordRow words[] = {
     {"LIMS", spindle_limit},
     {"SPOS", spindle_position},
     {"SPOSA", spindle_position},
-    {"SVC", unsupported},
-    {"FZ", unsupported},
+    {"SVC", cutting_speed},
+    {"FZ", tooth_feed},
     // frames
     {"RPL", rotation_in_plane},
     // feed, dynamics, tolerances (motion 5)
@@ -124,7 +124,7 @@ constexpr ProcedureRow procedure_rows[] = {
     {"ADISPOSA", Procedure::timing},
     {"IPOBRKA", Procedure::timing},
     {"SETMS", Procedure::master_spindle},
-    {"GEOAX", Procedure::unsupported},
+    {"GEOAX", Procedure::geometry_axes},
     {"TRANSMIT", Procedure::transformation},
     {"TRACYL", Procedure::transformation},
     {"TRAANG", Procedure::transformation},
@@ -269,24 +269,20 @@ Procedure procedure(std::string_view capitals) {
   return Procedure::none;
 }
 
-std::string_view word_missing_feature(std::string_view capitals) {
-  return capitals == "FZ" || capitals == "SVC" ? "feed.of_the_tool" : "block.word";
-}
-
 std::string_view procedure_missing_feature(std::string_view capitals) {
   struct Row {
     std::string_view name, feature;
   };
-  constexpr Row rows[] = {{"ADDFRAME", "frame.measured"},     {"CHKDM", "machine.tools"},
-                          {"CHKDNO", "machine.tools"},        {"EXECSTRING", "language.computed_block"},
-                          {"EXECTAB", "contour.table"},       {"EXECUTE", "contour.table"},
-                          {"GEOAX", "machine.geometry_axes"}, {"GETACTT", "machine.tools"},
-                          {"GETACTTD", "machine.tools"},      {"GETTCOR", "machine.tools"},
-                          {"GETTENV", "machine.tools"},       {"INTERSEC", "contour.table"},
-                          {"LENTOAX", "machine.tools"},       {"OMA1", "machine.makers_own"},
-                          {"OMA2", "machine.makers_own"},     {"OMA3", "machine.makers_own"},
-                          {"OMA4", "machine.makers_own"},     {"OMA5", "machine.makers_own"},
-                          {"SETTCOR", "machine.tools"},       {"TOOLENV", "machine.tools"}};
+  constexpr Row rows[] = {{"ADDFRAME", "frame.measured"}, {"CHKDM", "machine.tools"},
+                          {"CHKDNO", "machine.tools"},    {"EXECSTRING", "language.computed_block"},
+                          {"EXECTAB", "contour.table"},   {"EXECUTE", "contour.table"},
+                          {"GETACTT", "machine.tools"},   {"GETACTTD", "machine.tools"},
+                          {"GETTCOR", "machine.tools"},   {"GETTENV", "machine.tools"},
+                          {"INTERSEC", "contour.table"},  {"LENTOAX", "machine.tools"},
+                          {"OMA1", "machine.makers_own"}, {"OMA2", "machine.makers_own"},
+                          {"OMA3", "machine.makers_own"}, {"OMA4", "machine.makers_own"},
+                          {"OMA5", "machine.makers_own"}, {"SETTCOR", "machine.tools"},
+                          {"TOOLENV", "machine.tools"}};
   for (const auto& r : rows) {
     if (r.name == capitals) return r.feature;
   }

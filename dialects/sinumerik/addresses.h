@@ -26,6 +26,8 @@ enum class NamedWord : std::uint8_t {
   spindle_position,
   rotation_in_plane,
   block_feed,
+  tooth_feed,     ///< FZ: feed for each tooth of the tool
+  cutting_speed,  ///< SVC: speed at the cutting edge of the tool
   fixed_point,
   probe,
   probe_to_end,
@@ -72,6 +74,7 @@ enum class Procedure : std::uint8_t {
   coordination,    ///< other channels, interrupts, exchange of axes: no move of its own
   spline_axes,     ///< SPLINEPATH
   polynomial_path,  ///< POLYPATH
+  geometry_axes,    ///< GEOAX: another axis in the place of X, Y or Z
   preset,           ///< PRESETON: the present machine position gets another value
   unsupported       ///< acts on the machine and is not carried
 };
@@ -84,8 +87,6 @@ Procedure procedure(std::string_view capitals);
 
 /// Entry of the missing-features registry that a procedure of Procedure::unsupported stands under (capitals).
 std::string_view procedure_missing_feature(std::string_view capitals);
-/// The same of an address of NamedWord::unsupported.
-std::string_view word_missing_feature(std::string_view capitals);
 
 /// True when a user variable, label or subprogram may not have this name (capitals).
 bool is_reserved(std::string_view capitals);

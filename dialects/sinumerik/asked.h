@@ -16,6 +16,9 @@ inline constexpr AskedFunction asked_functions[] = {
 /// CAC[B,3]: the third position of axis B in the machine's table.
 inline constexpr std::string_view numbered_position_datum = "CAC";
 
+/// CIC[2]: the position of the axis two places on from the present one.
+inline constexpr std::string_view stepped_position_datum = "CIC";
+
 constexpr const AskedFunction* asked_function(std::string_view capitals) {
   for (const auto& f : asked_functions) {
     if (f.name == capitals) return &f;

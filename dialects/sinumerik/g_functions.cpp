@@ -54,7 +54,7 @@ constexpr GFunction printed[] = {
     {"G348", 348, 2, 16, false, GUse::joint},
     {"G5", 5, 2, 17, false, GUse::unsupported},
     {"G7", 7, 2, 18, false, GUse::unsupported},
-    {"G751", 751, 2, 0, false, GUse::unsupported},
+    {"G751", 751, 2, 0, false, GUse::own_block},
     {"TRANS", -1, 3, 1, false, GUse::frame, u(FrameVerb::trans)},
     {"ROT", -1, 3, 2, false, GUse::frame, u(FrameVerb::rot)},
     {"SCALE", -1, 3, 3, false, GUse::frame, u(FrameVerb::scale)},
@@ -232,7 +232,7 @@ constexpr GFunction printed[] = {
     {"LFWP", -1, 46, 2, true, GUse::timing},
     {"LFPOS", -1, 46, 3, true, GUse::timing},
     {"G290", 290, 47, 1, true, GUse::timing},
-    {"G291", 291, 47, 2, true, GUse::unsupported},
+    {"G291", 291, 47, 2, true, GUse::own_block},
     {"G460", 460, 48, 1, true, GUse::compensation},
     {"G461", 461, 48, 2, true, GUse::compensation},
     {"G462", 462, 48, 3, true, GUse::compensation},
@@ -386,12 +386,12 @@ const GFunction* g_function(std::int32_t group, std::int32_t index) {
 }
 
 std::string_view missing_feature(const GFunction& g) {
-  if (g.use != GUse::unsupported) return {};
+  if (g.use != GUse::unsupported && g.use != GUse::own_block) return {};
   constexpr std::uint8_t motion_group = 1;
   constexpr std::uint8_t splines_from = 6, splines_to = 8, polynomial = 9;
   constexpr std::uint8_t oem = 31, more_oem = 32, language = 47;
   if (g.number == 5 || g.number == 7) return "motion.inclined";
-  if (g.number == 751) return "motion.via_point";
+  if (g.number == 751) return "block.word";
   if (g.group == oem || g.group == more_oem || g.name.starts_with("OEM")) return "machine.makers_own";
   if (g.group == language) return "language.other_mode";
   if (g.name.starts_with("INVC")) return "motion.involute";

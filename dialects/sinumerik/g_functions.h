@@ -27,6 +27,7 @@ enum class GUse : std::uint8_t {
   joint,         ///< the ends of the moves are the programmed ones, the way between them is another
   tool_frame,    ///< a = the axis (0 to 2) that the tool's direction becomes, 3: ends it; b = 1: the origin, too
   table_frame,   ///< the frame of an orientable table
+  own_block,     ///< its block is read apart: G751 is two blocks, G291 begins lines of another language
   unsupported    ///< could move the machine differently and is not carried
 };
 enum class FrameVerb : std::uint8_t { trans, atrans, rot, arot, scale, ascale, mirror, amirror, rots, arots, g58, g59 };

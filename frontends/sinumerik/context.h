@@ -131,6 +131,7 @@ struct FileContext {
   std::set<std::string, std::less<>> unknown_names{};  ///< of those, the ones that the machine has given a value
 
   std::optional<ir::Units> units_by_text{};  ///< of the program, in the order of the text; none: the caller's
+  bool words_in_inches = false;              ///< G70: lengths of words, not those of data
   bool units_called = false;                 ///< a call stands behind the code that `units_by_text` is from
   std::uint8_t master_spindle = 1;           ///< SETMS, in the order of the text
   bool offset_chosen = true;                 ///< a D was written since the last T, in the order of the text
@@ -149,6 +150,7 @@ struct FileContext {
     css_limit.interrupt();
     if (more_planes) plane.reset();
     if (uses_css) css.reset();
+    if (more_feeds) per_rev.reset();
     tool.state = ToolDirection::State::unsure;
     contours = {};
   }
@@ -161,6 +163,10 @@ struct FileContext {
   bool more_planes = false;          ///< the file has codes of several planes
   bool uses_css = false;             ///< G96 or G961 stands in the file
   std::optional<bool> css{};  ///< constant cutting speed in force, in the order of the text; none: it does not tell
+
+  std::optional<bool> per_rev{};  ///< feed per revolution in force, in the order of the text; none: it does not tell
+  bool more_feeds = false;        ///< the file has codes of feeds per revolution and of others
+  bool words_of_tool = false;     ///< FZ= or SVC= is in force: it counts for the tool of its block
 
   std::map<std::int32_t, CurveTable> tables{};          ///< CTABDEF, by number
   CurveTable* table = nullptr;                          ///< the one being defined

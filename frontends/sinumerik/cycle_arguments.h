@@ -37,6 +37,12 @@ class Arguments {
   std::vector<bool> given_;
 };
 
+/// The parameter that comes next names a table of pitches, or the thread in it.
+inline bool names_a_table(const CycleRow& row, std::size_t next) {
+  return static_cast<int>(next) == parameter_index(row, "PTAB") ||
+         static_cast<int>(next) == parameter_index(row, "PTABA");
+}
+
 ir::Level level(ir::Value value, ir::LevelBase base);
 ir::Value absolute_value(const ir::Value& v);
 /// Safety plane and depth. They lie below the retract plane, as they should, unless numbers say otherwise.

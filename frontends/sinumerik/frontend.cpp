@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "frontends/sinumerik/context.h"
 #include "frontends/sinumerik/face_radius.h"
+#include "frontends/sinumerik/geometry_axes.h"
 #include "frontends/sinumerik/line_reader.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/lower_words.h"
@@ -77,11 +78,17 @@ void set_unit_hint(ir::Program& program) {
 /// Which of these words may stand in the file, in one look at its text.
 struct CodesSeen {
   bool css = false;              ///< G96, G961, G962
+  bool per_rev = false;          ///< G95, G96, G97
+  bool other_feed = false;       ///< G93, G94, G961, G971 and their like
   std::array<bool, 3> planes{};  ///< by ir::Plane
   explicit CodesSeen(std::string_view text) {
     for (std::size_t i = text.find_first_of("Gg"); i != std::string_view::npos; i = text.find_first_of("Gg", i + 1)) {
       const std::string_view digits = text.substr(i + 1, 2);
       css = css || digits == "96";
+      const bool longer = i + 3 < text.size() && text[i + 3] >= '0' && text[i + 3] <= '9';
+      per_rev = per_rev || (!longer && (digits == "95" || digits == "96" || digits == "97"));
+      other_feed =
+          other_feed || (digits.size() == 2 && digits[0] == '9' && (longer || digits[1] == '3' || digits[1] == '4'));
       if (digits == "17") planes[static_cast<std::size_t>(ir::Plane::xy)] = true;
       if (digits == "18") planes[static_cast<std::size_t>(ir::Plane::zx)] = true;
       if (digits == "19") planes[static_cast<std::size_t>(ir::Plane::yz)] = true;
@@ -108,6 +115,7 @@ class FileReading {
     program_.texts->hold(source_);
     const CodesSeen seen(source_->text());
     context_.uses_css = seen.css;
+    context_.more_feeds = seen.per_rev && seen.other_feed;
     for (std::size_t p = 0; p < seen.planes.size(); ++p) {
       const bool first = p == static_cast<std::size_t>(machine_.profile->power_on.plane);
       context_.more_planes = context_.more_planes || (seen.planes[p] && !first);
@@ -124,6 +132,7 @@ class FileReading {
     if (!source_->lines().empty()) look_.final_eol = source_->lines().back().has_eol;
     program_.files.push_back(std::move(look_));
     set_unit_hint(program_);
+    if (context_.said.contains("GEOAX()")) resolve_geometry_axes(program_, context_.diagnostics);
     face_radius(program_, *machine_.profile, context_.diagnostics);
     return std::move(program_);
   }
@@ -248,6 +257,10 @@ bool FileReading::reads_with_macros(const ParseError& first) {
 void FileReading::unread(const syntax::Block& block, ir::LineInfo info) {
   const ParseError& e = reader_.error();
   const WordPos pos{e.column, e.length};
+  if (statements_.other_mode()) {
+    ++stats_.blocks_read;
+    return statements_.add_opaque(block, std::move(info), "language.other_mode", false);
+  }
   if (reads_with_macros(e)) {
     context_.keep(
         "SIN-024", pos,

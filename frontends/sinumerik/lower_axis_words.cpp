@@ -1,5 +1,6 @@
 // Words of one axis or spindle named by an index: POS[X]=, POSA[X]=, FA[X]=, AX[..]=, IP[..]=, SPOS[2]=, S[2]=, G[8]=
 // (reference 1.2.1, 1.2.2; motion reference 2.2, 2.4).
+#include <algorithm>
 #include <utility>
 
 #include "base/saturate.h"
@@ -347,10 +348,10 @@ bool StatementLowering::axis_item(const syntax::Statement& s, Parts& parts) {
   ir::Value value = exprs_.value_of(s.args[1], attribute);
   if (attribute == Attribute::unsupported) feature_ = "machine.index_positions";
   if (c_.errors != before) return false;
+  if (literal != nullptr) exprs_.of_axis(value, literal->axis, attribute);
   ir::CoordWord coord;
   if (!apply_attribute(attribute, coord))
     return refuse("machine.index_positions", s.pos, "this way to give a position is not carried yet");
-  if (literal != nullptr) exprs_.of_axis(value, literal->axis);
   coord.value = std::move(value);
   coord.pos = s.pos;
   if (word == "IP") {
@@ -417,6 +418,15 @@ bool StatementLowering::put_axis_words(Parts& parts, ir::Block& words) {
     for (auto& p : parts.polynomials) extra.polynomials.push_back(std::move(p));
     for (auto& c : parts.computed) extra.computed.push_back(std::move(c));
     m.extra = std::make_shared<const ir::MotionExtra>(std::move(extra));
+  }
+  const auto alone = [](const ir::CoordWord& c) { return c.positioning != ir::Positioning::with_path; };
+  const auto by_itself = std::find_if(m.coords.begin(), m.coords.end(), alone);
+  if (by_itself != m.coords.end() && !std::all_of(m.coords.begin(), m.coords.end(), alone)) {
+    c_.warning(
+        "SIN-106", by_itself->pos,
+        "this axis moves by itself beside the axes of the path, at its own feed: the run shows one straight move of "
+        "all of them, at the feed of the path",
+        "write it in a block of its own");
   }
   words.has_motion = true;
   return true;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/saturate.h"
+#include "base/text.h"
 #include "dialects/sinumerik/cycles.h"
 #include "frontends/sinumerik/cycle_arguments.h"
 #include "frontends/sinumerik/lower_statements.h"
@@ -431,6 +432,14 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   for (const Expr& e : args) {
     Attribute attribute = Attribute::none;
     given.push_back(e.kind != ExprKind::missing);
+    if (e.kind == ExprKind::string && names_a_table(row, values.size())) {  // the editor writes "" for none
+      given.back() = false;
+      values.emplace_back(0);
+      if (!trim(e.text).empty())
+        c_.keep("SIN-008", e.pos,
+                name + " with a pitch from a table of the control is not carried: write it as a number");
+      continue;
+    }
     const bool names = e.kind == ExprKind::string && row.family == CycleFamily::milling &&
                        static_cast<int>(values.size()) == parameter_index(row, mill_contour_parameter);
     if (names)

@@ -52,7 +52,7 @@ class ExprLowering {
   ir::Value value(const syntax::Block& block, const syntax::Word& word, Attribute& attribute);
   ir::Value value_of(const syntax::Expr& e, Attribute& attribute);
   /// The axis that a position by its number belongs to.
-  void of_axis(ir::Value& value, ir::AxisId axis) const;
+  void of_axis(ir::Value& value, ir::AxisId axis, Attribute& attribute) const;
 
   /// The variable that `e` names (R parameter, declared name, array element); nullopt after an error.
   std::optional<ir::VarRef> variable(const syntax::Expr& e, ir::Type& type);
@@ -74,6 +74,8 @@ class ExprLowering {
   std::optional<FrameName> component(const syntax::Expr& e, std::size_t indices, FrameName out);
   /// The axis that an index names, or a variable of type AXIS; null after an error.
   ir::ExprPtr axis_operand(const syntax::Expr& e);
+  /// The axis of the channel that a machine's own axis name stands for (X1: X; AX2: the second axis), else `e`.
+  [[nodiscard]] syntax::Expr channel_axis(const syntax::Expr& e) const;
   /// An array that is named as a whole, to be handed over; nullopt when `e` names none.
   std::optional<ir::VarRef> whole_array(const syntax::Expr& e, ir::Type& type);
 
@@ -83,6 +85,9 @@ class ExprLowering {
  private:
   std::optional<ir::Value> numbered_position(const syntax::Expr& e, Attribute& out);
   ir::ExprPtr frame_function(const syntax::Expr& e);
+  void tell_position(const syntax::Expr& e);
+  ir::ExprPtr turn_in_plane(const syntax::Expr& e);
+  ir::ExprPtr spindle_of_axis(const syntax::Expr& e);
   ir::ExprPtr axis_function(const syntax::Expr& e, bool& known);
   ir::ExprPtr asked(const syntax::Expr& e);
   ir::ExprPtr table_function(const syntax::Expr& e);

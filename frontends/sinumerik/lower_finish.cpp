@@ -151,7 +151,9 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
       c_.note("SIN-009", w.pos, name + " is kept as text: it does not change the programmed path");
       return;
-    case NamedWord::unsupported: refuse(word_missing_feature(name), w.pos, name + "= is not carried yet"); return;
+    case NamedWord::tooth_feed: return tooth_feed(w, value);
+    case NamedWord::cutting_speed: return cutting_speed(w, value);
+    case NamedWord::unsupported: refuse("block.word", w.pos, name + "= is not carried yet"); return;
   }
 }
 
@@ -159,6 +161,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
 
 bool WordLowering::finish() {
   if (corner_ >= 0) finish_corner();
+  if (c_.words_of_tool) words_of_tool();
   switch (special_) {
     case Special::none: break;
     case Special::dwell: finish_dwell(); break;

@@ -32,7 +32,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   externs_.clear();
   executable_seen_ = ended_ = false;
   definition_ = nullptr;
-  returned_ = false;
+  returned_ = other_mode_ = false;
   c_.symbols.clear();
   c_.read_names.clear();
   c_.unknown_names.clear();
@@ -46,7 +46,7 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.motion = c_.machine.profile->power_on.motion;
   const bool sub = routine.kind == ir::RoutineKind::sub;
   c_.units_by_text = sub ? std::nullopt : std::optional(c_.machine.profile->power_on.units);
-  c_.units_called = false;
+  c_.units_called = c_.words_in_inches = false;
   c_.tool = {};
   if (sub) c_.tool.state = ToolDirection::State::unsure;
   c_.framed = sub;
@@ -55,6 +55,9 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   c_.css.reset();
   if (!sub) c_.plane = c_.machine.profile->power_on.plane;
   if (!sub) c_.css = false;
+  c_.per_rev.reset();
+  if (!sub) c_.per_rev = c_.machine.profile->power_on.feed_mode == ir::FeedMode::per_rev;
+  c_.words_of_tool = false;
 }
 
 void StatementLowering::end_routine(const SourceText* source) {
@@ -139,6 +142,7 @@ void StatementLowering::add_unread(const Block& block, ir::LineInfo info) {
 bool StatementLowering::lower(const Block& block, ir::LineInfo info) {
   feature_ = {};
   for (const auto& l : block.labels) labels_.push_back(to_upper_ascii(l));
+  if (in_other_mode(block, info)) return true;
   if (in_definition(block, info)) {
     executable_seen_ = true;
     return true;

@@ -134,19 +134,7 @@ std::optional<ExprLowering::FrameName> ExprLowering::component(const Expr& e, st
 }
 
 ir::ExprPtr ExprLowering::frame_function(const Expr& e) {
-  if (e.text == "CRPL") {  // plane 1, 2, 3: G17, G18, G19
-    const bool fits =
-        e.args.size() == 2 && e.args[0].kind == ExprKind::number && e.args[0].number >= 1 && e.args[0].number <= 3;
-    if (!fits) {
-      c_.keep("SIN-008", e.pos, "CRPL() is carried with the number of a plane (1, 2 or 3) and an angle only");
-      return nullptr;
-    }
-    const ir::AxisId normal = c_.machine.geometry.of(3 - static_cast<std::size_t>(e.args[0].number));
-    auto axis = make_expr(ir::AxisName{normal}, ir::Type::axis, e.pos);
-    auto angle = lower_as(e.args[1], ir::Type::real);
-    if (!angle) return nullptr;
-    return make_expr(ir::Call{ir::Function::frame_turn, {std::move(axis), std::move(angle)}}, ir::Type::frame, e.pos);
-  }
+  if (e.text == "CRPL") return turn_in_plane(e);
   for (const auto& row : frame_functions) {
     if (row.name != e.text) continue;
     ir::Call call;
@@ -161,7 +149,7 @@ ir::ExprPtr ExprLowering::frame_function(const Expr& e) {
     if (pairs && e.args.size() % 2 != 0) break;
     for (std::size_t i = 0; i < e.args.size(); ++i) {
       const bool axis = !pairs || i % 2 == 0;
-      call.args.push_back(axis ? axis_operand(e.args[i]) : lower_as(e.args[i], ir::Type::real));
+      call.args.push_back(axis ? axis_operand(channel_axis(e.args[i])) : lower_as(e.args[i], ir::Type::real));
       if (!call.args.back()) return nullptr;
     }
     return make_expr(std::move(call), ir::Type::frame, e.pos);

@@ -329,6 +329,7 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     }
     case Procedure::spline_axes: return spline_axes(args, pos, parts);
     case Procedure::polynomial_path: return polynomial_path(args, pos, parts);
+    case Procedure::geometry_axes: return exchange_geometry_axes(pos, parts);
     case Procedure::preset: return preset(name, args, pos, parts);
     case Procedure::none:
     case Procedure::unsupported: break;
@@ -423,7 +424,10 @@ bool StatementLowering::sort_items(const Block& block, Parts& parts) {
 }
 
 bool StatementLowering::items(const Block& block, ir::LineInfo info) {
-  if (interrupt_routine(block, info) || return_move(block, info) || chosen_by_index(block, info)) return true;
+  if (interrupt_routine(block, info) || return_move(block, info) || chosen_by_index(block, info) ||
+      split_block(block, info)) {
+    return true;
+  }
   Parts parts;
   bool ok = sort_items(block, parts);
   ir::Block words;

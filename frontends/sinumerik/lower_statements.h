@@ -34,7 +34,9 @@ class StatementLowering {
   /// Adds a statement (comment lines, blocks of the hot path).
   void add(ir::Statement statement);
   /// The block stands in a curve table or another definition: it belongs to `lower`, also when it has words only.
-  [[nodiscard]] bool defines() const { return definition_ != nullptr || returned_; }
+  [[nodiscard]] bool defines() const { return definition_ != nullptr || returned_ || other_mode_; }
+  /// The lines are in another language of the control (G291).
+  [[nodiscard]] bool other_mode() const { return other_mode_; }
   /// Adds the block as Opaque text.
   void add_opaque(const syntax::Block& block, ir::LineInfo info, std::string_view feature, bool harmless);
   /// Adds a block that can't be read as Opaque text; when it opens or closes a structure by its first word, the
@@ -67,11 +69,25 @@ class StatementLowering {
   bool transformation(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool swivel(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool swivel_end(WordPos pos, Parts& parts);
+  bool exchange_geometry_axes(WordPos pos, Parts& parts);
   bool preset(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool master_spindle(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool axis_setting(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   static bool reads_like_axis(std::string_view name);
+  struct ChosenBy {
+    enum class Kind : std::uint8_t { spindle, axis, attribute } kind = Kind::spindle;
+    std::string address, axis;  ///< of the word
+    WordPos pos{};
+  };
+  syntax::Expr* chosen_part(syntax::Block& block, ChosenBy& by) const;
+  void choices_of(const ChosenBy& by, WordPos pos, std::vector<syntax::Expr>& choices,
+                  std::vector<ir::ExprPtr>& values) const;
   bool chosen_by_index(const syntax::Block& block, const ir::LineInfo& info);
+  // blocks of which one code makes several (lower_fixed_points.cpp)
+  bool split_block(const syntax::Block& block, const ir::LineInfo& info);
+  bool via_point(const syntax::Block& block, std::size_t code, const ir::LineInfo& info);
+  bool block_words(const syntax::Block& block, ir::Block& out);
+  bool in_other_mode(const syntax::Block& block, const ir::LineInfo& info);
   bool chosen_g(const syntax::Statement& s, Parts& parts);
   bool indirect_g(const syntax::Statement& s, Parts& parts);
   bool axis_item(const syntax::Statement& s, Parts& parts);
@@ -157,6 +173,7 @@ class StatementLowering {
   Span definition_line_;                                           ///< where it begins
   bool returned_ = false;  ///< the block before returns to the contour, and so from the routine
   bool ended_ = false;
+  bool other_mode_ = false;  ///< behind G291
   bool executable_seen_ = false;
   bool defines_characters_ = false;
   std::string_view feature_;  ///< why the block in work could not be carried

@@ -11,16 +11,25 @@ using syntax::ExprKind;
 
 /// CAC(3), CDC(3), CACP(3), CACN(3): the third position of the axis in the machine's table, the datum CAC[B,3].
 std::optional<ir::Value> ExprLowering::numbered_position(const Expr& e, Attribute& out) {
-  if (e.text != "CAC" && e.text != "CDC" && e.text != "CACP" && e.text != "CACN") return std::nullopt;
+  const bool steps = e.text == stepped_position_datum;
+  if (!steps && e.text != "CAC" && e.text != "CDC" && e.text != "CACP" && e.text != "CACN") return std::nullopt;
   if (e.args.size() != 1) {
     c_.error("SIN-012", e.pos, e.text + "() takes the number of a position");
     return ir::Value{};
   }
-  out = attribute(e.text.substr(1));
+  out = steps ? Attribute::acp : attribute(e.text.substr(1));
   ir::SystemRef position;
-  position.text = numbered_position_datum;
+  position.text = steps ? stepped_position_datum : numbered_position_datum;
   position.args.push_back(lower(e.args[0]));
   if (!position.args.back()) return ir::Value{};
+  if (steps) {  // forward or backward through the table
+    const auto count = ir::constant_value(position.args.back());
+    if (!count) {
+      c_.keep("SIN-008", e.pos, "CIC() with a computed number of steps is not carried yet");
+      return ir::Value{};
+    }
+    if (*count <= 0) out = *count < 0 ? Attribute::acn : Attribute::dc;
+  }
   if (c_.first_time(position.text)) {
     c_.warning("SIN-015", e.pos,
                e.text +
@@ -31,13 +40,20 @@ std::optional<ir::Value> ExprLowering::numbered_position(const Expr& e, Attribut
   return ir::Value(make_expr(std::move(position), ir::Type::real, e.pos));
 }
 
-/// The table is that of an axis.
-void ExprLowering::of_axis(ir::Value& value, ir::AxisId axis) const {
+/// The table is that of an axis. A linear axis has one way only.
+void ExprLowering::of_axis(ir::Value& value, ir::AxisId axis, Attribute& attribute) const {
   const auto* ref = value.expr ? std::get_if<ir::SystemRef>(&value.expr->node) : nullptr;
   const auto* spec = c_.machine.profile->axis(axis);
-  if (ref == nullptr || spec == nullptr || ref->text != numbered_position_datum || ref->args.size() != 1) return;
+  if (ref == nullptr || spec == nullptr || ref->args.size() != 1) return;
+  const bool steps = ref->text == stepped_position_datum;
+  if (!steps && ref->text != numbered_position_datum) return;
   ir::SystemRef named = *ref;
-  named.args.insert(named.args.begin(), ir::string_literal(spec->name));
+  if (steps) {
+    named.axis = axis;
+    if (!spec->rotary) attribute = Attribute::ac;
+  } else {
+    named.args.insert(named.args.begin(), ir::string_literal(spec->name));
+  }
   value = ir::Value(make_expr(std::move(named), ir::Type::real, value.expr->pos));
 }
 

@@ -29,6 +29,7 @@ bool WordLowering::is_motion_block(const syntax::Block& block) {
     if (w.address.size() > 1 && beside(w.address, w.has_value ? BesideForm::address : BesideForm::code) != nullptr)
       return false;
     if (w.address.size() > 5 && !w.has_value && (w.address[0] == 'R' || w.address[0] == 'r')) return false;  // REPOSL
+    if ((w.address[0] == 'G' || w.address[0] == 'g') && (w.number == 751 || w.number == 291)) return false;
     switch (w.address[0]) {
       case 'L':
       case 'l':
@@ -163,6 +164,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       break;
     case GUse::units:
       c_.units_by_text = static_cast<ir::Units>(g.a);
+      c_.words_in_inches = c_.units_by_text == ir::Units::inch && g.b == 0;
       c_.units_called = false;
       push(ir::ModalSet{ir::Setting::units, g.a, g.b != 0, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
            pos);
@@ -214,11 +216,13 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
       c_.note("SIN-009", pos, "PAROT is kept as text: no carrier is selected, so it turns nothing");
       break;
+    case GUse::own_block:
     case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
   }
 }
 
 void WordLowering::feed_mode(const GFunction& g, WordPos pos) {
+  c_.per_rev = static_cast<ir::FeedMode>(g.a) == ir::FeedMode::per_rev;
   const bool ends_css = g.b == 0 && c_.css.value_or(true);  // one group: G94 takes the place of G96
   if (g.b != 2) c_.css = false;
   if (g.b == 2) c_.css = c_.uses_css = true;
@@ -326,7 +330,7 @@ void WordLowering::coordinate(ir::AxisId axis, const Word& w, ir::Value value, A
   if (c_.machine.rotary[axis]) c_.tool.turned_by_axis();
   auto& coord = out_->motion.coords.emplace_back();
   coord.axis = axis;
-  exprs_.of_axis(value, axis);
+  exprs_.of_axis(value, axis, attribute);
   coord.value = std::move(value);
   coord.pos = w.pos;
   switch (attribute) {
@@ -414,6 +418,7 @@ void WordLowering::f_word(const Word& w, ir::Value value) {
     extra().lead_change = decreasing_lead_ ? ir::negate(value) : std::move(value);
     return;
   }
+  c_.words_of_tool = false;
   push(ir::SetFeed{std::move(value), false}, Rank::feed, ir::Order::before, w.pos);
 }
 

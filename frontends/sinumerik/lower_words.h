@@ -68,6 +68,9 @@ class WordLowering {
   void s_word(const syntax::Word& w, ir::Value value);
   bool feed_polynomial(const syntax::Expr& e, const syntax::Word& w);
   void f_word(const syntax::Word& w, ir::Value value);
+  void tooth_feed(const syntax::Word& w, const ir::Value& value);
+  void cutting_speed(const syntax::Word& w, const ir::Value& value);
+  void words_of_tool();
   void named(const syntax::Block& block, const syntax::Word& w);
   void coordinate(ir::AxisId axis, const syntax::Word& w, ir::Value value, Attribute attribute);
   bool polynomial(const syntax::Block& block, const syntax::Word& w, ir::AxisId axis);

@@ -80,6 +80,14 @@ ir::SystemRef ExprLowering::system(const Expr& e) {
   return ref;
 }
 
+/// Under G70 a position is read in the unit of the words; whether the control gives it so is not said for each datum.
+void ExprLowering::tell_position(const Expr& e) {
+  if (!c_.words_in_inches || !c_.first_time("G70 " + e.text)) return;
+  c_.warning("SIN-105", e.pos,
+             e.text + " is read under G70 in inches, as words are written; the manual lets only words change with G70",
+             "read it under G71 or G700, where both say the same");
+}
+
 ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
   if (e.text == "$PI") {
     return make_expr(ir::Number{3.14159265358979323846, {}, false}, ir::Type::real, e.pos);
@@ -127,12 +135,16 @@ ir::ExprPtr ExprLowering::system_operand(const Expr& e) {
     if (c_.errors != before) return nullptr;
     if (name && !name->component) return name->whole;
     if (name) {
+      tell_position(e);
       return make_expr(ir::Call{ir::Function::frame_part, {name->whole, name->axis, name->component}}, ir::Type::real,
                        e.pos);
     }
   }
   ir::SystemRef ref = system(e);
   if (c_.errors != before) return nullptr;
+  if (ref.datum == ir::Datum::programmed_position || ref.datum == ir::Datum::work_position ||
+      ref.datum == ir::Datum::settable_position || ref.datum == ir::Datum::measured_work)
+    tell_position(e);
   if (ref.datum == ir::Datum::other && c_.first_time(e.text)) {
     c_.warning("SIN-015", e.pos,
                e.text + " is known only to the machine: a run takes the profile's value, or stops where it is read");
@@ -193,6 +205,7 @@ ir::ExprPtr ExprLowering::axis_function(const Expr& e, bool& known) {
     return make_expr(ir::Binary{ir::BinaryOp::concat, ir::string_literal("S"), std::move(text), ir::Compare::exact},
                      ir::Type::string, e.pos);
   }
+  if (e.text == "AXTOSPI" && e.args.size() == 1) return spindle_of_axis(e);
   if (e.text == "AXSTRING" && e.args.size() == 1) {
     auto axis = axis_operand(e.args[0]);
     if (!axis) return nullptr;

@@ -102,6 +102,7 @@ Expr ExprBuilder::indexed(Grammar::IndexedContext* tree) {
   } else {
     out.text = to_upper_ascii(tree->name() != nullptr ? text(tree->name())
                                                       : text(static_cast<antlr4::ParserRuleContext*>(tree->letter())));
+    if (tree->INTEGER() != nullptr) out.text += text(*tree->INTEGER()->getSymbol());  // an array called T1
   }
   arguments(tree->argumentList(), out.args);
   out.pos = pos(tree);

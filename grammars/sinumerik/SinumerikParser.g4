@@ -57,7 +57,7 @@ item
   ;
 
 lvalue: indexed | name | SYSVAR | letter INTEGER?;
-indexed: (name | SYSVAR | letter) LBRACK argumentList RBRACK;
+indexed: (name | SYSVAR | letter INTEGER?) LBRACK argumentList RBRACK;
 arguments: LPAREN argumentList RPAREN;
 argumentList: argument (COMMA argument)*;
 argument: expr?;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ir/passes/flow_states.h"
+#include "ir/passes/rewrite.h"
 
 namespace cnctrans::ir::passes {
 
@@ -145,6 +146,30 @@ class Rewriter {
   Statement& statement_;
 };
 
+/// A pair of which an axis is exchanged already, and goes on to be.
+bool pairs_again(const Exchanged& before, const AxisExchange& exchange) {
+  const auto ended = [&](AxisId a) {
+    return std::any_of(exchange.ends.begin(), exchange.ends.end(),
+                       [&](AxisId e) { return e == a || (before.moves[e] & bit(a)) != 0; });
+  };
+  return std::any_of(exchange.pairs.begin(), exchange.pairs.end(), [&](const auto& p) {
+    return (!before.own(p.first) && !ended(p.first)) || (!before.own(p.second) && !ended(p.second));
+  });
+}
+
+/// A position or another datum of an axis that is exchanged is read.
+bool reads_exchanged(const Exchanged& before, const Statement& s) {
+  bool found = false;
+  if (!before.any()) return false;
+  each_expression(s, [&](const ExprPtr& e) {
+    const auto* datum = std::get_if<SystemRef>(&e->node);
+    const auto* name = std::get_if<AxisName>(&e->node);
+    const AxisId a = datum != nullptr ? datum->axis : name != nullptr ? name->axis : axis::none;
+    found = found || (a < axis::count_max && !before.own(a));
+  });
+  return found;
+}
+
 bool at_hand(const Program& program, const Statement& s) {
   const auto* c = std::get_if<CallRoutine>(&s.node);
   const auto* m = std::get_if<ModalCall>(&s.node);
@@ -167,12 +192,10 @@ bool exchange_axes(Program& program, const ReadExchange& read, const TellExchang
       const Exchanged* before = states.before(s);
       if (before == nullptr) return;
       if (const auto exchange = read(s)) {
-        const bool again = std::any_of(exchange->pairs.begin(), exchange->pairs.end(), [before](const auto& p) {
-          return !before->own(p.first) || !before->own(p.second);
-        });
-        if (again) fault(s, ExchangeFault::twice);
+        if (pairs_again(*before, *exchange)) fault(s, ExchangeFault::twice);
         return;
       }
+      if (reads_exchanged(*before, s)) return fault(s, ExchangeFault::not_said);
       if (before->any() && !at_hand(program, s)) fault(s, ExchangeFault::outside);
       bool changed = false;
       const auto why = Rewriter(*before, s).rewrite(changed);

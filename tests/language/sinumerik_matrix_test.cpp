@@ -34,6 +34,10 @@ std::string use_of(const facts::GFunction& g) {
   if (facts::beside(g.name, facts::BesideForm::code) != nullptr) return beside_path;
   switch (g.use) {
     case unsupported: return reason(facts::missing_feature(g));
+    case own_block:
+      return g.number == 751
+                 ? "carried as G0 and G75 (SIN-102)"
+                 : "kept; the blocks behind it up to G290 are kept as text, and a run stops there (SIN-103)";
     case timing: return "kept as text: the programmed path is the same";
     case compensation: return "kept as text: acts on the compensated path only";
     case joint: return "run as a straight move to the programmed end (SIN-045); no other control gets it";
@@ -64,7 +68,7 @@ std::string word_table() {
   for (const auto& w : facts::named_words()) {
     using enum facts::NamedWord;
     s += "| " + std::string(w.name) + "= | " +
-         (w.use == unsupported    ? reason(facts::word_missing_feature(w.name))
+         (w.use == unsupported    ? reason("block.word")
           : w.use == orientation  ? "kept as text, a run passes over it; no other control gets it"
           : w.use == joint        ? "kept as text: says how the programmed end is reached; no other control gets it"
           : w.use == timing       ? "kept as text: the programmed path is the same"
