@@ -227,6 +227,14 @@ void BlockMachine::set_comp(ir::CompSide side) {
   emitter_.emit(e);
 }
 
+/// The feed of the block alone, which wins in it, or the one beside it, which counts from the next block on.
+void BlockMachine::feeds(const ir::Block& b, bool of_block) {
+  for (const auto& a : b.actions) {
+    const auto* f = std::get_if<ir::SetFeed>(&a.data);
+    if (f != nullptr && f->block_only == of_block) set_feed(*f);
+  }
+}
+
 void BlockMachine::set_feed(const ir::SetFeed& f) {
   const auto mode = static_cast<std::size_t>(modal_.feed_mode);
   feed_degrees_[mode] = value(f.value);

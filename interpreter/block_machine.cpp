@@ -110,6 +110,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     return !failure_.set;
   }
   const auto feed_before = feed_;
+  const auto degrees_before = feed_degrees_;
   const bool own_feed = std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
     const auto* f = std::get_if<ir::SetFeed>(&a.data);
     return f != nullptr && f->block_only;
@@ -118,9 +119,14 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
+  if (own_feed) feeds(b, true);
   if (!(cycle_defined_here_ && cycle_waits_) && axis_word()) return false;
   if (b.has_motion && !motion(b, with_cycle)) return false;
-  if (own_feed) feed_ = feed_before;
+  if (own_feed) {
+    feed_ = feed_before;
+    feed_degrees_ = degrees_before;
+    feeds(b, false);
+  }
   if (block_corner_) {
     block_corner_.reset();
     return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");

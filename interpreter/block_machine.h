@@ -196,6 +196,7 @@ class BlockMachine final : public SystemData {
   void set_modal(const ir::ModalSet& m, const ir::Block& b);
   void set_comp(ir::CompSide side);
   void set_feed(const ir::SetFeed& f);
+  void feeds(const ir::Block& b, bool of_block);
   void set_spindle_value(const ir::SetSpindle& s);
   void set_spindle_limit(const ir::SpindleLimit& l);
   bool whole(double number, std::string_view what, std::int32_t& out);
