@@ -8,11 +8,13 @@
 #include "base/text.h"
 #include "ir/passes/legalise.h"
 #include "ir/passes/stream_watch.h"
+#include "ir/search.h"
 #include "translator/definitions.h"
 #include "translator/encode.h"
 #include "translator/line_shapes.h"
 #include "translator/program_axes.h"
 #include "translator/readable.h"
+#include "translator/stream_tools.h"
 
 namespace cnctrans::translator {
 
@@ -71,6 +73,7 @@ class StreamTranslation {
         watch_(legal_, source, target) {}
 
   void run(const std::string& path, const Progress& progress) {
+    path_ = path;
     Windows windows;
     if (!windows.open(path, &result_.error)) return fail();
     eol_ = options_.eol.value_or(windows.eol);
@@ -78,6 +81,7 @@ class StreamTranslation {
         windows.encoding == Encoding::utf8 && options_.encoding.value_or(Encoding::utf8) == Encoding::utf8;
     if (!utf8) return void(give_up());
     file_ = result_.files.add_name(path);
+    note_added_axes(source_, file_, result_.diagnostics);
     const frontends::ReadOptions read{options_.reader, &source_, nullptr, look_through(path)};
     reader_ = from_.frontend->stream(file_, read, path);
     backends::WriteOptions write;
@@ -86,6 +90,7 @@ class StreamTranslation {
     write.numbering = options_.numbering;
     write.number_step = options_.number_step;
     write.main_stem = SourceText::from_string(path, {})->stem();
+    write.changes_tools = [this] { return changes_tools(); };
     writer_ = to_.backend->stream(write);
     if (!reader_ || !writer_ || !watch_.possible()) return void(give_up());
     out_.reserve(window_bytes + window_bytes / 4);
@@ -115,6 +120,16 @@ class StreamTranslation {
     return false;
   }
 
+  /// Looks through the file for a word that changes the tool.
+  bool changes_tools() const {
+    const auto look = look_through(path_);
+    const auto reader = from_.frontend->stream(file_, {options_.reader, &source_, nullptr, look}, path_);
+    return any_line(look, 'M', *reader, [](const ir::Statement& s) {
+      const auto* block = std::get_if<ir::Block>(&s.node);
+      return block != nullptr && ir::action_in<ir::ToolChange>(*block) != nullptr;
+    });
+  }
+
   /// False: the stream has come to an early end (result says how).
   bool take_windows(Windows& windows, const Progress& progress) {
     std::string_view window = windows.first;
@@ -142,6 +157,7 @@ class StreamTranslation {
 
   bool take(const SourceLine& line) {
     if (shapes_ && !ended_ && shapes_->write(line.text, state_, out_)) {
+      watch_.passed_by();
       last_code_ = {file_, line.number, 1, line.number, static_cast<std::uint32_t>(line.text.size()) + 1};
       return true;
     }
@@ -159,7 +175,7 @@ class StreamTranslation {
       return give_up();
     if (kind == frontends::StreamLine::no_statement) return true;
     auto* block = std::get_if<ir::Block>(&statement_.node);
-    if (block == nullptr) return give_up();
+    if (block == nullptr || !number_tools(*block)) return give_up();
     // After a block that may be skipped the modal state is known only when the block does not touch it.
     if (statement_.line.skip_mask != 0 &&
         (!block->actions.empty() || block->motion.kind != ir::MotionKind::modal || !watch_.head_done() ||
@@ -185,6 +201,20 @@ class StreamTranslation {
       last.line.joined = true;
     }
     return emit(last);
+  }
+
+  /// Tools by their names get numbers. False: the table of them can't be written any more.
+  bool number_tools(ir::Block& block) {
+    const auto* tool = ir::action_in<ir::ToolSelect>(block);
+    if (tool == nullptr || tool->name.empty()) return true;
+    if (!tools_) {
+      if (watch_.head_done()) return false;
+      tools_.emplace();
+      tools_->look(*from_.frontend, file_, path_, {options_.reader, &source_, nullptr, look_through(path_)},
+                   {legal_, source_, target_, {options_.cycles}, passing_[pass_index(ir::tool_pass)]});
+    }
+    tools_->apply(block);
+    return true;
   }
 
   // --- lines of a shape that came before ----------------------------------------------------------------------------
@@ -235,6 +265,7 @@ class StreamTranslation {
     if (!watch_.head_done()) return true;
     ir::Program program = frame();
     program.routines.front().body = std::move(head_);
+    if (tools_) tools_->put_table(program.routines.front().body);
     ir::number_statements(program);
     if (!run_passes(ir::head_passes(), program, source_, true)) return give_up();
     const ir::LegaliseContext context{legal_, source_, target_, {options_.cycles}, passing_.back()};
@@ -292,10 +323,17 @@ class StreamTranslation {
   /// A block that a pass has to look at: a program of this block alone, under the modal state reached so far.
   bool put_legalised(const ir::Block& block) {
     ir::Program program = frame();
-    program.routines.front().body = {statement_};
+    ir::Body& body = program.routines.front().body;
+    const auto start = watch_.start_of(block);
+    if (start) body.push_back(*start);
+    body.push_back(statement_);
     ir::number_statements(program);
     const machine::Profile source = watch_.source_for(block);
     if (!run_passes(watch_.passes_for(block), program, source, false)) return give_up();
+    if (start) {
+      if (body.size() != 2) return give_up();
+      body.erase(body.begin());
+    }
     ir::run_pass("tidy", program, {legal_, source, target_, {options_.cycles}, passing_.back()});
     follow();
     return emit_all(program);
@@ -318,6 +356,7 @@ class StreamTranslation {
     return good;
   }
 
+  std::string path_;
   const Dialect& from_;
   const Dialect& to_;
   const machine::Profile& source_;
@@ -339,6 +378,7 @@ class StreamTranslation {
   std::uint32_t state_ = 0;  ///< of the states
   bool plain_ = false;       ///< the block at hand needed no pass
   ir::Body head_;
+  std::optional<StreamTools> tools_;  ///< from the first tool by its name on
   Span last_code_;  ///< of the last statement that is more than a comment
   bool ended_ = false;
   std::string out_;
@@ -365,13 +405,17 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   }
   const auto head = SourceText::from_string(path, std::string(look.first));
   const auto source = choose_profile(*from, options.machine, head.get(), &result.error);
-  if (!source || !added_axes(*source).empty()) return result;  // a warning has to say so
-  const auto target =
+  if (!source) return result;
+  auto target =
       machine::load(!options.target_machine.empty()
                         ? options.target_machine
                         : std::string(to->name) + (source->kind == machine::Kind::lathe ? "-lathe" : "-mill"),
                     &result.error);
   if (!target) return result;
+  if (options.target_machine.empty()) {
+    add_axes(*target, added_axes(*source));
+    if (target->tools.empty()) target->tools = source->tools;  // as in the whole-program path
+  }
   result.outcome = StreamOutcome::done;
   StreamTranslation(*from, *to, *source, *target, options, result, sink).run(path, progress);
   return result;

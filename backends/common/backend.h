@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -35,6 +36,8 @@ struct WriteOptions {
   /// Capitals: names of files and programs that other translations of the same job have already. The main program gets
   /// another one, with a note.
   std::set<std::string> taken;
+  /// Of a stream: does a word of its own carry out a tool change somewhere in the program? Empty: nobody knows.
+  std::function<bool()> changes_tools = {};
   [[nodiscard]] bool is_taken(std::string_view name) const { return taken.count(to_upper_ascii(name)) != 0; }
 };
 

@@ -132,6 +132,18 @@ std::size_t index_of(T value) {
   return static_cast<std::size_t>(value);
 }
 
+/// A tool and its offset, without the change.
+bool tool_and_offset_only(const ir::Block& b) {
+  bool tool = false, offset = false;
+  for (const ir::Action& a : b.actions) {
+    if (std::holds_alternative<ir::ToolChange>(a.data)) return false;
+    const auto* t = std::get_if<ir::ToolSelect>(&a.data);
+    tool = tool || (t != nullptr && !t->changes);
+    offset = offset || std::holds_alternative<ir::ToolOffset>(a.data);
+  }
+  return tool && offset;
+}
+
 }  // namespace
 
 PlainStreamWriter::PlainStreamWriter(const Style& style, const WriteOptions& options, const PlainTable& table)
@@ -159,6 +171,8 @@ void PlainStreamWriter::begin(const ir::Program& frame, std::string& out) {
 }
 void PlainStreamWriter::header(const ir::Program& /*frame*/, std::string& /*out*/) {}
 void PlainStreamWriter::end(std::string& /*out*/) {}
+void PlainStreamWriter::tell_rotary(const ir::CoordWord& /*word*/, const Span& /*block*/,
+                                    Diagnostics& /*diagnostics*/) const {}
 int PlainStreamWriter::places_kept() const {
   return options_.numbering == Numbering::renumber ? -1 : numbers_.kept_decimals;
 }
@@ -170,6 +184,12 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
   words.clear();
   if (const auto* b = std::get_if<ir::Block>(&statement.node)) {
     if (info.joined || !collect(*b, words)) return false;
+    if (table_.tells_rotary && !rotary_told_) look_for_rotary(*b, info.span, diagnostics);
+    if (table_.offset_waits && tool_and_offset_only(*b)) {
+      if (!changes_tools_ && options_.changes_tools) changes_tools_ = options_.changes_tools();
+      if (!changes_tools_) return false;
+      if (*changes_tools_) return write_apart(info, *b, out, diagnostics);
+    }
   } else if (const auto* e = std::get_if<ir::End>(&statement.node)) {
     const std::string_view text = same_dialect_ && !e->text.empty() ? e->text : table_.end_program;
     if (text.empty()) return false;
@@ -197,20 +217,6 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
   return true;
 }
 
-namespace {
-/// A tool and its offset, without the change.
-bool tool_and_offset_only(const ir::Block& b) {
-  bool tool = false, offset = false;
-  for (const ir::Action& a : b.actions) {
-    if (std::holds_alternative<ir::ToolChange>(a.data)) return false;
-    const auto* t = std::get_if<ir::ToolSelect>(&a.data);
-    tool = tool || (t != nullptr && !t->changes);
-    offset = offset || std::holds_alternative<ir::ToolOffset>(a.data);
-  }
-  return tool && offset;
-}
-}  // namespace
-
 bool PlainStreamWriter::collect(const ir::Block& b, Words& words) const {
   if (b.repeat_given != 0) return false;
   const bool moves = b.has_motion && b.motion.moves();
@@ -218,8 +224,36 @@ bool PlainStreamWriter::collect(const ir::Block& b, Words& words) const {
   for (const ir::Action& a : b.actions) {
     if (!add_action(a, moves, words)) return false;
   }
-  if (table_.offset_waits && tool_and_offset_only(b)) return false;
   return !words.alone || words.count == 1;
+}
+
+void PlainStreamWriter::look_for_rotary(const ir::Block& b, const Span& span, Diagnostics& diagnostics) {
+  for (const ir::Action& a : b.actions) {
+    const auto* set = std::get_if<ir::ModalSet>(&a.data);
+    if (set != nullptr && set->setting == ir::Setting::distance)
+      incremental_ = set->value == static_cast<std::uint8_t>(ir::Distance::incremental);
+  }
+  if (!b.has_motion || incremental_) return;
+  for (const ir::CoordWord& c : b.motion.coords) {
+    if (!ir::is_rotary_letter(c.axis)) continue;
+    rotary_told_ = true;
+    return tell_rotary(c, span, diagnostics);
+  }
+}
+
+/// A tool and its offset where the offset would wait for the change: a line each.
+bool PlainStreamWriter::write_apart(const ir::LineInfo& info, const ir::Block& b, std::string& out,
+                                    Diagnostics& diagnostics) {
+  if (b.has_motion || b.actions.size() != 2 || info.skip_mask != 0) return false;
+  Words& words = *words_;
+  const bool offset_first = std::holds_alternative<ir::ToolOffset>(b.actions.front().data);
+  // By column, so that the tool comes first where the source says it first.
+  const ir::Action& offset = b.actions[offset_first ? 0 : 1];
+  const ir::Action& tool = b.actions[offset_first ? 1 : 0];
+  words.clear();
+  if (!add_action(tool, false, words) || !write_line(info, words, out, diagnostics)) return false;
+  words.clear();
+  return add_action(offset, false, words) && write_line(ir::LineInfo{}, words, out, diagnostics);
 }
 
 bool PlainStreamWriter::order_fits(const ir::Action& a, std::size_t code, bool moves) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,7 @@ struct PlainTable {
   bool units_with_feed = true;                     ///< the codes of `units` change F words as well
   bool zero_feed = true;                           ///< F0 is a plain word there, not one with a meaning of its own
   bool axes_in_order = false;                      ///< coordinate and centre words must come in the order of their axes
+  bool tells_rotary = false;                       ///< of the first absolute rotary word tell_rotary() says something
   bool work_offset_alone = false;                  ///< a work offset stands alone in its line
   /// M codes that are carried as they are (no meaning, or the same one, on the target).
   std::array<bool, 1000> machine_functions{};
@@ -62,12 +64,16 @@ class PlainStreamWriter : public StreamWriter {
  protected:
   /// Lines before the first block (header, title). Default: none.
   virtual void header(const ir::Program& frame, std::string& out);
+  /// What is to be said of the first absolute rotary word of the program. Default: nothing.
+  virtual void tell_rotary(const ir::CoordWord& word, const Span& block, Diagnostics& diagnostics) const;
   [[nodiscard]] bool same_dialect() const { return same_dialect_; }
 
  private:
   struct Word;
   struct Words;
   bool collect(const ir::Block& b, Words& words) const;
+  void look_for_rotary(const ir::Block& b, const Span& span, Diagnostics& diagnostics);
+  bool write_apart(const ir::LineInfo& info, const ir::Block& b, std::string& out, Diagnostics& diagnostics);
   bool add_action(const ir::Action& a, bool moves, Words& words) const;
   bool add_modal(const ir::ModalSet& m, Word& w) const;
   bool add_motion(const ir::Motion& m, Words& words) const;
@@ -86,6 +92,8 @@ class PlainStreamWriter : public StreamWriter {
   std::array<std::uint16_t, 8> m_codes_{};    ///< spindle off cw ccw, coolant off flood mist second, tool change
   bool same_dialect_ = false;
   bool lathe_ = false;
+  bool rotary_told_ = false, incremental_ = false;
+  std::optional<bool> changes_tools_;  ///< the answer of the options, asked once
   bool ends_in_comment_ = false;  ///< the line written last: no word can follow in it
   bool rounded_ = false, rounding_noted_ = false;
   std::int64_t next_number_ = 0;

@@ -3,6 +3,14 @@
 
 namespace cnctrans::backends::fagor {
 
+void say_rotary(std::string_view axis, const Span& at, Diagnostics& diagnostics) {
+  diagnostics.warning("TRN-480", at,
+                      "the words of the rotary axis " + std::string(axis) +
+                          " are written as plain coordinates; on a rollover axis of the target the sign of an "
+                          "absolute word is the direction of turning (said once a program)",
+                      "compare the direction of every rotary move on the target's machine");
+}
+
 /// The position with its turns, where an absolute word of the source says the direction by its sign and the axis here
 /// is a plain coordinate.
 std::optional<double> Writer::counted_place(const ir::CoordWord& w) {

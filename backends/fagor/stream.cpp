@@ -20,6 +20,9 @@ class Plain : public PlainStreamWriter {
     out += line;
     out += '\n';
   }
+  void tell_rotary(const ir::CoordWord& word, const Span& block, Diagnostics& diagnostics) const override {
+    say_rotary(ir::fixed_axis_name(word.axis), word_span(block, word.pos), diagnostics);
+  }
 
  private:
   const WriteOptions& options_;
@@ -32,8 +35,7 @@ PlainTable table_of(const Style& style, const machine::Profile& profile, bool la
   // A later change to inches changes the number of decimals.
   if (!inch) t.settings[static_cast<std::size_t>(ir::Setting::units)][static_cast<std::size_t>(ir::Units::inch)] = {};
   for (ir::AxisId axis = 0; axis < ir::axis::a; ++axis) t.centers[axis] = center_letter(axis);
-  // Rotary words are told of once a program (TRN-480).
-  for (const ir::AxisId axis : {ir::axis::a, ir::axis::b, ir::axis::c}) t.axes[axis] = {};
+  t.tells_rotary = true;
   t.radius = style.radius_address;
   t.work_offset_off = g_word(lathe, Use::machine_coordinates);
   t.shift_off = g_word(lathe, Use::shift);

@@ -30,6 +30,9 @@ std::string called_header_line(const ir::Routine& first);
 /// An empty line of the source. The control takes no empty block: a remark without text stands for it.
 bool is_empty_line(const ir::Statement& s);
 
+/// TRN-480: a rotary word is written as a plain coordinate.
+void say_rotary(std::string_view axis, const Span& at, Diagnostics& diagnostics);
+
 class Writer : public ProgramWriter {
  public:
   Writer(const ir::Program& program, const WriteOptions& options, const Style& style, Diagnostics& diagnostics);

@@ -56,11 +56,7 @@ void Writer::tell_rotary(const ir::CoordWord& w) {
                      known<ir::Surface>(ir::Setting::surface).value_or(ir::Surface::none) != ir::Surface::none;
   if (plain) return;
   rotary_told_ = true;
-  diagnostics().warning("TRN-480", span_of(w.pos),
-                        "the words of the rotary axis " + std::string(axis_name(w.axis)) +
-                            " are written as plain coordinates; on a rollover axis of the target the sign of an "
-                            "absolute word is the direction of turning (said once a program)",
-                        "compare the direction of every rotary move on the target's machine");
+  say_rotary(axis_name(w.axis), span_of(w.pos), diagnostics());
 }
 
 bool Writer::curve_in_force() {

@@ -400,6 +400,8 @@ class LineStream final : public StreamReader {
     if (reader_.read(line.text, block_) == LineReader::Result::unread || !reader_.difference().empty()) {
       return StreamLine::needs_program;
     }
+    const bool first = std::exchange(first_, false);
+    if (first && !block_.statements.empty() && block_.statements.front().keyword == "%") return header();
     if (!block_.statements.empty() || !block_.labels.empty() || !WordLowering::is_motion_block(block_) ||
         !only_addresses()) {
       return StreamLine::needs_program;
@@ -418,6 +420,14 @@ class LineStream final : public StreamReader {
   [[nodiscard]] const ir::Program& frame() const override { return program_; }
 
  private:
+  /// `%_N_NAME_MPF` in the first line.
+  StreamLine header() {
+    const std::string name(trim(block_.statements.front().text));
+    const bool sub = names_subprogram(name) || to_upper_ascii(name).starts_with("SPF");
+    if (name.empty() || sub || block_.statements.size() > 1) return StreamLine::needs_program;
+    program_.routines.front().name = header_name(name);
+    return StreamLine::no_statement;
+  }
   /// The tool change of the block selects an offset that is not written.
   static bool default_offset(const ir::Block& b) {
     return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
@@ -441,6 +451,7 @@ class LineStream final : public StreamReader {
   WordLowering words_;
   LineReader reader_;
   syntax::Block block_;
+  bool first_ = true;  ///< the line at hand is the first one
 };
 
 class SinumerikFrontend final : public Frontend {

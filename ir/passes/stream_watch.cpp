@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ir/passes/blocks.h"
 
@@ -50,7 +51,13 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       tables_differ_(passes::offset_tables_differ(source, target_machine)),
       bare_differs_(source.dialect != target.dialect && passes::bare_offsets_differ(source, target_machine)),
       pitch_each_block_(target_machine.option("thread.pitch") == "each_block"),
-      lengths_differ_(source.dialect != target.dialect && passes::length_axes_differ(source, target_machine)) {
+      lengths_differ_(source.dialect != target.dialect && passes::length_axes_differ(source, target_machine)),
+      needs_places_(source.kind == machine::Kind::mill && source.dialect != target.dialect &&
+                    target.centers.count(CenterMode::from_start) == 0) {
+  for (std::size_t i = 0; i < setting_count; ++i) facts_.settings[i] = state_.get(static_cast<Setting>(i));
+  facts_.motion = state_.motion;
+  facts_.work_offset = state_.work_offset;
+  facts_.reachable = true;
   const bool source_on = source.power_on.length_comp == OnOff::on;
   const bool target_on = target_machine.power_on.length_comp == OnOff::on;
   adds_length_ = target.length_comp_switch && source_on && !target_on;
@@ -173,6 +180,9 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
   };
   const bool both_ends = !target_.full_circle_needs_end || (written(plane.u) && written(plane.v));
   if (m.centers.empty()) return !m.radius_given || !both_ends;
+  const auto outside = [&plane](const CenterWord& c) { return c.axis != plane.u && c.axis != plane.v; };
+  if (std::any_of(m.centers.begin(), m.centers.end(), outside)) return true;
+  if (is_arc_from_start(block)) return !knows_start(block);
   const CenterMode mode = m.centers.front().mode;
   const bool relative =
       mode == CenterMode::from_start || (mode == CenterMode::follows_distance && distance == Distance::incremental);
@@ -225,6 +235,37 @@ bool StreamWatch::takes_length(const Block& block) const {
   return std::any_of(coords.begin(), coords.end(), [w](const CoordWord& c) { return c.axis == w; });
 }
 
+bool StreamWatch::is_arc_from_start(const Block& block) const {
+  if (!needs_places_ || !block.has_motion || block.motion.centers.empty()) return false;
+  const Motion& m = block.motion;
+  return is_arc(m.kind == MotionKind::modal ? state_.motion : m.kind) && state_.distance == Distance::absolute &&
+         std::all_of(m.centers.begin(), m.centers.end(),
+                     [](const CenterWord& c) { return c.mode == CenterMode::from_start; });
+}
+
+bool StreamWatch::knows_start(const Block& block) const {
+  const PlaneAxes plane = plane_axes(in_block(block, Setting::plane, state_.plane));
+  return is_arc_from_start(block) && !places_stale_ && facts_.position[plane.u] && facts_.position[plane.v];
+}
+
+std::optional<Statement> StreamWatch::start_of(const Block& block) const {
+  if (!knows_start(block)) return std::nullopt;
+  const PlaneAxes plane = plane_axes(in_block(block, Setting::plane, state_.plane));
+  Block start;
+  start.has_motion = true;
+  start.motion.kind = MotionKind::linear;
+  start.motion.keeps_modal = false;
+  for (const AxisId axis : {plane.u, plane.v}) {
+    CoordWord word;
+    word.axis = axis;
+    word.value = Value(*facts_.position[axis]);
+    start.motion.coords.push_back(word);
+  }
+  Statement s;
+  s.node = std::move(start);
+  return s;
+}
+
 bool StreamWatch::rapid_under_compensation(const Block& block) const {
   if (state_.comp == CompSide::off || !block.has_motion || block.motion.coords.empty()) return false;
   return (block.motion.kind == MotionKind::modal ? state_.motion : block.motion.kind) == MotionKind::rapid;
@@ -242,13 +283,17 @@ std::vector<std::string_view> StreamWatch::passes_for(const Block& block) const 
   const bool gear = gear_is_new(block), offset = offset_is_new(block);
   std::vector<std::string_view> names = head_passes();
   std::erase_if(names, [&](std::string_view name) {
-    return name == length_pass || (name == gear_pass && !gear) || (name == offset_pass && !offset);
+    return name == length_pass || name == tool_pass || (name == gear_pass && !gear) || (name == offset_pass && !offset);
   });
   return names;
 }
 
 bool StreamWatch::follow(const Statement& s) {
   const auto& block = std::get<Block>(s.node);
+  if (needs_places_) {
+    if (std::exchange(places_stale_, false)) facts_.position.fill(std::nullopt);
+    apply(s, facts_);
+  }
   if (adds_length_) {
     if (takes_length(block)) {
       length_wanted_ = false;

@@ -2,6 +2,9 @@
 // passes settle, and which ones (or the blocks before them) need the whole program.
 #pragma once
 
+#include <optional>
+
+#include "ir/dataflow.h"
 #include "ir/passes/legalise.h"
 #include "ir/passes/offset_tables.h"
 #include "ir/passes/tool_lengths.h"
@@ -10,7 +13,8 @@ namespace cnctrans::ir {
 
 /// The passes for the head of a stream, in order: those of one block, and those that do something once a program.
 std::vector<std::string_view> head_passes();
-inline constexpr std::string_view gear_pass = "gears", offset_pass = "offset_tables", length_pass = "tool_lengths";
+inline constexpr std::string_view gear_pass = "gears", offset_pass = "offset_tables", length_pass = "tool_lengths",
+                                  tool_pass = "tool_names";
 /// The pass is one of those that do something once a program.
 bool once_a_program(std::string_view pass);
 
@@ -41,6 +45,11 @@ class StreamWatch {
   [[nodiscard]] const passes::BareTool& bare_tool() const { return bare_tool_; }
   /// The source machine in the state before the block, for a program of this block alone.
   [[nodiscard]] machine::Profile source_for(const Block& block) const;
+  /// Where the block starts, as a move before it: an arc by a centre from its start, for a target that wants the absolute
+  /// centre. nullopt: the block does not need it.
+  [[nodiscard]] std::optional<Statement> start_of(const Block& block) const;
+  /// Blocks were written that follow() has not seen; they change positions only.
+  void passed_by() { places_stale_ = true; }
   /// Numbers with more places than these count as something else: see follow().
   [[nodiscard]] int places() const { return places_; }
   /// Everything that look() goes by besides the block.
@@ -50,6 +59,8 @@ class StreamWatch {
   [[nodiscard]] bool needs_whole(const Block& block) const;
   [[nodiscard]] bool action_needs_whole(const Block& block, const Action& action) const;
   [[nodiscard]] bool motion_needs_whole(const Block& block) const;
+  [[nodiscard]] bool is_arc_from_start(const Block& block) const;
+  [[nodiscard]] bool knows_start(const Block& block) const;
   [[nodiscard]] bool rapid_under_compensation(const Block& block) const;
   [[nodiscard]] bool cuts_without_feed(const Block& block) const;
   [[nodiscard]] bool takes_length(const Block& block) const;
@@ -77,6 +88,9 @@ class StreamWatch {
   bool bare_differs_;       ///< a tool without a D has another offset on the target
   bool pitch_each_block_;   ///< joined threads get the pitch of the first one, or give up their start angle
   bool lengths_differ_;     ///< another plane has the tool's length along another axis on the target
+  bool needs_places_;       ///< the target wants the absolute centre of an arc
+  Facts facts_;             ///< needs_places_: the positions before the block at hand, and what they follow from
+  bool places_stale_ = false;
   bool head_done_ = false;  ///< from here on the head's
   bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;
   bool long_word_ = false;        ///< a coordinate so far has more places than the target writes

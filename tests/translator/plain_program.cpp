@@ -83,7 +83,7 @@ class Generator {
   bool lower_ = false, numbers_ = true, comments_ = false, skips_ = false, blanks_ = false, tight_ = false;
   bool settings_ = false, machine_ = false, incremental_ = false, planes_ = false, arcs_ = false, radius_arcs_ = false,
        rotary_ = false, latin_ = false, long_numbers_ = false, odd_numbers_ = false, comp_ = false, singles_ = false;
-  bool last_eol_ = true;
+  bool last_eol_ = true, names_tools_ = false;
   std::string_view eol_ = "\n";
 
   void habits() {
@@ -110,6 +110,12 @@ class Generator {
     if (chance(20)) eol_ = "\r\n";
     if (chance(3)) eol_ = "\r";
     if (chance(4)) out_ = "\xEF\xBB\xBF";
+    names_tools_ = language_.name == "sinumerik" && chance(15);
+  }
+  /// "T5", or a name where the program calls its tools by names.
+  std::string tool(int least) {
+    if (names_tools_ && chance(70)) return "T=\"MILL" + std::to_string(number(1, 4)) + '"';
+    return "T" + std::to_string(number(least, 12));
   }
 
   bool chance(int percent) { return number(0, 99) < percent; }
@@ -201,7 +207,7 @@ class Generator {
     if (chance(70)) block({lathe_ ? "G18" : "G17", "G40", "G90"});
     if (chance(35)) block({chance(50) ? "G71" : "G94"});
     if (chance(25)) block({"G54"});
-    if (chance(50)) block({"T" + std::to_string(number(1, 12)), "D" + std::to_string(number(1, 9))});
+    if (chance(50)) block({tool(1), "D" + std::to_string(number(1, 9))});
     if (machine_ && chance(60)) block({"M6"});
     if (chance(60)) block({"S" + std::to_string(number(1, 40) * 100), "M3"});
     plane_ = lathe_ ? 1 : 0;
@@ -236,9 +242,9 @@ class Generator {
     if (machine_ && chance(6))
       return block({"S" + std::to_string(number(0, 60) * 100), std::string(chance(50) ? "M3" : "M4")});
     if (machine_ && chance(5)) {
-      const std::string tool = "T" + std::to_string(number(0, 12));
-      if (!chance(40)) return block({tool, "D1"});
-      return chance(80) ? block({tool, "D2", "M6"}) : block({tool, "M6"});  // a tool without a D gets a warning
+      const std::string t = tool(0);
+      if (!chance(40)) return block({t, "D1"});
+      return chance(80) ? block({t, "D2", "M6"}) : block({t, "M6"});  // a tool without a D gets a warning
     }
     if (planes_ && chance(8)) {
       plane_ = number(0, 2);
