@@ -38,6 +38,14 @@ void WordLowering::m_code(std::int32_t code, const Word& w) {
     return;
   }
   const machine::MCode* m = code < MachineFacts::m_limit ? c_.machine.m_codes[static_cast<std::size_t>(code)] : nullptr;
+  constexpr std::int32_t axis_mode = 70;
+  if (code == axis_mode && (m == nullptr || m->meaning == machine::MMeaning::none)) {
+    // The spindle becomes an axis (reference-language 14.9). The path is as it is written (`after`: its facts stay).
+    push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::after, ir::Order::after, w.pos);
+    return c_.note("SIN-110", w.pos,
+                   std::string(c_.slice(w.pos)) +
+                       ": the spindle becomes an axis; the words of this axis are shown as they are written");
+  }
   const std::int32_t spindle = w.extension < 0 ? c_.master_spindle : w.extension;
   const bool spindle_code =
       m != nullptr && (m->meaning == machine::MMeaning::spindle_cw || m->meaning == machine::MMeaning::spindle_ccw ||
