@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "ir/passes/given_names.h"
+#include "ir/passes/lines.h"
 #include "ir/value_set.h"
 
 namespace cnctrans::ir::passes {
@@ -101,8 +102,8 @@ bool UsedVariables::has(std::string_view prefix, std::int64_t n) const {
 
 Editor::Editor(Program& p, Routine& r, const LegaliseContext& c)
     : program(p), routine(r), context(c), uses_(label_uses(p, r)), used_(p, r) {
-  for_each_statement(routine.body, [this](const Statement& s) {
-    for (const auto& l : labels_on(s.line)) {
+  each_line(routine.body, [this](const LineInfo& line) {
+    for (const auto& l : labels_on(line)) {
       std::int64_t n = 0;
       if (!l.is_number) {
         identifiers_.insert(l.text);

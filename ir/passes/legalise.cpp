@@ -5,6 +5,7 @@
 #include "ir/passes/axis_scales.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/given_data.h"
+#include "ir/passes/lines.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/spindle_limits.h"
 #include "ir/passes/stream_watch.h"
@@ -71,7 +72,7 @@ constexpr std::array pipeline{
     Pass{"dwells", passes::convert_dwells, true},
     Pass{"conditions", passes::lower_conditions, false},
     Pass{"expressions", passes::lower_expressions, false},
-    Pass{"tool_names", passes::number_tools, false},
+    Pass{tool_pass, passes::number_tools, false},
     Pass{length_pass, passes::check_tool_lengths, false},
     Pass{"tools", passes::convert_tools, true},
     Pass{gear_pass, passes::choose_gears, false},
@@ -101,8 +102,8 @@ bool run(const Pass& pass, Program& program, const LegaliseContext& context) {
 bool legalise(Program& program, const LegaliseContext& context) {
   std::set<const char*> source_numbers;
   for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      if (!s.line.number.empty()) source_numbers.insert(s.line.number.data());
+    passes::each_line(r.body, [&](const LineInfo& line) {
+      if (!line.number.empty()) source_numbers.insert(line.number.data());
     });
   }
   LegaliseContext numbered = context;
@@ -128,7 +129,7 @@ std::vector<std::string_view> block_local_passes() {
 }
 
 bool once_a_program(std::string_view pass) {
-  return pass == gear_pass || pass == offset_pass || pass == length_pass;
+  return pass == gear_pass || pass == offset_pass || pass == length_pass || pass == tool_pass;
 }
 
 std::vector<std::string_view> head_passes() {

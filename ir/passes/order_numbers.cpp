@@ -7,6 +7,7 @@
 
 #include "ir/cycles/pocket_call.h"
 #include "ir/passes/editor.h"
+#include "ir/passes/lines.h"
 #include "ir/passes/passes.h"
 
 namespace cnctrans::ir::passes {
@@ -46,11 +47,11 @@ class NumberPass {
     const auto* known = context_.source_numbers;
     const auto profiles = profile_numbers();
     bool good = true;
-    for_each_statement(routine_.body, [&](Statement& s) {
-      const std::string_view text = s.line.number;
+    each_line(routine_.body, [&](LineInfo& line) {
+      const std::string_view text = line.number;
       if (text.empty()) return;
       Mark m;
-      m.line = &s.line;
+      m.line = &line;
       const auto r = std::from_chars(text.data(), text.data() + text.size(), m.number);
       good = good && r.ec == std::errc{} && r.ptr == text.data() + text.size();
       m.made = known != nullptr && known->count(text.data()) == 0 && profiles.count(m.number) == 0;
