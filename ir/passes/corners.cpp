@@ -1,5 +1,6 @@
 // Corner functions that the target lacks (equivalences 9.9): one that stays in force becomes one in every block it acts
-// on, a chamfer by its chord one by its legs, and a corner with a feed of its own is written out as an element.
+// on, a chamfer by its chord one by its legs, and a corner with a feed of its own is written out as an element. A corner
+// that the source's control leaves out is left out.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/path_points.h"
+#include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
 
@@ -93,7 +95,11 @@ class CornerPass {
       const auto* c = std::get_if<Corner>(&a.data);
       return c != nullptr && !c->modal;
     });
-    if (own != block->actions.end()) return single(body, at, static_cast<std::size_t>(own - block->actions.begin()));
+    if (own != block->actions.end()) {
+      const auto action = static_cast<std::size_t>(own - block->actions.begin());
+      if (std::get<Corner>(own->data).value.is(0)) return take_out(s, action);  // sharp, whatever stays in force
+      return single(body, at, action);
+    }
     if (!lasting_ || !contour(s)) return std::nullopt;
     if (!lasting_->value.literal()) {
       leaves(s);
@@ -107,7 +113,9 @@ class CornerPass {
     if (next == nullptr || !contour(*next) || plane_at(s) != plane_at(*next)) return std::nullopt;
     if (cycle_before(body, at, *next)) return std::nullopt;
     if (along_one_axis(s, *next)) return std::nullopt;
-    if (const auto angle = angle_at(body, at); angle && *angle < 1e-4) return std::nullopt;  // the path turns back
+    if (stays(s, false)) return std::nullopt;
+    const auto angle = angle_at(body, at);
+    if (angle && (*angle < no_turn || straight_on(*angle))) return std::nullopt;  // the path turns back, or goes on
     Action a;
     Corner c = *lasting_;
     c.modal = false;
@@ -149,15 +157,25 @@ class CornerPass {
     if (option("corner.without_successor") == "left_out" && stands_alone(body, at)) {
       context_.diagnostics.warning(
           "TRN-462", word_span(s.line.span, pos),
-          "no move in the plane follows this corner: the source's control leaves it out, and so "
-          "does the translation",
+          std::string(stays(s, false) ? "this block does not move in the plane and has no corner"
+                                      : "no move in the plane follows this corner") +
+              ": the source's control leaves it out, and so does the translation",
           "take the word out of the source");
-      b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(action));
-      settle(s);
-      return std::nullopt;
+      return take_out(s, action);
     }
+    const auto angle = angle_at(body, at);
+    if (option("corner.straight_on") != "refused") {
+      if (angle && straight_on(*angle)) {
+        if (pos.column != 0)  // else of a corner function that stays in force
+          context_.diagnostics.note("TRN-650", word_span(s.line.span, pos),
+                                    "the path goes on tangentially here: the source's control inserts no corner, and "
+                                    "none is written");
+        return take_out(s, action);
+      }
+      if (!angle) tell_unknown(s, pos);
+    }
+    if (!c.value.literal()) tell_zero(s, pos);
     if (c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0) {
-      const auto angle = angle_at(body, at);
       if (!angle || !c.value.literal()) {
         refuse(s, program_, context_, "TRN-351",
                "a chamfer by its chord, which the target wants by its legs; the directions before and behind it are "
@@ -175,16 +193,64 @@ class CornerPass {
     return own_element(body, at, action);
   }
 
+  static std::optional<Statement> take_out(Statement& s, std::size_t action) {
+    auto& b = std::get<Block>(s.node);
+    b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(action));
+    settle(s);
+    return std::nullopt;
+  }
+  /// Whether there is a corner follows from numbers that are not known here, and the target stops where there is none.
+  void tell_unknown(const Statement& s, WordPos pos) {
+    if (told_ || context_.target_machine.option("corner.straight_on") != "refused") return;
+    told_ = true;
+    context_.diagnostics.warning("TRN-651", word_span(s.line.span, pos),
+                                 "the directions before and behind this corner are not known here: where the path goes "
+                                 "on tangentially, the source's control leaves the corner out and the target stops "
+                                 "(said once a program)",
+                                 "take the word out where there is no corner");
+  }
+  /// A computed size: 0 is no corner for the source, and a fault for the target.
+  void tell_zero(const Statement& s, WordPos pos) {
+    const std::string_view habit = "corner.without_successor";
+    if (zero_told_ || context_.source_machine.option(habit) != "left_out" ||
+        context_.target_machine.option(habit) == "left_out")
+      return;
+    zero_told_ = true;
+    context_.diagnostics.warning("TRN-654", word_span(s.line.span, pos),
+                                 "the size of this corner is computed: where it is 0 the source has no corner, and the "
+                                 "target stops (said once a program)",
+                                 "make sure that it is never 0");
+  }
+  static constexpr double no_turn = 1e-4;
+  static bool straight_on(double inside) { return inside > 180 - no_turn; }
+
+  /// A straight move of known ends that goes nowhere, in the plane or (`anywhere`) at all.
+  [[nodiscard]] bool stays(const Statement& s, bool anywhere) const {
+    const auto path = points_.path_of(s);
+    if (!path || path->e.arc || length(path->e.b - path->e.a) > same_point) return false;
+    if (!anywhere) return true;
+    const auto& b = std::get<Block>(s.node);
+    const Facts& facts = facts_.before(s);
+    const auto axes = plane_axes(path->plane);
+    return std::all_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
+      if (c.axis == axes.u || c.axis == axes.v) return true;
+      const auto d = distance_of(c, b, facts);
+      if (!c.value.literal() || !d || is_diameter_axis(context_.source_machine, c.axis)) return false;
+      return *d == Distance::incremental ? c.value.is(0) : facts.position[c.axis] == c.value.number;
+    });
+  }
+
   [[nodiscard]] std::string option(std::string_view name) const { return context_.source_machine.option(name); }
 
   /// The corner has no second element: a move outside of the plane, a cycle or the end of the program comes first.
   bool stands_alone(const Body& body, std::size_t at) const {
-    if (!plane_words(body[at])) return true;
+    if (!plane_words(body[at]) || stays(body[at], false)) return true;
     for (std::size_t j = at + 1; j < body.size(); ++j) {
       if (std::holds_alternative<End>(body[j].node)) return true;
       const auto* b = std::get_if<Block>(&body[j].node);
       if ((b == nullptr && !passes_by(body[j])) || body[j].line.skip_mask != 0) return false;
-      if (b != nullptr && b->has_motion && b->motion.moves()) return !plane_words(body[j]);
+      if (b == nullptr || !b->has_motion || !b->motion.moves() || stays(body[j], true)) continue;
+      return !plane_words(body[j]) || stays(body[j], false);
     }
     return false;
   }
@@ -210,7 +276,7 @@ class CornerPass {
   std::optional<double> angle_at(Body& body, std::size_t at) {
     const Statement* next = following(body, at);
     if (next == nullptr || !contour(*next)) return std::nullopt;
-    const auto a = points_.path_of(body[at]), b = points_.path_of(*next);
+    const auto a = points_.path_of(body[at], true), b = points_.path_of(*next, true);
     if (a && b && a->plane == b->plane) return interior_angle(a->e, b->e);
     const auto first = only_axis(body[at]), second = only_axis(*next);
     return first && second && *first != *second ? std::optional<double>(90) : std::nullopt;
@@ -306,7 +372,7 @@ class CornerPass {
       auto* b = std::get_if<Block>(&body[j].node);
       if (b == nullptr && !passes_by(body[j])) return nullptr;
       if (b != nullptr && (moves_frames(*b) || body[j].line.skip_mask != 0)) return nullptr;
-      if (b != nullptr && b->has_motion && b->motion.moves()) return &body[j];
+      if (b != nullptr && b->has_motion && b->motion.moves() && !stays(body[j], true)) return &body[j];
     }
     return nullptr;
   }
@@ -333,6 +399,7 @@ class CornerPass {
   PathPoints points_;
   LabelUses uses_;
   std::optional<Corner> lasting_;  ///< in force
+  bool told_ = false, zero_told_ = false;  ///< tell_unknown(), tell_zero() have spoken
 };
 
 /// Whether there is a corner that the target can't write as it stands.
@@ -341,7 +408,7 @@ bool wanted(const Program& program, const LegaliseContext& context) {
   const auto habit = [&](std::string_view option) {
     return context.source_machine.option(option) != context.target_machine.option(option);
   };
-  const bool habits = habit("corner.chamfer_at_arc") || habit("corner.without_successor");
+  const bool habits = habit("corner.chamfer_at_arc") || habit("corner.without_successor") || habit("corner.straight_on");
   bool found = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
@@ -350,7 +417,7 @@ bool wanted(const Program& program, const LegaliseContext& context) {
       for (const auto& a : b->actions) {
         const auto* c = std::get_if<Corner>(&a.data);
         found = found ||
-                (c != nullptr && (habits || (c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
+                (c != nullptr && (habits || c->value.is(0) || (c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
                                   (c->kind == CornerKind::chamfer_chord && target.corners.count(c->kind) == 0)));
       }
     });
