@@ -7,6 +7,7 @@
 #include "ir/cycles/pocket_call.h"
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
+#include "ir/geometry.h"
 #include "ir/missing_features.h"
 #include "ir/opaque_words.h"
 
@@ -215,6 +216,34 @@ class Transfer {
     for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);
     if (m.extra) extra(*m.extra, m);
     if (m.extra && m.extra->has_line_angle && plain && b.repeat_given == 0) by_angle(*m.extra, m, before);
+    if (m.extra && m.extra->has_angle && plain && b.repeat_given == 0) by_opening(*m.extra, m, kind, before);
+  }
+
+  /// The end of an arc by its centre and its angle.
+  void by_opening(const MotionExtra& x, const Motion& m, std::optional<MotionKind> kind,
+                  const decltype(Facts::position)& before) {
+    const auto plane = setting(Setting::plane), distance = setting(Setting::distance);
+    const auto angle = known(x.opening_angle);
+    const bool arc = kind == MotionKind::arc_cw || kind == MotionKind::arc_ccw;
+    if (!plane || !angle || !arc || m.centers.empty() || m.radius_given || x.has_polar_radius || x.has_polar_angle)
+      return;
+    const PlaneAxes axes = plane_axes(static_cast<Plane>(*plane));
+    const auto u = before[axes.u], v = before[axes.v];
+    if (!u || !v || has_word(m, axes.u) || has_word(m, axes.v)) return;
+    geometry::Vec centre{*u, *v};
+    for (const auto& w : m.centers) {
+      const bool relative =
+          w.mode == CenterMode::from_start ||
+          (w.mode == CenterMode::follows_distance && distance == static_cast<std::uint8_t>(Distance::incremental));
+      const auto value = resolved(w.axis, w.scale, !relative, known(w.value));
+      if (!value || (!relative && w.mode == CenterMode::follows_distance && !distance)) return;
+      if (w.axis != axes.u && w.axis != axes.v) return;
+      (w.axis == axes.u ? centre.u : centre.v) = *value + (relative ? (w.axis == axes.u ? *u : *v) : 0);
+    }
+    const double sweep = std::fabs(*angle);
+    const auto end = geometry::turned({*u, *v}, centre, kind == MotionKind::arc_ccw ? sweep : -sweep);
+    set_position(axes.u, end.u);
+    set_position(axes.v, end.v);
   }
 
   /// The other end of a line by its angle and one coordinate of the plane.

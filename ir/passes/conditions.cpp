@@ -204,6 +204,9 @@ void ExpressionLowering::jump_if(const ExprPtr& e, const LabelRef& target) {
     return;
   }
   if (const auto* u = std::get_if<Unary>(&e->node); u != nullptr && u->op == UnaryOp::logical_not) {
+    const auto* x = std::get_if<Binary>(&u->operand->node);
+    if (x != nullptr && x->op == BinaryOp::logical_xor)
+      return jump_if(binary(BinaryOp::eq, truth_value(x->left), truth_value(x->right)), target);
     const ExprPtr turned = negated_condition(u->operand);
     if (const auto* again = std::get_if<Unary>(&turned->node); again == nullptr || again->op != UnaryOp::logical_not) {
       return jump_if(turned, target);
