@@ -47,6 +47,19 @@ void ArcPass::tiny(Arc& arc) {
                                    shortest(place));
 }
 
+bool ArcPass::in_plane(Arc& arc) {
+  if (!plane_known_ || program_.dialect == context_.target.dialect) return true;
+  auto& centers = arc.b.motion.centers;
+  std::erase_if(centers, [&arc](const CenterWord& c) {
+    return c.axis != arc.axes.u && c.axis != arc.axes.v && c.mode == CenterMode::from_start && c.value.is(0);
+  });
+  const auto outside = [&arc](const CenterWord& c) { return c.axis != arc.axes.u && c.axis != arc.axes.v; };
+  if (std::none_of(centers.begin(), centers.end(), outside)) return true;
+  fail(arc, "TRN-653", "a word of the centre of this arc belongs to an axis outside of its plane",
+       "select the plane of the arc before it (G17, G18, G19), or name the machine with --machine");
+  return false;
+}
+
 bool ArcPass::radius(Arc& arc) {
   const Value& r = arc.b.motion.radius;
   const auto& t = context_.target;

@@ -137,6 +137,7 @@ class ArcPass {
       if (!through_point(arc)) return;
     }
     if (m.extra && !extras(arc)) return;
+    if (!in_plane(arc)) return;
     if (m.radius_given) {
       if (!radius(arc)) return;
     }
@@ -175,6 +176,9 @@ class ArcPass {
   }
   static bool known(const std::array<std::optional<double>, 3>& p) { return p[0] && p[1]; }
   static geometry::Vec point(const std::array<std::optional<double>, 3>& p) { return {*p[0], *p[1]}; }
+
+  /// An offset of the centre that lies outside of the plane: 0 says nothing and is left out. False: refused.
+  bool in_plane(Arc& arc);
 
   /// Radius: kept when the target has the form for it. False: refused.
   bool radius(Arc& arc);

@@ -127,12 +127,25 @@ class DiameterPass {
     c.scale = wanted;
   }
 
-  void frame(const Statement& s, FrameOp& f, const Block& b, const Facts& facts) const {
+  /// No manual says whether a shift of the diameter axis is a diameter (equivalences 5.2).
+  void tell_shift(const Statement& s, const FrameChange& f, const FrameWord& w, std::optional<DiameterMode> mode) {
+    const bool shift = w.scale == WordScale::modal && f.combine != FrameCombine::clear && !table_row(f) &&
+                       f.combine != FrameCombine::preset && is_diameter_axis(context_.source_machine, w.axis);
+    if (told_ || same_language_ || !shift || mode == DiameterMode::radius || w.value.is(0)) return;
+    told_ = true;
+    context_.diagnostics.warning("TRN-652", word_span(s.line.span, w.pos),
+                                 "a shift of X where X words are diameters: it is taken as a diameter on both controls, "
+                                 "so the origin moves by half of it; no manual says so (said once a program)",
+                                 "try it on both machines, or shift X under radius programming");
+  }
+
+  void frame(const Statement& s, FrameOp& f, const Block& b, const Facts& facts) {
     if (f.change->kind != FrameKind::translate || (same_language_ && table_row(*f.change))) return;
     auto copy = std::make_shared<FrameChange>(*f.change);
     for (auto& w : copy->words) {
       if (!concerns(w.axis)) continue;
       const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
+      tell_shift(s, *f.change, w, mode);
       if (w.scale == WordScale::modal && !mode && context_.target.diameter_switch) continue;
       rescale(s, w.value, to_radius(w.axis, w.scale, Distance::absolute, b, facts, context_.source_machine),
               target_factor(w.axis, WordScale::modal, Distance::absolute, mode), w.pos);
@@ -164,6 +177,7 @@ class DiameterPass {
   const FactsOf& facts_;
   bool same_language_;
   bool one_mode_;       ///< the program leaves the mode of power-on as it is
+  bool told_ = false;   ///< of a shift of the diameter axis
   bool absolute_only_;  ///< increments are radii, absolute words diameters, somewhere in the program
 };
 

@@ -9,6 +9,7 @@
 #include "ir/passes/frame_rebuild.h"
 #include "ir/passes/frame_variables.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/without_length.h"
 #include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
@@ -22,7 +23,8 @@ class FramePass {
         context_(context),
         facts_(facts),
         states_(program, facts, context),
-        target_(program, context, ends_preset()) {}
+        target_(program, context, ends_preset()),
+        without_length_(program, context, facts) {}
 
   void routine(Routine& r) {
     find_groups(r.body, label_uses(program_, r));
@@ -257,11 +259,12 @@ class FramePass {
     const auto& uses = context_.target.frame_uses;
     if (uses.count(b.motion.frame) != 0) return true;
     if (b.motion.frame == FrameUse::machine_with_length && uses.count(FrameUse::machine) != 0) {
-      context_.diagnostics.warning(
-          "TRN-321", word_span(s.line.span, b.motion.frame_pos),
-          "a move in machine coordinates that keeps the tool length: the target leaves the length out, so "
-          "the slide stands off by the tool length",
-          "check the height of this move");
+      if (!without_length_.holds(s))
+        context_.diagnostics.warning(
+            "TRN-321", word_span(s.line.span, b.motion.frame_pos),
+            "a move in machine coordinates that keeps the tool length: the target leaves the length out, so "
+            "the slide stands off by the tool length",
+            "check the height of this move");
       b.motion.frame = FrameUse::machine;
       return true;
     }
@@ -397,6 +400,7 @@ class FramePass {
   const FactsOf& facts_;
   const FrameStates states_;
   const FrameTarget target_;
+  const WithoutLength without_length_;
   std::set<std::uint32_t> waiting_, lost_;
   bool pending_ = false;  ///< statements before this one wait to be said here
   bool mirror_told_ = false;
