@@ -379,7 +379,7 @@ class StreamTranslation {
   bool plain_ = false;       ///< the block at hand needed no pass
   ir::Body head_;
   std::optional<StreamTools> tools_;  ///< from the first tool by its name on
-  Span last_code_;  ///< of the last statement that is more than a comment
+  Span last_code_;                    ///< of the last statement that is more than a comment
   bool ended_ = false;
   std::string out_;
   Eol eol_ = Eol::lf;
@@ -406,11 +406,10 @@ StreamResult translate_stream(const std::string& path, const TranslateOptions& o
   const auto head = SourceText::from_string(path, std::string(look.first));
   const auto source = choose_profile(*from, options.machine, head.get(), &result.error);
   if (!source) return result;
-  auto target =
-      machine::load(!options.target_machine.empty()
-                        ? options.target_machine
-                        : std::string(to->name) + (source->kind == machine::Kind::lathe ? "-lathe" : "-mill"),
-                    &result.error);
+  auto target = machine::load(!options.target_machine.empty()
+                                  ? options.target_machine
+                                  : std::string(to->name) + (source->kind == machine::Kind::lathe ? "-lathe" : "-mill"),
+                              &result.error);
   if (!target) return result;
   if (options.target_machine.empty()) {
     add_axes(*target, added_axes(*source));

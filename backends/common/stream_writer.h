@@ -94,7 +94,7 @@ class PlainStreamWriter : public StreamWriter {
   bool lathe_ = false;
   bool rotary_told_ = false, incremental_ = false;
   std::optional<bool> changes_tools_;  ///< the answer of the options, asked once
-  bool ends_in_comment_ = false;  ///< the line written last: no word can follow in it
+  bool ends_in_comment_ = false;       ///< the line written last: no word can follow in it
   bool rounded_ = false, rounding_noted_ = false;
   std::int64_t next_number_ = 0;
 };

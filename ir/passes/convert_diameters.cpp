@@ -133,10 +133,11 @@ class DiameterPass {
                        f.combine != FrameCombine::preset && is_diameter_axis(context_.source_machine, w.axis);
     if (told_ || same_language_ || !shift || mode == DiameterMode::radius || w.value.is(0)) return;
     told_ = true;
-    context_.diagnostics.warning("TRN-652", word_span(s.line.span, w.pos),
-                                 "a shift of X where X words are diameters: it is taken as a diameter on both controls, "
-                                 "so the origin moves by half of it; no manual says so (said once a program)",
-                                 "try it on both machines, or shift X under radius programming");
+    context_.diagnostics.warning(
+        "TRN-652", word_span(s.line.span, w.pos),
+        "a shift of X where X words are diameters: it is taken as a diameter on both controls, "
+        "so the origin moves by half of it; no manual says so (said once a program)",
+        "try it on both machines, or shift X under radius programming");
   }
 
   void frame(const Statement& s, FrameOp& f, const Block& b, const Facts& facts) {

@@ -1,6 +1,6 @@
 // Corner functions that the target lacks (equivalences 9.9): one that stays in force becomes one in every block it acts
-// on, a chamfer by its chord one by its legs, and a corner with a feed of its own is written out as an element. A corner
-// that the source's control leaves out is left out.
+// on, a chamfer by its chord one by its legs, and a corner with a feed of its own is written out as an element. A
+// corner that the source's control leaves out is left out.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -398,7 +398,7 @@ class CornerPass {
   const FactsOf& facts_;
   PathPoints points_;
   LabelUses uses_;
-  std::optional<Corner> lasting_;  ///< in force
+  std::optional<Corner> lasting_;          ///< in force
   bool told_ = false, zero_told_ = false;  ///< tell_unknown(), tell_zero() have spoken
 };
 
@@ -408,7 +408,8 @@ bool wanted(const Program& program, const LegaliseContext& context) {
   const auto habit = [&](std::string_view option) {
     return context.source_machine.option(option) != context.target_machine.option(option);
   };
-  const bool habits = habit("corner.chamfer_at_arc") || habit("corner.without_successor") || habit("corner.straight_on");
+  const bool habits =
+      habit("corner.chamfer_at_arc") || habit("corner.without_successor") || habit("corner.straight_on");
   bool found = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
@@ -417,8 +418,9 @@ bool wanted(const Program& program, const LegaliseContext& context) {
       for (const auto& a : b->actions) {
         const auto* c = std::get_if<Corner>(&a.data);
         found = found ||
-                (c != nullptr && (habits || c->value.is(0) || (c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
-                                  (c->kind == CornerKind::chamfer_chord && target.corners.count(c->kind) == 0)));
+                (c != nullptr &&
+                 (habits || c->value.is(0) || (c->modal && !target.corner_modal) || (c->feed && !target.corner_feed) ||
+                  (c->kind == CornerKind::chamfer_chord && target.corners.count(c->kind) == 0)));
       }
     });
   }

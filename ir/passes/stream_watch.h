@@ -45,8 +45,8 @@ class StreamWatch {
   [[nodiscard]] const passes::BareTool& bare_tool() const { return bare_tool_; }
   /// The source machine in the state before the block, for a program of this block alone.
   [[nodiscard]] machine::Profile source_for(const Block& block) const;
-  /// Where the block starts, as a move before it: an arc by a centre from its start, for a target that wants the absolute
-  /// centre. nullopt: the block does not need it.
+  /// Where the block starts, as a move before it: an arc by a centre from its start, for a target that wants the
+  /// absolute centre. nullopt: the block does not need it.
   [[nodiscard]] std::optional<Statement> start_of(const Block& block) const;
   /// Blocks were written that follow() has not seen; they change positions only.
   void passed_by() { places_stale_ = true; }
@@ -85,11 +85,11 @@ class StreamWatch {
   bool offset_said_ = false;  ///< a D number that has been warned of
   passes::OffsetNumbers offset_numbers_{};
   passes::BareTool bare_tool_{};
-  bool bare_differs_;       ///< a tool without a D has another offset on the target
-  bool pitch_each_block_;   ///< joined threads get the pitch of the first one, or give up their start angle
-  bool lengths_differ_;     ///< another plane has the tool's length along another axis on the target
-  bool needs_places_;       ///< the target wants the absolute centre of an arc
-  Facts facts_;             ///< needs_places_: the positions before the block at hand, and what they follow from
+  bool bare_differs_;      ///< a tool without a D has another offset on the target
+  bool pitch_each_block_;  ///< joined threads get the pitch of the first one, or give up their start angle
+  bool lengths_differ_;    ///< another plane has the tool's length along another axis on the target
+  bool needs_places_;      ///< the target wants the absolute centre of an arc
+  Facts facts_;            ///< needs_places_: the positions before the block at hand, and what they follow from
   bool places_stale_ = false;
   bool head_done_ = false;  ///< from here on the head's
   bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;
