@@ -236,6 +236,7 @@ class StockForms {
       return line;
     };
     role.come_from_the_low_end(bound_of());
+    if (!from_the_tool_ && in_front(role, theirs)) return false;
     const auto fault =
         cycles::material_fault(bound_of(), by_role(role, mine_, s_.at), by_role(role, theirs, at_), room);
     if (!fault) return true;
@@ -246,6 +247,17 @@ class StockForms {
                                           : "the target's cycle would leave some of the blank, at X") +
               shown(k * (role.face ? v : u)) + " Z" + shown(role.face ? u : v)),
            false;
+  }
+  /// The target's cycle comes in rapid to 1 mm off the contour; the program says that its blank reaches further.
+  bool in_front(const cycles::TurnRole& role, const Played& theirs) {
+    if (theirs.moves.empty() || theirs.moves.front().step != TurnStep::rapid) return false;
+    const double start = role.of(theirs.moves.front().to).q;
+    double front = start;
+    for (const auto& e : s_.profile->blank) front = std::max({front, role.of(e.from).q, role.of(e.to).q});
+    if (front < start + 1e-3) return false;
+    no("the blank reaches " + shortest(std::round((front - start) * 1e3) / 1e3) +
+       " mm over the place that the target's cycle comes to in rapid");
+    return true;
   }
   /// The moves from where the first one ends, or from the tool's place where that is known.
   static std::vector<cycles::RoleMove> by_role(const cycles::TurnRole& role, const Played& played, TurnPoint at) {

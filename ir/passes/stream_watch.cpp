@@ -58,6 +58,7 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
   facts_.motion = state_.motion;
   facts_.work_offset = state_.work_offset;
   facts_.reachable = true;
+  bare_tool_ = passes::BareTool(source);
   const bool source_on = source.power_on.length_comp == OnOff::on;
   const bool target_on = target_machine.power_on.length_comp == OnOff::on;
   adds_length_ = target.length_comp_switch && source_on && !target_on;

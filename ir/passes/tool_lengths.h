@@ -20,6 +20,9 @@ inline bool length_axes_differ(const machine::Profile& source, const machine::Pr
 /// Follows a program block by block: has the tool in the spindle come without a D?
 class BareTool {
  public:
+  BareTool() = default;
+  /// `kept` of the source's option: a D that stands before the change stays there; elsewhere the change takes its own.
+  explicit BareTool(const machine::Profile& source) : keeps_(source.option("tool.bare_offset") == "kept") {}
   /// \return a move uses such a tool, for the first time
   bool follow(const Block& block, const Span& where);
   /// The D may have been given where it can't be seen.
@@ -30,6 +33,7 @@ class BareTool {
   [[nodiscard]] unsigned key() const { return (given_ ? 1U : 0U) + (waiting_ ? 2U : 0U) + (used_ ? 4U : 0U); }
 
  private:
+  bool keeps_ = false;
   bool given_ = false;    ///< a D since the last T
   bool waiting_ = false;  ///< changed without one
   bool used_ = false;     ///< by a move: the rest does not matter any more
