@@ -52,6 +52,7 @@ TEST_P(GoldenPrograms, BecomeWhatIsKept) {
     ASSERT_TRUE(result.error.empty()) << result.error;
     ASSERT_FALSE(result.refused) << render_text(result.diagnostics, result.files);
     EXPECT_TRUE(result.verdict.good()) << verifier::describe(result.verdict, result.files, result.target_files);
+    EXPECT_GE(result.verdict.coverage.blocks, 150U);  // without the lines that are only comments
     std::string text;
     for (const auto& o : result.outputs) text += "--- " + fs::path(o.name).filename().string() + '\n' + o.bytes;
     const fs::path kept = root + "become/" + fs::path(g.file).stem().string() + "-in-" + to + ".txt";
