@@ -21,9 +21,10 @@ using ir::cycles::MillStep;
 double BlockMachine::tool_radius() {
   const std::int32_t number = tool_in_spindle_ != 0 ? tool_in_spindle_ : tool_;
   auto names = machine::tool_data_names(profile_, "tool.radius_data", number, offset_);
-  names.emplace_back("TOOL_RADIUS");
+  constexpr std::string_view of_any_tool = "TOOL_RADIUS";  // no control's own name: always in mm
+  names.emplace_back(of_any_tool);
   for (const std::string& name : names) {
-    const double length = policy_.data_modal ? unit() : 1;
+    const double length = policy_.data_modal && name != of_any_tool ? unit() : 1;
     if (const auto it = written_.find(name); it != written_.end()) {
       unread_.erase(name);
       return it->second * (written_in_mm_.contains(name) ? 1 : length);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "ir/cycles/hole.h"
 #include "ir/fact_set.h"
 #include "ir/labels.h"
 #include "ir/nesting.h"
@@ -99,7 +100,7 @@ class Analysis {
   void note_cycle(const CyclePtr& cycle) {
     const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
     cycles_.any = true;
-    cycles_.other_than_holes |= hole == nullptr || hole->axis != axis::none || hole->kind == HoleKind::mill;
+    cycles_.other_than_holes |= hole == nullptr || !cycles::ends_over_its_place(*hole);
   }
   void note_cycles(const Statement& s) {
     if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) note_cycle(m->cycle);

@@ -3,6 +3,7 @@
 
 #include "base/saturate.h"
 #include "ir/contour.h"
+#include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
 #include "ir/cycles/pocket_call.h"
 #include "ir/dataflow.h"
@@ -101,10 +102,11 @@ class Transfer {
   }
   void operator()(const CycleDefine& x) {
     const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
-    const bool plain_hole = hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
+    const bool plain_hole = hole != nullptr && cycles::ends_over_its_place(*hole, x.here && !x.modal);
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
     if (x.here && plain_hole) hole_here_ = hole;  // its retract plane may stand behind it in the block
+    if (x.here && plain_hole) place_ = cycles::own_place(*hole);
     const auto* named = x.cycle ? std::get_if<NamedCycle>(&x.cycle->node) : nullptr;
     const auto* cycle = named != nullptr && !x.modal && x.here ? cycles::find_machining(named->name) : nullptr;
     pocket_ = pocket_ || (named != nullptr && named->name == cycles::pocket::call);
@@ -297,8 +299,11 @@ class Transfer {
     const bool holes_only = (!active || (f_.cycle_active_known && f_.cycle_is_hole)) && (!runs_here_ || here_is_hole_);
     const auto plane = setting(Setting::plane);
     if (!holes_only || !plane) return forget_positions();
-    const AxisId w = plane_axes(static_cast<Plane>(*plane)).w;
+    const auto [u, v, w] = plane_axes(static_cast<Plane>(*plane));
     if (hole_here_ != nullptr) leaves_at(*hole_here_);
+    for (const auto& [axis, value] : {std::pair(u, place_.first), std::pair(v, place_.second)}) {
+      if (value != nullptr) set_position(axis, resolved(axis, WordScale::modal, true, known(*value)));
+    }
     const bool defined_here = runs_here_ && here_is_hole_ && f_.cycle_from == id_;
     if ((active && !defined_here) || !runs_here_)
       set_position(w, std::nullopt);
@@ -347,7 +352,8 @@ class Transfer {
   const cycles::MachiningCycle* kind_ = nullptr;
   bool runs_here_ = false;
   bool here_is_hole_ = false;
-  const HoleCycle* hole_here_ = nullptr;  ///< the hole of this block
+  const HoleCycle* hole_here_ = nullptr;                           ///< the hole of this block
+  std::pair<const Value*, const Value*> place_{nullptr, nullptr};  ///< that its words name
   bool not_understood_ = false, follows_ = false;
   bool pocket_ = false;
 };
@@ -410,7 +416,7 @@ void detail::apply(const Statement& statement, Facts& facts, std::uint32_t frame
     const auto* hole = m->cycle ? std::get_if<HoleCycle>(&m->cycle->node) : nullptr;
     facts.cycle_active = !m->off && m->cycle != nullptr;
     facts.cycle_active_known = true;
-    facts.cycle_is_hole = !m->off && hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
+    facts.cycle_is_hole = !m->off && hole != nullptr && cycles::ends_over_its_place(*hole);
     facts.cycle_from = facts.cycle_active ? statement.id : 0;
     facts.modal_call = m->off || m->cycle ? 0 : -1;
   }

@@ -192,9 +192,17 @@ class Pockets {
     apart = std::max(apart, most);
     return {};
   }
+  [[nodiscard]] bool goes_down(const Move& m) const {
+    const Point &from = m.points.front(), &to = m.points.back();
+    return to.w < from.w && std::hypot(to.u - from.u, to.v - from.v) <= t_.contour;
+  }
   [[nodiscard]] std::string feeds() const {
+    const bool dives = std::any_of(a_.moves().begin(), a_.moves().end(), [this](const Move& m) {
+      return !cuts(*m.event) && goes_down(m) && m.points.back().w < a_.surface() - t_.contour;
+    });
     for (const auto& m : b_.moves()) {
       if (!cuts(*m.event)) continue;
+      if (dives && goes_down(m)) continue;  // at feed where the source goes down in rapid
       const bool known = std::any_of(a_.moves().begin(), a_.moves().end(), [&](const Move& o) {
         return cuts(*o.event) && o.event->feed_mode == m.event->feed_mode &&
                std::fabs(o.event->feed - m.event->feed) <= t_.feed_relative * std::max(1.0, o.event->feed);

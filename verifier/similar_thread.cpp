@@ -73,6 +73,19 @@ double on_line(const Pass& pass, double q) {
   return std::fabs(way) < 1e-9 ? pass.to.p : pass.from.p + (pass.to.p - pass.from.p) * (q - pass.from.q) / way;
 }
 
+/// How far along the thread the passes begin from the last one, per depth that is left: tangent of the flank's angle.
+/// Infinite: no pass tells.
+template <class Depth>
+double slope_of(const std::vector<Pass>& passes, const Depth& depth) {
+  constexpr double least = 0.02;  // mm
+  double most = -1;
+  for (const auto& p : passes) {
+    const double left = depth(p);
+    if (left > least) most = std::max(most, std::fabs(p.from.q - passes.back().from.q) / left);
+  }
+  return most < 0 ? std::numeric_limits<double>::infinity() : most;
+}
+
 }  // namespace
 
 std::string thread_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& t,
@@ -124,8 +137,13 @@ std::string thread_difference(const CyclePasses& source, const CyclePasses& targ
       infeed_there = std::max(infeed_there, before - depth(p));
       before = depth(p);
     }
+    const double flank = slope_of(passes, depth);
     before = top_there;
     for (const auto& p : it->second) {
+      if (std::fabs(p.from.q - b.from.q) > flank * std::max(1e-9, depth(p)) + t.contour)
+        return fmt::format(
+            "a pass of the translation begins {} mm along the thread from the last one, outside of its V",
+            rounded(std::fabs(p.from.q - b.from.q), 3));
       if (!same_pitch(*a.event, *p.event))
         return fmt::format("a pass of the thread has the pitch {}, in the source {}", shortest(p.event->pitch),
                            shortest(a.event->pitch));

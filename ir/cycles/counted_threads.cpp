@@ -29,11 +29,13 @@ double coarse_pitch(double size) {
   return row == coarse.end() ? 0 : row->pitch;
 }
 
-namespace {
-
-bool pitch_of(const Roles& r, double& pitch, std::string* error) {
-  pitch = std::abs(r.number("pitch"));
-  const double size = r.number("size");
+bool thread_pitch(const TurnNumbers& numbers, double& pitch, std::string* error) {
+  const auto number = [&](std::string_view name) {
+    const auto it = numbers.find(name);
+    return it == numbers.end() ? 0.0 : it->second;
+  };
+  pitch = std::abs(number("pitch"));
+  const double size = number("size");
   if (size == 0) {
     if (pitch < tiny) return *error = "the thread has no pitch", false;
     return true;
@@ -45,6 +47,8 @@ bool pitch_of(const Roles& r, double& pitch, std::string* error) {
   pitch = usual;
   return true;
 }
+
+namespace {
 
 double tangent(double degrees) {
   return std::tan(std::abs(degrees) * std::numbers::pi / 180);
@@ -69,6 +73,11 @@ void cut(Roles& r, RolePoint to, double pitch, double angle) {
 
 }  // namespace
 
+double flank_shift(double degrees, double depth, double h, bool odd) {
+  if (degrees >= 0) return h * tangent(degrees);
+  return (odd ? 1 : -1) * (depth - h) * tangent(degrees);
+}
+
 /// Between two crest points, with run-in and run-out on the same line.
 bool counted_thread(Roles& r, std::string* error) {
   const RolePoint first = r.point("x", "z"), last = r.point("x_end", "z_end");
@@ -76,7 +85,7 @@ bool counted_thread(Roles& r, std::string* error) {
   const double count = std::round(r.number("passes")), idle = std::round(r.number("idle"));
   const int variant = static_cast<int>(std::clamp(r.number("variant"), -1.0, 1e6));
   double pitch = 0;
-  if (!pitch_of(r, pitch, error)) return false;
+  if (!thread_pitch(r.numbers(), pitch, error)) return false;
   if (std::abs(last.q - first.q) < tiny) return *error = "the thread has no length", false;
   if (depth < tiny || stock > depth) return *error = "the thread has no depth", false;
   if (count < 0 || count > most_passes || idle < 0 || idle > most_passes || (count < 1 && stock < depth - tiny))
@@ -90,12 +99,12 @@ bool counted_thread(Roles& r, std::string* error) {
   const double lift = r.number("withdrawal") != 0 ? std::abs(r.number("withdrawal")) : 1;
   const double clear = (inside ? std::min(crest(from), crest(to)) : std::max(crest(from), crest(to))) + out * lift;
   const auto list = depths(depth, stock, count, idle, variant > 2);
-  const double angle = r.number("infeed_angle"), flank = tangent(angle);
+  const double angle = r.number("infeed_angle");
   const double starts = std::clamp(std::round(r.number("starts")), 1.0, 1000.0);
   r.rapid({clear, from});
   for (double k = 0; k < starts; ++k) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const double h = list[i], side = angle < 0 && i % 2 == 1 ? -1 : 1, q = from + dir * side * h * flank;
+      const double h = list[i], q = from + dir * flank_shift(angle, depth, h, i % 2 == 1);
       r.rapid({crest(q) - out * h, q});
       cut(r, {crest(to) - out * h, to}, pitch, r.number("start_angle") + 360 * k / starts);
       r.rapid({clear, to});

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ir/cycle.h"
@@ -90,5 +91,11 @@ std::vector<CycleMove> expand(const HoleNumbers& hole, double height, RetractPla
 
 /// The schedule of pecks over `depth` (> 0): sizes in order, their sum is `depth`. One entry when there is no law.
 std::vector<double> peck_sizes(const HoleNumbers& hole, double depth);
+
+/// The words by which a pocket names its own place in the plane; null: it lies where the tool stands.
+std::pair<const Value*, const Value*> own_place(const HoleCycle& cycle);
+/// A hole, or a pocket where the tool stands (`own_too`: or where its words say): the tool ends over its middle, in the
+/// plane in force.
+bool ends_over_its_place(const HoleCycle& cycle, bool own_too = false);
 
 }  // namespace cnctrans::ir::cycles

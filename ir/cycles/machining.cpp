@@ -213,6 +213,7 @@ std::string_view family_of(std::string_view cycle) {
     case Kind::profile: return cycle == "stock.groove" ? std::string_view{} : "stock";
     case Kind::copy: return "stock";
     case Kind::thread: return cycle == "thread.chain" ? std::string_view{} : "thread";
+    case Kind::shaped: return cycle == "shape.thread" ? "thread" : std::string_view{};
     default: return {};
   }
 }

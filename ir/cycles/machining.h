@@ -128,6 +128,8 @@ struct TurnContext {
   const TurnProfile* profile = nullptr;  ///< of the cycles that have one
   LeftContours* left = nullptr;          ///< wanted; stays empty for other cycles
 };
+/// A thread by its size, or in the words of a newer signature, as "thread.counted" with a pitch; nullopt: it is none.
+std::optional<TurnNumbers> counted_thread_of(std::string_view cycle, const TurnNumbers& numbers);
 /// The moves; nullopt and a sentence in `error` when the cycle makes no sense from this place or is not carried out.
 std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const TurnNumbers& numbers,
                                             const TurnContext& context, std::string* error);

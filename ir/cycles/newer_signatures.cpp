@@ -1,5 +1,6 @@
 // Cycles of newer signatures that do what an older cycle does: their words are turned into those of that one.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -25,7 +26,7 @@ using Moves = std::optional<std::vector<TurnMove>>;
 
 /// A thread between two points by a number of passes: units 1 to 4 as the older variant, hundreds 1 one flank, 2
 /// alternating, ten thousands 2 by the first infeed, hundred thousands 3 roughing and finishing.
-Moves thread_of_digits(const TurnNumbers& n, const TurnContext& context, std::string* error) {
+std::optional<TurnNumbers> older_words(const TurnNumbers& n, std::string* error) {
   const auto d = [&](int place) { return digit(n, "variant", place); };
   const double angle = word(n, "infeed_angle"), starts = std::max(1.0, std::round(word(n, "starts")));
   if (d(1) != 0 || d(2) > 2 || d(3) != 0 || d(4) > 1 || (d(5) != 0 && d(5) != 3) || (d(2) == 1 && angle < 0))
@@ -43,7 +44,13 @@ Moves thread_of_digits(const TurnNumbers& n, const TurnContext& context, std::st
   m["x_end"] = word(n, "nominal_end", word(n, "nominal")) / 2;
   m["variant"] = d(0);
   m["infeed_angle"] = d(2) == 2 ? -std::abs(angle) : angle;
-  Roles r(MachiningCycle{"thread.counted", MachiningKind::thread, false, false, false}, m, context);
+  return m;
+}
+
+Moves thread_of_digits(const TurnNumbers& n, const TurnContext& context, std::string* error) {
+  const auto m = older_words(n, error);
+  if (!m) return std::nullopt;
+  Roles r(MachiningCycle{"thread.counted", MachiningKind::thread, false, false, false}, *m, context);
   if (!counted_thread(r, error)) return std::nullopt;
   return r.take();
 }
@@ -84,6 +91,10 @@ Moves corner(const TurnNumbers& n, const TurnContext& context, std::string* erro
   return r.take();
 }
 
+constexpr std::array counted_words = {
+    "pitch",        "z",           "z_end",  "x",    "x_end",   "run_in", "run_out",   "depth", "finish_stock",
+    "infeed_angle", "start_angle", "passes", "idle", "variant", "starts", "withdrawal"};
+
 }  // namespace
 
 Moves newer_signature(std::string_view cycle, const TurnNumbers& numbers, const TurnContext& context,
@@ -92,3 +103,21 @@ Moves newer_signature(std::string_view cycle, const TurnNumbers& numbers, const 
 }
 
 }  // namespace cnctrans::ir::cycles::detail
+
+namespace cnctrans::ir::cycles {
+
+std::optional<TurnNumbers> counted_thread_of(std::string_view cycle, const TurnNumbers& numbers) {
+  std::string error;
+  std::optional<TurnNumbers> all = numbers;
+  if (cycle == "shape.thread") all = detail::older_words(numbers, &error);
+  if (!all || (cycle != "shape.thread" && cycle != "thread.counted")) return std::nullopt;
+  if (!detail::thread_pitch(*all, (*all)["pitch"], &error)) return std::nullopt;
+  TurnNumbers out;
+  for (const char* name : detail::counted_words) {
+    const auto it = all->find(name);
+    if (it != all->end()) out[name] = it->second;
+  }
+  return out;
+}
+
+}  // namespace cnctrans::ir::cycles

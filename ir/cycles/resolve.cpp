@@ -146,4 +146,21 @@ std::optional<HoleNumbers> resolve(const HoleCycle& c, const HoleContext& contex
   return n;
 }
 
+std::pair<const Value*, const Value*> own_place(const HoleCycle& cycle) {
+  std::pair<const Value*, const Value*> place{nullptr, nullptr};
+  for (const auto& [name, v] : cycle.mill.words) {
+    if (name == "u") place.first = &v;
+    if (name == "v") place.second = &v;
+  }
+  return place;
+}
+
+bool ends_over_its_place(const HoleCycle& cycle, bool own_too) {
+  if (cycle.axis != axis::none) return false;
+  if (cycle.kind != HoleKind::mill) return true;
+  if (cycle.mill.shape != "pocket.rect" && cycle.mill.shape != "pocket.circle") return false;
+  const auto place = own_place(cycle);
+  return own_too || (place.first == nullptr && place.second == nullptr);
+}
+
 }  // namespace cnctrans::ir::cycles

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "ir/cycles/turning_moves.h"
@@ -56,12 +55,12 @@ bool chained_thread(Roles& r, std::string* error) {
     list.push_back((depth - stock) * (variant > 2 ? std::sqrt(i / count) : i / count));
   if (stock > tiny || list.empty()) list.push_back(depth);
   for (double i = 0; i < idle; ++i) list.push_back(depth);
-  const double angle = r.number("infeed_angle"), flank = std::tan(std::abs(angle) * std::numbers::pi / 180);
+  const double angle = r.number("infeed_angle");
   const double starts = std::clamp(std::round(r.number("starts")), 1.0, 1000.0);
   r.rapid({clear, from});
   for (double k = 0; k < starts; ++k) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const double h = list[i], side = angle < 0 && i % 2 == 1 ? -1 : 1, q = from + dir * side * h * flank;
+      const double h = list[i], q = from + dir * flank_shift(angle, depth, h, i % 2 == 1);
       r.rapid({crest(at[0], at[1], q) - out * h, q});
       for (std::size_t n = 0; n < segments; ++n) {
         RolePoint end = at[n + 1];

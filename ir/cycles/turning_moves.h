@@ -110,8 +110,13 @@ bool shaped_groove(Roles& r, const TurnContext& context, bool face, std::string*
 std::optional<std::vector<TurnMove>> newer_signature(std::string_view cycle, const TurnNumbers& numbers,
                                                      const TurnContext& context, std::string* error);
 bool relief(Roles& r, const TurnContext& context, std::string* error);
+/// How far along the thread the pass of depth `h` begins: down the flank that lies behind, with a negative angle inside
+/// of the V of the last pass, on its two flanks in turn.
+double flank_shift(double degrees, double depth, double h, bool odd);
 /// Of the metric coarse thread of a nominal diameter; 0: there is none.
 double coarse_pitch(double size);
+/// Of a thread by its pitch or its size.
+bool thread_pitch(const TurnNumbers& numbers, double& pitch, std::string* error);
 bool axial_drill(Roles& r, std::string* error);
 bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, std::string* error);
 /// By the contour alone, and by the contour within a blank.

@@ -41,10 +41,13 @@ Statement rapid_to(const LineInfo& like, const TurnStart& place) {
 void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   if (setting<CompSide>(facts_.before(s), Setting::comp) == CompSide::off) {  // it is off already
-    std::erase_if(late_, [](const Action& a) {
+    const auto off = [](const Action& a) {
       const auto* set = std::get_if<ModalSet>(&a.data);
-      return set != nullptr && set->setting == Setting::comp && set->value == static_cast<std::uint8_t>(CompSide::off);
-    });
+      return set != nullptr && a.text.empty() && set->setting == Setting::comp &&
+             set->value == static_cast<std::uint8_t>(CompSide::off);
+    };
+    std::erase_if(late_, off);
+    std::erase_if(b.actions, off);
   }
   if (const auto form = turning_.native(cycle, s, b, facts_.before(s))) {
     Body calls;
@@ -164,6 +167,25 @@ void CyclePass::put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Bo
   put_moves(std::move(s), std::move(calls), std::move(pieces), out);
 }
 
+/// The target's cycle in the block of the move to its place, where that is all the block says.
+void CyclePass::run_at_the_point(Block& b, const Facts& facts, Body& blocks) const {
+  if (setting_in<Plane>(b, facts, Setting::plane) != Plane::xy || context_.target.retract_plane_switch) return;
+  auto* call = blocks.empty() ? nullptr : std::get_if<Block>(&blocks.front().node);
+  if (by_call_ || call == nullptr || call->has_motion || !b.has_motion || !b.motion.moves() || b.motion.extra) return;
+  const bool runs = std::any_of(call->actions.begin(), call->actions.end(),
+                                [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
+  const bool rapid = b.motion.kind == MotionKind::rapid && b.motion.frame == FrameUse::normal;
+  const bool late = std::any_of(b.actions.begin(), b.actions.end(),
+                                [](const Action& a) { return a.order == Order::after || makes_event(a); });
+  const bool in_plane = std::all_of(b.motion.coords.begin(), b.motion.coords.end(),
+                                    [](const CoordWord& c) { return c.axis == axis::x || c.axis == axis::y; });
+  if (!runs || !rapid || late || !in_plane || context_.target_machine.option("cycle.positioning") != "rapid") return;
+  if (!b.motion.keeps_modal) by_itself(b);
+  if (b.motion.kind == MotionKind::rapid) return;
+  for (auto& a : call->actions) b.actions.push_back(std::move(a));
+  blocks.erase(blocks.begin());
+}
+
 bool CyclePass::put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
                                    bool last_resort, Body& out) {
   auto& b = std::get<Block>(s.node);
@@ -180,12 +202,51 @@ bool CyclePass::put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pi
       "check the tool on the target, and the way it takes");
   position_rapid(b, context_);
   active_->height = form->end_height;
+  run_at_the_point(b, facts_.before(s), form->blocks);
   put_moves(std::move(s), std::move(form->blocks), std::move(pieces), out);
   return true;
 }
 
+bool CyclePass::feed_is_used() const {
+  for (const Statement* s = rest_.first; s != rest_.second; ++s) {
+    if (std::holds_alternative<End>(s->node)) return false;
+    if (std::holds_alternative<Message>(s->node) || std::holds_alternative<Label>(s->node) ||
+        std::holds_alternative<Assign>(s->node))
+      continue;
+    const auto* b = std::get_if<Block>(&s->node);
+    if (b == nullptr || (s->line.skip_mask != 0 && !b->empty())) return true;
+    bool given = false;
+    for (const auto& a : b->actions) {
+      const auto* set = std::get_if<ModalSet>(&a.data);
+      const bool harmless = std::holds_alternative<SetSpindle>(a.data) || std::holds_alternative<SpindleRun>(a.data) ||
+                            std::holds_alternative<SpindleLimit>(a.data) ||
+                            std::holds_alternative<SpindleGear>(a.data) || std::holds_alternative<ToolSelect>(a.data) ||
+                            std::holds_alternative<ToolChange>(a.data) || std::holds_alternative<ToolOffset>(a.data) ||
+                            std::holds_alternative<Coolant>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+                            std::holds_alternative<CycleCancel>(a.data) || std::holds_alternative<Stop>(a.data) ||
+                            (set != nullptr && set->setting != Setting::feed_mode && set->setting != Setting::units);
+      if (std::holds_alternative<SetFeed>(a.data) && a.order != Order::after)
+        given = true;
+      else if (!harmless)
+        return true;
+    }
+    if (given) return false;
+    if (b->has_motion && motion_in(*b, facts_.before(*s)) != MotionKind::rapid) return true;
+  }
+  return true;
+}
+
+void CyclePass::drop_idle_feed(Body& moves) const {
+  if (moves.size() < 2) return;
+  const auto* b = std::get_if<Block>(&moves.back().node);
+  const bool lone = b != nullptr && !b->has_motion && b->actions.size() == 1 &&
+                    std::holds_alternative<SetFeed>(b->actions.front().data);
+  if (lone && !feed_is_used()) moves.pop_back();
+}
+
 /// What a cycle has become, in the place of its block.
 void CyclePass::put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out) {
+  drop_idle_feed(moves);
   auto& b = std::get<Block>(s.node);
   const std::size_t main = pieces.size();
   auto first = moves.begin();

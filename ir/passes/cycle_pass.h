@@ -101,6 +101,7 @@ class CyclePass {
     out.reserve(body.size());
     for (auto& s : body) {
       bodies(s);
+      rest_ = {&s + 1, body.data() + body.size()};
       one(std::move(s), out);
     }
   }
@@ -431,10 +432,15 @@ class CyclePass {
   /// A pocket as the target's own cycle, by other passes. True: done.
   bool put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
                           bool last_resort, Body& out);
+  void run_at_the_point(Block& b, const Facts& facts, Body& blocks) const;
   /// The words of the source above the moves that they become.
   void remark_words(const LineInfo& line, Body& out);
   void put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out);
   void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
+  /// What follows the statement at hand may cut, or do whatever else, with the feed that a cycle leaves in force.
+  [[nodiscard]] bool feed_is_used() const;
+  /// Takes a feed away that nothing would use from the end of the moves.
+  void drop_idle_feed(Body& moves) const;
   void no_moves(Statement&& s, const std::string& why, Body& out);
   Program& program_;
   const LegaliseContext& context_;
@@ -466,6 +472,7 @@ class CyclePass {
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
   bool tap_feed_ = false;      ///< the F in force on the target is that of a tap
   std::optional<Active> ran_;  ///< what the block at hand runs by its definition
+  std::pair<const Statement*, const Statement*> rest_{nullptr, nullptr};  ///< behind the statement at hand
 };
 
 /// Puts the copies into the program.

@@ -232,6 +232,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   position_rapid(b, context_);
   if (s.id == active_->from) remark_words(s.line, out);  // at later points the source has no words of the cycle
   active_->height = moves->end_height;
+  drop_idle_feed(moves->blocks);
   const std::size_t main = pieces.size();
   auto first = moves->blocks.begin();
   if (b.empty() && first != moves->blocks.end()) s.node = std::move((first++)->node);  // nothing of the line is left
@@ -470,7 +471,7 @@ static void carry_out_noting(Program& program, const LegaliseContext& context, S
   }
   add_callees(program, callees);
   keep_used(program, uses, profiles);
-  retire_profiles(program, profiles, facts);
+  retire_profiles(program, profiles, uses, facts);
   label_profiles(program, uses);
 }
 

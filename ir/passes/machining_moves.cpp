@@ -32,13 +32,6 @@ std::optional<double> known(const Value& v) {
   return v.literal() ? std::optional(v.number) : constant_value(v.expr);
 }
 
-cycles::TurnUnits units_of(const ModalState& m) {
-  cycles::TurnUnits u;
-  u.along = u.length = u.feed = m.units == Units::inch ? 25.4 : 1;
-  u.cross = m.diameter == DiameterMode::radius ? u.length : u.length / 2;
-  return u;
-}
-
 /// Moves as blocks.
 class Writer {
  public:
@@ -137,7 +130,7 @@ class Writer {
   }
   bool feed(const TurnMove& m, Block& b, std::string* error) {
     if (m.has_feed) {
-      if (last_feed_ == m.feed && changed_) return true;
+      if (changed_ ? last_feed_ == m.feed : feed_ && *feed_ == m.feed / unit_) return true;
       b.actions.push_back(action(SetFeed{Value{m.feed / unit_}, false}));
       changed_ = true;
       last_feed_ = m.feed;
@@ -300,6 +293,13 @@ void follow(const Block& b, TurnState& state) {
 
 }  // namespace
 
+cycles::TurnUnits turn_units(const ModalState& m) {
+  cycles::TurnUnits u;
+  u.along = u.length = u.feed = m.units == Units::inch ? 25.4 : 1;
+  u.cross = m.diameter == DiameterMode::radius ? u.length : u.length / 2;
+  return u;
+}
+
 std::optional<ModalState> modes_at(const Block& b, const Facts& facts, const ModalState& power_on) {
   ModalState m = power_on;
   const auto units = setting_in<Units>(b, facts, Setting::units);
@@ -321,7 +321,7 @@ bool machining_numbers(const NamedCycle& cycle, const ModalState& modes, TurnNum
     if (p->quantity == cycles::Quantity::text || cycles::is_text(v)) continue;
     const auto n = known(v);
     if (!n) return false;
-    out[p->name] = *n * cycles::factor_of(p->quantity, units_of(modes));
+    out[p->name] = *n * cycles::factor_of(p->quantity, turn_units(modes));
   }
   return true;
 }

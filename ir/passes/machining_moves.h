@@ -24,6 +24,8 @@ struct TurnState {
 /// Modes as far as they are known before a block and by its own words; nullopt: units, diameters, distance or feed mode
 /// are not known.
 std::optional<ModalState> modes_at(const Block& b, const Facts& facts, const ModalState& power_on);
+/// What words count in.
+cycles::TurnUnits turn_units(const ModalState& m);
 /// The parameters in mm; false: some are known only when the program runs.
 bool machining_numbers(const NamedCycle& cycle, const ModalState& modes, cycles::TurnNumbers& out);
 
@@ -61,9 +63,12 @@ class TurnCycles {
   };
   /// Takes a copy of the profile's blocks.
   void keep_profile(const Program& program, const Routine& routine, const NamedCycle& named, Site& site);
-  /// The blocks as the target's cycle is to read them; nullopt with a sentence: it can't.
-  [[nodiscard]] std::optional<ProfileUse> use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
-                                                 std::optional<double> tail, bool face, std::string* why) const;
+  /// The blocks of the profile from the first to the last that says an element of it.
+  static Body elements_of(const Site& site, const Block& at_call, const Facts& facts);
+  /// `blocks` as the target's cycle is to read them; nullopt with a sentence: it can't.
+  [[nodiscard]] std::optional<ProfileUse> use_of(const NamedCycle& named, const Site& site, const Body& blocks,
+                                                 const FactsOf& facts, std::optional<double> tail, bool face,
+                                                 std::string* why) const;
   /// Width of the tool in mm, the program's `unit` being that many mm; 0: not known.
   [[nodiscard]] double nose_width(const TurnState& state, double unit) const;
   const LegaliseContext& context_;
@@ -76,7 +81,9 @@ class TurnCycles {
   std::set<std::uint32_t> profile_blocks_;
 };
 
-/// Blocks of profiles that nothing runs become comments: on the target no cycle reads them any more.
-void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, const FactsOf& facts);
+/// Blocks of profiles that nothing runs become comments: on the target no cycle reads them any more. A routine of which
+/// nothing else is left, and which nothing runs, is taken out; `uses`: some stand in the program as copies.
+void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, const std::vector<ProfileUse>& uses,
+                     const FactsOf& facts);
 
 }  // namespace cnctrans::ir::passes

@@ -30,6 +30,23 @@ bool same_move(const TurnMove& a, const TurnMove& b) {
          near(a.feed, b.feed, 1e-6);
 }
 
+/// A thread by its size or in newer words, in those that have cycles of the same kind elsewhere.
+NamedCycle in_older_words(const NamedCycle& named, const ModalState& modes) {
+  TurnNumbers numbers;
+  const bool by_size = std::any_of(named.words.begin(), named.words.end(),
+                                   [](const auto& word) { return word.first == "size" && !word.second.is(0); });
+  if ((named.name != "shape.thread" && !by_size) || !machining_numbers(named, modes, numbers)) return named;
+  const auto older = cycles::counted_thread_of(named.name, numbers);
+  if (!older) return named;
+  NamedCycle out;
+  out.name = "thread.counted";
+  for (const auto& [name, v] : *older) {
+    const double by = cycles::factor_of(cycles::find_parameter(name)->quantity, turn_units(modes));
+    out.words.emplace_back(std::string(name), Value(std::round(v / by * 1e9) / 1e9 + 0.0));
+  }
+  return out;
+}
+
 TurnMove rapid_to(cycles::TurnPoint place) {
   TurnMove m;
   m.to = place;
@@ -38,7 +55,7 @@ TurnMove rapid_to(cycles::TurnPoint place) {
 
 }  // namespace
 
-std::optional<TurnForm> TurnCycles::native(const NamedCycle& named, const Statement& s, const Block& b,
+std::optional<TurnForm> TurnCycles::native(const NamedCycle& words, const Statement& s, const Block& b,
                                            const Facts& facts) const {
   const auto& accepts = context_.target.native_cycle;
   const auto it = sites_.find(s.id);
@@ -48,6 +65,7 @@ std::optional<TurnForm> TurnCycles::native(const NamedCycle& named, const Statem
   if (!m || m->units != Units::metric || m->diameter == DiameterMode::absolute_only) return std::nullopt;
   if (m->distance != Distance::absolute) return std::nullopt;
   if (!context_.target.diameter_switch && context_.target.fixed_diameter != m->diameter) return std::nullopt;
+  const NamedCycle named = in_older_words(words, *m);
   const double k = m->diameter == DiameterMode::radius ? 1 : 2;
   TurnStart start{it->second.state.x, it->second.state.z};
   if (const auto x = facts.position[axis::x]) start.x = Value(*x * k);
@@ -122,6 +140,19 @@ bool plain_element(const Block& b, bool here) {
                        b.repeat_given == 0);
 }
 
+/// A block without an element, which says only what holds where the cycle is called.
+bool says_nothing_new(const Block& b, const Block& at_call, const Facts& facts) {
+  const bool words = b.has_motion && (b.motion.moves() || b.motion.kind == MotionKind::arc_cw ||
+                                      b.motion.kind == MotionKind::arc_ccw || b.motion.extra);
+  return !words && std::all_of(b.actions.begin(), b.actions.end(), [&](const Action& a) {
+    const auto* set = std::get_if<ModalSet>(&a.data);
+    if (set == nullptr || a.order == Order::after) return false;
+    const bool read = set->setting == Setting::plane || set->setting == Setting::distance ||
+                      set->setting == Setting::diameter || set->setting == Setting::units;
+    return read && setting_in<std::uint8_t>(at_call, facts, set->setting) == set->value;
+  });
+}
+
 /// Two free numbers, ten apart, behind those of the blocks.
 std::int64_t free_numbers(const Program& program, const Body& blocks) {
   std::int64_t most = 0;
@@ -155,16 +186,33 @@ std::string label_of_use(const Program& program, const std::string& prefix, cons
 
 }  // namespace
 
-std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site& site, const FactsOf& facts,
-                                             std::optional<double> tail, bool face, std::string* why) const {
+Body TurnCycles::elements_of(const Site& site, const Block& at_call, const Facts& facts) {
+  Body out = site.blocks;
+  bool straight = false;
+  while (!out.empty()) {
+    auto& b = std::get<Block>(out.front().node);
+    if (out.front().line.skip_mask != 0 || !says_nothing_new(b, at_call, facts)) {
+      if (straight && b.motion.kind == MotionKind::modal && b.has_motion) b.motion.kind = MotionKind::linear;
+      break;
+    }
+    if (b.has_motion && b.motion.kind != MotionKind::modal) straight = b.motion.kind == MotionKind::linear;
+    out.erase(out.begin());
+  }
+  while (!out.empty() && std::get<Block>(out.back().node).empty()) out.pop_back();
+  return out;
+}
+
+std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site& site, const Body& blocks,
+                                             const FactsOf& facts, std::optional<double> tail, bool face,
+                                             std::string* why) const {
   ProfileUse use;
   *why = "its profile stands where the target's cycle can't read it";
   const bool numbers = !context_.target.identifier_labels;
-  if (!site.apart || site.blocks.size() < (numbers ? 3 : 2)) return std::nullopt;
-  use.first = site.blocks.front().id;
-  use.last = site.blocks.back().id;
+  if (!site.apart || blocks.size() < (numbers ? 3 : 2)) return std::nullopt;
+  use.first = blocks.front().id;
+  use.last = blocks.back().id;
   bool run = false;
-  for (const auto& s : site.blocks) {
+  for (const auto& s : blocks) {
     const auto& b = std::get<Block>(s.node);
     run = run || facts.before(s).reachable;
     if (s.line.skip_mask != 0 || !plain_element(b, run && !numbers && !tail)) {
@@ -173,18 +221,18 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
     }
   }
   use.numbers = numbers;
-  const auto& head = std::get<Block>(site.blocks.front().node);
+  const auto& head = std::get<Block>(blocks.front().node);
   const bool begins = head.has_motion && head.motion.coords.size() == 2 &&
-                      motion_in(head, facts.before(site.blocks.front())) == MotionKind::linear;
+                      motion_in(head, facts.before(blocks.front())) == MotionKind::linear;
   if (numbers) {
     *why = "its profile does not begin with a straight move to a point";
     if (!begins) return std::nullopt;
-    const auto number = free_numbers(program_, site.blocks);
+    const auto number = free_numbers(program_, blocks);
     if (number + 10 > context_.target.label_max) return std::nullopt;
-    use.first = site.blocks[1].id;  // the point before it stands among the words
+    use.first = blocks[1].id;  // the point before it stands among the words
     use.first_label = std::to_string(number);
     use.last_label = std::to_string(number + 10);
-    use.blocks = {site.blocks.begin() + 1, site.blocks.end()};
+    use.blocks = {blocks.begin() + 1, blocks.end()};
     if (run) use.copy = use.blocks;
     why->clear();
     return use;
@@ -196,13 +244,13 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   }
   if (use.x) use.x->text = {};
   if (use.z) use.z->text = {};
-  use.blocks = site.blocks;
+  use.blocks = blocks;
   use.tail = tail;
   use.face = face;
   // Labels that are words count in their own program only: it gets the blocks too.
   const bool here =
       std::any_of(routine_.body.begin(), routine_.body.end(), [&use](const Statement& t) { return t.id == use.first; });
-  if (!here || (run && (use.x || use.tail))) use.copy = site.blocks;
+  if (!here || (run && (use.x || use.tail))) use.copy = blocks;
   if (!use.x && !begins) {
     *why = "its profile does not begin with a straight move to a point";
     return std::nullopt;
@@ -212,11 +260,11 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   return use;
 }
 
-std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const Statement& s, const Block& b,
+std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& words, const Statement& s, const Block& b,
                                                const FactsOf& all, bool last_resort, std::string* why) const {
   why->clear();
   const auto it = sites_.find(s.id);
-  const auto family = cycles::family_of(named.name);
+  const auto family = cycles::family_of(words.name);
   const auto asked = context_.options.cycles;
   if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
   if (it == sites_.end() || family.empty()) return std::nullopt;
@@ -228,6 +276,7 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
                        m->distance == Distance::absolute &&
                        (context_.target.diameter_switch || context_.target.fixed_diameter == m->diameter);
   if (!counted) return *why = "units, diameters or absolute and incremental are not the same there", std::nullopt;
+  const NamedCycle named = in_older_words(words, *m);
   const Site& site = it->second;
   const double k = m->diameter == DiameterMode::radius ? 1 : 2;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -260,8 +309,9 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
   std::optional<SimilarForm> form;
   if (family == "stock") {
     if (!site.profile) return *why = site.fault, std::nullopt;
+    const Body blocks = elements_of(site, b, facts);
     for (const auto& c :
-         site.blocks.empty() ? std::vector<CoordWord>{} : std::get<Block>(site.blocks.front().node).motion.coords) {
+         blocks.empty() ? std::vector<CoordWord>{} : std::get<Block>(blocks.front().node).motion.coords) {
       if (c.mode == WordMode::incremental || c.scale != WordScale::modal) continue;
       if (c.axis == axis::x) source.begins.x = c.value;
       if (c.axis == axis::z) source.begins.z = c.value;
@@ -271,7 +321,7 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& named, const St
     }
     form = similar_stock(source, why);
     if (!form) return std::nullopt;
-    form->use = use_of(named, site, all, form->tail, form->face, why);
+    form->use = use_of(named, site, blocks, all, form->tail, form->face, why);
     if (!form->use) return std::nullopt;
     form->use->name(form->cycle);
   } else if (family == "thread") {

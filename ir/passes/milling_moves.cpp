@@ -281,7 +281,8 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
         continue;
       return *error = "which tool is in use is not known here", std::nullopt;
     }
-    const double scale = machine.option("machine_data.units") == "modal" ? length_unit : 1;
+    const bool in_mm = name == "TOOL_RADIUS" || machine.option("machine_data.units") != "modal";
+    const double scale = in_mm ? 1 : length_unit;
     if (const auto it = written_.find(name); it != written_.end()) {
       if (!it->second) return *error = "the radius of the tool is computed when the program runs", std::nullopt;
       return *it->second * scale;

@@ -91,19 +91,33 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   LineInfo like;
   like.span = s.line.span;
   like.skip_mask = s.line.skip_mask;
-  if (form->u && form->v) out.blocks.push_back(rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}}));
   const auto retract = form->retract.literal() ? std::optional(form->retract.number * unit) : std::nullopt;
   // The writers know heights by the words of the text only.
   const auto said = height_mm(b, facts, axes.w);
-  if (!retract || !said || std::fabs(*retract - *said) > 1e-9)
-    out.blocks.push_back(rapid_to(like, {{axes.w, form->retract}}));
+  const bool rises = !retract || !said || std::fabs(*retract - *said) > 1e-9;
+  Block call;
+  if (form->u && form->v) {
+    Statement to = rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}});
+    // Controls that go to the place of a cycle in rapid take it into the block of the cycle.
+    const bool in_one = !context_.target.retract_plane_switch;
+    if (!rises && in_one && context_.target_machine.option("cycle.positioning") == "rapid") {
+      call = std::move(std::get<Block>(to.node));
+      by_itself(call);
+    } else {
+      out.blocks.push_back(std::move(to));
+    }
+  }
+  if (rises) out.blocks.push_back(rapid_to(like, {{axes.w, form->retract}}));
   const bool other_feed = form->feed && !(source.feed && equal(*form->feed, *source.feed));
   if (other_feed && !source.feed && !feed.none)
     return *why = "the feed in force behind it is not known here", std::nullopt;
-  if (other_feed) out.blocks.push_back(make_block(like, action(SetFeed{*form->feed, false})));
-  for (const auto& c : form->cycles)
-    out.blocks.push_back(make_block(like, action(CycleDefine{std::make_shared<const Cycle>(Cycle{c}), false, true,
-                                                             CycleTrigger::plane_axis_word})));
+  if (other_feed) call.actions.push_back(action(SetFeed{*form->feed, false}));
+  for (const auto& c : form->cycles) {
+    call.actions.push_back(
+        action(CycleDefine{std::make_shared<const Cycle>(Cycle{c}), false, true, CycleTrigger::plane_axis_word}));
+    out.blocks.push_back(made(like, std::move(call)));
+    call = Block{};
+  }
   if (other_feed && source.feed) out.blocks.push_back(make_block(like, action(SetFeed{*source.feed, false})));
   out.end_height = retract;
   out.differs = form->differs;

@@ -47,6 +47,7 @@ struct Pocket {
   bool ccw = true;
   std::string differs;
   Value surface, reference, bottom, retract;
+  bool dives = false;  ///< goes into the depth in rapid
 };
 
 class Reader {
@@ -115,6 +116,7 @@ class Reader {
       const auto n = known(*v);
       if (!n) return no("what it machines is computed");
       kind = std::fmod(std::fabs(*n), 10);
+      p_.dives = std::fabs(*n) < 10 && kind != 2;
       if (std::fabs(*n) >= 20) return no("it goes into the material on a helix or a ramp");
     } else if (const auto o = word("operation")) {
       const auto n = known(*o);
@@ -155,6 +157,9 @@ class Reader {
     p_.length = less(unsigned_value(*length), both);
     p_.width = less(unsigned_value(*width), both);
     if (const auto c = word("corner"); !nothing(c)) p_.corner = less(unsigned_value(*c), p_.wall_left);
+    // No corner of the source is smaller than the tool.
+    const auto corner = p_.corner ? known(*p_.corner) : std::nullopt;
+    if (corner && s_.radius && *corner <= *s_.radius + near) p_.corner.reset();
     if (const auto a = word("angle")) {
       const auto n = known(*a);
       if (!n) return no("its angle is computed");
@@ -262,6 +267,9 @@ class Teller {
   /// Whole sizes at the place of the tool, climb milling; the allowances are taken at last.
   std::optional<PocketForm> by_whole_sizes() {
     if (!start(false) || !square()) return std::nullopt;
+    if (p_.corner && !s_.radius && !nothing(p_.wall_left))
+      out_.differs +=
+          ", a tool with a greater radius than that of the corners is refused there (leave their radius out)";
     const bool climb = p_.ccw != (s_.sense == SpindleState::ccw);
     if (!climb) out_.differs += ", it is climb milling (conventional in the source)";
     if (p_.circle) {
@@ -351,6 +359,7 @@ class Teller {
     c_.mill.shape = p_.circle ? "pocket.circle" : "pocket.rect";
     out_ = PocketForm{};
     out_.differs = "levels, rounds and the ways between them are those of the target's cycle" + p_.differs;
+    if (p_.dives && !own_place) out_.differs += ", it goes into the depth at feed (in rapid in the source)";
     if (!own_place && (!p_.u || !p_.v)) return true;
     if (own_place) return true;
     const auto there = [](const std::optional<Value>& a, const std::optional<Value>& b) {

@@ -80,7 +80,7 @@ class StockForms {
     std::vector<NamedCycle> forms;
     contour_forms(forms);
     profile_forms(forms);
-    if (forms.empty()) return no("the target has none of its kind");
+    if (forms.empty()) return no("no cycle of the target is written for its kind");
     for (const auto& form : forms) {
       if (semi_finish_ && form.name != "stock.contour")
         return no("the target's cycle has no pass along the contour before finishing");
@@ -136,7 +136,10 @@ class StockForms {
     TurnNumbers numbers;
     if (!machining_numbers(folded, s_.modes, numbers)) return no("its words are computed when the program runs"), false;
     cycles::TurnContext context;
-    context.start = &out == &mine_ ? s_.at : at_;
+    // A cycle that begins at a place of its own is told by the way there, wherever the tool stands.
+    constexpr double far = std::numeric_limits<double>::quiet_NaN();
+    const bool own = cycle.name == "stock.contour";
+    context.start = own ? TurnPoint{far, far} : &out == &mine_ ? s_.at : at_;
     context.nose_width = s_.nose_width;
     context.longer_in_x = s_.longer_in_x;
     context.profile = profile_;
@@ -387,6 +390,7 @@ class StockForms {
       out.after = s_.start;
     }
     if (from_the_tool_ && !is_zero("rough_feed")) out.feed_before = plain(*find_word("rough_feed"));
+    if (out.feed_before && s_.feed && equal(*out.feed_before, *s_.feed)) out.feed_before.reset();
     if (from_the_tool_ && (out.feed_before || !mine_.left.finish.empty())) out.feed = s_.feed;
     const auto* own = cycles::find_machining(s_.named.name);
     out.rapid_stays = own->ends_modes;

@@ -66,14 +66,14 @@ bool ComputedTurn::thread_by_count() {
   const Value passes = word("passes"), idle = word("idle");
   if (!error.empty()) return false;
   alternates_ = angle < 0;
-  if (alternates_ && !(side_ = variable_of(Value(1.0)))) return false;
+  if (alternates_ && !(side_ = variable_of(Value(-1.0)))) return false;
   const Value rough = kept(subtract(depth_, stock));
   rapid({safe_first_, first_q_});
   const double starts = starts_;
   const Value angle_now = angle_;
   for (double s = 0; s < starts; ++s) {
     angle_ = add(angle_now, Value(360 * s / starts));
-    if (s > 0 && alternates_) set(*side_, Value(1.0));
+    if (s > 0 && alternates_) set(*side_, Value(-1.0));
     const auto i = variable_of(Value(1.0));
     if (!i) return false;
     const Value at(variable(*i));
@@ -111,8 +111,7 @@ void ComputedTurn::counted_pass(const Value& h) {
   const Value d = kept(h);
   Spot in{out_sign_.number < 0 ? moved(first_p_, p_, d) : subtract(first_p_, scale(d, p_.k)), std::nullopt};
   if (!tan_.is(0)) {
-    Value by = times(tan_, d);
-    if (alternates_) by = times(Value(variable(*side_)), by);
+    const Value by = alternates_ ? times(Value(variable(*side_)), times(tan_, subtract(depth_, d))) : times(tan_, d);
     in.q = !dir_.literal()   ? add(first_q_, times(dir_, by))
            : dir_.number < 0 ? subtract(first_q_, by)
                              : add(first_q_, by);

@@ -90,6 +90,11 @@ std::vector<std::string> values_of(const testing::Section& s, const std::string&
   return found;
 }
 
+/// A further program of a cycle, with other words: "G68 lathe, with a recess".
+bool is_further(const testing::Section& s) {
+  return s.heading.find(" mill, ") != std::string::npos || s.heading.find(" lathe, ") != std::string::npos;
+}
+
 /// The program for the cycle: its own of tests/cycles, else one of the catalogue whose name ends in the cycle's, else
 /// the first that has it.
 const testing::Section* program_for(const CycleEntry& c, const std::vector<testing::Section>& sections) {
@@ -99,7 +104,7 @@ const testing::Section* program_for(const CycleEntry& c, const std::vector<testi
   const testing::Section* first = nullptr;
   for (const auto& s : sections) {
     if (s.heading == c.name + " " + c.machine) return &s;
-    if (s.heading.ends_with(" mill") || s.heading.ends_with(" lathe")) continue;
+    if (s.heading.ends_with(" mill") || s.heading.ends_with(" lathe") || is_further(s)) continue;
     const auto machines = values_of(s, "machine");
     const bool lathe = !machines.empty() && machines[0].ends_with("-lathe");
     if (lathe != (c.machine == "lathe") || !values_of(s, "refuses").empty() || !std::regex_search(s.fence, token))
@@ -214,10 +219,9 @@ class CycleTable : public ::testing::Test {
       rule += "---|";
     }
     s += "\n" + rule + "\n";
-    for (const auto& c : cycles) {
-      s += "| " + c.name + " | " + c.machine + " | " + c.what + " | ";
-      const auto* program = c.missing.empty() ? program_for(c, sections) : nullptr;
-      const bool own = program != nullptr && program->heading == c.name + " " + c.machine;
+    const auto row = [&](const CycleEntry& c, const std::string& what, const testing::Section* program) {
+      const bool own = program != nullptr && program->heading.rfind(c.name + " " + c.machine, 0) == 0;
+      s += "| " + c.name + " | " + c.machine + " | " + what + " | ";
       s += (program == nullptr ? std::string("-")
             : own              ? std::string("tests/cycles")
                                : program->heading.substr(0, program->heading.find(' '))) +
@@ -228,6 +232,13 @@ class CycleTable : public ::testing::Test {
              " |";
       }
       s += "\n";
+    };
+    for (const auto& c : cycles) {
+      row(c, c.what, c.missing.empty() ? program_for(c, sections) : nullptr);
+      const std::string own = c.name + " " + c.machine + ", ";
+      for (const auto& further : sections) {
+        if (further.heading.rfind(own, 0) == 0) row(c, further.heading.substr(own.size()), &further);
+      }
     }
     return s + "\n";
   }

@@ -239,14 +239,16 @@ TEST(Similar, CyclesOfAnotherFamily) {
 struct ThreadChange {
   std::vector<double> depths{0.5, 0.8, 1};
   double pitch = 1.5, end = -20, clear = 11, angle = 0, first = 5;
+  std::vector<double> shifts{};  ///< along the thread of where each pass begins
 };
 Side thread(const ThreadChange& c = {}) {
   Side s;
   s.rapid(12, 5);
   s.begin("thread");
   s.rapid(c.clear, c.first);
-  for (const double d : c.depths) {
-    s.rapid(10 - d, c.first);
+  for (std::size_t k = 0; k < c.depths.size(); ++k) {
+    const double d = c.depths[k];
+    s.rapid(10 - d, c.first + (k < c.shifts.size() ? c.shifts[k] : 0));
     auto& cut = s.add(EventKind::thread, 10 - d, c.end);
     cut.pitch = c.pitch;
     cut.start_angle = c.angle;
@@ -270,6 +272,22 @@ TEST(SimilarThread, OtherInfeeds) {
   const auto v = compare(thread(), thread(c));
   EXPECT_EQ(v.status, Status::within_tolerance) << v.difference.what;
   EXPECT_EQ(v.similar_cycles, 1U);
+}
+
+/// Down the flank of 30 degrees: a pass of the depth d begins (1 - d) tan 30 before the last one, 0.2887 and 0.1155.
+TEST(SimilarThread, WithinTheV) {
+  ThreadChange flank;
+  flank.shifts = {0.2887, 0.1155, 0};
+  ThreadChange c = flank;
+  c.shifts = {-0.2887, 0.1155, 0};  // on both flanks
+  EXPECT_EQ(compare(thread(flank), thread(c)).status, Status::within_tolerance);
+  c.shifts = {0, 0, 0};
+  EXPECT_EQ(compare(thread(flank), thread(c)).status, Status::within_tolerance);
+  c.shifts = {0.4, 0.1155, 0};
+  EXPECT_TRUE(says(compare(thread(flank), thread(c)).difference.what, "outside of its V"));
+  c.shifts = {0.2887, -1, 0};
+  EXPECT_TRUE(says(compare(thread(flank), thread(c)).difference.what, "outside of its V"));
+  EXPECT_TRUE(says(compare(thread(), thread(flank)).difference.what, "outside of its V"));  // straight in
 }
 
 TEST(SimilarThread, Faults) {
