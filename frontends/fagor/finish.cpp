@@ -361,6 +361,7 @@ void finish_program(ir::Program& program, LowerState& state) {
   judge_patterns(program, state);
   judge_cycle_changes(program, state);
   end_cycles(program, state);
+  drop_needless_ends(program, state);
   judge_repeats(program, state);
   drop_inclined_ends(program, state);
   if (facts.unlisted_parameters) {

@@ -3,7 +3,9 @@
 
 #include "frontends/common/cycle_changes.h"
 #include "frontends/fagor/finish_parts.h"
+#include "ir/cycle.h"
 #include "ir/cycle_ends.h"
+#include "ir/dataflow.h"
 #include "ir/search.h"
 
 namespace cnctrans::fagor {
@@ -25,6 +27,39 @@ void judge_cycle_changes(ir::Program& program, LowerState& state) {
 
 void end_cycles(ir::Program& program, LowerState& state) {
   if (!in_order_of_text(program)) (void)ir::end_cycles_with_plane(program, state.profile().power_on);
+}
+
+void drop_needless_ends(ir::Program& program, LowerState& state) {
+  const auto ends = [](const ir::Action& a) {
+    const auto* set = std::get_if<ir::ModalSet>(&a.data);
+    return set != nullptr && set->setting == ir::Setting::comp && a.order != ir::Order::after && a.text.empty();
+  };
+  const auto machines = [](const ir::Action& a) {
+    const auto* d = std::get_if<ir::CycleDefine>(&a.data);
+    return d != nullptr && d->cycle && std::holds_alternative<ir::NamedCycle>(d->cycle->node);
+  };
+  const auto concerned = [&](const ir::Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), machines) &&
+           std::any_of(b.actions.begin(), b.actions.end(), ends);
+  };
+  bool any = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      any = any || (b != nullptr && concerned(*b));
+    });
+  }
+  if (!any) return;
+  ir::number_statements(program);
+  const ir::FactTable table = ir::analyse(program, state.profile().power_on);
+  for (auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](ir::Statement& s) {
+      auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || !concerned(*b)) return;
+      const auto known = table.before(s.id).settings[static_cast<std::size_t>(ir::Setting::comp)];
+      if (known == static_cast<std::uint8_t>(ir::CompSide::off)) std::erase_if(b->actions, ends);
+    });
+  }
 }
 
 void judge_repeats(ir::Program& program, LowerState& state) {

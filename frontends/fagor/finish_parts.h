@@ -19,6 +19,8 @@ bool has_jumps(const ir::Program& program);
 void judge_cycle_changes(ir::Program& program, LowerState& state);
 /// A cycle in force ends with its plane and with the search for home, wherever it was defined (25.2).
 void end_cycles(ir::Program& program, LowerState& state);
+/// G66, G68, G69 and G83 of the lathe end the radius compensation (8.2.3): nothing to say where it is off already.
+void drop_needless_ends(ir::Program& program, LowerState& state);
 /// Repeat counts under MEXEC, and under MCALL where the machine moves once (2.7): FAG-091.
 void judge_repeats(ir::Program& program, LowerState& state);
 
