@@ -434,10 +434,12 @@ class LineStream final : public StreamReader {
       return std::holds_alternative<ir::ToolOffset>(a.data) && a.text.empty();
     });
   }
-  /// No variables, no calls, no values that are expressions.
+  /// No variables, no calls, no values that are expressions but the name of a tool.
   [[nodiscard]] bool only_addresses() const {
     for (const auto& w : block_.words) {
-      if (w.is_expression) return false;
+      const bool tool_name = w.is_expression && w.address == "T" && w.extension < 0 &&
+                             block_.exprs[static_cast<std::size_t>(w.expr)].kind == syntax::ExprKind::string;
+      if (w.is_expression && !tool_name) return false;
       if (w.address.size() > 1 && (w.has_value ? named_word(w.address) == nullptr : g_function(w.address) == nullptr))
         return false;
     }
