@@ -5,6 +5,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/flow_states.h"
+#include "ir/passes/rewrite.h"
 
 namespace cnctrans::ir::passes {
 
@@ -43,6 +44,19 @@ class AngleDomain {
     return true;
   }
 };
+
+bool is_thread(const Statement& s, const FactsOf& facts) {
+  const auto* b = std::get_if<Block>(&s.node);
+  const auto kind = b != nullptr && b->has_motion ? motion_in(*b, facts.before(s)) : std::nullopt;
+  return kind == MotionKind::thread || kind == MotionKind::thread_variable;
+}
+
+/// Under continuous path a thread right behind another goes on with its angle.
+bool joined(const Statement* before, const Statement& s, const FactsOf& facts) {
+  const auto* b = std::get_if<Block>(&s.node);
+  return before != nullptr && b != nullptr && labels_on(s.line).empty() && is_thread(*before, facts) &&
+         setting_in<PathMode>(*b, facts.before(s), Setting::path_mode) == PathMode::continuous;
+}
 
 /// The thread of the statement where it has no start angle of its own; null: it is none, or has.
 Motion* bare_thread(Statement& s, const FactsOf& facts) {
@@ -89,8 +103,11 @@ void write_thread_angles(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   if (from) return carry_on(program, context, facts);
   for (auto& r : program.routines) {
+    const Statement* before = nullptr;
     for_each_statement(r.body, [&](Statement& s) {
-      if (Motion* m = bare_thread(s, facts)) say(*m, 0);
+      Motion* m = bare_thread(s, facts);
+      if (m != nullptr && !joined(before, s, facts)) say(*m, 0);
+      before = &s;
     });
   }
 }
