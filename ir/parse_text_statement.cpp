@@ -274,7 +274,7 @@ void Reader::assignments(std::string_view, std::vector<Assign::Item>& items) {
   if (c == ';' || c == '\n' || c == '\0') return;
   do {
     auto& it = items.emplace_back();
-    if (peek_word() == "sys") {
+    if (peek_word() == "sys" || peek_word() == "given") {
       const ExprPtr target = operand();
       const auto* system = target ? std::get_if<SystemRef>(&target->node) : nullptr;
       if (system != nullptr) it.system = *system;

@@ -6,6 +6,7 @@
 
 #include "backends/common/comments.h"
 #include "backends/common/places.h"
+#include "backends/common/tool_words.h"
 #include "base/short_copy.h"
 #include "base/text.h"
 
@@ -77,14 +78,36 @@ struct PlainStreamWriter::Words {
     return true;
   }
   void sort(bool by_rank) {
-    const bool ranks = by_rank || !columns;
-    if (!ranks && sorted) return;
-    const auto key = [&](std::uint8_t i) { return ranks ? static_cast<std::uint32_t>(list[i].rank) : list[i].column; };
+    if (!by_rank && !columns) return place();
+    if (!by_rank && sorted) return;
+    const auto key = [&](std::uint8_t i) {
+      return by_rank ? static_cast<std::uint32_t>(list[i].rank) : list[i].column;
+    };
     for (std::size_t i = 1; i < count; ++i) {  // stable; few words, nearly in order
       const std::uint8_t w = order[i];
       std::size_t k = i;
       for (; k > 0 && key(order[k - 1]) > key(w); --k) order[k] = order[k - 1];
       order[k] = w;
+    }
+  }
+
+ private:
+  /// As Line does it: the words of the source in their order, each of the others before the first of a higher rank.
+  void place() {
+    std::size_t n = 0;
+    const auto put_before = [&](std::size_t i, auto behind) {
+      std::size_t at = 0;
+      while (at < n && !behind(list[order[at]])) ++at;
+      for (std::size_t k = n++; k > at; --k) order[k] = order[k - 1];
+      order[at] = static_cast<std::uint8_t>(i);
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t column = list[i].column;
+      if (column != 0) put_before(i, [column](const Word& w) { return w.column > column; });
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Rank rank = list[i].rank;
+      if (list[i].column == 0) put_before(i, [rank](const Word& w) { return w.rank > rank; });
     }
   }
 };
@@ -102,18 +125,6 @@ inline bool put(std::string_view text, char*& p, const char* end) {
 template <class T>
 std::size_t index_of(T value) {
   return static_cast<std::size_t>(value);
-}
-
-/// A tool and its offset, without the change.
-bool tool_and_offset_only(const ir::Block& b) {
-  bool tool = false, offset = false;
-  for (const ir::Action& a : b.actions) {
-    if (std::holds_alternative<ir::ToolChange>(a.data)) return false;
-    const auto* t = std::get_if<ir::ToolSelect>(&a.data);
-    tool = tool || (t != nullptr && !t->changes);
-    offset = offset || std::holds_alternative<ir::ToolOffset>(a.data);
-  }
-  return tool && offset;
 }
 
 }  // namespace

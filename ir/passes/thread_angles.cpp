@@ -58,6 +58,11 @@ bool joined(const Statement* before, const Statement& s, const FactsOf& facts) {
          setting_in<PathMode>(*b, facts.before(s), Setting::path_mode) == PathMode::continuous;
 }
 
+double angle_of(const Statement& thread) {
+  const auto& extra = std::get<Block>(thread.node).motion.extra;
+  return extra && extra->has_start_angle && extra->start_angle.literal() ? extra->start_angle.number : 0;
+}
+
 /// The thread of the statement where it has no start angle of its own; null: it is none, or has.
 Motion* bare_thread(Statement& s, const FactsOf& facts) {
   auto* b = std::get_if<Block>(&s.node);
@@ -106,7 +111,7 @@ void write_thread_angles(Program& program, const LegaliseContext& context) {
     const Statement* before = nullptr;
     for_each_statement(r.body, [&](Statement& s) {
       Motion* m = bare_thread(s, facts);
-      if (m != nullptr && !joined(before, s, facts)) say(*m, 0);
+      if (m != nullptr) say(*m, joined(before, s, facts) ? angle_of(*before) : 0);
       before = &s;
     });
   }
