@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "base/text.h"
+#include "backends/common/numbers.h"
 
 namespace cnctrans::backends {
 
