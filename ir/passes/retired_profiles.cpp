@@ -5,14 +5,19 @@
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/machining_moves.h"
+#include "ir/source_line.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
 
-/// The words of a block, for a person to read.
-std::string shown(const Statement& s) {
+/// The words of a block, for a person to read: the source's own line where it holds nothing else.
+std::string shown(const Statement& s, const Program& program) {
   const auto& b = std::get<Block>(s.node);
+  if (!s.line.joined && s.line.comments.empty()) {
+    const std::string line = source_line(s.line.span, program);
+    if (const auto text = trim(line); !text.empty()) return std::string(text);
+  }
   std::string out;
   const auto add = [&out](std::string_view text) {
     if (text.empty()) return;
@@ -29,7 +34,8 @@ std::string shown(const Statement& s) {
   if (b.motion.radius_given) word("R", b.motion.radius);
   for (const auto& a : b.actions) {
     add(a.text);
-    if (const auto* corner = std::get_if<Corner>(&a.data)) word("", corner->value);
+    const auto* corner = std::get_if<Corner>(&a.data);
+    if (corner != nullptr && a.text.find(corner->value.text) == std::string_view::npos) word("", corner->value);
   }
   return out;
 }
@@ -90,7 +96,7 @@ void retire_profiles(Program& program, const std::set<std::uint32_t>& blocks, co
       const auto* block = std::get_if<Block>(&s.node);
       if (blocks.count(s.id) == 0 || block == nullptr || block->empty()) return;
       if (called && facts.before(s).reachable) return;
-      remark(s, shown(s));
+      remark(s, shown(s, program));
       retired = true;
       own.insert(s.id);
       told = told || copied.count(s.id) != 0;
