@@ -58,9 +58,9 @@ bool joined(const Statement* before, const Statement& s, const FactsOf& facts) {
          setting_in<PathMode>(*b, facts.before(s), Setting::path_mode) == PathMode::continuous;
 }
 
-double angle_of(const Statement& thread) {
+Value angle_of(const Statement& thread) {
   const auto& extra = std::get<Block>(thread.node).motion.extra;
-  return extra && extra->has_start_angle && extra->start_angle.literal() ? extra->start_angle.number : 0;
+  return extra && extra->has_start_angle ? extra->start_angle : Value(0.0);
 }
 
 /// The thread of the statement where it has no start angle of its own; null: it is none, or has.
@@ -71,10 +71,10 @@ Motion* bare_thread(Statement& s, const FactsOf& facts) {
   return kind == MotionKind::thread || kind == MotionKind::thread_variable ? &b->motion : nullptr;
 }
 
-void say(Motion& m, double angle) {
+void say(Motion& m, const Value& angle) {
   auto extra = m.extra ? std::make_shared<MotionExtra>(*m.extra) : std::make_shared<MotionExtra>();
   extra->has_start_angle = true;
-  extra->start_angle = Value{angle};
+  extra->start_angle = angle;
   m.extra = std::move(extra);
 }
 
@@ -87,7 +87,7 @@ void carry_on(Program& program, const LegaliseContext& context, const FactsOf& f
       Motion* m = bare_thread(s, facts);
       const auto* state = m != nullptr ? states.before(s) : nullptr;
       if (state == nullptr) return;
-      if (state->angle && *state->angle != 0) say(*m, *state->angle);
+      if (state->angle && *state->angle != 0) say(*m, Value{*state->angle});
       if (state->angle) return;
       context.diagnostics.warning(
           "TRN-610", s.line.span,
@@ -111,7 +111,7 @@ void write_thread_angles(Program& program, const LegaliseContext& context) {
     const Statement* before = nullptr;
     for_each_statement(r.body, [&](Statement& s) {
       Motion* m = bare_thread(s, facts);
-      if (m != nullptr) say(*m, joined(before, s, facts) ? angle_of(*before) : 0);
+      if (m != nullptr) say(*m, joined(before, s, facts) ? angle_of(*before) : Value(0.0));
       before = &s;
     });
   }
