@@ -34,6 +34,7 @@ struct Arguments {
   bool explore = false;
   int replays = 100;
   bool annotate = false;
+  bool no_origin = false;
   bool quiet = false;
   std::vector<std::string> set;
   std::string skip;

@@ -59,6 +59,7 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   out.verify = a.verify || a.explore;
   if (a.explore) out.explore = static_cast<std::size_t>(a.replays);
   out.annotate = a.annotate;
+  out.origin = !a.no_origin;
   out.number_step = a.number_step;
   const std::pair<std::string_view, std::string_view> words[] = {
       {"reader", a.reader}, {"unsupported", a.unsupported}, {"numbering", a.numbering},

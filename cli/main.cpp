@@ -65,6 +65,7 @@ void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
       ->check(CLI::IsMember({"keep", "raise"}));
   app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");
+  app.add_flag("--no-origin", a.no_origin, "no remark at the head that names the source");
   app.add_option("--encoding", a.encoding, "of the output; else as the input")
       ->check(CLI::IsMember({"utf-8", "windows-1252"}));
   app.add_option("--eol", a.eol, "line ends of the output; else as the input")

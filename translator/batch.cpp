@@ -70,6 +70,7 @@ std::string job_sum(const BatchOptions& o) {
                                  t.eol ? static_cast<int>(*t.eol) : -1, t.run.max_events);
   for (const auto& l : t.libraries) text += "|" + l;
   if (t.names != nullptr) text += "|" + names_text(*t.names, t.from, t.to);
+  if (!t.origin) text += "|no origin";
   if (t.explore != 0) text += "|explore " + std::to_string(t.explore);
   for (const auto& [name, value] : t.run.set) text += "|" + name + "=" + value;
   return sum_of(text + "|" + std::to_string(t.run.skip_mask) + "|" + std::to_string(t.run.max_steps));

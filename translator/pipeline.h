@@ -53,6 +53,7 @@ struct TranslateOptions : InputOptions {
   backends::Numbering numbering = backends::Numbering::keep;
   std::int32_t number_step = 10;
   bool annotate = false;
+  bool origin = false;  ///< a remark at the head names the source's file and control
   bool verify = false;
   std::size_t explore = 0;      ///< with `verify`: most replays with other inputs
   bool keep_traces = false;     ///< with `verify`: both traces stay in the result, for a report

@@ -12,6 +12,7 @@
 #include "translator/definitions.h"
 #include "translator/encode.h"
 #include "translator/line_shapes.h"
+#include "translator/origin.h"
 #include "translator/program_axes.h"
 #include "translator/readable.h"
 #include "translator/stream_tools.h"
@@ -74,6 +75,7 @@ class StreamTranslation {
 
   void run(const std::string& path, const Progress& progress) {
     path_ = path;
+    origin_ = origin_text(options_, path);
     Windows windows;
     if (!windows.open(path, &result_.error)) return fail();
     eol_ = options_.eol.value_or(windows.eol);
@@ -265,6 +267,7 @@ class StreamTranslation {
     if (!watch_.head_done()) return true;
     ir::Program program = frame();
     program.routines.front().body = std::move(head_);
+    put_origin(program, origin_);
     if (tools_) tools_->put_table(program.routines.front().body);
     ir::number_statements(program);
     if (!run_passes(ir::head_passes(), program, source_, true)) return give_up();
@@ -378,6 +381,7 @@ class StreamTranslation {
   std::uint32_t state_ = 0;  ///< of the states
   bool plain_ = false;       ///< the block at hand needed no pass
   ir::Body head_;
+  std::string origin_;
   std::optional<StreamTools> tools_;  ///< from the first tool by its name on
   Span last_code_;                    ///< of the last statement that is more than a comment
   bool ended_ = false;

@@ -13,6 +13,7 @@
 #include "translator/contours.h"
 #include "translator/definitions.h"
 #include "translator/encode.h"
+#include "translator/origin.h"
 #include "translator/pipeline.h"
 #include "translator/program_axes.h"
 #include "translator/proof.h"
@@ -227,6 +228,7 @@ bool Translation::write() {
   const SourceText& source = *reading_.source();
   if (!as_it_stands()) end_main(work_, result_.diagnostics);
   if (!same_language()) read_contours(work_, reading_.profile());
+  if (!same_language()) put_origin(work_, origin_text(options_, source.name()));
   backends::WriteOptions write;
   write.profile = &*target_profile_;
   write.unsupported = options_.unsupported;

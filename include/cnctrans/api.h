@@ -98,6 +98,7 @@ struct TranslateOptions : Options {
   Cycles cycles = Cycles::native;
   bool raise_structure = false;  ///< jumps become structures where that is provably the same
   bool annotate = false;         ///< each line gets its source line as a comment
+  bool origin = false;           ///< a remark at the head names the source's file and control
   bool verify = false;           ///< replay both and compare
   unsigned explore = 0;          ///< with `verify`: most replays with other inputs
   bool one_file = false;         ///< called programs come in the main program's file

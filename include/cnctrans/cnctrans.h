@@ -35,7 +35,8 @@ CNCTRANS_API cnctrans_job* cnctrans_job_new(void);
 CNCTRANS_API void cnctrans_job_free(cnctrans_job* job);
 /* An option under its name on the command line without the dashes: "from", "to", "dialect", "machine",
  * "target-machine", "lib", "set" (NAME=VALUE), "skip" (0,3), "unsupported", "numbering", "number-step", "cycles",
- * "structure", "annotate" (1 or 0), "verify", "explore" (most replays), "one-file", "encoding", "eol", "max-events".
+ * "structure", "annotate" (1 or 0), "origin" (1 or 0), "verify", "explore" (most replays), "one-file", "encoding",
+ * "eol", "max-events".
  * "lib" and "set" add, the others replace. CNCTRANS_USAGE: there is no such option, or it does not take this value. */
 CNCTRANS_API cnctrans_status cnctrans_job_set(cnctrans_job* job, const char* option, const char* value);
 /* A program in memory that may be called; `name` as a file's. */

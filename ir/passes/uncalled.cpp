@@ -22,7 +22,8 @@ void tell_assumed_state(const Program& program, const LegaliseContext& context) 
   if (program.lathe) text += ", X as " + std::string(name(state.diameter));
   for (const auto i : uncalled_routines(program)) {
     const Routine& r = program.routines[i];
-    const Span where = r.header.span.known() || r.body.empty() ? r.header.span : r.body.front().line.span;
+    Span where = r.header.span;
+    for (auto s = r.body.begin(); s != r.body.end() && !where.known(); ++s) where = s->line.span;
     context.diagnostics.warning(
         "TRN-460", where,
         "nothing at hand calls the subprogram " + routine_tag(r) +

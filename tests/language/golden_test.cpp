@@ -48,6 +48,7 @@ TEST_P(GoldenPrograms, BecomeWhatIsKept) {
     options.machine = std::string(g.from) + (g.lathe ? "-lathe" : "-mill");
     options.target_machine = to + (g.lathe ? "-lathe" : "-mill");
     options.verify = true;
+    options.origin = true;
     const auto result = translator::translate(source, options);
     ASSERT_TRUE(result.error.empty()) << result.error;
     ASSERT_FALSE(result.refused) << render_text(result.diagnostics, result.files);

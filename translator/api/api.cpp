@@ -73,6 +73,7 @@ bool take(const TranslateOptions& given, house::TranslateOptions& out, std::stri
   out.cycles = house_word(given.cycles);
   out.raise_structure = given.raise_structure;
   out.annotate = given.annotate;
+  out.origin = given.origin;
   out.verify = given.verify || given.explore != 0;
   out.explore = given.explore;
   out.single_output = given.one_file;

@@ -73,6 +73,7 @@ constexpr std::array free_options{
                  if (!whole_number(v, step) || step < 1 || step > 1000) return false;
                  return j.options.number_step = static_cast<std::int32_t>(step), true;
                }},
+    FreeOption{"origin", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.origin); }},
     FreeOption{"annotate", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.annotate); }},
     FreeOption{"verify", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.verify); }},
     FreeOption{"one-file", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.single_output); }},
