@@ -47,7 +47,7 @@ struct ActionRunner {
   bool operator()(const ir::ModalSet& a) const {
     if (a.setting == ir::Setting::comp) m.set_comp(static_cast<ir::CompSide>(a.value));
     if (after && a.setting != ir::Setting::comp) m.set_modal(a, b);
-    if (a.setting == ir::Setting::spindle_mode) m.emit_if_running(b, 1);
+    if (a.setting == ir::Setting::spindle_mode) m.emit_if_running(b, m.master_);
     return true;
   }
   bool operator()(const ir::SetFeed& a) const {
@@ -79,6 +79,13 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::SpindleGear& /*a*/) const { return true; }
+  bool operator()(const ir::MasterSpindle& a) const {  // the other one goes on as it turns
+    const auto* s = m.spindle(a.number);
+    if (s == nullptr) return false;
+    m.master_ = a.number;
+    m.modal_.spindle_mode = s->mode;
+    return true;
+  }
   bool operator()(const ir::ToolSelect& a) const {
     const bool changed_here = first_of<ir::ToolChange>(b) != nullptr;
     if (changed_here) return true;  // one event, at the change
@@ -269,7 +276,7 @@ void BlockMachine::set_spindle_limit(const ir::SpindleLimit& l) {
 /// Leaving constant cutting speed without a new S keeps the speed reached: n = 1000 v / (pi d), d at the present X.
 void BlockMachine::set_spindle_mode(ir::SpindleMode mode, bool with_value) {
   modal_.spindle_mode = mode;
-  auto& s = spindles_[1];
+  auto& s = spindles_[master_];
   if (mode == ir::SpindleMode::rpm && s.mode == ir::SpindleMode::css && !with_value) {
     const double d = 2 * std::abs(p_[ir::axis::x]);
     const double v = s.value[static_cast<std::size_t>(ir::SpindleMode::css)];
@@ -327,7 +334,7 @@ bool BlockMachine::whole(double number, std::string_view what, std::int32_t& out
 }
 
 bool BlockMachine::select_tool(const ir::ToolSelect& t) {
-  const double number = t.name.empty() ? value(t.number) : 0;
+  const double number = value(t.number);  // of a name: as the tools of the machine have it, else 0
   if (failure_.set) return false;
   tool_name_ = std::string(t.name);
   if (!whole(number, "tool number", tool_)) return false;

@@ -379,6 +379,7 @@ class BlockMachine final : public SystemData {
   std::uint32_t base_pending_ = 0;  ///< bit n: an incremental word of axis n starts from there
   std::array<double, 3> feed_{}, feed_degrees_{};  ///< by FeedMode: in mm; the number programmed
   std::array<Spindle, 32> spindles_{};
+  std::uint8_t master_ = 1;  ///< of the spindles: the one that feeds, threads and cycles follow
   std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
   bool tool_came_with_t_ = false;  ///< the tool selected last was changed by its T: M6 has nothing left to do
   std::string tool_name_;

@@ -82,9 +82,9 @@ void BlockMachine::restore_modal(const ir::ModalState& state) {
   modal_ = state;
   modal_.surface = surface;
   set_units();
-  for (auto& s : spindles_) s.mode = modal_.spindle_mode;
-  const Spindle& main = spindles_[1];
-  if (main.state != ir::SpindleState::off && !main.oriented && main.mode != main.shown_mode) emit_spindle(1);
+  spindles_[master_].mode = modal_.spindle_mode;
+  const Spindle& main = spindles_[master_];
+  if (main.state != ir::SpindleState::off && !main.oriented && main.mode != main.shown_mode) emit_spindle(master_);
   if (other_offset) set_work_offset(ir::WorkOffset{ir::Value(double(state.work_offset)), state.work_offset == 0});
 }
 

@@ -189,10 +189,10 @@ bool BlockMachine::run_hole() {
   const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);
   if (!error.empty()) return failure_.fail(code::not_carried, error);
   const bool taps = hole_->kind == ir::HoleKind::tap || hole_->kind == ir::HoleKind::tap_floating;
-  auto& spindle = spindles_[1];
+  auto& spindle = spindles_[master_];
   // A tap that turns the spindle itself by its pitch needs none running.
   const bool turns_itself = hole_->orient_first || hole_->spindle_bottom == ir::SpindleStep::none;
-  if (taps && !turns_itself && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
+  if (taps && !turns_itself && spindle.state == ir::SpindleState::off) run_spindle(master_, ir::SpindleState::cw);
   const auto sense = spindle.state;
   const Axes hole = p_;
   const std::uint64_t first = emitter_.seen();
@@ -216,19 +216,19 @@ bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, 
     case CycleStep::feed:
     case CycleStep::thread: return cycle_path(m, hole);
     case CycleStep::dwell: emit_dwell(m.amount, m.revolutions); break;
-    case CycleStep::spindle_reverse: run_spindle(1, sense == ir::SpindleState::off ? sense : opposite); break;
+    case CycleStep::spindle_reverse: run_spindle(master_, sense == ir::SpindleState::off ? sense : opposite); break;
     case CycleStep::spindle_restore:
-      if (sense != ir::SpindleState::off || spindles_[1].oriented) run_spindle(1, sense);
+      if (sense != ir::SpindleState::off || spindles_[master_].oriented) run_spindle(master_, sense);
       break;
-    case CycleStep::spindle_stop: run_spindle(1, ir::SpindleState::off); break;
-    case CycleStep::spindle_cw: run_spindle(1, ir::SpindleState::cw); break;
-    case CycleStep::spindle_ccw: run_spindle(1, ir::SpindleState::ccw); break;
-    case CycleStep::spindle_speed: spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount; break;
+    case CycleStep::spindle_stop: run_spindle(master_, ir::SpindleState::off); break;
+    case CycleStep::spindle_cw: run_spindle(master_, ir::SpindleState::cw); break;
+    case CycleStep::spindle_ccw: run_spindle(master_, ir::SpindleState::ccw); break;
+    case CycleStep::spindle_speed: spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount; break;
     case CycleStep::spindle_orient:
-      spindles_[1].oriented = true;
-      spindles_[1].state = ir::SpindleState::off;
-      spindles_[1].angle = m.amount;
-      emit_spindle(1);
+      spindles_[master_].oriented = true;
+      spindles_[master_].state = ir::SpindleState::off;
+      spindles_[master_].angle = m.amount;
+      emit_spindle(master_);
       break;
     case CycleStep::operator_stop: emit_stop(false); break;
   }
@@ -264,7 +264,7 @@ bool BlockMachine::cycle_pitch(const ir::cycles::CycleMove& m, double& pitch) {
     pitch = feed;
     return true;
   }
-  const double speed = spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  const double speed = spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
   if (speed <= 0) return failure_.fail(code::bad_cycle, "tapping needs a pitch, or a feed and a spindle speed");
   pitch = feed / speed;
   return true;

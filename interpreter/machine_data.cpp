@@ -7,6 +7,7 @@
 #include "interpreter/block_machine.h"
 #include "interpreter/measured_frame.h"
 #include "interpreter/run_codes.h"
+#include "ir/active_units.h"
 #include "ir/frame_rows.h"
 #include "machine/data_at_rest.h"
 
@@ -43,6 +44,7 @@ bool tool_length_unit(Datum d) {
 double value_of(const ir::ModalState& state, int setting) {
   if (setting == static_cast<int>(ir::setting_count)) return static_cast<double>(state.motion);
   if (setting == static_cast<int>(ir::setting_count) + 1) return state.work_offset;
+  if (setting == ir::units_feed_too_setting) return state.units_feed_too ? 1 : 0;
   return setting >= 0 && setting < static_cast<int>(ir::setting_count)
              ? static_cast<double>(state.get(static_cast<ir::Setting>(setting)))
              : -1;

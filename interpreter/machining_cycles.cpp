@@ -105,8 +105,8 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
 
 bool BlockMachine::machining_moves(const ir::cycles::MachiningCycle& cycle,
                                    const std::vector<ir::cycles::TurnMove>& moves, bool taps) {
-  auto& spindle = spindles_[1];
-  if (taps && spindle.state == ir::SpindleState::off) run_spindle(1, ir::SpindleState::cw);
+  auto& spindle = spindles_[master_];
+  if (taps && spindle.state == ir::SpindleState::off) run_spindle(master_, ir::SpindleState::cw);
   const auto sense = spindle.state;
   for (const auto& m : moves) {
     if (!machining_move(m, sense)) return false;
@@ -165,15 +165,15 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
   switch (m.step) {
     case TurnStep::dwell: emit_dwell(m.seconds, false); return true;
     case TurnStep::spindle_reverse:
-      run_spindle(1, sense == ir::SpindleState::cw ? ir::SpindleState::ccw : ir::SpindleState::cw);
+      run_spindle(master_, sense == ir::SpindleState::cw ? ir::SpindleState::ccw : ir::SpindleState::cw);
       return true;
-    case TurnStep::spindle_restore: run_spindle(1, sense); return true;
-    case TurnStep::spindle_stop: run_spindle(1, ir::SpindleState::off); return true;
+    case TurnStep::spindle_restore: run_spindle(master_, sense); return true;
+    case TurnStep::spindle_stop: run_spindle(master_, ir::SpindleState::off); return true;
     case TurnStep::spindle_orient:
-      spindles_[1].oriented = true;
-      spindles_[1].state = ir::SpindleState::off;
-      spindles_[1].angle = m.start_angle;
-      emit_spindle(1);
+      spindles_[master_].oriented = true;
+      spindles_[master_].state = ir::SpindleState::off;
+      spindles_[master_].angle = m.start_angle;
+      emit_spindle(master_);
       return true;
     case TurnStep::live_run:
       spindles_[live].mode = ir::SpindleMode::rpm;

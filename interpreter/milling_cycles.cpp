@@ -70,7 +70,7 @@ bool BlockMachine::mill_context(ir::cycles::MillContext& context) {
   context.v = p_[plane.v];
   context.w = p_[plane.w];
   context.tool_radius = tool_radius();
-  context.spindle_ccw = spindles_[1].state == ir::SpindleState::ccw;
+  context.spindle_ccw = spindles_[master_].state == ir::SpindleState::ccw;
   context.plane = modal_.retract_plane;
   context.contours = &mill_contours_;
   ir::cycles::pocket_habits([this](std::string_view name) { return profile_.option(name); }, context);
@@ -135,7 +135,7 @@ bool BlockMachine::run_milling() {
     return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
   }
   if (mill_.shape->kind == ir::cycles::MillKind::contour_pocket) pocket_orders_.push_back(failure_.where);
-  const double speed = spindles_[1].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  const double speed = spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
   const std::uint64_t first = emitter_.seen();
   for (const auto& m : *moves) {
     if (!milling_move(m, speed)) return false;
@@ -168,9 +168,9 @@ void BlockMachine::keep_place(std::uint64_t first, std::string_view family, doub
 
 bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
   if (m.step == MillStep::speed || m.step == MillStep::restore_speed) {
-    auto& spindle = spindles_[1];
+    auto& spindle = spindles_[master_];
     spindle.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.step == MillStep::speed ? m.amount : speed;
-    if (spindle.state != ir::SpindleState::off) emit_spindle(1);
+    if (spindle.state != ir::SpindleState::off) emit_spindle(master_);
     return true;
   }
   if (m.step == MillStep::comp_left || m.step == MillStep::comp_right || m.step == MillStep::comp_off) {

@@ -193,6 +193,10 @@ struct SpindleGear {
   std::int32_t gear = 0;
   bool automatic = false;
 };
+/// The spindle that feeds per revolution, threads and the constant cutting speed follow from here on.
+struct MasterSpindle {
+  std::uint8_t number = 1;
+};
 /// `changes`: selecting carries out the change (turret).
 struct ToolSelect {
   Value number;
@@ -315,7 +319,7 @@ struct SurfaceSet {
 };
 
 using ActionData = std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear,
-                                ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock,
+                                MasterSpindle, ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock,
                                 Coolant, MachineFunction, Stop, CycleDefine, CycleCancel, Corner, TangentialEnd,
                                 PreparationStop, OpaqueWord, SplineAxes, SurfaceSet>;
 

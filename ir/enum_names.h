@@ -124,12 +124,12 @@ std::optional<E> enum_value(std::string_view text) {
 }
 
 /// Keyword of each kind of action, in the order of ActionData. A modal setting has its own name as keyword.
-inline constexpr NameList<26> action_names{
-    "set",          "feed",         "spindle",          "spindle_run", "spindle_orient",   "spindle_limit",
-    "spindle_gear", "tool",         "tool_change",      "tool_offset", "work_offset",      "frame",
-    "pole",         "dwell",        "exact_stop_block", "coolant",     "machine_function", "stop",
-    "cycle",        "cycle_cancel", "corner",           "tangential",  "preparation_stop", "opaque_word",
-    "spline_axes",  "surface_set"};
+inline constexpr NameList<27> action_names{
+    "set",          "feed",           "spindle",      "spindle_run",      "spindle_orient", "spindle_limit",
+    "spindle_gear", "master_spindle", "tool",         "tool_change",      "tool_offset",    "work_offset",
+    "frame",        "pole",           "dwell",        "exact_stop_block", "coolant",        "machine_function",
+    "stop",         "cycle",          "cycle_cancel", "corner",           "tangential",     "preparation_stop",
+    "opaque_word",  "spline_axes",    "surface_set"};
 static_assert(action_names.size() == std::variant_size_v<ActionData>);
 
 /// Keyword of each kind of statement, in the order of Statement::node.

@@ -158,6 +158,10 @@ void fields(V& v, T& x) {
   v.flag("automatic", x.automatic);
   v.opt("of", x.number, 1);
 }
+template <class V, Is<MasterSpindle> T>
+void fields(V& v, T& x) {
+  v.item("number", x.number);
+}
 template <class V, Is<ToolSelect> T>
 void fields(V& v, T& x) {
   v.item("number", x.number);

@@ -83,6 +83,7 @@ class Transfer {
   void operator()(const SetSpindle& x) {
     if (x.number == 1) f_.spindle = known(x.value);
   }
+  void operator()(const MasterSpindle&) { f_.settings[static_cast<std::size_t>(Setting::spindle_mode)].reset(); }
   void operator()(const WorkOffset& x) {
     const auto row = x.off ? std::optional(0.0) : known(x.index);
     std::optional<std::int32_t> offset;

@@ -109,6 +109,7 @@ void ProgramWriter::action(const ir::Action& a) {
     void operator()(const ir::SpindleOrient& x) const { w.spindle_orient(a, x); }
     void operator()(const ir::SpindleLimit& x) const { w.spindle_limit(a, x); }
     void operator()(const ir::SpindleGear& x) const { w.spindle_gear(a, x); }
+    void operator()(const ir::MasterSpindle& x) const { w.master_spindle(a, x); }
     void operator()(const ir::ToolSelect& x) const { w.tool_select(a, x); }
     void operator()(const ir::ToolChange& /*x*/) const { w.tool_change(a); }
     void operator()(const ir::ToolOffset& x) const { w.tool_offset(a, x); }
@@ -187,7 +188,7 @@ std::int32_t ProgramWriter::code_for(MMeaning meaning, std::int32_t usual) const
 }
 
 void ProgramWriter::spindle_run(const ir::Action& a, const ir::SpindleRun& s) {
-  if (s.number != 1) return refuse("TRN-202", a.pos, "a second spindle has no counterpart here");
+  if (s.number != words_of_spindle_) return refuse("TRN-202", a.pos, "a second spindle has no counterpart here");
   const std::int32_t code = s.state == ir::SpindleState::cw    ? code_for(MMeaning::spindle_cw, 3)
                             : s.state == ir::SpindleState::ccw ? code_for(MMeaning::spindle_ccw, 4)
                                                                : code_for(MMeaning::spindle_stop, 5);
@@ -195,8 +196,12 @@ void ProgramWriter::spindle_run(const ir::Action& a, const ir::SpindleRun& s) {
 }
 
 void ProgramWriter::spindle_gear(const ir::Action& a, const ir::SpindleGear& s) {
-  if (s.number != 1) return refuse("TRN-202", a.pos, "the gear of a second spindle has no counterpart here");
+  if (s.number != words_of_spindle_) return refuse("TRN-202", a.pos, "the gear of a second spindle has no counterpart here");
   add(m_word(s.automatic ? 40 : 40 + s.gear), Rank::machine, a.pos);
+}
+
+void ProgramWriter::master_spindle(const ir::Action& a, const ir::MasterSpindle& m) {
+  if (m.number != 1) refuse("TRN-202", a.pos, "work with a second spindle has no counterpart here");
 }
 
 void ProgramWriter::tool_change(const ir::Action& a) {

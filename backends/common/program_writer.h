@@ -72,6 +72,7 @@ class ProgramWriter {
   virtual void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s);
   virtual void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s);
   virtual void spindle_gear(const ir::Action& a, const ir::SpindleGear& s);  // default: M40..M45
+  virtual void master_spindle(const ir::Action& a, const ir::MasterSpindle& m);  // default: there is spindle 1 only
   virtual void tool_select(const ir::Action& a, const ir::ToolSelect& t);    // default: T by number
   virtual void tool_change(const ir::Action& a);                             // default: M6
   virtual void tool_offset(const ir::Action& a, const ir::ToolOffset& t);    // default: D
@@ -182,6 +183,8 @@ class ProgramWriter {
 
   /// Extra labels of the line being begun (identifiers), in front of the words: "LN50:".
   virtual std::string label_text(const ir::LineInfo& info);
+
+  std::uint8_t words_of_spindle_ = 1;  ///< the spindle that S, M3 and their like mean at this place of the text
 
  private:
   void statement(const ir::Statement& s, const ir::Statement* before, const ir::Statement* after);

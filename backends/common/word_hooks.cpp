@@ -32,7 +32,7 @@ void ProgramWriter::set_feed(const ir::Action& a, const ir::SetFeed& f) {
 }
 
 void ProgramWriter::set_spindle(const ir::Action& a, const ir::SetSpindle& s) {
-  if (s.number != 1) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
+  if (s.number != words_of_spindle_) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
   add(word("S", s.value, a.pos), Rank::spindle, a.pos);
 }
 

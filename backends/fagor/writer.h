@@ -58,6 +58,7 @@ class Writer : public ProgramWriter {
   void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
   void surface_set(const ir::Action& a, const ir::SurfaceSet& s) override;
   void set_feed(const ir::Action& a, const ir::SetFeed& f) override;
+  void master_spindle(const ir::Action& a, const ir::MasterSpindle& m) override;
   void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
   void spindle_gear(const ir::Action& a, const ir::SpindleGear& s) override;

@@ -261,15 +261,24 @@ void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
 
 // ---- spindle and tool ----------------------------------------------------------------------------------------------
 
+/// G28 selects the second spindle, G29 the main one; alone in their blocks (5.4).
+void Writer::master_spindle(const ir::Action& a, const ir::MasterSpindle& m) {
+  if (!lathe_ || m.number < 1 || m.number > 2) return ProgramWriter::master_spindle(a, m);
+  words_of_spindle_ = m.number;
+  next_line();
+  add(m.number == 2 ? "G28" : "G29", Rank::setting, a.pos);
+  next_line();
+}
+
 void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
-  if (s.number != 1 && !same_dialect()) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
+  if (s.number != words_of_spindle_ && !same_dialect()) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
   const bool marker = s.angle.is(0) && s.angle.text.empty();
   if (!marker) add(word("S", s.angle, a.pos), Rank::spindle);
   add(same_dialect() && !a.text.empty() ? std::string(a.text) : m_word(19), Rank::machine, a.pos);
 }
 
 void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
-  if ((s.number != 1 && !same_dialect()) || s.lower)
+  if ((s.number != words_of_spindle_ && !same_dialect()) || s.lower)
     return refuse(no_word, a.pos, "this limit of the spindle speed has no counterpart here");
   add(std::string(g(Use::preset)), Rank::setting, a.pos);
   add(word("S", s.value, a.pos), Rank::spindle);

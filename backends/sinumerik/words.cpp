@@ -21,10 +21,6 @@ bool is_group(const ir::Action& a) {
   return m != nullptr && (m->setting == Setting::feed_mode || m->setting == Setting::spindle_mode);
 }
 
-std::string numbered(std::string_view address, std::uint8_t number) {
-  return number == 1 ? std::string(address) : std::string(address) + std::to_string(number);
-}
-
 }  // namespace
 
 // ---- blocks --------------------------------------------------------------------------------------------------------
@@ -189,38 +185,11 @@ void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
   add('G' + std::to_string(n <= 4 ? 53 + n : 500 + n), Rank::setting, a.pos);
 }
 
-// ---- spindle, tool, M ----------------------------------------------------------------------------------------------
-
-void Writer::set_spindle(const ir::Action& a, const ir::SetSpindle& s) {
-  add(word(numbered("S", s.number), s.value, a.pos), Rank::spindle, a.pos);
-}
-
-void Writer::spindle_run(const ir::Action& a, const ir::SpindleRun& s) {
-  if (s.number == 1) return ProgramWriter::spindle_run(a, s);
-  const char* code = s.state == ir::SpindleState::cw ? "3" : s.state == ir::SpindleState::ccw ? "4" : "5";
-  add(numbered("M", s.number) + '=' + code, Rank::machine, a.pos);
-}
-
-void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
-  const std::string address = s.number == 1 ? "SPOS" : "SPOS[" + std::to_string(s.number) + ']';
-  add(s.incremental ? attribute_word(address, "IC", s.angle, a.pos) : word(address, s.angle, a.pos), Rank::spindle,
-      a.pos);
-}
+// ---- tool, M ----------------------------------------------------------------------------------------------
 
 void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
   if (f.block_only) return add(word("FB", f.value, a.pos), Rank::feed, a.pos);
   ProgramWriter::set_feed(a, f);
-}
-
-void Writer::spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) {
-  const bool by_g = same_dialect() && !a.text.empty();  // G25 S, G26 S
-  if (s.lower || by_g) {
-    next_line();
-    add((s.lower ? "G25 " : "G26 ") + word(numbered("S", s.number), s.value, a.pos), Rank::head, a.pos);
-    return next_line();
-  }
-  const std::string address = s.number == 1 ? "LIMS" : "LIMS[" + std::to_string(s.number) + ']';
-  add(word(address, s.value, a.pos), Rank::spindle, a.pos);
 }
 
 void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
@@ -489,6 +458,11 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (!e.has_lead) return;
   const ir::AxisId lead = e.lead_axis == ir::axis::none ? main_axis(m) : e.lead_axis;
   if (lead > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
+  if (e.lead.is(0)) {
+    return refuse("TRN-202", m.code_pos,
+                  "a pitch of 0 goes on with the pitch that the thread before has reached: there is no word for it here",
+                  "write the pitch itself");
+  }
   extra(geometry().letter(lead), e.lead);
   if (!e.lead_change.is(0))
     extra("F", e.lead_change.literal() && e.lead_change.number < 0 ? ir::negate(e.lead_change) : e.lead_change);

@@ -47,6 +47,18 @@ bool uses_css(const ir::Program& program) {
   return found;
 }
 
+bool chooses_master(const ir::Program& program) {
+  bool found = false;
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i)
+        found = found || std::holds_alternative<ir::MasterSpindle>(b->actions[i].data);
+    });
+  }
+  return found;
+}
+
 struct Offsets {
   std::optional<double> first;
   bool several = false;  ///< more than one offset number other than 0, or computed ones
@@ -87,6 +99,7 @@ Writer::Writer(const ir::Program& source, const WriteOptions& write_options, Dia
     : ProgramWriter(source, write_options, sinumerik::style, sink),
       expressions_(program(), source.dialect == sinumerik::style.dialect),
       uses_css_(uses_css(program())),
+      chooses_master_(chooses_master(program())),
       several_offsets_(offsets_of(program()).several),
       selects_tools_(offsets_of(program()).tools) {
   if (const auto only = offsets_of(program()).first; only && !several_offsets_) only_offset_ = ir::Value(*only);

@@ -58,6 +58,8 @@ class Writer final : public ProgramWriter {
   bool own_line(const ir::Action& a, const ir::Block& b) override;
   bool spelling_is_whole_word(const ir::Action& a) const override;
   void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
+  void master_spindle(const ir::Action& a, const ir::MasterSpindle& m) override;
+  [[nodiscard]] std::string of_spindle(const char* address, std::uint8_t number) const;
   void set_spindle(const ir::Action& a, const ir::SetSpindle& s) override;
   void spindle_run(const ir::Action& a, const ir::SpindleRun& s) override;
   void set_feed(const ir::Action& a, const ir::SetFeed& f) override;
@@ -129,6 +131,7 @@ class Writer final : public ProgramWriter {
   std::uint32_t written_column_ = 0;
   bool list_written_ = false;  ///< the statement before was a list of values in the words of the source
   bool uses_css_ = false;
+  bool chooses_master_ = false;  ///< the program chooses its master spindle
   bool angles_ = false;     ///< every thread says its start angle
   std::string group_code_;  ///< G94 G95 G96... of the block being written
   bool group_written_ = false;

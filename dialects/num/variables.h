@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -123,6 +124,15 @@ constexpr const LRange* l_range(std::int64_t number) {
     if (number >= r.lo && number <= r.hi) return &r;
   }
   return nullptr;
+}
+
+/// L900 to L951 under their names in a macro: 'A to 'Z, 'EA to 'EZ (13.7).
+constexpr std::optional<std::int64_t> argument_variable(std::string_view name) {
+  const bool extended = name.size() == 3 && (name[1] == 'E' || name[1] == 'e');
+  if (name.empty() || name[0] != '\'' || (name.size() != 2 && !extended)) return std::nullopt;
+  const char letter = name.back() >= 'a' ? static_cast<char>(name.back() - 'a' + 'A') : name.back();
+  if (letter < 'A' || letter > 'Z') return std::nullopt;
+  return 900 + (letter - 'A') + (extended ? 26 : 0);
 }
 
 /// System units in a millimetre and in a degree.

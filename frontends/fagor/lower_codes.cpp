@@ -409,7 +409,8 @@ void BlockLowerer::choose_spindle(const GWord& g) {
     return;
   }
   state_.spindle_code(g.row->value);
-  marker(g, g.row->feature);
+  result_->needs_program = true;
+  act(ir::MasterSpindle{g.row->value}, g.word);
 }
 
 /// G77S, G78S, G30: the second spindle follows the main one; the path is the same (5.5).

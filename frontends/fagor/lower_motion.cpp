@@ -178,7 +178,8 @@ void BlockLowerer::thread(ir::Motion& m) {
   }
   extra().has_lead = true;
   extra().lead = value(*lead);
-  if (variable) extra().lead_change = value_of('K');
+  if (variable || (!thread && state_.motion_by_text == ir::MotionKind::thread_variable))
+    extra().lead_change = value_of('K');
   if (const Word* q = take('Q')) {
     extra().has_start_angle = true;
     extra().start_angle = value(*q);

@@ -161,6 +161,12 @@ std::optional<ir::VarRef> Expressions::l_variable(const syntax::Expr& e) {
 }
 
 std::optional<ir::VarRef> Expressions::symbol(const syntax::Expr& e) {
+  if (const auto n = facts::argument_variable(e.text)) {
+    ir::VarRef ref;
+    ref.space = facts::space_l;
+    ref.index = ir::number(static_cast<double>(*n));
+    return ref;
+  }
   if (e.text[0] == '\'' || (e.text.size() > 1 && e.text[1] == '.')) {
     report_.keep("NUM-024", e.pos, "`" + e.text + "` reads a state of the control that is not carried",
                  "language.system_variable", "replace it by a variable that the program sets");

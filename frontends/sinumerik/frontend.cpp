@@ -50,6 +50,12 @@ bool names_subprogram(std::string_view name) {
   return upper.size() > 4 && (upper.ends_with("_SPF") || upper.ends_with(".SPF"));
 }
 
+/// `_N_UGUD_DEF`, `_N_COMPLETE_TEA`: definitions or data of the machine in an archive (1.2).
+bool names_data(std::string_view upper) {
+  constexpr std::array types{"_DEF", "_GUD", "_INI", "_TEA", "_SEA", "_TOA", "_UFR", "_RPA", "_COM"};
+  return std::any_of(types.begin(), types.end(), [upper](std::string_view t) { return upper.ends_with(t); });
+}
+
 /// The name in a header. %SPF20, of older controls, is called as L20.
 ir::RoutineName header_name(std::string_view name) {
   const std::string upper = to_upper_ascii(name);
@@ -195,7 +201,8 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
     return;
   }
   const std::string upper = to_upper_ascii(name);
-  const bool sub = names_subprogram(name) || upper.rfind("SPF", 0) == 0;
+  const bool data = names_data(upper);
+  const bool sub = names_subprogram(name) || upper.rfind("SPF", 0) == 0 || data;
   const bool first = program_.routines.empty() && !routine_.header.span.known();
   const bool begun = !fresh_ || routine_.header.span.known() || !routine_.body.empty();
   if (begun && !(fresh_ && first)) {  // comments before the first header belong to its program
@@ -210,6 +217,9 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
   routine_.header.blank_lines_before = blank_;
   blank_ = 0;
   look_.archive = true;
+  if (!data) return;
+  context_.warning("SIN-112", {}, name + " is no program: it is not run, and what it defines is not seen by the programs here",
+                   "save it as a file of its own and name it with --lib");
 }
 
 /// PROC behind the end of a program: somebody has put several files one behind the other.

@@ -206,13 +206,12 @@ bool StatementLowering::master_spindle(const std::vector<Expr>& args, WordPos po
   c_.warning("SIN-026", pos,
              "the master spindle holds for the words that follow in this program; called programs are read with "
              "spindle 1",
-             "feed per revolution, threads, G96 and tapping follow it on this control: on another one check which "
-             "spindle they follow");
-  ir::Opaque o;
-  o.text = c_.slice(pos);
-  o.feature = "language.statement";
-  o.harmless = true;
-  parts.calls.emplace_back(std::move(o));
+             "write SETMS in the called program too, or the numbers of the spindles (S2=, M2=3)");
+  ir::Action a;
+  a.data = ir::MasterSpindle{c_.master_spindle};
+  a.pos = pos;
+  a.text = c_.slice(pos);
+  parts.actions.push_back(std::move(a));
   return true;
 }
 

@@ -99,9 +99,16 @@ bool StatementLowering::definition(const Statement& s, ir::LineInfo& info) {
   const auto place = type ? space_of(*type, global) : std::nullopt;
   ir::Declare out;
   bool ok = true;
+  std::uint32_t behind = 0;  // the variable before: column of what follows it
   for (const Statement& v : s.children) {
     if (v.keyword != "VAR") continue;
     const std::string name = to_upper_ascii(v.text);
+    if (v.pos.column == behind) {
+      c_.error("SIN-111", v.pos, "a name begins with two letters or underscores, and this one does not",
+               "give the variable another name");
+      return false;
+    }
+    behind = v.pos.column + v.pos.length;
     Symbol symbol;
     symbol.dimensions = static_cast<std::uint8_t>(v.args[0].args.size());
     symbol.character = defines_characters_;

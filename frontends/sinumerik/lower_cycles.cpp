@@ -163,6 +163,13 @@ bool pecks(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
   } else {
     p.reapproach_automatic = !a.says("DIS1");
     p.reapproach = a.get("DIS1");
+    if (p.reapproach.literal() && p.reapproach.number < 0) {
+      c.error("SIN-021", pos, "a negative DIS1 is a factor, and nothing here says of what: it is not carried",
+              "write the distance itself, above zero");
+      return false;
+    }
+    if (!p.reapproach.literal())
+      c.note("SIN-021", pos, "DIS1 is taken as a distance: a run stops where it is below zero, which is a factor");
   }
   if (!first_feed(a, p, c, pos)) return false;
   if (!dwells(a, hole, c, pos)) return false;

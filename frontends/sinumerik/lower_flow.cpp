@@ -232,7 +232,14 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
       return refuse("language.synchronised", s.pos,
                     "this synchronised action is not carried: it can move an axis of the machine or set what the "
                     "program reads");
-    tell_beside(s.pos, "this action", feature);
+    const std::string action = to_upper_ascii(s.text);
+    if (action.find("DELDTG") != std::string::npos || action.find("$AA_OFF") != std::string::npos) {
+      c_.warning("SIN-113", s.pos,
+                 "this action ends or shifts a move when its condition comes true: a run shows the programmed move",
+                 "kept as text: no other control gets it");
+    } else {
+      tell_beside(s.pos, "this action", feature);
+    }
     add_opaque(block, info, feature, false);
     return true;
   }

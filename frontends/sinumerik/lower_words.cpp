@@ -461,6 +461,9 @@ void WordLowering::t_word(const syntax::Block& block, const Word& w) {
   if (w.is_expression && block.exprs[static_cast<std::size_t>(w.expr)].kind == syntax::ExprKind::string) {
     const WordPos place = block.exprs[static_cast<std::size_t>(w.expr)].pos;
     tool.name = c_.slice(WordPos{place.column + 1, place.length - 2});
+    for (const auto& t : c_.machine.profile->tools) {
+      if (t.name == tool.name) tool.number = ir::Value(t.number);
+    }
   } else {
     const syntax::Expr* name = w.is_expression ? &block.exprs[static_cast<std::size_t>(w.expr)] : nullptr;
     const Symbol* symbol = name != nullptr && name->kind == syntax::ExprKind::name ? c_.symbol(name->text) : nullptr;

@@ -8,6 +8,7 @@
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/variables.h"
 #include "frontends/sinumerik/lower_expr.h"
+#include "ir/active_units.h"
 #include "ir/modal.h"
 
 namespace cnctrans::sinumerik {
@@ -170,7 +171,7 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
     }
     if (g.use == GUse::motion) setting = static_cast<int>(ir::setting_count);
     if (g.use == GUse::work_offset) setting = static_cast<int>(ir::setting_count) + 1;
-    if (g.use == GUse::units && g.b == 0) setting = static_cast<int>(ir::Setting::units);
+    if (g.use == GUse::units) setting = static_cast<int>(ir::Setting::units);
     if (setting < 0) continue;
     ir::SystemRef ref;
     ref.datum = ir::Datum::active_modal;
@@ -178,7 +179,12 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
     const int code = g.number >= 0 ? g.number : -(100 * g.group + g.index);  // DIAMON and its like have no number
     ref.args = {ir::number(code), ir::number(setting), ir::number(value)};
     auto term =
-        ir::binary(ir::BinaryOp::multiply, ir::number(g.index), make_expr(std::move(ref), ir::Type::real, e.pos));
+        ir::binary(ir::BinaryOp::multiply, ir::number(g.index), make_expr(ref, ir::Type::real, e.pos));
+    if (g.use == GUse::units) {  // G70 and G700 differ in what is in inches
+      ref.args = {ir::number(code), ir::number(ir::units_feed_too_setting), ir::number(g.b)};
+      term = ir::binary(ir::BinaryOp::multiply, std::move(term),
+                        make_expr(std::move(ref), ir::Type::real, e.pos));
+    }
     sum = sum ? ir::binary(ir::BinaryOp::add, std::move(sum), std::move(term)) : std::move(term);
   }
   return sum ? ir::at(sum, e.pos) : nullptr;

@@ -7,6 +7,7 @@
 
 #include "ir/cycles/pocket_moves.h"
 #include "ir/cycles/profile_blocks.h"
+#include "ir/tool_number.h"
 
 namespace cnctrans::ir::cycles {
 
@@ -168,7 +169,7 @@ class Assembly {
     drill_cycle_->mill.shape = std::string(pocket_entries_shape);
     for (const auto* s : rough_.blocks) {
       for (const auto& a : std::get<Block>(s->node).actions) {
-        if (const auto* t = std::get_if<ToolSelect>(&a.data); t != nullptr && t->name.empty())
+        if (const auto* t = std::get_if<ToolSelect>(&a.data); t != nullptr && has_number(*t))
           drill_cycle_->mill.words.emplace_back("tool", t->number);
         if (const auto* d = std::get_if<ToolOffset>(&a.data))
           drill_cycle_->mill.words.emplace_back("offset", d->number);

@@ -94,6 +94,10 @@ bool sensible(const HoleCycle& c, HoleNumbers& n, std::string* error) {
     *error = "the first peck of the cycle is zero";
     return false;
   }
+  if (pecks && !n.reapproach_automatic && n.reapproach < 0) {
+    *error = "the distance above the last depth, where feeding starts again, is negative: that would be a rapid into the stock";
+    return false;
+  }
   if (pecks && by_count && n.count < 0.5) {
     *error = "the number of pecks of the cycle is not at least 1";
     return false;

@@ -5,9 +5,11 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "ir/active_units.h"
 #include "ir/block_coordinate.h"
 #include "ir/passes/call_graph.h"
 #include "ir/passes/early_passes.h"
+#include "ir/passes/feed_units.h"
 #include "ir/passes/frame_state.h"
 #include "ir/passes/rewrite.h"
 #include "machine/data_at_rest.h"
@@ -27,7 +29,9 @@ class KnownData {
         context_(context),
         calls_(program),
         facts_(program, context),
-        frames_(program, facts_, context) {}
+        frames_(program, facts_, context),
+        feed_domain_(context.source_machine.power_on.units_feed_too),
+        feed_units_(program, feed_domain_) {}
 
   void in(const Routine& r) { routine_ = &r; }
   void statement(Statement& s) {
@@ -138,7 +142,7 @@ class KnownData {
     const Facts& facts = facts_.before(s);
     if (!facts.reachable) return std::nullopt;
     switch (ref.datum) {
-      case Datum::active_modal: return modal(facts, ref);
+      case Datum::active_modal: return modal(s, facts, ref);
       case Datum::diameter_on: {
         const auto mode = setting<DiameterMode>(facts, Setting::diameter);
         if (!mode) return std::nullopt;
@@ -214,7 +218,7 @@ class KnownData {
   }
 
   /// args: the source's own number, the setting, the value asked for; motion and offset stand behind the settings.
-  static std::optional<double> modal(const Facts& facts, const SystemRef& ref) {
+  std::optional<double> modal(const Statement& s, const Facts& facts, const SystemRef& ref) const {
     if (ref.args.size() != 3) return std::nullopt;
     const auto which = constant_value(ref.args[1]), asked = constant_value(ref.args[2]);
     if (!which || !asked) return std::nullopt;
@@ -225,6 +229,10 @@ class KnownData {
     const auto n = static_cast<std::size_t>(*which);
     if (n == setting_count) return same(facts.motion);
     if (n == setting_count + 1) return same(facts.work_offset);
+    if (n == units_feed_too_setting) {
+      const auto* unit = feed_units_.before(s);
+      return unit != nullptr ? same(unit->feed_too) : std::nullopt;
+    }
     return n < setting_count ? same(facts.settings[n]) : std::nullopt;
   }
 
@@ -291,6 +299,8 @@ class KnownData {
   const Routine* routine_ = nullptr;
   FactsOf facts_;
   FrameStates frames_;
+  FeedUnits feed_domain_;
+  FlowStates<FeedUnits> feed_units_;
 };
 
 bool reads_or_writes_data(const Program& program) {

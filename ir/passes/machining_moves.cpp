@@ -9,6 +9,7 @@
 #include "ir/cycles/profile_blocks.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
+#include "ir/tool_number.h"
 #include "machine/turning_tool.h"
 
 namespace cnctrans::ir::passes {
@@ -281,7 +282,7 @@ void follow(const Block& b, TurnState& state) {
       state.spindle = run->state;
     if (std::holds_alternative<SpindleOrient>(a.data)) state.spindle = SpindleState::off;
     if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
-      const auto n = known(t->number);
+      const auto n = has_number(*t) ? known(t->number) : std::nullopt;
       state.tool = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
     }
     if (const auto* d = std::get_if<ToolOffset>(&a.data)) {

@@ -318,8 +318,7 @@ class VariableMap {
     if (const auto n = constant_value(to.index)) {
       to.index = number(*n);
     } else if (!context_.target.word_indirect) {
-      context_.diagnostics.error("TRN-128", {},
-                                 "array " + v.name + " with a computed index: the target has no such variables",
+      context_.diagnostics.error("TRN-128", at_, "an array with a computed index: the target has no such variables",
                                  "use fixed indices");
     }
     return to;
@@ -340,7 +339,7 @@ class VariableMap {
         if (auto to = moved(v, r)) v = std::move(*to);
       };
       auto& routine = program_.routines[r];
-      for_each_statement(routine.body, [&](Statement& s) { visit_statement(s, visit); });
+      for_each_statement(routine.body, [&](Statement& s) { at_ = s.line.span, visit_statement(s, visit); });
       for (auto& p : routine.parameters) visit.target(p.variable);
       define(routine.body);
     }
@@ -488,6 +487,7 @@ class VariableMap {
   std::map<NamedKey, VarRef> named_places_;
   std::map<std::size_t, std::vector<std::string>> declared_;
   std::vector<VarRef> zero_first_;
+  Span at_;  ///< of the statement at hand
 };
 
 }  // namespace

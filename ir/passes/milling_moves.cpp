@@ -11,6 +11,7 @@
 #include "ir/cycles/pocket_moves.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
+#include "ir/tool_number.h"
 
 namespace cnctrans::ir::passes {
 
@@ -207,7 +208,7 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
       const auto* b = std::get_if<Block>(&s.node);
       for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
         if (const auto* t = std::get_if<ToolSelect>(&b->actions[i].data))
-          tools.insert(t->name.empty() ? whole(t->number) : std::nullopt);
+          tools.insert(has_number(*t) ? whole(t->number) : std::nullopt);
         if (const auto* d = std::get_if<ToolOffset>(&b->actions[i].data)) offsets.insert(whole(d->number));
       }
     });
@@ -236,7 +237,7 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
     if (!stays(*b) || outside.count(s.id) == 0 || s.line.skip_mask != 0) ++site.after;
     for (const auto& a : b->actions) {
       if (const auto* t = std::get_if<ToolSelect>(&a.data))
-        site.tool = t->name.empty() && s.line.skip_mask == 0 ? whole(t->number) : std::nullopt;
+        site.tool = has_number(*t) && s.line.skip_mask == 0 ? whole(t->number) : std::nullopt;
       if (const auto* d = std::get_if<ToolOffset>(&a.data)) site.offset = whole(d->number);
     }
     sites_[s.id] = site;

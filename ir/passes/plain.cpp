@@ -89,6 +89,7 @@ struct PlainAction {
   bool operator()(const SetSpindle& s) const { return s.value.literal(); }
   bool operator()(const SpindleRun&) const { return event(); }
   bool operator()(const SpindleGear& g) const { return g.number == 1 && !g.automatic && event(); }
+  bool operator()(const MasterSpindle&) const { return false; }
   bool operator()(const SpindleLimit& s) const { return s.value.literal() && target.spindle_limit; }
   bool operator()(const Coolant&) const { return event(); }
   bool operator()(const MachineFunction& m) const { return event() && !m.computed && m.value.literal(); }

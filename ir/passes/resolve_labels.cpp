@@ -54,6 +54,8 @@ class LabelPass {
       each_label_ref(s, [&](LabelRef& l, bool) {
         if (l.computed) {
           computed_ = true;
+          const Search search = search_of(s);
+          directed_ = directed_ || (search != Search::whole_first && target_.searches.count(search) == 0);
           return;
         }
         uses_.push_back({&s, &l, positions_[&s], 0, false, std::holds_alternative<Repeat>(s.node)});
@@ -172,6 +174,12 @@ class LabelPass {
       const auto key = std::make_pair(m.label.is_number, m.label.text);
       const bool duplicate = !seen.emplace(key, i).second;
       m.hidden = duplicate;
+      if (duplicate && computed_ && directed_ && m.label.is_number) {
+        context_.diagnostics.error("TRN-192", m.s->line.span,
+                                   "the number of this block stands twice, and a jump to a computed number looks for "
+                                   "the nearest one; the target takes the first",
+                                   "give the block another number");
+      }
       if (!m.used && !(computed_ && m.label.is_number)) {
         drop_if_needed(m, duplicate);
         continue;
@@ -206,6 +214,9 @@ class LabelPass {
 
   LabelRef new_name(Editor& editor, const Mark& m) {
     if (m.label.is_number && target_.identifier_labels) {
+      for (const Mark& o : marks_) {  // a block has one label: the name that a cycle knows it by, say
+        if (o.s == m.s && !o.label.is_number && !o.renamed) return o.label;
+      }
       const std::string wanted = target_.label_prefix + m.label.text;
       const bool taken = std::any_of(marks_.begin(), marks_.end(), [&](const Mark& o) {
         return (o.label.text == wanted && !o.label.is_number) || (o.renamed && o.renamed->text == wanted);
@@ -235,7 +246,7 @@ class LabelPass {
         if (!m.label.is_number && m.renamed->is_number) keep_as_comment(line, m.label.text);
         if (m.renamed->is_number && !line.number.empty())
           second_number(m);
-        else
+        else if (!has_label(line, *m.renamed))
           set_label(line, *m.renamed, program_);
       }
       if (context_.report != nullptr && !dropped) {
@@ -244,6 +255,11 @@ class LabelPass {
       }
     }
   }
+  static bool has_label(const LineInfo& line, const LabelRef& label) {
+    const auto have = labels_on(line);
+    return std::any_of(have.begin(), have.end(), [&label](const LabelRef& l) { return same_label(l, label); });
+  }
+
   /// Two labels on one line, and numbers only: the number that stands there serves both.
   void second_number(Mark& m) { m.renamed = label_of(std::string(m.s->line.number), true); }
 
@@ -324,6 +340,7 @@ class LabelPass {
   std::vector<Use> uses_;
   std::map<const Statement*, std::size_t> positions_;
   bool computed_ = false;
+  bool directed_ = false;  ///< a computed jump looks in one direction, which the target can't
 };
 
 }  // namespace

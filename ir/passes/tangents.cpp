@@ -149,7 +149,8 @@ class TangentPass {
           "a tangential entry or exit, which the target lacks; the points around it are not known here as numbers",
           "program the arc itself");
     const bool entry = tangential_.end == TangentEnd::entry;
-    if (length(here->e.b - here->e.a) < tiny || length(after->e.b - after->e.a) < tiny)
+    const auto stands = [](const Element& e) { return !e.arc && length(e.b - e.a) < tiny; };  // an arc: a full circle
+    if (stands(here->e) || stands(after->e))
       return fail("a tangential entry or exit beside a move that goes nowhere", {});
     Fillet lead;
     std::string why;

@@ -177,6 +177,7 @@ TEST(Fields, NoMemberIsForgotten) {
   expect_complete<SpindleOrient>("SpindleOrient");
   expect_complete<SpindleLimit>("SpindleLimit");
   expect_complete<SpindleGear>("SpindleGear");
+  expect_complete<MasterSpindle>("MasterSpindle");
   expect_complete<ToolSelect>("ToolSelect");
   expect_complete<ToolOffset>("ToolOffset");
   expect_complete<WorkOffset>("WorkOffset");
