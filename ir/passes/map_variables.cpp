@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "ir/passes/call_graph.h"
-#include "ir/passes/facts.h"
+#include "ir/passes/compensated_variables.h"
 #include "ir/passes/given_names.h"
 #include "ir/passes/lower_calls.h"
 #include "ir/passes/passes.h"
@@ -40,7 +40,7 @@ class VariableMap {
   void run() {
     number_statements(program_);
     pools_.level_is_global = !use_.levels;
-    if (pools_.depends_on_compensation()) find_compensated();
+    if (pools_.depends_on_compensation()) compensated_ = compensated_variables(program_, context_);
     place_numbered();
     place_levels();
     place_named();
@@ -52,29 +52,6 @@ class VariableMap {
  private:
   using NamedKey = std::pair<SpaceId, std::string>;
 
-  /// Variables that stand in a statement while radius compensation is on, or may be.
-  void find_compensated() {
-    const FactsOf facts(program_, context_);
-    for (auto& routine : program_.routines) {
-      for_each_statement(routine.body, [&](const Statement& s) {
-        const auto* b = std::get_if<Block>(&s.node);
-        const Facts& before = facts.before(s);
-        const auto side =
-            b != nullptr ? setting_in<CompSide>(*b, before, Setting::comp) : setting<CompSide>(before, Setting::comp);
-        if (side == CompSide::off && setting<CompSide>(before, Setting::comp) == CompSide::off) return;
-        const auto note = [this](const VarRef& v) {
-          const auto n = v.name.empty() ? constant_index(v) : std::nullopt;
-          if (n || !v.name.empty()) compensated_.insert({v.space, n ? std::to_string(*n) : v.name});
-        };
-        each_target(s, note);
-        each_expression(s, [&](const ExprPtr& e) {
-          walk(e, [&](const ExprPtr& x) {
-            if (const auto* v = as_variable(x)) note(*v);
-          });
-        });
-      });
-    }
-  }
   [[nodiscard]] bool compensated(SpaceId space, const std::string& name) const {
     return compensated_.count({space, name}) != 0;
   }
@@ -171,6 +148,9 @@ class VariableMap {
     }
     const auto any = places_.lower_bound({space, 0});
     if (any != places_.end() && any->first.first == space) shifted_space_[space] = any->second.space;
+    for (const auto& segment : program_.spaces[space].segments)
+      pools_.keep_clear(context_.target.spaces[shifted_space_[space]].prefix, segment.lo + shift_[space],
+                        segment.hi + shift_[space]);
     context_.diagnostics.warning(
         "TRN-130", where,
         "a variable with a computed number: right as long as the number stays in the range that the "
@@ -476,7 +456,7 @@ class VariableMap {
 
   Program& program_;
   const LegaliseContext& context_;
-  std::set<std::pair<SpaceId, std::string>> compensated_;
+  VariableNames compensated_;
   VariableUse use_;
   VariablePools pools_;
   GivenNames given_;

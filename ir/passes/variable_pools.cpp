@@ -116,17 +116,25 @@ VariablePools::Found VariablePools::any_free(const SpaceSegment& segment, bool c
   return std::nullopt;
 }
 
+bool VariablePools::reached(const std::string& prefix, std::int64_t n) const {
+  return std::any_of(clear_.begin(), clear_.end(),
+                     [&](const Reach& r) { return r.prefix == prefix && n >= r.lo && n <= r.hi; });
+}
+
 VariablePools::Found VariablePools::run_of_free(std::int64_t size, bool compensated) const {
-  for (const bool temporaries : {false, true}) {
-    for (const auto& p : pools_) {
-      if (p.temporaries != temporaries || !usable(p, false)) continue;
-      if (compensated && p.outside_compensation) continue;
-      std::int64_t run = 0;
-      for (std::int64_t n = p.lo; n <= p.hi; ++n) {
-        run = free(p.prefix, n) ? run + 1 : 0;
-        if (run == size) return std::make_pair(&p, n - size + 1);
+  for (const bool within_reach : {false, true}) {
+    for (const bool temporaries : {false, true}) {
+      for (const auto& p : pools_) {
+        if (p.temporaries != temporaries || !usable(p, false)) continue;
+        if (compensated && p.outside_compensation) continue;
+        std::int64_t run = 0;
+        for (std::int64_t n = p.lo; n <= p.hi; ++n) {
+          run = free(p.prefix, n) && (within_reach || !reached(p.prefix, n)) ? run + 1 : 0;
+          if (run == size) return std::make_pair(&p, n - size + 1);
+        }
       }
     }
+    if (clear_.empty()) break;
   }
   return std::nullopt;
 }

@@ -40,6 +40,8 @@ class VariablePools {
   [[nodiscard]] bool depends_on_compensation() const;
   [[nodiscard]] const VariablePool* level_pool() const;
   bool take(const std::string& prefix, std::int64_t n) { return taken_.insert({prefix, n}).second; }
+  /// A computed number may reach these: names get other ones as long as there are others.
+  void keep_clear(const std::string& prefix, std::int64_t lo, std::int64_t hi) { clear_.push_back({prefix, lo, hi}); }
   [[nodiscard]] SpaceId space(const std::string& prefix) const;
   [[nodiscard]] bool starts_at_zero(const VarRef& v) const;
   [[nodiscard]] bool persistent(const VarRef& v) const;
@@ -49,7 +51,13 @@ class VariablePools {
   [[nodiscard]] bool free(const std::string& prefix, std::int64_t n) const { return taken_.count({prefix, n}) == 0; }
   const LegaliseContext& context_;
   std::vector<VariablePool> pools_;
+  struct Reach {
+    std::string prefix;
+    std::int64_t lo, hi;
+  };
+  [[nodiscard]] bool reached(const std::string& prefix, std::int64_t n) const;
   std::set<std::pair<std::string, std::int64_t>> taken_;
+  std::vector<Reach> clear_;
 };
 
 /// The target's pools, cut to what its machine profile says ("<dialect>.<prefix>_count").

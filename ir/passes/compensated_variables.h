@@ -1,0 +1,18 @@
+// Variables that a program uses while radius compensation is on: some controls don't take all of theirs there.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "ir/passes/legalise.h"
+
+namespace cnctrans::ir::passes {
+
+/// By space and name; a numbered one by its number.
+using VariableNames = std::set<std::pair<SpaceId, std::string>>;
+
+/// Variables that stand in a statement while radius compensation is on, or may be.
+VariableNames compensated_variables(Program& program, const LegaliseContext& context);
+
+}  // namespace cnctrans::ir::passes
