@@ -38,7 +38,12 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
   const bool one_language = &a.dialect() == &b.dialect();
   const auto target_settings = [one_language](const Settings& set) { return one_language ? set : Settings(); };
   Proof proof = prove({a_program, a.profile(), a.loader()}, {b_program, b.profile(), b.loader()},
-                      {options.run, target_settings, {}, options.explore, a.dialect().first_skip_switch});
+                      {options.run,
+                       target_settings,
+                       {},
+                       options.explore,
+                       a.dialect().first_skip_switch,
+                       !b.dialect().backend->capabilities_for(b.profile()).diameter_switch});
   result.verdict = std::move(proof.verdict);
   const auto all_said = [](Diagnostics said, Reading& of, const Replayed& run) {
     said.append(of.loader().library_diagnostics());

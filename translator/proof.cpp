@@ -198,7 +198,22 @@ Settings renamed_settings(const Settings& set, const ir::LegaliseReport& names) 
   return out;
 }
 
+/// A subprogram by itself begins in the state of its caller: that of power-on of the source's machine (TRN-460), on
+/// both sides.
+static machine::Profile called_alike(const machine::Profile& source, machine::Profile target, bool fixed_diameter) {
+  const ir::ModalState own = target.power_on;
+  target.power_on = source.power_on;
+  target.power_on.work_offset = own.work_offset;
+  if (fixed_diameter) target.power_on.diameter = own.diameter;
+  target.power_on_feed = source.power_on_feed;
+  return target;
+}
+
 Proof prove(const Side& source, const Side& target, const ProofOptions& options) {
+  if (!source.program.routines.empty() && source.program.main() == nullptr) {
+    const machine::Profile called = called_alike(source.profile, target.profile, options.target_fixed_diameter);
+    return Prover(source, {target.program, called, target.loader}, options).run();
+  }
   return Prover(source, target, options).run();
 }
 

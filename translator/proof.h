@@ -33,6 +33,9 @@ struct ProofOptions {
   std::vector<std::string> shared_data;
   std::size_t explore = 0;    ///< most replays with other inputs; 0: only the first replay
   int first_skip_switch = 0;  ///< number of the first block-skip switch on the source's control
+  /// The target's language can't switch between radius and diameter: its programs are always in the mode of its
+  /// machine.
+  bool target_fixed_diameter = false;
 };
 
 /// One run with its trace.

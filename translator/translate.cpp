@@ -284,7 +284,8 @@ void Translation::prove() {
   const auto given_data = same_language() ? std::vector<std::string>{} : ir::passes::given_data(names_);
   Proof proof = translator::prove(
       {source_, reading_.profile(), reading_.loader()}, {back_->program, *target_profile_, back_->loader},
-      {options_.run, target_settings, given_data, options_.explore, reading_.dialect().first_skip_switch});
+      {options_.run, target_settings, given_data, options_.explore, reading_.dialect().first_skip_switch,
+       !to_->backend->capabilities_for(*target_profile_).diameter_switch});
   result_.verdict = std::move(proof.verdict);
   if (const auto twice = shared_name(back_->program); !twice.empty()) {
     result_.verdict.status = verifier::Status::not_replayable;

@@ -47,13 +47,14 @@ class DiameterPass {
         facts_(facts),
         same_language_(program.dialect == context.target.dialect),
         one_mode_(keeps_mode(program, context)),
+        alone_(program.main() == nullptr),
         absolute_only_(has_absolute_only(program, context)) {}
 
   void block(Statement& s, Block& b, bool in_main) {
     Facts assumed;
     const Facts& known = facts_.before(s);
-    const bool idle =
-        one_mode_ && (!in_main || !known.reachable) && !setting<DiameterMode>(known, Setting::diameter);  // not run
+    const bool idle = one_mode_ && (!in_main || !known.reachable) && !caller_may_switch(known) &&
+                      !setting<DiameterMode>(known, Setting::diameter);  // not run
     if (idle) {
       assumed = known;
       assumed.settings[static_cast<std::size_t>(Setting::diameter)] =
@@ -71,6 +72,11 @@ class DiameterPass {
   }
 
  private:
+  /// A subprogram by itself, on a machine whose X is a radius at power-on: its programs switch to diameters first.
+  [[nodiscard]] bool caller_may_switch(const Facts& facts) const {
+    return facts.reachable && alone_ && context_.options.uncalled == Uncalled::unknown &&
+           context_.source_machine.power_on.diameter == DiameterMode::radius;
+  }
   /// Radius from a word of the target: 0.5 or 1. `mode` is the source's mode of the moment.
   std::optional<double> target_factor(AxisId axis, WordScale scale, std::optional<Distance> distance,
                                       std::optional<DiameterMode> mode, bool face = false) const {
@@ -178,6 +184,7 @@ class DiameterPass {
   const FactsOf& facts_;
   bool same_language_;
   bool one_mode_;       ///< the program leaves the mode of power-on as it is
+  bool alone_;          ///< a subprogram whose callers are not at hand
   bool told_ = false;   ///< of a shift of the diameter axis
   bool absolute_only_;  ///< increments are radii, absolute words diameters, somewhere in the program
 };
