@@ -113,6 +113,8 @@ constexpr std::array specs{
                "a pole that the program has set stays in its place when the zero point moves, or moves along"},
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
+    OptionSpec{"round_up.negative", "stated|unstated", "stated",
+               "whether the maker's manual says what rounding up makes of a negative value"},
     OptionSpec{
         "run.faults", "before|when_reached", "before",
         "blocks that can't be read, labels and subprograms that are nowhere, where the program could come to them: "
@@ -175,6 +177,8 @@ constexpr std::array specs{
     OptionSpec{"sinumerik.r_count", "number", "100", "number of R parameters"},
     OptionSpec{"sinumerik.pud_visible", "no|yes", "no",
                "variables of the main program are seen in subprograms (MD11120)"},
+    OptionSpec{"sinumerik.gotos", "goes_on|jumps", "goes_on",
+               "GOTOS: the PLC does not ask for the jump (DB21.DBX384.0 is 0: one pass), or it always does"},
     OptionSpec{"sinumerik.exact_greater", "no|yes", "no", "> and < compare exactly (MD10280 bit 0)"},
 };
 

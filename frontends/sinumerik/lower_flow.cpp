@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "frontends/common/nesting.h"
 #include "frontends/sinumerik/lower_statements.h"
+#include "frontends/sinumerik/row_parts.h"
 
 namespace cnctrans::sinumerik {
 
@@ -451,6 +452,29 @@ bool StatementLowering::repeat(const Statement& s, ir::LineInfo& info) {
     if (end_mark) out.last.text = "ENDLABEL";
   }
   emit(info, std::move(out));
+  return true;
+}
+
+/// GOTOS goes back to the start of the program as long as the PLC asks for it (reference 6).
+bool StatementLowering::program_start(WordPos pos, Parts& parts) {
+  if (c_.machine.profile->option("sinumerik.gotos", "goes_on") == "jumps") {
+    c_.warning("SIN-020", pos,
+               "GOTOS jumps to the program start only when the PLC asks for it; here it always jumps "
+               "(sinumerik.gotos of the machine)");
+    ir::Jump j;
+    j.search = ir::Search::to_start;
+    parts.calls.emplace_back(std::move(j));
+    return true;
+  }
+  c_.warning("SIN-020", pos,
+             "GOTOS jumps to the program start only when the PLC asks for it; here it is passed over, one pass of the "
+             "program is run and translated (sinumerik.gotos of the machine)");
+  ir::Action a;
+  a.data = ir::OpaqueWord{c_.slice(pos)};
+  a.order = ir::Order::with;  // the path is the same without it
+  a.pos = pos;
+  a.text = c_.slice(pos);
+  parts.actions.push_back(std::move(a));
   return true;
 }
 

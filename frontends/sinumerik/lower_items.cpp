@@ -303,14 +303,7 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
       parts.calls.emplace_back(std::move(back));
       return true;
     }
-    case Procedure::program_start: {
-      ir::Jump j;
-      j.search = ir::Search::to_start;
-      c_.warning("SIN-020", pos,
-                 "GOTOS jumps to the program start only when the PLC asks for it; here it always jumps");
-      parts.calls.emplace_back(std::move(j));
-      return true;
-    }
+    case Procedure::program_start: return program_start(pos, parts);
     case Procedure::master_spindle: return master_spindle(args, pos, parts);
     case Procedure::axis_setting: return axis_setting(name, args, pos, parts);
     case Procedure::screen:

@@ -106,6 +106,7 @@ class StatementLowering {
   /// A cycle that prepares others: the contour that CYCLE62 names is noted; CYCLE800 without arguments.
   bool moves_nothing(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos);
   bool sort_call(std::string name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
+  bool program_start(WordPos pos, Parts& parts);
   bool predefined(Procedure use, const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos,
                   Parts& parts);
   bool message(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);

@@ -1,5 +1,6 @@
 // What becomes of an operator or function that the target lacks (equivalences 19.3). Each rule is exact unless it
 // reports.
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
@@ -26,6 +27,30 @@ ExprPtr rel(BinaryOp op, const ExprPtr& a, double b) {
 }
 ExprPtr f1(Function f, const ExprPtr& a) {
   return call(f, {a});
+}
+
+/// Whatever its variables hold.
+bool never_negative(const ExprPtr& e) {
+  if (const auto v = constant_value(e)) return *v >= 0;
+  if (const auto* c = std::get_if<Call>(&e->node)) {
+    switch (c->function) {
+      case Function::abs:
+      case Function::sqrt:
+      case Function::square: return true;
+      case Function::max: return std::any_of(c->args.begin(), c->args.end(), never_negative);
+      case Function::min:
+      case Function::ceil:
+      case Function::floor:
+      case Function::trunc:
+      case Function::round: return std::all_of(c->args.begin(), c->args.end(), never_negative);
+      default: return false;
+    }
+  }
+  const auto* b = std::get_if<Binary>(&e->node);
+  if (b == nullptr) return false;
+  if (is_comparison(b->op)) return true;
+  const bool keeps = b->op == BinaryOp::add || b->op == BinaryOp::multiply || b->op == BinaryOp::divide;
+  return keeps && never_negative(b->left) && never_negative(b->right);
 }
 
 }  // namespace
@@ -111,6 +136,16 @@ ExprPtr ExpressionLowering::unary_rule(const Unary& u, const ExprPtr& e) {
 
 ExprPtr ExpressionLowering::call_rule(const Call& c, const ExprPtr& e) {
   if (has(c.function)) {
+    if (c.function == Function::ceil && !never_negative(c.args[0]) &&
+        editor_.program.dialect != editor_.context.target.dialect &&
+        editor_.context.target_machine.option("round_up.negative") == "unstated") {
+      if (const auto known = constant_value(e)) return node(number(*known));
+      editor_.context.diagnostics.note(
+          "TRN-670", word_span(like_.span, e->pos),
+          "a value is rounded up, and it may be negative: the target's manual does not say what its function makes of "
+          "negative values; upwards (-2.5 becomes -2) is assumed",
+          "check it on the machine, or keep the value positive");
+    }
     Args args;
     bool same = true;
     for (const auto& a : c.args) {
