@@ -1,6 +1,7 @@
 #include "backends/common/file_groups.h"
 
 #include <algorithm>
+#include <set>
 
 namespace cnctrans::backends {
 
@@ -21,7 +22,39 @@ std::string stem_of(const ir::Program& program, FileId file) {
   return dot == std::string::npos || dot == 0 ? name : name.substr(0, dot);
 }
 
+void collect_called(const ir::Body& body, std::vector<const ir::RoutineName*>& out) {
+  ir::for_each_statement(body, [&](const ir::Statement& s) {
+    if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) out.push_back(&c->routine);
+    const auto* m = std::get_if<ir::ModalCall>(&s.node);
+    if (m != nullptr && !m->off && !m->cycle) out.push_back(&m->call.routine);
+    const auto* r = std::get_if<ir::Repeat>(&s.node);
+    if (r != nullptr && r->has_program) out.push_back(&r->program);
+  });
+}
+
 }  // namespace
+
+std::vector<std::size_t> file_order(const ir::Program& program, bool same_language) {
+  const auto& routines = program.routines;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < routines.size(); ++i) order.push_back(i);
+  if (same_language || routines.empty() || routines[0].kind != ir::RoutineKind::main) return order;
+  order = {0};
+  std::set<std::size_t> seen{0};
+  for (std::size_t at = 0; at < order.size(); ++at) {
+    std::vector<const ir::RoutineName*> calls;
+    collect_called(routines[order[at]].body, calls);
+    for (const ir::RoutineName* called : calls) {
+      for (std::size_t i = 0; i < routines.size(); ++i) {
+        if (routines[i].name == *called && seen.insert(i).second) order.push_back(i);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < routines.size(); ++i) {
+    if (seen.insert(i).second) order.push_back(i);
+  }
+  return order;
+}
 
 std::vector<FileGroup> file_groups(const ir::Program& program, const std::vector<std::size_t>& order,
                                    const WriteOptions& options) {

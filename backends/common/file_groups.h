@@ -15,6 +15,10 @@ struct FileGroup {
   std::string stem;                   ///< of the source file; empty for the first group
 };
 
+/// The source's order; of another language: subroutines in the order of their first call, then those nobody calls.
+/// Indices of routines, as they follow each other in the file.
+std::vector<std::size_t> file_order(const ir::Program& program, bool same_language);
+
 /// `order` (indices of routines) by their source files: the main file first. One group with everything unless
 /// `options.files_apart`.
 std::vector<FileGroup> file_groups(const ir::Program& program, const std::vector<std::size_t>& order,

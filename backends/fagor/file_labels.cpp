@@ -14,14 +14,6 @@ namespace {
 
 using Numbers = std::set<std::string, std::less<>>;
 
-void collect_called(const ir::Body& body, std::vector<const ir::CallRoutine*>& out) {
-  ir::for_each_statement(body, [&](const ir::Statement& s) {
-    if (const auto* c = std::get_if<ir::CallRoutine>(&s.node)) out.push_back(c);
-    const auto* m = std::get_if<ir::ModalCall>(&s.node);
-    if (m != nullptr && !m->off && !m->cycle) out.push_back(&m->call);
-  });
-}
-
 template <class BodyType, class Visit>
 void each_number(BodyType& body, const Visit& visit) {
   ir::for_each_statement(body, [&](auto& s) {
@@ -124,28 +116,6 @@ bool has_conflict(const ir::Program& program, const std::vector<std::size_t>& or
 }
 
 }  // namespace
-
-std::vector<std::size_t> file_order(const ir::Program& program, bool same_language) {
-  const auto& routines = program.routines;
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < routines.size(); ++i) order.push_back(i);
-  if (same_language || routines.empty() || routines[0].kind != ir::RoutineKind::main) return order;
-  order = {0};
-  std::set<std::size_t> seen{0};
-  for (std::size_t at = 0; at < order.size(); ++at) {
-    std::vector<const ir::CallRoutine*> calls;
-    collect_called(routines[order[at]].body, calls);
-    for (const ir::CallRoutine* c : calls) {
-      for (std::size_t i = 0; i < routines.size(); ++i) {
-        if (routines[i].name == c->routine && seen.insert(i).second) order.push_back(i);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < routines.size(); ++i) {
-    if (seen.insert(i).second) order.push_back(i);
-  }
-  return order;
-}
 
 std::optional<ir::Program> with_file_labels(const ir::Program& program, const std::vector<FileGroup>& files,
                                             Diagnostics& diagnostics) {

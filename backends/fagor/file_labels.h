@@ -10,10 +10,6 @@
 
 namespace cnctrans::backends::fagor {
 
-/// The source's order; of another language: subroutines in the order of their first call, then those nobody calls.
-/// Indices of routines, as they follow each other in the file.
-std::vector<std::size_t> file_order(const ir::Program& program, bool same_language);
-
 /// A copy in which no jump can find a block of an earlier routine of its file (`files`: the routines of each file, as
 /// they follow each other) that has the same number; nullopt: `program` is so.
 /// A number that can't be changed because jumps of its routine are computed is an error TRN-240.

@@ -319,11 +319,20 @@ std::string Writer::cycle_retract(const ir::Action& a, const CycleWords& w) {
 
 /// The control retracts to the height at which the cycle was defined (G98): the tool has to stand there before.
 void Writer::cycle_approach(const CycleWords& w) {
-  if (!w.retract_given || w.retract_is_reference) return;
   const auto plane = known<ir::Plane>(ir::Setting::plane).value_or(ir::Plane::xy);
   const ir::AxisId axis = ir::plane_axes(plane).w;
   const ir::Facts* f = facts();
   const auto height = f != nullptr ? f->position[axis] : std::nullopt;
+  if (!w.retract_given || w.retract_is_reference) {
+    const bool refused = w.has_reference && profile().option("cycle.below_reference") == "refused";
+    if (height || !refused || same_dialect()) return;
+    diagnostics().warning(
+        "TRN-243", current().line.span,
+        "the height of the tool before this cycle is not known; where it stands between the reference plane "
+        "and the depth, the control stops",
+        "go to the reference plane or above it before the cycle");
+    return;
+  }
   if (height && w.retract.is(*height)) return;
   const bool surely_above = height && w.retract.literal() && *height > w.retract.number;
   if (!surely_above) {

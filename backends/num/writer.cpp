@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 
 #include "backends/common/comments.h"
 #include "backends/num/data_names.h"
@@ -72,9 +71,7 @@ void Writer::write_program() {
   const std::string stem = options().main_stem.empty() ? std::to_string(main_number()) : options().main_stem;
   open_file(free_stem(stem, ".xpi") + ".xpi", true, '%' + std::to_string(main_number()));
   const ir::Routine* main = program().main();
-  std::vector<std::size_t> order(program().routines.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (const FileGroup& group : file_groups(program(), order, options())) {
+  for (const FileGroup& group : file_groups(program(), file_order(program(), same_dialect()), options())) {
     if (!group.stem.empty()) open_called(group, stem);
     for (const std::size_t i : group.routines) {
       const ir::Routine& r = program().routines[i];
