@@ -328,6 +328,11 @@ class Analysis {
     if (more_than_once(count)) {
       Facts again = at_exit;
       if (callee.first == 0) {
+        if (program_.routines[callee.routine].saves_modals) {  // each pass gives the modal state back
+          again = before;
+          take(again, at_exit, kept_changes(callee.routine, before, again));
+          if (again.modal_call != 0) again.modal_call = -1;
+        }
         enter(callee.routine, again);
       } else {
         flow_to(callee.first, again);

@@ -7,6 +7,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/shifted_axes.h"
 #include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
@@ -131,9 +132,15 @@ class DistancePass {
     if (switches) return switch_for_block(editor, std::move(s), *mode, out);
     if (mode == Distance::incremental && all_absolute(b, facts))
       return switch_for_block(editor, std::move(s), *mode, out);
-    refuse(s, editor.program, context_, "TRN-181",
-           "absolute and incremental words in one block, and the position before it is not known here",
-           "write the block in one mode, or in two blocks");
+    if (mode)
+      refuse(s, editor.program, context_, "TRN-181",
+             "absolute and incremental words in one block, and the position before it is not known here",
+             "write the block in one mode, or in two blocks");
+    else
+      refuse(s, editor.program, context_, "TRN-181",
+             "a word that is absolute or incremental by itself, and which of the two modes is in force depends on the "
+             "path that leads here",
+             "write G90 or G91 before it on every path");
     out.push_back(std::move(s));
   }
 
@@ -192,23 +199,6 @@ class DistancePass {
     std::erase_if(b.actions, [&](const Action& a) { return sets(a) && left-- > 1; });
   }
 
-  /// The programmed shift along straight text, in numbers, and where the axes stood before it changed.
-  struct Shifted {
-    std::array<std::optional<double>, axis::count_max> shift{}, at{}, moved{};
-    bool turned = true;  ///< a rotation, or something else than a shift, may be in force
-    void clear_all() {
-      shift.fill(std::nullopt);
-      at.fill(std::nullopt);
-      moved.fill(std::nullopt);
-      turned = true;
-    }
-    void start() {
-      clear_all();
-      shift.fill(0);
-      moved.fill(0);
-      turned = false;
-    }
-  };
   void leave_straight(const Statement& s) {
     for (const auto& l : labels_on(s.line)) {
       if (uses_.is_target(l) || uses_.computed) return shifted_.clear_all();

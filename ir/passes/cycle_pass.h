@@ -261,6 +261,8 @@ class CyclePass {
   bool way_by_itself(Statement& p, const FeedBefore& feed, Body& before);
   void tell_guessed_row(const Statement& s) const;
   void pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces, Body& out);
+  /// One feed into the hole and out of it: an F in force while the target's cycle runs (cycle_feeds.cpp).
+  void feed_as_a_word(Active& a, const Block& b, const Facts& facts) const;
   /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
   void feed_for_tap(Block& b, const Active& a) {
     if (!a.needs.feed || by_call_) return;

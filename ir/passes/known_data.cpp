@@ -88,8 +88,10 @@ class KnownData {
     const SystemRef& ref = *datum_in(e);
     if (!context_.source_machine.data.contains(ref.text)) {
       if (const auto value = known(s, ref)) {
-        context_.diagnostics.note("TRN-132", word_span(s.line.span, e->pos),
-                                  ref.text + " is " + shortest(*value) + " here on every path: written as the number");
+        if (e->pos.column != 0)  // else the reader has put it there
+          context_.diagnostics.note(
+              "TRN-132", word_span(s.line.span, e->pos),
+              ref.text + " is " + shortest(*value) + " here on every path: written as the number");
         return number(*value);
       }
     }

@@ -281,6 +281,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   }
   if (refuse_unknown_plane(s, d.cycle, out) || refuse_stale_change(s, d, out) || refuse_lost_bottom(s, d, out)) return;
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
+  if (!a.native && !d.modal && d.here) feed_as_a_word(a, b, facts);
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
   if (!a.native || !a.needs.feed) feed_comes_back(b, facts);

@@ -11,6 +11,7 @@
 #include "ir/cycles/pocket_moves.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
+#include "ir/search.h"
 #include "ir/tool_number.h"
 
 namespace cnctrans::ir::passes {
@@ -186,6 +187,10 @@ MillCycles::MillCycles(const Program& program, const Routine& routine, const Leg
     : context_(context), feeds_(feeds) {
   if (!has_milling(program)) return;
   find_contours(program, routine);
+  mirrors_ = any_action(program, [](const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    return f != nullptr && (!f->change || f->change->kind == FrameKind::mirror);
+  });
   written_ = written_data(program, context.source_machine);
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [this](const Statement& s) {

@@ -61,6 +61,7 @@ class MillCycles {
 
   const LegaliseContext& context_;
   const FeedsBefore& feeds_;
+  bool mirrors_ = false;                        ///< the program, somewhere
   bool radius_written_ = false;                 ///< by the program, under any name
   bool radius_anywhere_ = false;                ///< of a computed offset
   std::map<double, std::string> radius_names_;  ///< by the number of the offset

@@ -85,6 +85,7 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   if (const auto r = radius(it->second, unit, &error, &none); r && *r > 0) source.radius = *r / unit;
   source.sense = sense;
   source.clearance = 1 / unit;
+  source.mirrors = mirrors_;
   auto form = similar_pocket(source, native, why);
   if (!form) return std::nullopt;
   Similar out;

@@ -271,7 +271,10 @@ class Teller {
       out_.differs +=
           ", a tool with a greater radius than that of the corners is refused there (leave their radius out)";
     const bool climb = p_.ccw != (s_.sense == SpindleState::ccw);
-    if (!climb) out_.differs += ", it is climb milling (conventional in the source)";
+    if (!climb)
+      out_.differs += s_.mirrors ? ", it is climb milling (conventional in the source; the other way round on both "
+                                   "where the frame is mirrored)"
+                                 : ", it is climb milling (conventional in the source)";
     if (p_.circle) {
       put("radius", p_.radius);
     } else {

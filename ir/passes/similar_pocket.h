@@ -19,6 +19,7 @@ struct PocketSource {
   std::optional<double> radius;       ///< of the tool
   std::optional<SpindleState> sense;  ///< of the spindle
   double clearance = 1;               ///< one millimetre
+  bool mirrors = false;               ///< the program mirrors somewhere
 };
 struct PocketForm {
   std::vector<HoleCycle> cycles;  ///< roughing, and finishing where it is a call of its own

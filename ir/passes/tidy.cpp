@@ -60,20 +60,106 @@ bool said_again(const Statement& before, const Statement& s) {
          b->motion.keeps_modal;
 }
 
+bool makes_neutral(const FrameChange& c) {
+  if (c.combine == FrameCombine::clear) return true;
+  return c.combine == FrameCombine::replace && c.kind == FrameKind::rotate && c.slot == FrameSlot::rotation &&
+         c.has_angle && c.angle.is(0);
+}
 /// The slot that the block makes neutral, when that is all it does.
 std::optional<FrameSlot> cleared(const Statement& s) {
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr || b->has_motion || b->actions.size() != 1 || b->repeat_given != 0 || s.line.skip_mask != 0)
     return std::nullopt;
   const auto* f = std::get_if<FrameOp>(&b->actions[0].data);
-  return f != nullptr && f->change && f->change->combine == FrameCombine::clear ? std::optional(f->change->slot)
-                                                                                : std::nullopt;
+  return f != nullptr && f->change && makes_neutral(*f->change) ? std::optional(f->change->slot) : std::nullopt;
+}
+/// The slot that the block makes neutral behind whatever else it does to frames.
+std::optional<FrameSlot> cleared_at_last(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || b->has_motion || b->actions.empty() || b->repeat_given != 0 || s.line.skip_mask != 0)
+    return std::nullopt;
+  const auto* f = std::get_if<FrameOp>(&b->actions.back().data);
+  return f != nullptr && f->change && makes_neutral(*f->change) ? std::optional(f->change->slot) : std::nullopt;
 }
 /// The same right behind.
 bool cleared_again(const Statement& before, const Statement& s) {
   const auto slot = cleared(before);
   return slot && slot == cleared(s) && shows_nothing(s.line) && s.line.blank_lines_before == 0 && !s.line.joined &&
          !before.line.joined;
+}
+
+bool is_plain_assignment(const Statement& s) {
+  const auto* a = std::get_if<Assign>(&s.node);
+  return a != nullptr && s.line.skip_mask == 0 && s.line.labels.empty() && s.line.number.empty() &&
+         std::none_of(a->items.begin(), a->items.end(), [](const auto& i) { return i.to_system; });
+}
+/// The same behind assignments, which no frame concerns.
+bool cleared_before(const Body& body, const Statement& s) {
+  const auto slot = cleared(s);
+  if (!slot) return false;
+  const bool shown = !shows_nothing(s.line) || s.line.blank_lines_before != 0 || s.line.joined;
+  for (auto it = body.rbegin(); it != body.rend(); ++it) {
+    if (cleared_again(*it, s) || (!shown && cleared_at_last(*it) == slot)) return true;
+    if (!is_plain_assignment(*it)) return false;
+  }
+  return false;
+}
+
+/// The slot that the block fills anew before it moves.
+std::optional<FrameSlot> filled(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || b->actions.empty() || s.line.skip_mask != 0) return std::nullopt;
+  const auto* f = std::get_if<FrameOp>(&b->actions[0].data);
+  const bool fills =
+      f != nullptr && f->change && f->change->combine == FrameCombine::replace && b->actions[0].order != Order::after;
+  return fills ? std::optional(f->change->slot) : std::nullopt;
+}
+/// What clears the slot that this block fills has nothing to clear for.
+void drop_idle_clear(Body& body, const Statement& s) {
+  const auto slot = filled(s);
+  for (std::size_t i = body.size(); slot && i > 0; --i) {
+    const Statement& before = body[i - 1];
+    if (cleared(before) == slot && shows_nothing(before.line) && before.line.blank_lines_before == 0 &&
+        !before.line.joined) {
+      body.erase(body.begin() + static_cast<std::ptrdiff_t>(i - 1));
+      return;
+    }
+    if (!is_plain_assignment(before)) return;
+  }
+}
+
+/// The distance mode that a block says, and nothing else.
+const ModalSet* mode_alone(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || b->has_motion || b->actions.size() != 1 || b->repeat_given != 0 || s.line.skip_mask != 0 ||
+      !shows_nothing(s.line) || s.line.blank_lines_before != 0)
+    return nullptr;
+  const auto* m = std::get_if<ModalSet>(&b->actions[0].data);
+  return m != nullptr && m->setting == Setting::distance ? m : nullptr;
+}
+/// A block made of the line above it whose mode the next one replaces before it moves.
+bool mode_replaced(const Body& body, const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (body.size() < 2 || mode_alone(body.back()) == nullptr || b == nullptr || s.line.joined || s.line.skip_mask != 0)
+    return false;
+  const Span &made = body.back().line.span, &of = body[body.size() - 2].line.span;
+  if (made.file != of.file || made.line != of.line) return false;
+  return std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return m != nullptr && m->setting == Setting::distance && a.order != Order::after;
+  });
+}
+/// A mode that the block before has said already.
+bool mode_said(const Statement& before, const Statement& s) {
+  const ModalSet* now = mode_alone(s);
+  const auto* b = now == nullptr ? nullptr : std::get_if<Block>(&before.node);
+  if (b == nullptr || before.line.skip_mask != 0 || s.line.joined) return false;
+  const ModalSet* last = nullptr;
+  for (const auto& a : b->actions) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    if (m != nullptr && m->setting == Setting::distance) last = m;
+  }
+  return last != nullptr && last->value == now->value;
 }
 
 bool number_only(const LineInfo& line) {
@@ -139,7 +225,12 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
     each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
     if (program.dialect != context.target.dialect && !out.empty() && join_assignments(out.back(), s, context.target))
       continue;
-    if (program.dialect != context.target.dialect && !out.empty() && cleared_again(out.back(), s)) continue;
+    if (program.dialect != context.target.dialect && cleared_before(out, s)) continue;
+    if (program.dialect != context.target.dialect) drop_idle_clear(out, s);
+    if (program.dialect != context.target.dialect && mode_replaced(out, s)) {
+      out.pop_back();
+      if (!out.empty() && mode_said(out.back(), s)) continue;
+    }
     if (program.dialect != context.target.dialect && !out.empty() && said_again(out.back(), s)) out.pop_back();
     if (!out.empty() && can_join(out.back(), s, context.target)) {
       bool end = false;
