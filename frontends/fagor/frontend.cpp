@@ -157,18 +157,25 @@ class FagorFrontend : public Frontend {
   [[nodiscard]] std::string_view dialect() const override { return "fagor"; }
   ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                    ReadStats* stats) const override {
-    Diagnostics first_said = diagnostics;  // with its limits
-    first_said.clear();
-    cnctrans::fagor::ProgramReader first(options, file, first_said);
-    ir::Program program = first.read(source, stats);
-    auto planes = first.planes_by_flow();
-    if (planes.empty()) {
-      diagnostics.append(first_said);
-      return program;
+    // What only the whole file shows is known to the next reading: where the main part goes on behind a subroutine,
+    // then the planes that the flow of the program brings.
+    std::set<std::uint32_t> lines_of_main;
+    std::map<std::uint32_t, ir::Plane> planes;
+    while (true) {
+      Diagnostics said = diagnostics;  // with its limits
+      said.clear();
+      cnctrans::fagor::ProgramReader reader(options, file, said);
+      reader.know_lines_of_main(lines_of_main);
+      reader.know_planes(planes);
+      ir::Program program = reader.read(source, stats);
+      const bool with_planes = !planes.empty();
+      if (!reader.lines_of_main().empty()) {
+        lines_of_main = reader.lines_of_main();
+      } else if (with_planes || (planes = reader.planes_by_flow()).empty()) {
+        diagnostics.append(said);
+        return program;
+      }
     }
-    cnctrans::fagor::ProgramReader again(options, file, diagnostics);
-    again.know_planes(std::move(planes));
-    return again.read(source, stats);
   }
   std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                        std::string_view file_name) const override {

@@ -68,6 +68,18 @@ void LowerState::start_routine(bool subroutine) {
   cycle_by_text = nullptr;
 }
 
+void LowerState::go_back_to(const LowerState& before) {
+  FileFacts found = std::move(facts);
+  const auto line = line_;
+  const auto errors = errors_;
+  *this = before;
+  facts = std::move(found);
+  line_ = line;
+  errors_ = errors;
+  labelled();
+  if (!flow_planes_.empty()) take_flow_plane();
+}
+
 void LowerState::plane_code(ir::Plane plane, bool turned, bool of_surface) {
   plane_ = plane;
   turned_ = turned;

@@ -108,6 +108,8 @@ class LowerState {
 
   // what the text has said
   void start_routine(bool subroutine);
+  /// The routine of `before` goes on at a labelled block; what was found in the file since then stays.
+  void go_back_to(const LowerState& before);
   [[nodiscard]] bool in_subroutine() const { return in_subroutine_; }
   /// `turned`: the second axis of the plane is its abscissa (G16 XZ): every sense of turning is seen from behind.
   void plane_code(ir::Plane plane, bool turned = false, bool of_surface = false);

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
 #include "frontends/fagor/lower_statement.h"
+#include "frontends/fagor/subroutine_ends.h"
 
 namespace cnctrans::fagor {
 
@@ -52,6 +53,7 @@ ir::Program ProgramReader::read(const SourcePtr& source, frontends::ReadStats* s
                        " comments for blocks that it did not understand; this is the first",
                    "compare with the original program: what stood there is not in this file");
   }
+  if (lines_of_main_.empty()) found_lines_of_main_ = lines_of_the_main_part(program_);
   settle_main();
   finish_program(program_, state_);
   program_.unit_hint = state_.facts.units[1] && !state_.facts.units[0] ? ir::Units::inch
@@ -161,6 +163,7 @@ void ProgramReader::block(std::string_view text) {
     return;
   }
   ++stats_.blocks;
+  if (current_ != 0 && lines_of_main_.count(state_.line().line) != 0) go_on_with_main();
   if (ended_) {
     state_.error("FAG-032", {}, "the tape mark % stands before this block");
     ended_ = false;
@@ -245,7 +248,11 @@ void ProgramReader::add(ir::Statement statement) {
 void ProgramReader::open_subroutine(const syntax::Statement& statement) {
   const bool local = statement.keyword == "LSUB";
   const std::int64_t number = subroutine_number(statement, state_);
-  if (current_ != 0) close_subroutine();
+  if (current_ != 0) {
+    close_subroutine();
+  } else if (!lines_of_main_.empty()) {
+    main_state_ = state_;
+  }
   ir::Body first;
   if (current_ == 0 && !main_has_code_) {
     first = std::move(pending_);
@@ -271,8 +278,16 @@ void ProgramReader::open_subroutine(const syntax::Statement& statement) {
   state_.start_routine(true);
 }
 
-/// The subroutine ends with its last RET. Blocks behind that have a number at their head may be named by a cycle (its
-/// profile, 9.2, 25.5): nothing runs into them.
+/// The subroutine has ended at a (RET) above: this block and what follows it are the main part's, and what its text has
+/// said last holds as far as it does behind a label.
+void ProgramReader::go_on_with_main() {
+  close_subroutine();
+  current_ = 0;
+  if (main_state_) state_.go_back_to(*main_state_);
+}
+
+/// The parts of a subroutine end with (RET). Blocks behind that have a number at their head may be named by a cycle
+/// (its profile, 9.2, 25.5): nothing runs into them.
 void ProgramReader::close_subroutine() {
   const ir::Routine& r = current();
   bool named = true;  // the first block behind the RET has a number
@@ -288,7 +303,7 @@ void ProgramReader::close_subroutine() {
   const Span now = state_.line();
   state_.set_line(r.header.span);
   state_.error("FAG-025", {}, "the subroutine " + std::to_string(r.name.number) + " does not end with (RET)",
-               "blocks after the last (RET) belong to no subroutine");
+               "blocks after the last (RET) belong to no subroutine, and no jump leads there");
   state_.set_line(now);
 }
 

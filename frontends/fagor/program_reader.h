@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,10 @@ class ProgramReader {
   /// text before it says. Empty: it was read right.
   [[nodiscard]] std::map<std::uint32_t, ir::Plane> planes_by_flow() const;
   void know_planes(std::map<std::uint32_t, ir::Plane> by_line) { state_.know_planes(std::move(by_line)); }
+  /// Lines at which the main part goes on behind a subroutine (subroutine_ends.h); the file is read once more with
+  /// them.
+  [[nodiscard]] const std::set<std::uint32_t>& lines_of_main() const { return found_lines_of_main_; }
+  void know_lines_of_main(std::set<std::uint32_t> lines) { lines_of_main_ = std::move(lines); }
 
  private:
   void line(const SourceLine& source_line);
@@ -28,6 +33,7 @@ class ProgramReader {
   void block(std::string_view text);
   void open_subroutine(const syntax::Statement& statement);
   void close_subroutine();
+  void go_on_with_main();
   void iso_block(std::string_view text);
   void add(ir::Statement statement);
   void add_trivia();
@@ -45,6 +51,8 @@ class ProgramReader {
   syntax::Block block_;
   ir::Program program_;
   std::size_t current_ = 0;
+  std::set<std::uint32_t> lines_of_main_, found_lines_of_main_;
+  std::optional<LowerState> main_state_;  ///< at the (SUB) that stands behind blocks of the main part
   bool main_has_code_ = false;
   bool header_allowed_ = true;
   bool local_group_ = false;  ///< LSUB groups were read and the start mark was not

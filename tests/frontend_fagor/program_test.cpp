@@ -61,6 +61,25 @@ TEST(FagorProgram, Subroutines) {
   EXPECT_EQ(only.statements(0).size(), 2U);
 }
 
+TEST(FagorProgram, SubroutineEndsAtItsFirstReturn) {  // 12.5; what stands behind it is the file's
+  const std::string five = "(SUB 5)\nX5\n(RET)\n";
+  const auto over = read("(GOTO N100)\n" + five + "N100 X1\n(CALL 5)\nM30\n");
+  EXPECT_EQ(over.codes(), "");
+  EXPECT_EQ(over.statements(0).size(), 4U);
+  EXPECT_EQ(over.statements(1).size(), 2U);
+  EXPECT_EQ(read("(CALL 5)\nM30\n" + five + "M30\n").codes(), "") << "nothing leads to the second M30";
+  // The subroutine's own jump leads behind its first (RET): it goes on to the next one.
+  const auto own = read("(CALL 5)\nM30\n(SUB 5)\n(IF P1 EQ 0 GOTO N10)\n(RET)\nN10 X5\n(RET)\n");
+  EXPECT_EQ(own.codes(), "");
+  EXPECT_EQ(own.statements(1).size(), 4U);
+  // The main part would run on into the (SUB).
+  EXPECT_EQ(read("(CALL 5)\n" + five + "X2\nM30\n").codes(), "FAG-025");
+  EXPECT_EQ(read("(GOTO N100)\n" + five + "N100 X1\n(RET)\n").codes(), "FAG-024") << "a (RET) of the main part";
+  // Modes of the text: G18 stands before the jump.
+  const auto plane = read("G18 G0 X0 Z0\n(GOTO N100)\n(SUB 5)\nG17\n(RET)\nN100 G2 X2 Z0 I1 K0 F100\nM30\n");
+  EXPECT_EQ(plane.codes(), "");
+}
+
 TEST(FagorProgram, Assignments) {
   EXPECT_EQ(line("(P100=P1+2*3)"), "set P[100] = P[1] + (2 * 3)");
   EXPECT_EQ(line("(M30)"), "set P[12] = 30");  // 16.2: a local parameter, not a program end
