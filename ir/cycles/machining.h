@@ -106,6 +106,7 @@ struct TurnMove {
   double seconds = 0;
   double speed = 0;
   bool per_minute = false;  ///< the feed in force is that of millimetres per minute, whatever the mode
+  bool sharp = false;       ///< of a pass whose corners are cut sharp (exact stop), whatever path mode is in force
 };
 /// Parameters in mm (radius), degrees, seconds, by name; what the source left out is not there.
 using TurnNumbers = std::map<std::string_view, double>;

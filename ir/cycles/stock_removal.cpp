@@ -293,6 +293,12 @@ bool clear_way(const Chain& pass, RolePoint home) {
   return true;
 }
 
+/// An allowance below zero asks for a finishing pass with rounded corners, given ones above it for sharp corners.
+bool sharp_finish(const Roles& r) {
+  const double x = r.number("stock_x"), z = r.number("stock_z");
+  return x >= 0 && z >= 0 && x + z > 0;
+}
+
 bool copies(Roles& r, Remover& work, const Chain& part, bool face, std::string* error) {
   const double total = r.number("total"), step = r.number("step");
   const double stock = face && r.has("stock_z") ? std::abs(r.number("stock_z")) : std::abs(r.number("stock_x"));
@@ -353,6 +359,7 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
       work.home();
     }
   }
+  r.sharp(sharp_finish(r));
   if (finishes) work.finish(part, r.number("finish_feed"));
   return true;
 }
@@ -453,6 +460,7 @@ bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* e
   o.face = face;
   if (context.profile == nullptr || context.profile->part.empty())
     return *error = "the profile of the cycle is empty", false;
+  const std::vector<ProfileElement> own = lines;
   // The blank closes toward the ends of the profile.
   TurnPoint head = context.profile->part.front().from, tail = context.profile->part.back().to;
   const auto far = [](TurnPoint u, TurnPoint v) { return std::hypot(u.x - v.x, u.z - v.z); };
@@ -469,8 +477,10 @@ bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* e
   const Chain outline = bridged(target, left);
   leave(context, o, &outline, nullptr);
   Remover work(r, o);
-  const double top = highest(blank), bottom = outline.front().a.p;
-  if (work.start().p < top - tiny)
+  // What the profile adds beyond the blank's own points is no material: the tool may stand there.
+  const double material = highest(chain_of(own, o)), bottom = outline.front().a.p;
+  const double top = work.start().p < highest(blank) - tiny ? material : highest(blank);
+  if (work.start().p < material - tiny)
     return *error = "wrong tool position for the cycle: the tool stands within the blank", false;
   if (top > bottom + tiny) {
     Remover::Style style;

@@ -69,9 +69,12 @@ class Roles {
     TurnMove m;
     m.step = step;
     m.to = plain(at_);
+    m.sharp = sharp_ && (step == TurnStep::feed || step == TurnStep::arc);
     moves_.push_back(m);
     return moves_.back();
   }
+  /// The moves from now on are cut with sharp corners.
+  void sharp(bool on) { sharp_ = on; }
   std::vector<TurnMove> take() { return std::move(moves_); }
 
  private:
@@ -90,6 +93,7 @@ class Roles {
   bool face_;
   const TurnNumbers& numbers_;
   RolePoint at_;
+  bool sharp_ = false;
   std::vector<TurnMove> moves_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "ir/cycles/machining.h"
 #include "ir/cycles/pattern.h"
+#include "ir/passes/feed_state.h"
 #include "ir/passes/flow_states.h"
 
 namespace cnctrans::ir::passes {
@@ -90,10 +91,63 @@ class WordDomain {
   }
 };
 
+/// A domain of FlowStates: the F of millimetres per minute on a control that keeps one F for each feed mode.
+class MinuteDomain {
+ public:
+  struct State {
+    std::optional<std::uint8_t> mode;
+    std::optional<double> feed;
+  };
+  explicit MinuteDomain(FeedMode power_on) : power_on_(static_cast<std::uint8_t>(power_on)) {}
+  [[nodiscard]] State start(const Routine& r, bool called) const {
+    if (called || r.kind != RoutineKind::main) return {};
+    return {power_on_, std::nullopt};
+  }
+  static void transfer(const Statement& s, State& state) {
+    if (std::holds_alternative<Opaque>(s.node)) state = {};
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    const bool sure = s.line.skip_mask == 0;
+    for (const auto& a : b->actions) {
+      const auto* set = std::get_if<ModalSet>(&a.data);
+      if (set == nullptr) continue;
+      if (set->setting == Setting::units) state.feed.reset();
+      if (set->setting != Setting::feed_mode) continue;
+      if (set->feed_memory != FeedMemory::per_mode) state.feed.reset();
+      state.mode = sure || state.mode == set->value ? std::optional(set->value) : std::nullopt;
+    }
+    const bool other = state.mode && *state.mode != static_cast<std::uint8_t>(FeedMode::per_minute);
+    for (const auto& a : b->actions) {
+      const auto* f = std::get_if<SetFeed>(&a.data);
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      if (other) continue;
+      if (d != nullptr && leaves_feed(d->cycle)) state.feed.reset();
+      if (f == nullptr || f->block_only) continue;
+      state.feed.reset();
+      if (state.mode && sure) state.feed = f->value.literal() ? f->value.number : constant_value(f->value.expr);
+    }
+  }
+  static bool touches(const Routine& r) { return WordDomain::touches(r) || FeedDomain::touches(r); }
+  static void unknown(State& state) { state = {}; }
+  static bool join(State& a, const State& b) {
+    const bool mode = a.mode && a.mode != b.mode, feed = a.feed && a.feed != b.feed;
+    if (mode) a.mode.reset();
+    if (feed) a.feed.reset();
+    return mode || feed;
+  }
+
+ private:
+  std::uint8_t power_on_;
+};
+
 }  // namespace
 
 struct FeedsBefore::Analysis {
-  Analysis(const Program& program, double at_power_on) : states(program, domain), words(program, word_domain) {
+  Analysis(const Program& program, double at_power_on, FeedMode mode_at_power_on)
+      : states(program, domain),
+        words(program, word_domain),
+        minute_domain(mode_at_power_on),
+        minutes(program, minute_domain) {
     const CallGraph calls(program);
     for (const auto& site : calls.sites()) given = given || !site.callee;
     given = given || std::none_of(program.routines.begin(), program.routines.end(),
@@ -107,16 +161,20 @@ struct FeedsBefore::Analysis {
   FlowStates<GivenDomain> states;
   WordDomain word_domain;
   FlowStates<WordDomain> words;
+  MinuteDomain minute_domain;
+  FlowStates<MinuteDomain> minutes;
   bool given = false;              ///< F stands in the program, or may in what it calls or is called by
   std::optional<double> power_on;  ///< a feed to go back to, in a program that has F
 };
 
 FeedsBefore::FeedsBefore(const Program& program, const LegaliseContext& context)
-    : analysis_(std::make_unique<Analysis>(program, context.source_machine.power_on_feed)) {}
+    : analysis_(std::make_unique<Analysis>(program, context.source_machine.power_on_feed,
+                                           context.source_machine.power_on.feed_mode)) {}
 FeedsBefore::~FeedsBefore() = default;
 
 FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& facts) const {
-  FeedBefore feed{facts.feed, false, {}};
+  FeedBefore feed{facts.feed, false, {}, {}};
+  if (const auto* minute = analysis_->minutes.before(s); minute != nullptr) feed.per_minute = minute->feed;
   bool own = false;
   for (const auto& a : b.actions) {
     const auto* f = std::get_if<SetFeed>(&a.data);
@@ -128,7 +186,7 @@ FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& fact
   }
   if (const auto* state = own || feed.value ? nullptr : analysis_->words.before(s); state != nullptr)
     feed.computed = state->word;
-  if (!own && !analysis_->given) return {std::nullopt, true, {}};
+  if (!own && !analysis_->given) return {std::nullopt, true, {}, {}};
   const auto* state = own || feed.value ? nullptr : analysis_->states.before(s);
   if (state == nullptr || state->maybe) return feed;
   if (setting_in<Units>(b, facts, Setting::units) == Units::metric) feed.value = analysis_->power_on;

@@ -12,6 +12,8 @@ struct FeedBefore {
   std::optional<double> value;    ///< program units, when it is known
   bool none = false;              ///< surely none has been given: there is nothing to restore
   std::optional<Value> computed;  ///< the word that gave it, when that is no number and still says the same
+  /// The F of millimetres per minute, where the control has kept it while another feed mode is in force.
+  std::optional<double> per_minute;
   [[nodiscard]] std::optional<Value> word() const { return value ? std::optional(Value{*value}) : computed; }
 };
 

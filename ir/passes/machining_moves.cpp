@@ -40,6 +40,7 @@ class Writer {
       : modes_(modes),
         unit_(modes.units == Units::inch ? 25.4 : 1),
         feed_(feed.value),
+        minute_feed_(feed.per_minute),
         no_feed_(feed.none),
         state_(state) {
     line_.span = like.span;
@@ -78,6 +79,11 @@ class Writer {
   }
   /// Rapid is in force afterwards; else the feed is as before.
   bool finish(bool ends_modes, std::string* error) {
+    if (minutes_) {
+      if (!no_feed_ && !feed_) return *error = "the feed after the cycle's own one is not known here", false;
+      mode(modes_.feed_mode, feed_);
+      changed_ = false;
+    }
     if (!ends_modes && changed_ && !no_feed_) {
       if (!feed_) return *error = "the feed after the cycle's own one is not known here", false;
       put(SetFeed{Value{*feed_}, false});
@@ -129,7 +135,39 @@ class Writer {
     c.value = Value{value / unit_};
     m.centers.push_back(c);
   }
+  void mode(FeedMode mode, std::optional<double> feed) {
+    ModalSet set;
+    set.setting = Setting::feed_mode;
+    set.value = static_cast<std::uint8_t>(mode);
+    set.feed_memory = FeedMemory::per_mode;
+    Block b;
+    b.actions.push_back(action(set));
+    if (feed) b.actions.push_back(action(SetFeed{Value{*feed}, false}));
+    blocks.push_back(made(line_, std::move(b)));
+  }
+  /// The cycles of a driven tool feed in millimetres per minute whatever mode is in force, at the F of that mode or at
+  /// their own one.
+  bool in_minutes(const TurnMove& m, std::string* error) {
+    if (!m.per_minute || minutes_ || modes_.feed_mode == FeedMode::per_minute) return true;
+    if (!m.has_feed && !minute_feed_)
+      return *error = "the feed in millimetres per minute is not the one in force here", false;
+    mode(FeedMode::per_minute, std::nullopt);
+    minutes_ = true;
+    return true;
+  }
+  /// In a mode that was put in force for the cycle every change of F is written.
+  bool feed_in_minutes(const TurnMove& m, Block& b, std::string* error) {
+    const auto wanted = m.has_feed ? std::optional(m.feed / unit_) : minute_feed_;
+    if (!m.per_minute || !wanted)
+      return *error = "the feed in millimetres per minute is not the one in force here", false;
+    if (changed_ && last_feed_ == *wanted) return true;
+    b.actions.push_back(action(SetFeed{Value{*wanted}, false}));
+    changed_ = true;
+    last_feed_ = *wanted;
+    return true;
+  }
   bool feed(const TurnMove& m, Block& b, std::string* error) {
+    if (minutes_) return feed_in_minutes(m, b, error);
     if (m.has_feed) {
       if (changed_ ? last_feed_ == m.feed : feed_ && *feed_ == m.feed / unit_) return true;
       b.actions.push_back(action(SetFeed{Value{m.feed / unit_}, false}));
@@ -144,9 +182,10 @@ class Writer {
   }
   bool thread(const TurnMove& m, Motion& motion, std::string* error) {
     double pitch = m.pitch;
-    if (pitch == 0 && feed_ && modes_.feed_mode == FeedMode::per_rev) pitch = *feed_ * unit_;
-    if (pitch == 0 && feed_ && modes_.feed_mode == FeedMode::per_minute && m.speed != 0)
-      pitch = *feed_ * unit_ / std::abs(m.speed);
+    const bool minutes = minutes_ || modes_.feed_mode == FeedMode::per_minute;
+    const auto feed = minutes_ ? minute_feed_ : feed_;
+    if (pitch == 0 && feed && modes_.feed_mode == FeedMode::per_rev && !minutes) pitch = *feed * unit_;
+    if (pitch == 0 && feed && minutes && m.speed != 0) pitch = *feed * unit_ / std::abs(m.speed);
     if (pitch == 0) return *error = "the pitch follows from a feed and a speed that are not known here", false;
     auto extra = std::make_shared<MotionExtra>();
     extra->has_lead = true;
@@ -174,8 +213,7 @@ class Writer {
       b.actions.push_back(action(set));
       pending_comp_.reset();
     }
-    if (m.per_minute && modes_.feed_mode != FeedMode::per_minute)
-      return *error = "the feed in millimetres per minute is not the one in force here", false;
+    if (!in_minutes(m, error)) return false;
     b.has_motion = true;
     Motion& motion = b.motion;
     motion.explicit_code = true;
@@ -186,6 +224,7 @@ class Writer {
     } else if (m.step != TurnStep::rapid) {
       motion.kind = m.step == TurnStep::feed ? MotionKind::linear : m.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
       if (!feed(m, b, error)) return false;
+      if (m.sharp && !state_.exact_stop) b.actions.push_back(action(ExactStopBlock{}));
     }
     const bool whole = m.step == TurnStep::arc;
     // A place that is not known is not gone to; one from which the way is not known is written.
@@ -205,7 +244,9 @@ class Writer {
   ModalState modes_;
   double unit_;
   std::optional<double> feed_;
+  std::optional<double> minute_feed_;  ///< that the control has kept behind another feed mode
   bool no_feed_ = false;
+  bool minutes_ = false;  ///< millimetres per minute were put in force for the moves of the cycle
   TurnState state_;
   std::optional<CompSide> pending_comp_;
   bool changed_ = false;
@@ -415,7 +456,9 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
     if (move.step == TurnStep::arc && setting_in<Plane>(b, facts, Setting::plane) != Plane::zx)
       return *error = "its arcs need the plane of Z and X", std::nullopt;
   }
-  Writer writer(s.line, *m, feeds_.at(s, b, facts), site.state);
+  TurnState state = site.state;
+  state.exact_stop = setting_in<PathMode>(b, facts, Setting::path_mode) == PathMode::exact_stop;
+  Writer writer(s.line, *m, feeds_.at(s, b, facts), state);
   writer.at = context.start;
   for (const auto& move : *moves) {
     if (!writer.add(move, error)) return std::nullopt;

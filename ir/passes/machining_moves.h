@@ -19,6 +19,7 @@ struct TurnState {
   std::optional<SpindleState> spindle;
   std::optional<std::int32_t> tool, offset;
   std::optional<Value> x, z;  ///< the last absolute words of the two axes
+  bool exact_stop = false;    ///< is surely in force
 };
 
 /// Modes as far as they are known before a block and by its own words; nullopt: units, diameters, distance or feed mode

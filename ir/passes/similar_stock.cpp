@@ -406,6 +406,8 @@ class StockForms {
     else if (!theirs.moves.empty() && theirs.moves.front().step == TurnStep::rapid)
       out.differs += "from X" + shown(from.x * k) + " Z" + shown(from.z) +
                      " (1 mm off the contour; nothing of the blank may stand there)";
+    if (std::any_of(mine_.moves.begin(), mine_.moves.end(), [](const auto& m) { return m.sharp; }))
+      out.differs += ", its finishing pass rounds the corners where the path is continuous (sharp in the source)";
     return out;
   }
   /// The feed that the source's cycle leaves in force.
