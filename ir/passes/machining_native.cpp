@@ -122,13 +122,15 @@ void TurnCycles::keep_profile(const Program& program, const Routine& routine, co
 namespace {
 
 /// A block that says nothing but an element of a profile, in words that mean the same wherever it stands. `here`: it
-/// stays where the program runs through it, so that the later passes know what holds there.
-bool plain_element(const Block& b, bool here) {
+/// stays where the program runs through it, so that the later passes know what holds there. `copied`: the blocks are
+/// set where the cycle is called, under its frames and modes, and may name a point of the frame.
+bool plain_element(const Block& b, bool here, bool copied) {
   const bool words = std::all_of(b.motion.coords.begin(), b.motion.coords.end(), [](const CoordWord& c) {
     return c.mode != WordMode::incremental && c.scale == WordScale::modal;
   });
-  const bool centres = std::all_of(b.motion.centers.begin(), b.motion.centers.end(), [here](const CenterWord& c) {
-    return here || (c.mode == CenterMode::from_start && c.scale == WordScale::radius);
+  const bool centres = std::all_of(b.motion.centers.begin(), b.motion.centers.end(), [&](const CenterWord& c) {
+    return here || (copied && c.mode == CenterMode::absolute) ||
+           (c.mode == CenterMode::from_start && c.scale == WordScale::radius);
   });
   if (!words || !centres) return false;
   const bool kind = b.motion.kind == MotionKind::modal || b.motion.kind == MotionKind::linear ||
@@ -199,6 +201,13 @@ Body TurnCycles::elements_of(const Site& site, const Block& at_call, const Facts
     out.erase(out.begin());
   }
   while (!out.empty() && std::get<Block>(out.back().node).empty()) out.pop_back();
+  // A copy stands where nobody knows the mode of the call.
+  const bool absolute = setting_in<Distance>(at_call, facts, Setting::distance) == Distance::absolute;
+  for (auto& s : out) {
+    for (auto& c : std::get<Block>(s.node).motion.centers) {
+      if (absolute && c.mode == CenterMode::follows_distance) c.mode = CenterMode::absolute;
+    }
+  }
   return out;
 }
 
@@ -215,7 +224,7 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
   for (const auto& s : blocks) {
     const auto& b = std::get<Block>(s.node);
     run = run || facts.before(s).reachable;
-    if (s.line.skip_mask != 0 || !plain_element(b, run && !numbers && !tail)) {
+    if (s.line.skip_mask != 0 || !plain_element(b, run && !numbers && !tail, numbers)) {
       *why = "a block of its profile says more than an element of it";
       return std::nullopt;
     }
@@ -233,7 +242,12 @@ std::optional<ProfileUse> TurnCycles::use_of(const NamedCycle& named, const Site
     use.first_label = std::to_string(number);
     use.last_label = std::to_string(number + 10);
     use.blocks = {blocks.begin() + 1, blocks.end()};
-    if (run) use.copy = use.blocks;
+    const bool points = std::any_of(use.blocks.begin(), use.blocks.end(), [](const Statement& s) {
+      const auto& centers = std::get<Block>(s.node).motion.centers;
+      return std::any_of(centers.begin(), centers.end(),
+                         [](const CenterWord& c) { return c.mode == CenterMode::absolute; });
+    });
+    if (run || points) use.copy = use.blocks;
     why->clear();
     return use;
   }
