@@ -1,6 +1,7 @@
 #include "translator/stream.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -178,6 +179,7 @@ class StreamTranslation {
     if (kind == frontends::StreamLine::no_statement) return true;
     auto* block = std::get_if<ir::Block>(&statement_.node);
     if (block == nullptr || !number_tools(*block)) return give_up();
+    if (std::popcount(statement_.line.skip_mask) > 1) return give_up();  // jumps, where the target takes one level
     // After a block that may be skipped the modal state is known only when the block does not touch it.
     if (statement_.line.skip_mask != 0 &&
         (!block->actions.empty() || block->motion.kind != ir::MotionKind::modal || !watch_.head_done() ||

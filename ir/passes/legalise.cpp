@@ -7,6 +7,7 @@
 #include "ir/passes/given_data.h"
 #include "ir/passes/lines.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/skip_levels.h"
 #include "ir/passes/spindle_limits.h"
 #include "ir/passes/stream_watch.h"
 #include "ir/passes/thread_leads.h"
@@ -80,6 +81,7 @@ constexpr std::array pipeline{
     Pass{"compensation", passes::check_compensation, true},
     Pass{"feed", passes::convert_feed, false},
     Pass{"order", passes::split_blocks, true},
+    Pass{"skip_levels", passes::split_skip_levels, false},
     Pass{"skips", passes::check_skips, true},
     Pass{"messages", passes::convert_messages, false},
     Pass{"end_marks", passes::fold_range_ends, false},
