@@ -160,6 +160,13 @@ void Runner::modal_call(const ir::ModalCall& m) {
   if (!m.off && !m.cycle) {
     auto* callee = callee_of(m.call);
     if (failure_.set) return;
+    // A program, not a subprogram, in a program that runs so itself.
+    if (callee != nullptr && in_modal_ != 0 && callee->routine->kind == ir::RoutineKind::main &&
+        profile_.option("call.modal_in_modal") == "refused") {
+      failure_.fail(code::modal_in_modal, "the program " + routine_text(callee->routine->name) +
+                                              " is called modally within a program that is called so itself");
+      return;
+    }
     if (callee != nullptr) {
       modal_.active = true;
       modal_.call = &m.call;

@@ -41,6 +41,7 @@ inline constexpr std::string_view program_error = "RUN-030";
 inline constexpr std::string_view file_fault = "RUN-150";
 inline constexpr std::string_view file_open_still = "RUN-151";
 inline constexpr std::string_view limit_words = "RUN-170";
+inline constexpr std::string_view modal_in_modal = "RUN-190";
 inline constexpr std::string_view passed_over = "RUN-130";
 inline constexpr std::string_view not_carried = "RUN-040";
 inline constexpr std::string_view spindle_number = "RUN-041";

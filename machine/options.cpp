@@ -23,6 +23,9 @@ constexpr std::array specs{
         "call.decoration", "text", "",
         "what the name of a called program may have about it in a computed text: a prefix and suffixes, separated by "
         "|; folders before it count for nothing then"},
+    OptionSpec{"call.modal_in_modal", "allowed|refused", "allowed",
+               "a modal call of a program within a program that is called modally itself: it takes its place, or an "
+               "error"},
     OptionSpec{"call.modal_words", "no|yes", "no",
                "under a modal call of a subprogram, F, S and a bare G0 or G1 run it as well, without motion"},
     OptionSpec{
