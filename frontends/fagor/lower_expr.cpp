@@ -160,11 +160,14 @@ std::optional<ir::SystemRef> system_variable(const Expr& e, LowerState& state, b
   using facts::Access;
   const bool no_write = info && (info->access == Access::read || info->access == Access::none);
   const bool no_read = info && (info->access == Access::write || info->access == Access::none);
+  if (written && no_write) {
+    state.error("FAG-021", e.pos, "the variable " + e.text + " can't be written by a program",
+                "the control stops here (error 74 or 75)");
+  } else if (!written && no_read) {  // programs of other versions do
+    state.warning("FAG-021", e.pos, "by the manual the variable " + e.text + " can't be read by a program",
+                  "the control may stop here (error 74 or 76); it is kept under its name");
+  }
   if (written ? no_write : no_read) {
-    state.warning("FAG-021", e.pos,
-                  "by the manual the variable " + e.text +
-                      (written ? " can't be written by a program" : " can't be read by a program"),
-                  "the control may stop here (error 74, 75 or 76); it is kept under its name");
     ir::SystemRef kept;
     kept.text = e.text;
     for (const auto& a : e.args) kept.args.push_back(lower_expr(a, state));

@@ -214,6 +214,25 @@ TEST(FagorTables, EveryMnemonicIsAWordOfTheGrammar) {
   }
 }
 
+// Appendix C: what a program may read and write. Reading one that it may not is a warning, writing one an error (75).
+TEST(FagorTables, AccessOfEveryVariable) {
+  using dialects::fagor::Access;
+  for (const auto& v : dialects::fagor::variables()) {
+    std::string name = std::string(v.name) + (v.axis ? "X" : "");
+    if (v.index != dialects::fagor::Index::none) name += v.name == "ORG" ? "54" : " 1";
+    if (v.name == "GPOS") name = "GPOSX N99 P100";
+    if (v.name == "LUP") name = "LUP(1,2)";
+    const auto reading = read("%V ,MX,\n(P100=" + name + ")\nM30\n");
+    const auto writing = read("%V ,MX,\n(" + name + "=1)\nM30\n");
+    const bool reads = v.access == Access::read || v.access == Access::read_write;
+    const bool writes = v.access == Access::write || v.access == Access::read_write;
+    EXPECT_EQ(reading.codes().find("FAG-021") == std::string::npos, reads) << name;
+    EXPECT_FALSE(reading.diagnostics.has_errors()) << name << ": " << reading.codes();
+    EXPECT_EQ(writing.codes().find("FAG-021") == std::string::npos, writes) << name;
+    EXPECT_EQ(writing.diagnostics.has_errors(), !writes) << name << ": " << writing.codes();
+  }
+}
+
 TEST(FagorTables, CodesOfBothModels) {
   for (const auto& g : dialects::fagor::g_codes()) {
     const auto model = static_cast<int>(g.model);
