@@ -30,7 +30,7 @@ LabelUse::LabelUse(const ir::Program& program) {
 }
 
 void LabelUse::use(std::size_t routine, const ir::LabelRef& label, bool range) {
-  if (label.computed) {
+  if (label.computed && label.text.empty()) {
     certain_ = false;
     computed_ = true;
     why_not_ = "a jump computes its target";

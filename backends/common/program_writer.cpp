@@ -345,6 +345,8 @@ void ProgramWriter::dispatch(const ir::Statement& s) {
 }
 
 std::string ProgramWriter::number_target(std::size_t routine, const ir::LabelRef& label) {
+  if (label.computed || !label.is_number)
+    refuse("TRN-660", {}, "a label that is no block number of the program that is called, or that only the run knows");
   if (options_.numbering == Numbering::renumber && labels_.renumberable()) {
     return 'N' + Renumbering::mark(routine, label.text);
   }

@@ -141,7 +141,7 @@ ExprPtr with_known_texts(const ExprPtr& e, const KnownValues& known) {
   return folded(e, known, false);
 }
 
-void say_known_names(Statement& s, const KnownValues& known, const Routine& routine) {
+void say_known_names(Statement& s, const KnownValues& known, const Program& program, const Routine& routine) {
   if (auto* j = std::get_if<Jump>(&s.node)) {
     say_label(j->target, routine);
   } else if (auto* sw = std::get_if<Switch>(&s.node)) {
@@ -152,6 +152,9 @@ void say_known_names(Statement& s, const KnownValues& known, const Routine& rout
     say_label(r->last, routine);
   } else if (auto* c = std::get_if<CallRoutine>(&s.node)) {
     say_routine(*c, known);
+    const Routine* callee = c->has_range && !c->computed ? program.find(c->routine) : nullptr;
+    if (callee != nullptr) say_label(c->first, *callee);
+    if (callee != nullptr) say_label(c->last, *callee);
   } else if (auto* m = std::get_if<ModalCall>(&s.node)) {
     say_routine(m->call, known);
   } else if (auto* b = std::get_if<Block>(&s.node)) {

@@ -19,7 +19,7 @@ ExprPtr with_known_texts(const ExprPtr& e, const KnownValues& known);
 
 /// What a statement names by a text or an axis that is known: the label of a jump, the subprogram of a call, the axis
 /// of a word.
-void say_known_names(Statement& s, const KnownValues& known, const Routine& routine);
+void say_known_names(Statement& s, const KnownValues& known, const Program& program, const Routine& routine);
 
 /// A function that makes a number of a text.
 bool is_text_function(const ExprPtr& e);

@@ -204,7 +204,7 @@ class KnownTexts {
     visit.expression = with;
     visit_statement(s, visit);
     if (asks) decide(s);
-    say_known_names(s, known, r);
+    say_known_names(s, known, program_, r);
   }
   /// A jump whose condition has become a number is always taken, or never.
   static void decide(Statement& s) {

@@ -3,6 +3,8 @@
 #include <array>
 
 #include "ir/passes/axis_scales.h"
+#include "ir/passes/balance_increments.h"
+#include "ir/passes/called_labels.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/given_data.h"
 #include "ir/passes/lines.h"
@@ -86,9 +88,11 @@ constexpr std::array pipeline{
     Pass{"messages", passes::convert_messages, false},
     Pass{"end_marks", passes::fold_range_ends, false},
     Pass{"labels", passes::resolve_labels, false},
+    Pass{"called_labels", passes::name_called_labels, false},
     Pass{"routines", passes::name_routines, false},
     Pass{"call_limits", passes::check_call_limits, false},
     Pass{"numbers", passes::order_numbers, false},
+    Pass{"balance", passes::balance_rows, false},
     Pass{"safe_start", passes::safe_start, false},
     Pass{"tidy", passes::tidy, false},
 };

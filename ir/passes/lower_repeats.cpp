@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "ir/passes/called_labels.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
 #include "ir/passes/head_constants.h"
@@ -69,6 +70,7 @@ class RepeatPass {
         c.last = r.last;
         c.count = r.count;
         s.node = std::move(c);
+        return call(std::move(s), out);
       } else {
         refused(s, "TRN-195", "a part of another program is repeated: the target can't", "make the part a subprogram");
       }
@@ -190,7 +192,8 @@ class RepeatPass {
       out.push_back(std::move(s));
       return;
     }
-    if (!c.count || target_.call_count) {
+    const bool once = c.has_range && names_parts_by_texts(target_) && editor_.program.dialect != target_.dialect;
+    if (!c.count || (target_.call_count && !once)) {
       return put_counted<CallRoutine>(std::move(s), out);
     }
     const ExprPtr count = std::exchange(c.count, nullptr);

@@ -41,6 +41,7 @@ class LabelPass {
     std::size_t position;
     std::size_t mark = 0;
     bool found = false, range = false;
+    bool outside = false;  ///< in a call of another routine, or in one of this routine by its name
   };
 
   void collect() {
@@ -61,6 +62,20 @@ class LabelPass {
         uses_.push_back({&s, &l, positions_[&s], 0, false, std::holds_alternative<Repeat>(s.node)});
       });
     });
+    for (auto& other : program_.routines)
+      for_each_statement(other.body, [this](Statement& s) { collect_called_part(s); });
+  }
+
+  /// Blocks of this routine that other routines run: their labels get their names here.
+  void collect_called_part(Statement& s) {
+    auto* c = std::get_if<CallRoutine>(&s.node);
+    auto* r = std::get_if<Repeat>(&s.node);
+    const bool call = c != nullptr && c->has_range && !c->computed && program_.find(c->routine) == &routine_;
+    const bool part = r != nullptr && r->has_program && program_.find(r->program) == &routine_;
+    if (!call && !part) return;
+    for (LabelRef* l : {call ? &c->first : &r->first, call ? &c->last : &r->last}) {
+      if (!l->computed && !l->text.empty()) uses_.push_back({&s, l, 0, 0, false, true, true});
+    }
   }
 
   static Search search_of(const Statement& s) {
@@ -116,24 +131,15 @@ class LabelPass {
       Search search = search_of(*u.s);
       if (const auto* sw = std::get_if<Switch>(&u.s->node)) search = search_in_switch(*sw, u.ref);
       if (search == Search::to_start) continue;
+      if (u.outside) search = Search::whole_first;
       const auto* repeat = std::get_if<Repeat>(&u.s->node);
-      const auto mark = repeat != nullptr && !repeat->has_program ? end_of_range(u, *repeat, table)
-                                                                  : find(*u.ref, u.position, search);
+      const auto mark =
+          repeat != nullptr && !u.outside ? end_of_range(u, *repeat, table) : find(*u.ref, u.position, search);
       if (!mark) continue;  // reported when the source is checked
       u.mark = *mark;
       u.found = true;
       marks_[*mark].used = true;
       marks_[*mark].range = marks_[*mark].range || u.range;
-    }
-    // Ranges of this routine that other routines run.
-    for (const auto& other : program_.routines) {
-      for_each_statement(other.body, [&](const Statement& s) {
-        const auto* c = std::get_if<CallRoutine>(&s.node);
-        if (c == nullptr || !c->has_range || program_.find(c->routine) != &routine_) return;
-        for (const LabelRef* l : {&c->first, &c->last}) {
-          if (const auto m = find(*l, 0, Search::whole_first)) marks_[*m].used = marks_[*m].range = true;
-        }
-      });
     }
   }
   static Search search_in_switch(const Switch& sw, const LabelRef* ref) {
@@ -282,6 +288,7 @@ class LabelPass {
       if (!u.found) continue;
       const Mark& m = marks_[u.mark];
       if (m.renamed) *u.ref = *m.renamed;
+      if (u.outside) continue;
       const Search search = target_search(u);
       if (auto* j = std::get_if<Jump>(&u.s->node)) {
         // A jump that would pass over a missing label has one: where it must search both ways to be quiet it may, else

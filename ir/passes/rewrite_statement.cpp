@@ -37,6 +37,8 @@ struct Parts {
       one(a.value);
       if (a.by_reference) var(a.reference);
     }
+    label(c.first);
+    label(c.last);
     one(c.count);
   }
   template <class N>

@@ -161,6 +161,12 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
     }
   }
   const auto distance = in_block(block, Setting::distance, state_.distance);
+  if (source_.dialect != target_.dialect) {  // the rounding of increments is balanced over a row of blocks
+    for (const auto& c : m.coords) {
+      const bool absolute = c.mode == WordMode::modal ? distance == Distance::absolute : c.mode == WordMode::absolute;
+      if (!absolute && too_long(c.value)) return true;
+    }
+  }
   if (keeps_differ_ && (offset_changed_ || has<WorkOffset>(block))) {
     for (const auto& c : m.coords) {
       const bool absolute = c.mode == WordMode::modal ? distance == Distance::absolute : c.mode == WordMode::absolute;
