@@ -111,7 +111,12 @@ void ProgramWriter::emit(std::string_view text, const Span& span) {
   OutputFile& f = files_.back();
   f.text += text;
   f.text += '\n';
-  f.map.lines.push_back(span);
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  f.map.lines.insert(f.map.lines.end(), static_cast<std::size_t>(lines), span);
+}
+
+void ProgramWriter::emit_remark(std::string_view text, std::size_t comments, const Span& span) {
+  emit(wrapped(text, comments, style_.comment, same_dialect_ ? 0 : style_.line_length), span);
 }
 
 void ProgramWriter::raw_line(std::string_view text, const Span& span) {
@@ -199,7 +204,7 @@ std::string ProgramWriter::line_comments() {
 
 void ProgramWriter::emit_comments_before() {
   for (const ir::CommentText& c : info_->comments) {
-    emit(comment(c.text, style_.comment, same_dialect_, nullptr), info_->span);
+    emit_remark(comment(c.text, style_.comment, same_dialect_, nullptr), 0, info_->span);
   }
 }
 
@@ -250,7 +255,7 @@ void ProgramWriter::finish_line() {
     text += remarks;
   }
   annotate();
-  emit(text, info_->span);
+  emit_remark(text, text.size() - remarks.size(), info_->span);
 }
 
 /// An empty block is an empty line of the source; elsewhere nothing was said because nothing had to be.
@@ -266,7 +271,7 @@ void ProgramWriter::annotate() {
   if (source.empty()) return;
   CommentStyle foreign = style_.comment;
   foreign.blank_after_open = false;
-  emit(comment("< " + source, foreign, false, nullptr), info_->span);
+  emit_remark(comment("< " + source, foreign, false, nullptr), 0, info_->span);
 }
 
 // ---- bodies --------------------------------------------------------------------------------------------------------

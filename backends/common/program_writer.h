@@ -190,6 +190,8 @@ class ProgramWriter {
   void statement(const ir::Statement& s, const ir::Statement* before, const ir::Statement* after);
   void dispatch(const ir::Statement& s);
   void emit(std::string_view text, const Span& span);
+  /// A line that ends in comments, which begin at `comments`: several lines where they make it too long.
+  void emit_remark(std::string_view text, std::size_t comments, const Span& span);
   void emit_comments_before();
   [[nodiscard]] std::string line_head(bool numbered);
   [[nodiscard]] std::string line_comments();

@@ -60,8 +60,9 @@ void ProgramWriter::emit_refusal() {
   refusal_code_.clear();
   CommentStyle remark = style_.comment;
   remark.blank_after_open = false;
+  const std::size_t comments = text.size();
   text += comment("!! " + code + ' ' + source, remark, false, nullptr);
-  emit(text, info_->span);
+  emit_remark(text, comments, info_->span);
   if (options_.unsupported == Unsupported::comment && refusal_moves_) {
     first_of_source_line_ = false;
     emit(line_head(true) + m_word(0), info_->span);
@@ -73,7 +74,8 @@ void ProgramWriter::remark_line(const ir::LineInfo& info) {
   CommentStyle remark = style_.comment;
   remark.blank_after_open = false;
   const std::string source(trim(source_line(info.span)));
-  raw_line(comment("!! " + source, remark, false, nullptr), info.span);
+  finish_line();
+  emit_remark(comment("!! " + source, remark, false, nullptr), 0, info.span);
 }
 
 void ProgramWriter::remark_body(const ir::Body& statements) {

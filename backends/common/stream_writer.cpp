@@ -431,20 +431,21 @@ bool PlainStreamWriter::write_head(const ir::LineInfo& info, bool numbered, char
   return true;
 }
 
+/// The line from `from` on, with comments from `comments` on, as several where it is too long.
+void PlainStreamWriter::wrap(std::string& out, std::size_t from, std::size_t comments) const {
+  if (same_dialect_ || style_.line_length == 0 || out.size() - from <= style_.line_length) return;
+  out.replace(from, std::string::npos, wrapped(out.substr(from), comments - from, style_.comment, style_.line_length));
+}
+
 void PlainStreamWriter::write_comments(const ir::LineInfo& info, std::string& out, Diagnostics* diagnostics) const {
-  bool first = true;
+  const bool own_lines = diagnostics == nullptr;
   for (const ir::CommentText& c : info.comments) {
-    if (!first) out += ' ';
-    first = false;
-    if (same_dialect_) {
-      out += style_.comment.open;
-      out += c.text;
-      out += style_.comment.close;
-    } else {
-      bool lossy = false;
-      out += comment(c.text, style_.comment, false, &lossy);
-      if (lossy && diagnostics != nullptr) note_lossy_comment(word_span(info.span, c.pos), *diagnostics);
-    }
+    if (&c != info.comments.data()) out += own_lines ? '\n' : ' ';
+    const std::size_t from = out.size();
+    bool lossy = false;
+    out += comment(c.text, style_.comment, same_dialect_, &lossy);
+    if (lossy && diagnostics != nullptr) note_lossy_comment(word_span(info.span, c.pos), *diagnostics);
+    if (own_lines) wrap(out, from, from);
   }
 }
 
@@ -480,10 +481,13 @@ bool PlainStreamWriter::write_line(const ir::LineInfo& info, const Words& words,
     out += '\n';
     ends_in_comment_ = false;
   }
+  const std::size_t from = out.size();
   out.append(line, static_cast<std::size_t>(p - line));
   if (has_comments && !comment_before) {
     if (p != line) out.append(words.count == 0 ? 1 : style_.comment.gap, ' ');
+    const std::size_t comments = out.size();
     write_comments(info, out, &diagnostics);
+    wrap(out, from, comments);
   } else if (words.count == 0 && !style_.only_label.empty()) {
     out += ' ';
     out += style_.only_label;

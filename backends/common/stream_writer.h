@@ -81,6 +81,7 @@ class PlainStreamWriter : public StreamWriter {
   bool write_line(const ir::LineInfo& info, const Words& words, std::string& out, Diagnostics& diagnostics);
   bool write_number(const Word& w, char*& p, const char* end);
   bool write_head(const ir::LineInfo& info, bool numbered, char*& p, const char* end);
+  void wrap(std::string& out, std::size_t from, std::size_t comments) const;
   void write_comments(const ir::LineInfo& info, std::string& out, Diagnostics* diagnostics) const;
 
   Style style_;

@@ -63,6 +63,7 @@ struct Style {
   int kept_decimals = 4;                   ///< a number text of the source with more places is rounded
   int made_decimals = 4;                   ///< places of numbers that passes made
   bool two_digit_m = false;                ///< M03
+  std::size_t line_length = 0;             ///< most characters of a block; 0: no limit is known
   bool order_by_rank = false;              ///< words always in rank order, also when the source had another one
   std::size_t indent = 0;                  ///< blanks a nesting level of structured statements
   bool blank_lines = true;                 ///< blank lines of the source are kept

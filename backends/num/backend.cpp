@@ -28,10 +28,11 @@ class NumStream final : public PlainStreamWriter {
       std::from_chars(stem_.data(), stem_.data() + stem_.size(), n);
       if (n < dialects::num::program_min || n > dialects::num::program_max) n = 1;
     }
-    out += '%' + std::to_string(n);
+    std::string head = '%' + std::to_string(n);
+    const std::size_t comments = head.size();
     if (main != nullptr && !main->title.empty())
-      out += ' ' + comment(main->title, num::style().comment, same_dialect(), nullptr);
-    out += '\n';
+      head += ' ' + comment(main->title, num::style().comment, same_dialect(), nullptr);
+    out += wrapped(head, comments, num::style().comment, same_dialect() ? 0 : num::style().line_length) + '\n';
   }
 
  private:

@@ -180,6 +180,7 @@ const Style& style() {
     made.kept_decimals = facts::linear_decimals;
     made.made_decimals = facts::linear_decimals;
     made.two_digit_m = true;
+    made.line_length = facts::block_length;
     made.exact_stop_block = "G9";
     made.skip_marks = skip_marks;
     return made;

@@ -215,8 +215,7 @@ void Writer::frame_use(const ir::Motion& m) {
   if (same_dialect()) return add("G52", Rank::frame, m.frame_pos);
   const auto mode = setting(ir::Setting::distance);
   for (const auto& w : m.coords) {
-    if (w.mode == ir::WordMode::incremental || (w.mode == ir::WordMode::modal && !mode) ||
-        (w.mode == ir::WordMode::modal && *mode == code_value(ir::Distance::incremental)))
+    if (increment(w) || (w.mode == ir::WordMode::modal && !mode))
       return refuse(no_word, w.pos,
                     "an incremental move in machine coordinates has no counterpart here (G52 needs G90)",
                     "write the position in machine coordinates");
@@ -237,7 +236,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   const bool turning_by_sign = w.direction == ir::RotaryDirection::by_sign;
   if (w.direction != ir::RotaryDirection::as_value && !turning_by_sign)
     return refuse(no_word, w.pos, "the direction of this rotary move has no counterpart here");
-  if (ir::is_rotary_letter(w.axis) && !turning_by_sign && w.mode != ir::WordMode::incremental) {
+  if (ir::is_rotary_letter(w.axis) && !turning_by_sign && !increment(w)) {  // an increment has its sign (6.12)
     const std::string modulo =
         profile().option(facts::option::rotary_modulo, facts::option_default(facts::option::rotary_modulo));
     const bool safe = w.value.literal() && w.value.number >= 0 && w.value.number < 360;

@@ -94,12 +94,13 @@ void Writer::write_routine(std::size_t index, std::int64_t number) {
   const bool headless = same_dialect() && !r.header.span.known();
   if (!headless) {
     std::string head = same_dialect() && !r.name.text.empty() ? "%" + r.name.text : "%" + std::to_string(number);
+    const std::size_t comments = head.size();
     if (!r.title.empty()) head += ' ' + comment(r.title, style().comment, same_dialect(), nullptr);
     for (const auto& c : r.header.comments) {
       const std::string text = comment(c.text, style().comment, same_dialect(), nullptr);
       if (c.text != r.title) head += ' ' + text;
     }
-    raw_line(head, r.header.span);
+    raw_line(wrapped(head, comments, style().comment, same_dialect() ? 0 : style().line_length), r.header.span);
   }
   // Declarations in a row stand between VAR and ENDV.
   const auto declares = [&r](std::size_t i) {
@@ -127,6 +128,11 @@ std::string Writer::decimals(const ir::Value& value) {
                           "translate a metric program where that is too much");
   }
   return text;
+}
+
+bool Writer::increment(const ir::CoordWord& w) {
+  if (w.mode != ir::WordMode::modal) return w.mode == ir::WordMode::incremental;
+  return setting(ir::Setting::distance) == code_value(ir::Distance::incremental);
 }
 
 std::string Writer::word(std::string_view address, const ir::Value& value, WordPos pos) {

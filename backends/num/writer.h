@@ -71,6 +71,7 @@ class Writer final : public ProgramWriter {
   [[nodiscard]] bool behind_words(WordPos pos) const;
   [[nodiscard]] bool begins_css() const;
   [[nodiscard]] bool machine_frame_in_incremental(const ir::Motion& m);
+  bool increment(const ir::CoordWord& w);  ///< it says a way, not a position
   std::string decimals(const ir::Value& value);
   std::string level_word(std::string_view address, const ir::Level& level, WordPos pos);
   void shift(const ir::Action& a, const ir::FrameChange& c);

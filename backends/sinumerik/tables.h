@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "backends/common/style.h"
+#include "dialects/sinumerik/limits.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -70,6 +71,7 @@ inline constexpr Style style{
     .falling_thread = "G35",
     .kept_decimals = 15,  // words take any number of places
     .made_decimals = 6,
+    .line_length = cnctrans::sinumerik::block_characters - 2,
     .indent = 2,
     .exact_stop_block = "G9",
     .preparation_stop = "STOPRE",

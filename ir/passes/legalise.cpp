@@ -73,6 +73,7 @@ constexpr std::array pipeline{
     Pass{"units", passes::convert_units, true},
     Pass{"diameters", passes::convert_diameters, true},
     Pass{"dwells", passes::convert_dwells, true},
+    Pass{"messages", passes::convert_messages, false},  // what is not shown is not computed
     Pass{"conditions", passes::lower_conditions, false},
     Pass{"expressions", passes::lower_expressions, false},
     Pass{tool_pass, passes::number_tools, false},
@@ -85,7 +86,6 @@ constexpr std::array pipeline{
     Pass{"order", passes::split_blocks, true},
     Pass{"skip_levels", passes::split_skip_levels, false},
     Pass{"skips", passes::check_skips, true},
-    Pass{"messages", passes::convert_messages, false},
     Pass{"end_marks", passes::fold_range_ends, false},
     Pass{"labels", passes::resolve_labels, false},
     Pass{"called_labels", passes::name_called_labels, false},

@@ -180,7 +180,7 @@ void lead_on(Routine& routine, Body& body, const LegaliseContext& context) {
     Statement& mark = body[i];
     const LineInfo& next = body[i + 1].line;
     if (!std::holds_alternative<Label>(mark.node) || !number_only(mark.line) || next.number.empty() ||
-        (context.source_numbers != nullptr && context.source_numbers->count(mark.line.number.data()) != 0) ||
+        context.source_numbers == nullptr || context.source_numbers->count(mark.line.number.data()) != 0 ||
         next.joined || next.skip_mask != 0 || std::holds_alternative<Opaque>(body[i + 1].node))
       continue;
     const LabelRef old = labels_on(mark.line).front(), to = labels_on(next).front();
