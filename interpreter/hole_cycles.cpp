@@ -223,7 +223,9 @@ bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, 
     case CycleStep::spindle_stop: run_spindle(master_, ir::SpindleState::off); break;
     case CycleStep::spindle_cw: run_spindle(master_, ir::SpindleState::cw); break;
     case CycleStep::spindle_ccw: run_spindle(master_, ir::SpindleState::ccw); break;
-    case CycleStep::spindle_speed: spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount; break;
+    case CycleStep::spindle_speed:
+      spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount;
+      break;
     case CycleStep::spindle_orient:
       spindles_[master_].oriented = true;
       spindles_[master_].state = ir::SpindleState::off;

@@ -319,9 +319,9 @@ struct SurfaceSet {
 };
 
 using ActionData = std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear,
-                                MasterSpindle, ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell, ExactStopBlock,
-                                Coolant, MachineFunction, Stop, CycleDefine, CycleCancel, Corner, TangentialEnd,
-                                PreparationStop, OpaqueWord, SplineAxes, SurfaceSet>;
+                                MasterSpindle, ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell,
+                                ExactStopBlock, Coolant, MachineFunction, Stop, CycleDefine, CycleCancel, Corner,
+                                TangentialEnd, PreparationStop, OpaqueWord, SplineAxes, SurfaceSet>;
 
 /// When an action is carried out relative to the motion of its block.
 enum class Order : std::uint8_t { before, with, after };

@@ -114,6 +114,9 @@ constexpr std::array specs{
                "radius of polar words without one: the tool's distance from the pole, or the one programmed last"},
     OptionSpec{"polar.pole_stays", "no|yes", "no",
                "a pole that the program has set stays in its place when the zero point moves, or moves along"},
+    OptionSpec{"feed.mixed_axes", "resultant|linear", "resultant",
+               "what F counts where linear and rotary axes move together: degrees as millimetres of one way, or the "
+               "linear axes alone"},
     OptionSpec{"rotary.direction", "by_sign|in_word", "by_sign",
                "how a rotary move says its direction: by the sign of its value, or by a word of its own"},
     OptionSpec{"round_up.negative", "stated|unstated", "stated",

@@ -196,7 +196,8 @@ void ProgramWriter::spindle_run(const ir::Action& a, const ir::SpindleRun& s) {
 }
 
 void ProgramWriter::spindle_gear(const ir::Action& a, const ir::SpindleGear& s) {
-  if (s.number != words_of_spindle_) return refuse("TRN-202", a.pos, "the gear of a second spindle has no counterpart here");
+  if (s.number != words_of_spindle_)
+    return refuse("TRN-202", a.pos, "the gear of a second spindle has no counterpart here");
   add(m_word(s.automatic ? 40 : 40 + s.gear), Rank::machine, a.pos);
 }
 

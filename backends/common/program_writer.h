@@ -71,11 +71,11 @@ class ProgramWriter {
   virtual void spindle_run(const ir::Action& a, const ir::SpindleRun& s);  // default: M3 M4 M5 of spindle 1
   virtual void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s);
   virtual void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s);
-  virtual void spindle_gear(const ir::Action& a, const ir::SpindleGear& s);  // default: M40..M45
+  virtual void spindle_gear(const ir::Action& a, const ir::SpindleGear& s);      // default: M40..M45
   virtual void master_spindle(const ir::Action& a, const ir::MasterSpindle& m);  // default: there is spindle 1 only
-  virtual void tool_select(const ir::Action& a, const ir::ToolSelect& t);    // default: T by number
-  virtual void tool_change(const ir::Action& a);                             // default: M6
-  virtual void tool_offset(const ir::Action& a, const ir::ToolOffset& t);    // default: D
+  virtual void tool_select(const ir::Action& a, const ir::ToolSelect& t);        // default: T by number
+  virtual void tool_change(const ir::Action& a);                                 // default: M6
+  virtual void tool_offset(const ir::Action& a, const ir::ToolOffset& t);        // default: D
   virtual void work_offset(const ir::Action& a, const ir::WorkOffset& w);
   virtual void frame_op(const ir::Action& a, const ir::FrameOp& f);
   virtual void pole_set(const ir::Action& a, const ir::PoleSet& p);

@@ -271,7 +271,8 @@ void Writer::master_spindle(const ir::Action& a, const ir::MasterSpindle& m) {
 }
 
 void Writer::spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) {
-  if (s.number != words_of_spindle_ && !same_dialect()) return refuse(no_word, a.pos, "a second spindle has no counterpart here");
+  if (s.number != words_of_spindle_ && !same_dialect())
+    return refuse(no_word, a.pos, "a second spindle has no counterpart here");
   const bool marker = s.angle.is(0) && s.angle.text.empty();
   if (!marker) add(word("S", s.angle, a.pos), Rank::spindle);
   add(same_dialect() && !a.text.empty() ? std::string(a.text) : m_word(19), Rank::machine, a.pos);

@@ -459,9 +459,10 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   const ir::AxisId lead = e.lead_axis == ir::axis::none ? main_axis(m) : e.lead_axis;
   if (lead > ir::axis::z) return refuse("TRN-202", m.code_pos, "the lead of this thread has no axis");
   if (e.lead.is(0)) {
-    return refuse("TRN-202", m.code_pos,
-                  "a pitch of 0 goes on with the pitch that the thread before has reached: there is no word for it here",
-                  "write the pitch itself");
+    return refuse(
+        "TRN-202", m.code_pos,
+        "a pitch of 0 goes on with the pitch that the thread before has reached: there is no word for it here",
+        "write the pitch itself");
   }
   extra(geometry().letter(lead), e.lead);
   if (!e.lead_change.is(0))

@@ -132,8 +132,8 @@ class Writer final : public ProgramWriter {
   bool list_written_ = false;  ///< the statement before was a list of values in the words of the source
   bool uses_css_ = false;
   bool chooses_master_ = false;  ///< the program chooses its master spindle
-  bool angles_ = false;     ///< every thread says its start angle
-  std::string group_code_;  ///< G94 G95 G96... of the block being written
+  bool angles_ = false;          ///< every thread says its start angle
+  std::string group_code_;       ///< G94 G95 G96... of the block being written
   bool group_written_ = false;
   bool block_has_offset_ = false;         ///< the block being written selects an offset or a tool
   std::string offset_word_;               ///< last D written, empty: none in this routine

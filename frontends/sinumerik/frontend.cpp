@@ -218,7 +218,8 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
   blank_ = 0;
   look_.archive = true;
   if (!data) return;
-  context_.warning("SIN-112", {}, name + " is no program: it is not run, and what it defines is not seen by the programs here",
+  context_.warning("SIN-112", {},
+                   name + " is no program: it is not run, and what it defines is not seen by the programs here",
                    "save it as a file of its own and name it with --lib");
 }
 

@@ -66,6 +66,10 @@ bool StatementLowering::initial_values(const Expr& e, ir::Type type, std::size_t
     return out.back() != nullptr;
   }
   if (list) {
+    if (elements != 0 && e.args.size() > elements) {
+      c_.error("SIN-114", e.pos, "the list has more values than the array has elements");
+      return false;
+    }
     for (const Expr& value : e.args) {  // a gap is 0
       out.push_back(value.kind == ExprKind::missing ? zero_of(type) : initial_value(value, type));
       if (!out.back()) return false;

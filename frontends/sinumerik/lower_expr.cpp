@@ -127,7 +127,14 @@ ir::ExprPtr ExprLowering::convert(ir::ExprPtr e, ir::Type type, WordPos pos) {
 
 ir::ExprPtr ExprLowering::lower_character(const Expr& e) {
   ir::ExprPtr value = lower(e);
-  if (!value || value->type == ir::Type::string) return value;
+  if (value && value->type == ir::Type::string) {
+    const auto* text = std::get_if<ir::String>(&value->node);
+    const auto begins = [](char ch) { return (static_cast<unsigned char>(ch) & 0xC0U) != 0x80U; };  // no UTF-8 tail
+    if (text == nullptr || std::count_if(text->text.begin(), text->text.end(), begins) <= 1) return value;
+    c_.error("SIN-114", e.pos, "a CHAR takes one character, and this text has more");
+    return nullptr;
+  }
+  if (!value) return nullptr;
   const auto* n = std::get_if<ir::Number>(&value->node);
   if (n != nullptr && n->value >= 1 && n->value <= 127 && n->value == std::trunc(n->value))
     return make_expr(ir::String{std::string(1, static_cast<char>(saturate<unsigned char>(n->value)))}, ir::Type::string,

@@ -178,12 +178,10 @@ ir::ExprPtr ExprLowering::active_g_function(const Expr& e) {
     ref.text = e.text;
     const int code = g.number >= 0 ? g.number : -(100 * g.group + g.index);  // DIAMON and its like have no number
     ref.args = {ir::number(code), ir::number(setting), ir::number(value)};
-    auto term =
-        ir::binary(ir::BinaryOp::multiply, ir::number(g.index), make_expr(ref, ir::Type::real, e.pos));
+    auto term = ir::binary(ir::BinaryOp::multiply, ir::number(g.index), make_expr(ref, ir::Type::real, e.pos));
     if (g.use == GUse::units) {  // G70 and G700 differ in what is in inches
       ref.args = {ir::number(code), ir::number(ir::units_feed_too_setting), ir::number(g.b)};
-      term = ir::binary(ir::BinaryOp::multiply, std::move(term),
-                        make_expr(std::move(ref), ir::Type::real, e.pos));
+      term = ir::binary(ir::BinaryOp::multiply, std::move(term), make_expr(std::move(ref), ir::Type::real, e.pos));
     }
     sum = sum ? ir::binary(ir::BinaryOp::add, std::move(sum), std::move(term)) : std::move(term);
   }

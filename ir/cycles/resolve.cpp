@@ -95,7 +95,9 @@ bool sensible(const HoleCycle& c, HoleNumbers& n, std::string* error) {
     return false;
   }
   if (pecks && !n.reapproach_automatic && n.reapproach < 0) {
-    *error = "the distance above the last depth, where feeding starts again, is negative: that would be a rapid into the stock";
+    *error =
+        "the distance above the last depth, where feeding starts again, is negative: that would be a rapid into the "
+        "stock";
     return false;
   }
   if (pecks && by_count && n.count < 0.5) {

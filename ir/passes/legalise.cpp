@@ -8,6 +8,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/given_data.h"
 #include "ir/passes/lines.h"
+#include "ir/passes/mixed_feeds.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/skip_levels.h"
 #include "ir/passes/spindle_limits.h"
@@ -28,6 +29,7 @@ struct Pass {
 constexpr std::array pipeline{
     Pass{"headings", passes::move_headings, false},
     Pass{"spindle_limits", passes::check_spindle_limits, false},
+    Pass{"mixed_feeds", passes::check_mixed_feeds, false},
     Pass{"texts", passes::write_known_texts, false},
     Pass{"called_parts", passes::separate_called_parts, false},
     Pass{"known_frames", passes::say_known_frames, false},

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ir/passes/blocks.h"
+#include "ir/passes/mixed_feeds.h"
 
 namespace cnctrans::ir {
 
@@ -51,6 +52,7 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       tables_differ_(passes::offset_tables_differ(source, target_machine)),
       bare_differs_(source.dialect != target.dialect && passes::bare_offsets_differ(source, target_machine)),
       pitch_each_block_(target_machine.option("thread.pitch") == "each_block"),
+      mixed_feeds_differ_(passes::mixed_feeds_differ(source, target_machine)),
       lengths_differ_(source.dialect != target.dialect && passes::length_axes_differ(source, target_machine)),
       needs_places_(source.kind == machine::Kind::mill && source.dialect != target.dialect &&
                     target.centers.count(CenterMode::from_start) == 0) {
@@ -176,6 +178,7 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
   const MotionKind kind = m.kind == MotionKind::modal ? state_.motion : m.kind;
   if (pitch_each_block_ && (kind == MotionKind::thread || kind == MotionKind::thread_variable) && !m.coords.empty())
     return true;
+  if (mixed_feeds_differ_ && kind != MotionKind::rapid && passes::moves_and_turns(block, source_)) return true;
   if (!is_arc(kind)) return false;
   const auto rounded = [this](const auto& word) { return too_long(word.value); };
   if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), rounded) ||

@@ -85,11 +85,12 @@ class StreamWatch {
   bool offset_said_ = false;  ///< a D number that has been warned of
   passes::OffsetNumbers offset_numbers_{};
   passes::BareTool bare_tool_{};
-  bool bare_differs_;      ///< a tool without a D has another offset on the target
-  bool pitch_each_block_;  ///< joined threads get the pitch of the first one, or give up their start angle
-  bool lengths_differ_;    ///< another plane has the tool's length along another axis on the target
-  bool needs_places_;      ///< the target wants the absolute centre of an arc
-  Facts facts_;            ///< needs_places_: the positions before the block at hand, and what they follow from
+  bool bare_differs_;        ///< a tool without a D has another offset on the target
+  bool pitch_each_block_;    ///< joined threads get the pitch of the first one, or give up their start angle
+  bool mixed_feeds_differ_;  ///< F counts otherwise where linear and rotary axes move together
+  bool lengths_differ_;      ///< another plane has the tool's length along another axis on the target
+  bool needs_places_;        ///< the target wants the absolute centre of an arc
+  Facts facts_;              ///< needs_places_: the positions before the block at hand, and what they follow from
   bool places_stale_ = false;
   bool head_done_ = false;  ///< from here on the head's
   bool said_motion_ = false, moved_ = false, fed_ = false, waits_for_feed_ = false;

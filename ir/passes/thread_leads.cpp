@@ -161,8 +161,9 @@ void write_thread_leads(Program& program, const LegaliseContext& context) {
       extra->has_lead = true;
       extra->lead = Value{*state->lead};
       extra->lead_axis = state->axis;
-      const bool along = state->axis == axis::none || std::any_of(b->motion.coords.begin(), b->motion.coords.end(),
-                                     [&](const CoordWord& c) { return c.axis == state->axis; });
+      const bool along =
+          state->axis == axis::none || std::any_of(b->motion.coords.begin(), b->motion.coords.end(),
+                                                   [&](const CoordWord& c) { return c.axis == state->axis; });
       b->motion.extra = std::move(extra);
       if (along) return;
       context.diagnostics.warning("TRN-479", s.line.span,
