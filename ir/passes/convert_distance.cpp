@@ -73,6 +73,17 @@ struct UnmovedAxes {
     });
     return found;
   }
+  /// Changes of frames alone make an axis wait for its first move.
+  [[nodiscard]] static bool adds(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      State none = 0;
+      transfer(s, none);
+      found = found || (none & axis_bits) != 0;
+    });
+    return found;
+  }
+  static void only_kept(State& back, State before) { back &= before | ~axis_bits; }
   static void unknown(State& /*state*/) {}
   static bool join(State& a, State b) {
     const State before = a;

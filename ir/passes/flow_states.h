@@ -16,6 +16,10 @@ namespace cnctrans::ir::passes {
 ///   bool touches(const Routine&): the routine's own statements can change a state;
 ///   void unknown(State&): after a call of a routine that is not at hand, or of a part of one that touches the state;
 ///   bool join(State&, const State&): narrows the first to what holds on both ways; true when it changed.
+/// It may have both of
+///   bool adds(const Routine&): the routine's own statements can put something into a state;
+///   void only_kept(State& back, const State& before): behind a call of routines that put nothing in, nothing is there
+///     that was not there before the call, whatever other callers have.
 template <class Domain>
 class FlowStates {
  public:
@@ -53,7 +57,7 @@ class FlowStates {
   struct OfRoutine {
     ControlFlow flow;
     std::optional<State> entry, exit;
-    bool touches = false, open = false;
+    bool touches = false, open = false, adds = true;
   };
 
   void find_touching() {
@@ -73,7 +77,28 @@ class FlowStates {
       else
         modal_unknown_ = true;
     }
+    find_adding();
   }
+  void find_adding() {
+    if constexpr (keeps_own) {
+      for (std::size_t i = 0; i < routines_.size(); ++i) routines_[i].adds = domain_.adds(program_.routines[i]);
+      for (bool more = true; more;) {
+        more = false;
+        for (const auto& site : calls_.sites()) {
+          auto& caller = routines_[site.caller];
+          if (caller.adds || (site.callee && !routines_[*site.callee].adds)) continue;
+          caller.adds = more = true;
+        }
+      }
+      bool by_modal = modal_unknown_;
+      for (const auto callee : modal_callees_) by_modal = by_modal || routines_[callee].adds;
+      for (auto& r : routines_) r.adds = r.adds || by_modal;  // any move may run it
+    }
+  }
+  static constexpr bool keeps_own = requires(const Domain& d, const Routine& r, State& a) {
+    d.adds(r);
+    d.only_kept(a, a);
+  };
   void enter(std::size_t routine, const State& state) {
     auto& r = routines_[routine];
     if (!r.entry) {
@@ -166,6 +191,9 @@ class FlowStates {
     }
     if (!of.exit) return std::nullopt;
     State back = *of.exit;
+    if constexpr (keeps_own) {
+      if (!of.adds) domain_.only_kept(back, state);
+    }
     if (maybe_never) {
       enter(*callee, back);
       domain_.join(back, state);
