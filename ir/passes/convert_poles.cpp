@@ -1,5 +1,5 @@
-// Poles of polar coordinates (equivalences 9.2, 10): followed along the program, so that a plane function that
-// resets the pole on one control only, a pole relative to another point and an arc by its pole mean the same there.
+// Poles of polar coordinates (equivalences 9.2, 10), followed: a plane function that resets the pole on one control
+// only, a pole relative to another point and an arc by its pole mean the same there.
 #include <cmath>
 #include <numbers>
 
@@ -65,7 +65,8 @@ class PolePass {
     radii_ = &radii;
     uses_ = label_uses(program_, r);
     states_ = &states;
-    forget_point();
+    modal_ = has_modal_calls(program_);  // any move may run a subprogram
+    forget_way();
     walk(r.body);
   }
 
@@ -88,26 +89,28 @@ class PolePass {
     radius_.reset();
     angle_.reset();
   }
+  void forget_way() { forget_point(), way_.reset(); }
   void walk(Body& body) {
     for (auto& s : body) {
       for (const auto& l : labels_on(s.line)) {
-        if (uses_.is_target(l) || uses_.computed) forget_point();
+        if (uses_.is_target(l) || uses_.computed) forget_way();
       }
       const State* before = states_->before(s);
-      pole_ = before != nullptr ? *before : std::nullopt;
+      pole_ = before == nullptr ? std::nullopt : *before ? *before : way_;
       if (auto* b = std::get_if<Block>(&s.node)) {
         block(s, *b);
+        way_ = s.line.skip_mask == 0 && !modal_ ? pole_ : std::nullopt;
         continue;
       }
       bool nested = false;
       each_body(s, [&](Body& inner) {
         nested = true;
-        forget_point();
+        forget_way();
         walk(inner);
       });
       const bool called = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
       const bool elsewhere = called || std::holds_alternative<Repeat>(s.node) || std::holds_alternative<Opaque>(s.node);
-      if (nested || elsewhere) forget_point();
+      if (nested || elsewhere) forget_way();
       each_target(s, [this](const VarRef& v) {
         for (auto* value : {&radius_, &angle_}) {
           if (*value && (*value)->expr && reads((*value)->expr, v)) value->reset();
@@ -193,12 +196,7 @@ class PolePass {
 
   /// The point of the polar words over a block without such words: moves along other axes leave it where it is.
   void follow_point(const Block& b, const Facts& facts) {
-    const bool moved_zero = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-      const auto* d = std::get_if<CycleDefine>(&a.data);
-      return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
-             (d != nullptr && !leaves_point(*d));
-    });
-    if (moved_zero) return forget_point();
+    if (loses_point(b)) return forget_point();
     if (!b.has_motion || !b.motion.moves()) return;
     const bool plain = plane_ && b.motion.frame == FrameUse::normal && !b.motion.extra;
     if (!plain) return forget_point();
@@ -472,14 +470,13 @@ class PolePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   LabelUses uses_;
-  State pole_;
+  State pole_, way_;                     ///< way_: behind the block before, where the dataflow does not know it
   std::optional<Point2> at_;             ///< where polar words have led, when the dataflow does not know it
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   const FlowStates<RadiusDomain>* radii_ = nullptr;
   bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
-  bool polar_arc_done_ = false;
-  bool quiet_ = false;  ///< only following
+  bool polar_arc_done_ = false, modal_ = false, quiet_ = false;  ///< quiet: only following
   std::optional<Plane> plane_;
   bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false, target_stays_ = false,
        radius_stays_ = false, target_radius_stays_ = false;

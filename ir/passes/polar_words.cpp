@@ -115,6 +115,25 @@ std::shared_ptr<const FrameChange> pole_words(Plane plane, Point2 at, double fu,
   return change;
 }
 
+bool loses_point(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* d = std::get_if<CycleDefine>(&a.data);
+    return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+           (d != nullptr && !leaves_point(*d));
+  });
+}
+
+bool has_modal_calls(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      found = found || (m != nullptr && !m->cycle);
+    });
+  }
+  return found;
+}
+
 bool uses_polar(const Program& program) {
   bool found = false;
   for (const auto& r : program.routines) {

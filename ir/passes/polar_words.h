@@ -67,6 +67,10 @@ bool moves_zero(const Action& a);
 /// The pole as words of the plane's axes; `fu`, `fv`: radius of one unit of them.
 std::shared_ptr<const FrameChange> pole_words(Plane plane, Point2 at, double fu, double fv);
 
+/// Frames, or a cycle, take the tool to a point that polar words do not know.
+bool loses_point(const Block& b);
+/// Some moves may run a subprogram.
+bool has_modal_calls(const Program& program);
 /// The program has polar words or sets a pole.
 bool uses_polar(const Program& program);
 
