@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -49,6 +50,11 @@ class Maker {
     const double v = (1 + pick(400)) / 8.0;
     return {shortest(v), v};
   }
+  /// `&` and `!` work on the whole part of both sides (19.3).
+  static double bits(double a, double b, char op) {
+    const auto x = static_cast<std::int64_t>(a), y = static_cast<std::int64_t>(b);
+    return static_cast<double>(op == '&' ? x & y : x | y);
+  }
   Term primary() {
     const Term t = operand();
     constexpr double degree = std::numbers::pi / 180;
@@ -61,6 +67,8 @@ class Maker {
       default: return t;
     }
   }
+  /// Rounding in the last digits must not decide about the whole part.
+  static bool whole_part_is_clear(double v) { return std::fabs(v - std::round(v)) > 1e-6 || v == std::round(v); }
   bool chain(std::string& text, double& v) {
     const Term first = primary();
     const bool minus = pick(4) == 0;
@@ -68,12 +76,15 @@ class Maker {
     v = minus ? -first.value : first.value;
     for (int n = pick(6); n > 0; --n) {
       const Term t = primary();
-      const char op = "+-*/"[pick(4)];
+      const char op = "+-*/+-*/&!"[pick(10)];
+      if ((op == '&' || op == '!') && !(whole_part_is_clear(v) && whole_part_is_clear(t.value))) return false;
       text += op + t.text;
       switch (op) {
         case '+': v += t.value; break;
         case '-': v -= t.value; break;
         case '*': v *= t.value; break;
+        case '&':
+        case '!': v = bits(v, t.value, op); break;
         default:
           if (std::fabs(t.value) < 0.05) return false;
           v /= t.value;
