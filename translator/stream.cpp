@@ -231,9 +231,24 @@ class StreamTranslation {
     return static_cast<std::uint32_t>(it - states_.begin());
   }
 
+  /// Some line of the file has I or J with a number: an arc by its centre, as a rule.
+  bool has_centres() {
+    if (!centres_) {
+      centres_ = look_through(path_)([](std::string_view text) {
+        for (std::size_t i = text.find_first_of("IJ"); i < text.size(); i = text.find_first_of("IJ", i + 1)) {
+          const char next = i + 1 < text.size() ? text[i + 1] : '\0';
+          if ((next >= '0' && next <= '9') || next == '-' || next == '+' || next == '.' || next == '=') return true;
+        }
+        return false;
+      });
+    }
+    return *centres_;
+  }
+
   /// False: the attempt to learn the line's shape left another state behind, which must not happen.
   bool learn(const SourceLine& line, std::size_t before, bool quiet) {
     if (!shapes_) {
+      if (watch_.needs_places() && has_centres()) return true;
       const int places = std::min(writer_->places_kept(), watch_.places());
       if (reader_->modal_key() == 0 || places < 0) return true;
       shapes_.emplace(reader_->free_numbers(), places);
@@ -384,6 +399,7 @@ class StreamTranslation {
   bool plain_ = false;       ///< the block at hand needed no pass
   ir::Body head_;
   std::string origin_;
+  std::optional<bool> centres_;
   std::optional<StreamTools> tools_;  ///< from the first tool by its name on
   Span last_code_;                    ///< of the last statement that is more than a comment
   bool ended_ = false;

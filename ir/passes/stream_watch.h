@@ -50,6 +50,8 @@ class StreamWatch {
   [[nodiscard]] std::optional<Statement> start_of(const Block& block) const;
   /// Blocks were written that follow() has not seen; they change positions only.
   void passed_by() { places_stale_ = true; }
+  /// Arcs by the offset of their centre need the place where they begin: no line may be passed by before them.
+  [[nodiscard]] bool needs_places() const { return needs_places_; }
   /// Numbers with more places than these count as something else: see follow().
   [[nodiscard]] int places() const { return places_; }
   /// Everything that look() goes by besides the block.
