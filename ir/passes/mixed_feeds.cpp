@@ -45,9 +45,9 @@ void check_mixed_feeds(Program& program, const LegaliseContext& context) {
                   : "linear and rotary axes move together: the degrees count as millimetres of the way here, on the "
                     "target F is the speed of the linear axes alone, which can be many times as fast (said once a "
                     "program)",
-        by_linear ? "check the feeds; on a Sinumerik FGROUP(X,Y,Z) at the head of the program makes F hold for these "
-                    "axes alone"
-                  : "check the feeds of these moves, or program them in inverse time");
+        by_linear
+            ? "check the feeds, or let F hold for the linear axes alone on the target too (FGROUP, where it has that)"
+            : "check the feeds of these moves, or program them in inverse time");
     return;
   }
 }
