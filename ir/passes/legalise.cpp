@@ -5,6 +5,7 @@
 #include "ir/passes/axis_scales.h"
 #include "ir/passes/balance_increments.h"
 #include "ir/passes/called_labels.h"
+#include "ir/passes/cycle_spindles.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/given_data.h"
 #include "ir/passes/lines.h"
@@ -59,6 +60,7 @@ constexpr std::array pipeline{
     Pass{"written_offsets", passes::select_written_offsets, false},
     Pass{"tap_speeds", passes::write_tap_speeds, false},
     Pass{"cycles", passes::lower_cycles, false},
+    Pass{"cycle_spindles", passes::name_cycle_spindles, false},
     Pass{"reference_moves", passes::convert_reference_moves, true},
     Pass{"preset_steps", passes::settle_preset_steps, false},
     Pass{"shift_parts", passes::join_shift_parts, false},
