@@ -126,13 +126,15 @@ constexpr const LRange* l_range(std::int64_t number) {
   return nullptr;
 }
 
-/// L900 to L951 under their names in a macro: 'A to 'Z, 'EA to 'EZ (13.7).
+/// L900 to L951 are the words beside a macro, in the order A to Z, EA to EZ (13.7).
+inline constexpr std::int64_t first_argument = 900, last_argument = 951;
+/// Under their names in the macro: 'A to 'Z, 'EA to 'EZ.
 constexpr std::optional<std::int64_t> argument_variable(std::string_view name) {
   const bool extended = name.size() == 3 && (name[1] == 'E' || name[1] == 'e');
   if (name.empty() || name[0] != '\'' || (name.size() != 2 && !extended)) return std::nullopt;
   const char letter = name.back() >= 'a' ? static_cast<char>(name.back() - 'a' + 'A') : name.back();
   if (letter < 'A' || letter > 'Z') return std::nullopt;
-  return 900 + (letter - 'A') + (extended ? 26 : 0);
+  return first_argument + (letter - 'A') + (extended ? 26 : 0);
 }
 
 /// System units in a millimetre and in a degree.

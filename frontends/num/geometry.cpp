@@ -4,25 +4,27 @@
 #include <utility>
 
 #include "base/saturate.h"
+#include "dialects/num/variables.h"
 #include "frontends/num/actions.h"
 #include "frontends/num/slots.h"
 
 namespace cnctrans::frontends::num {
 
 using namespace slot;
+namespace facts = dialects::num;
 
 /// All words of the block are arguments of the macro, by the place of their address in the table 'A to 'EZ.
 void Lowering::macro_words() {
-  constexpr std::int64_t first_alias = 900, last_slot = 51;
   const Word& g = *marks_.macro;
   flow_->macro = saturate<std::int64_t>(g.number);
   flow_->macro_pos = g.pos;
   for (const Word& w : block_->words) {
     if (&w == &g) continue;
     const int s = slot_of(w.address);
-    if (s < 0 || s > last_slot || s == letter('G') || s == letter('M') || s == letter('N'))
+    if (s < 0 || s > facts::last_argument - facts::first_argument || s == letter('G') || s == letter('M') ||
+        s == letter('N'))
       return unknown(w, "beside a macro of the machine this word can't be told from the macro's");
-    flow_->arguments.emplace_back(first_alias + s, value(w));
+    flow_->arguments.emplace_back(facts::first_argument + s, value(w));
   }
   out_->clear();
   steps_.clear();
