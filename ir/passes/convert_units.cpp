@@ -18,7 +18,7 @@ class UnitPass {
 
   void block(Statement& s, Block& b) {
     const auto* state = units_.before(s);
-    std::optional<bool> feed_too = state != nullptr ? state->feed_too : std::nullopt;
+    std::optional<bool> feed_too = state != nullptr ? state->value : std::nullopt;
     for (auto& a : b.actions) {
       auto* m = std::get_if<ModalSet>(&a.data);
       if (m == nullptr || m->setting != Setting::units) continue;

@@ -1,6 +1,7 @@
 #include "ir/passes/cycle_spindles.h"
 
 #include "ir/passes/flow_states.h"
+#include "ir/passes/one_value.h"
 #include "ir/passes/rewrite.h"
 #include "ir/search.h"
 
@@ -9,28 +10,20 @@ namespace cnctrans::ir::passes {
 namespace {
 
 /// A domain of FlowStates: the spindle that is chosen.
-class ChosenSpindle {
+class ChosenSpindle : public OneValue<std::uint8_t> {
  public:
-  struct State {
-    std::optional<std::uint8_t> number;
-  };
-  [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return {std::uint8_t{1}}; }
+  [[nodiscard]] static State start(const Routine& r, bool /*called*/) {
+    return r.kind == RoutineKind::main ? State{std::uint8_t{1}} : State{};
+  }
   static void transfer(const Statement& s, State& state) {
     const auto* chosen = chosen_in(s);
     if (chosen == nullptr) return;
-    state.number =
-        s.line.skip_mask == 0 || state.number == chosen->number ? std::optional(chosen->number) : std::nullopt;
+    state.value = s.line.skip_mask == 0 || state.value == chosen->number ? std::optional(chosen->number) : std::nullopt;
   }
   static bool touches(const Routine& r) {
     bool found = false;
     for_each_statement(r.body, [&found](const Statement& s) { found = found || chosen_in(s) != nullptr; });
     return found;
-  }
-  static void unknown(State& state) { state.number.reset(); }
-  static bool join(State& a, const State& b) {
-    if (!a.number || a.number == b.number) return false;
-    a.number.reset();
-    return true;
   }
 
  private:
@@ -63,9 +56,9 @@ void name_cycle_spindles(Program& program, const LegaliseContext& context) {
       const auto* state = states.before(s);
       for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
         std::uint8_t* number = made_number(b->actions[i]);
-        if (number == nullptr || (state != nullptr && state->number == 1)) continue;
-        if (state != nullptr && state->number) {
-          *number = *state->number;
+        if (number == nullptr || (state != nullptr && state->value == 1)) continue;
+        if (state != nullptr && state->value) {
+          *number = *state->value;
           continue;
         }
         refuse(s, program, context, "TRN-330",

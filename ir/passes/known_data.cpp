@@ -233,7 +233,7 @@ class KnownData {
     if (n == setting_count + 1) return same(facts.work_offset);
     if (n == units_feed_too_setting) {
       const auto* unit = feed_units_.before(s);
-      return unit != nullptr ? same(unit->feed_too) : std::nullopt;
+      return unit != nullptr ? same(unit->value) : std::nullopt;
     }
     return n < setting_count ? same(facts.settings[n]) : std::nullopt;
   }

@@ -5,6 +5,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/flow_states.h"
+#include "ir/passes/one_value.h"
 #include "ir/passes/rewrite.h"
 
 namespace cnctrans::ir::passes {
@@ -12,13 +13,10 @@ namespace cnctrans::ir::passes {
 namespace {
 
 /// A domain of FlowStates: the angle said last; none: the ways that lead here do not agree, or it is computed.
-class AngleDomain {
+class AngleDomain : public OneValue<double> {
  public:
-  struct State {
-    std::optional<double> angle = 0;
-  };
   [[nodiscard]] static State start(const Routine& r, bool /*called*/) {
-    return r.kind == RoutineKind::main ? State{} : State{std::nullopt};
+    return r.kind == RoutineKind::main ? State{0.0} : State{};
   }
   static const Value* said(const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);
@@ -27,7 +25,7 @@ class AngleDomain {
   }
   static void transfer(const Statement& s, State& state) {
     const Value* v = said(s);
-    if (v != nullptr) state.angle = v->literal() ? std::optional(v->number) : std::nullopt;
+    if (v != nullptr) state.value = v->literal() ? std::optional(v->number) : std::nullopt;
   }
   static bool touches(const Routine& r) {
     bool found = false;
@@ -36,12 +34,6 @@ class AngleDomain {
       found = found || (v != nullptr && !v->is(0));
     });
     return found;
-  }
-  static void unknown(State& state) { state.angle.reset(); }
-  static bool join(State& a, const State& b) {
-    if (!a.angle || a.angle == b.angle) return false;
-    a.angle.reset();
-    return true;
   }
 };
 
@@ -87,8 +79,8 @@ void carry_on(Program& program, const LegaliseContext& context, const FactsOf& f
       Motion* m = bare_thread(s, facts);
       const auto* state = m != nullptr ? states.before(s) : nullptr;
       if (state == nullptr) return;
-      if (state->angle && *state->angle != 0) say(*m, Value{*state->angle});
-      if (state->angle) return;
+      if (state->value && *state->value != 0) say(*m, Value{*state->value});
+      if (state->value) return;
       context.diagnostics.warning(
           "TRN-610", s.line.span,
           "the start angle of a thread stays in force in the source, and the way of the program "
