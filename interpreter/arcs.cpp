@@ -85,13 +85,12 @@ bool BlockMachine::polar_arc(const ir::Motion& m, Move& move) {
   const Vec p0 = at(move.from, plane);
   const double r0 = length(p0 - move.centre);
   double r = r0;
-  const bool absolute = x.polar_mode == ir::WordMode::absolute ||
-                        (x.polar_mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
-  if (x.has_polar_radius) polar_radius_ = r = value(x.polar_radius) * unit() + (absolute ? 0 : r0);
+  if (x.has_polar_radius)
+    polar_radius_ = r = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : r0);
   if (x.has_polar_angle || (x.has_polar_radius && r0 > same_point)) {  // without its word the angle stays
     const double a = x.has_polar_angle ? value(x.polar_angle) : 0;
     Vec direction{cos_degrees(a), sin_degrees(a)};
-    if (!absolute || !x.has_polar_angle) {
+    if (!counts_absolutely(x.polar_angle_mode) || !x.has_polar_angle) {
       const Vec d = (1 / r0) * (p0 - move.centre);
       direction = {d.u * direction.u - d.v * direction.v, d.u * direction.v + d.v * direction.u};
     }

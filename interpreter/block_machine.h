@@ -250,6 +250,9 @@ class BlockMachine final : public SystemData {
   bool positioning_moves(const ir::Motion& m);
   bool computed_words(const ir::Motion& m, Move& move);
   bool end_point(const ir::Motion& m, Move& move);
+  [[nodiscard]] bool counts_absolutely(ir::WordMode mode) const {
+    return mode == ir::WordMode::absolute || (mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
+  }
   bool polar_end(const ir::Motion& m, Move& move);
   bool line_by_angle(const ir::Motion& m, Move& move);
   bool thread(const ir::Motion& m, bool variable, Move& move);

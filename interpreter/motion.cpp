@@ -238,14 +238,12 @@ bool BlockMachine::polar_end(const ir::Motion& m, Move& move) {
   const Vec here = Vec{p_[plane.u], p_[plane.v]} - pole_;
   double radius = length(here);
   double angle = radius < same_point ? 0 : std::atan2(here.v, here.u) * 180 / std::numbers::pi;
-  const bool absolute = x.polar_mode == ir::WordMode::absolute ||
-                        (x.polar_mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
   if (x.has_polar_radius) {
-    polar_radius_ = radius = value(x.polar_radius) * unit() + (absolute ? 0 : radius);
+    polar_radius_ = radius = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : radius);
   } else if (policy_.polar_radius_stays && polar_radius_) {
     radius = *polar_radius_;
   }
-  if (x.has_polar_angle) angle = value(x.polar_angle) + (absolute ? 0 : angle);
+  if (x.has_polar_angle) angle = value(x.polar_angle) + (counts_absolutely(x.polar_angle_mode) ? 0 : angle);
   if (radius < 0) return failure_.fail(code::polar, "the polar radius becomes negative");
   if (cartesian) return failure_.fail(code::polar, "a coordinate of the plane stands beside polar words");
   move.to[plane.u] = pole_.u + radius * cos_degrees(angle);

@@ -95,7 +95,8 @@ struct MotionExtra {
   // polar
   bool has_polar_radius = false, has_polar_angle = false;
   Value polar_radius, polar_angle;
-  WordMode polar_mode = WordMode::modal;
+  WordMode polar_mode = WordMode::modal;        ///< of the radius
+  WordMode polar_angle_mode = WordMode::modal;  ///< of the angle
   // line by angle and one coordinate
   bool has_line_angle = false;
   Value line_angle;

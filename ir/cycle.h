@@ -71,10 +71,11 @@ struct Pecks {
   Value reapproach;  ///< distance above the last bottom where feeding starts again
   bool reapproach_automatic =
       false;  ///< reapproach by rule of the source (0.6 mm up to depth 30, else depth/50, at most 7)
-  bool first_from_surface = false;  ///< pecks are counted from the surface, not from the reference plane
-  bool lift_rapid = false;          ///< peck_break: the lift is a rapid, then rapid to `reapproach`; else at feed
-  Value dwell;                      ///< seconds (after `dwell_scale`) after every peck but the last
-  Value first_feed_factor;          ///< the first peck's feed is the feed times this, when `has_first_feed_factor`
+  bool withdraws_to_retract = false;  ///< peck_full: between the pecks up to the retract level, not the reference plane
+  bool first_from_surface = false;    ///< pecks are counted from the surface, not from the reference plane
+  bool lift_rapid = false;            ///< peck_break: the lift is a rapid, then rapid to `reapproach`; else at feed
+  Value dwell;                        ///< seconds (after `dwell_scale`) after every peck but the last
+  Value first_feed_factor;            ///< the first peck's feed is the feed times this, when `has_first_feed_factor`
   bool has_first_feed_factor = false;
 };
 

@@ -107,6 +107,7 @@ class Analysis {
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
+      chooses_spindles_ |= std::holds_alternative<MasterSpindle>(a.data);
       if (const auto* c = std::get_if<CycleDefine>(&a.data); c != nullptr && c->modal) note_cycle(c->cycle);
     }
   }
@@ -237,6 +238,7 @@ class Analysis {
       f = power_on_facts();
     } else {
       f.forget();
+      if (chooses_spindles_) f.master.reset();
       f.reachable = true;
       f.modal_call = 0;  // a subprogram by itself: nothing says that its caller has one in force
     }
@@ -449,6 +451,7 @@ class Analysis {
   std::array<Facts, 4> probes_;
   std::uint32_t framed_ = ~0U;
   bool modal_unknown_ = false;
+  bool chooses_spindles_ = false;  ///< some block has a MasterSpindle
 };
 
 }  // namespace

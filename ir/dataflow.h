@@ -22,7 +22,8 @@ struct Facts {
   /// to radius), when it is a known number.
   std::array<std::optional<double>, axis::count_max> position{};
   std::optional<double> feed;
-  std::optional<double> spindle;
+  std::optional<double> spindle;          ///< S of the spindle that is chosen
+  std::optional<std::uint8_t> master{1};  ///< the spindle that is chosen (MasterSpindle)
   bool cycle_active = false, cycle_active_known = true;
   /// The active cycle is known to be a hole along the normal of the plane: it leaves the tool over the hole.
   bool cycle_is_hole = false;
@@ -33,7 +34,7 @@ struct Facts {
   /// Routine that a modal call in force runs after motions: its index + 1; 0: no modal call; -1: unknown.
   std::int32_t modal_call = 0;
 
-  /// Nothing is known any more (reachable stays).
+  /// Nothing is known any more (reachable stays, and spindle 1 where none was chosen).
   void forget();
   bool operator==(const Facts&) const = default;
 };

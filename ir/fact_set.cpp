@@ -13,6 +13,7 @@ FactSet differing(const Facts& a, const Facts& b) {
   set[cycle_bit] = a.cycle_active != b.cycle_active || a.cycle_active_known != b.cycle_active_known ||
                    a.cycle_is_hole != b.cycle_is_hole || a.cycle_from != b.cycle_from;
   set[modal_call_bit] = a.modal_call != b.modal_call;
+  set[master_bit] = a.master != b.master;
   return set;
 }
 
@@ -34,6 +35,7 @@ void take(Facts& facts, const Facts& from, const FactSet& set) {
     facts.cycle_from = from.cycle_from;
   }
   if (set[modal_call_bit]) facts.modal_call = from.modal_call;
+  if (set[master_bit]) facts.master = from.master;
 }
 
 std::array<Facts, 4> probes(const CyclesUsed& cycles) {
@@ -47,6 +49,7 @@ std::array<Facts, 4> probes(const CyclesUsed& cycles) {
     f.work_offset = -5 - static_cast<std::int32_t>(n);
     f.feed = 7777.125 + n;
     f.spindle = 7777.125 + n;
+    f.master = n == 0 ? std::optional<std::uint8_t>(100) : std::nullopt;
     f.cycle_active = cycles.any && n < 3;
     f.cycle_is_hole = f.cycle_active && !cycles.other_than_holes;
     f.cycle_from = f.cycle_active ? Facts::several_cycles - 1 - n : 0;

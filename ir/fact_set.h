@@ -16,7 +16,8 @@ inline constexpr std::size_t feed_bit = motion_bit + 2;
 inline constexpr std::size_t spindle_bit = motion_bit + 3;
 inline constexpr std::size_t cycle_bit = motion_bit + 4;
 inline constexpr std::size_t modal_call_bit = motion_bit + 5;
-using FactSet = std::bitset<modal_call_bit + 1>;
+inline constexpr std::size_t master_bit = motion_bit + 6;
+using FactSet = std::bitset<master_bit + 1>;
 
 /// Which cycles a program has: they decide what a motion can change.
 struct CyclesUsed {

@@ -86,6 +86,7 @@ void fields(V& v, T& x) {
   v.given("polar_radius", x.has_polar_radius, x.polar_radius);
   v.given("polar_angle", x.has_polar_angle, x.polar_angle);
   v.opt("polar_mode", x.polar_mode, WordMode::modal);
+  v.opt("polar_angle_mode", x.polar_angle_mode, WordMode::modal);
   v.given("line_angle", x.has_line_angle, x.line_angle);
   v.given("lead", x.has_lead, x.lead);
   v.axis_opt("lead_axis", x.lead_axis);
@@ -303,6 +304,7 @@ void fields(V& v, T& x) {
   v.flag("lift_rapid", x.lift_rapid);
   v.opt("reapproach", x.reapproach);
   v.flag("reapproach_automatic", x.reapproach_automatic);
+  v.flag("withdraws_to_retract", x.withdraws_to_retract);
   v.flag("first_from_surface", x.first_from_surface);
   v.opt("dwell", x.dwell);
   v.given("first_feed_factor", x.has_first_feed_factor, x.first_feed_factor);

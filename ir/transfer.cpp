@@ -81,9 +81,16 @@ class Transfer {
     if (x.zero_is_maximum && f_.feed == 0.0) f_.feed.reset();
   }
   void operator()(const SetSpindle& x) {
-    if (x.number == 1) f_.spindle = known(x.value);
+    if (f_.master == x.number) f_.spindle = known(x.value);
+    if (!f_.master) f_.spindle.reset();
   }
-  void operator()(const MasterSpindle&) { f_.settings[static_cast<std::size_t>(Setting::spindle_mode)].reset(); }
+  /// Each spindle keeps its own speed and its own kind of speed.
+  void operator()(const MasterSpindle& x) {
+    if (f_.master == x.number) return;
+    f_.master = x.number;
+    f_.spindle.reset();
+    f_.settings[static_cast<std::size_t>(Setting::spindle_mode)].reset();
+  }
   void operator()(const WorkOffset& x) {
     const auto row = x.off ? std::optional(0.0) : known(x.index);
     std::optional<std::int32_t> offset;
@@ -384,8 +391,10 @@ void assign(const Assign& a, Facts& f) {
 
 void Facts::forget() {
   const bool was_reachable = reachable;
+  const bool chosen = master != std::uint8_t{1};
   *this = Facts{};
   reachable = was_reachable;
+  if (chosen) master.reset();
   cycle_active_known = false;
   modal_call = -1;
 }
@@ -460,6 +469,7 @@ bool join(Facts& facts, const Facts& other) {
   changed |= narrow(facts.work_offset, other.work_offset);
   changed |= narrow(facts.feed, other.feed);
   changed |= narrow(facts.spindle, other.spindle);
+  changed |= narrow(facts.master, other.master);
   changed |= narrow_cycle(facts, other);
   if (facts.modal_call != other.modal_call && facts.modal_call != -1) {
     facts.modal_call = -1;

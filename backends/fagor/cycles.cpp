@@ -54,7 +54,7 @@ bool plain_hole(const HoleCycle& c) {
 /// Equal pecks, and the control's own 1 mm above the last bottom: G83.
 bool equal_pecks(const HoleCycle& c, CycleWords& w) {
   const ir::Pecks& p = c.pecks;
-  if (!zero(p.dwell)) return false;
+  if (!zero(p.dwell) || p.withdraws_to_retract) return false;
   const bool usual_gap = !p.reapproach_automatic && (p.reapproach.is(1) || p.reapproach.is(1 / 25.4));
   if (c.kind != ir::HoleKind::peck_full || !usual_gap || !zero(c.dwell_bottom) || p.first_to.given) return false;
   if (p.law == ir::PeckLaw::count && (!c.bottom.given || c.bottom.base == LevelBase::from_reference)) {
@@ -85,7 +85,8 @@ bool variable_pecks(const HoleCycle& c, CycleWords& w) {
   const ir::Pecks& p = c.pecks;
   const bool geometric = p.law == ir::PeckLaw::geometric;
   if (c.kind != ir::HoleKind::peck_full || (p.law != ir::PeckLaw::constant && !geometric)) return false;
-  if (p.reapproach_automatic || p.first_to.given || !c.bottom.given || !ir::equal(p.dwell, c.dwell_bottom))
+  if (p.withdraws_to_retract || p.reapproach_automatic || p.first_to.given || !c.bottom.given ||
+      !ir::equal(p.dwell, c.dwell_bottom))
     return false;
   if (!p.reapproach.literal() || p.reapproach.number <= 0) return false;
   const auto bottom = coordinate(c, c.bottom);

@@ -241,7 +241,7 @@ void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (e.has_turns || e.has_angle)
     return refuse(no_word, m.code_pos, "an arc by its opening angle or with full turns has no counterpart here");
-  if (e.polar_mode != ir::WordMode::modal)
+  if (e.polar_mode != ir::WordMode::modal || e.polar_angle_mode != ir::WordMode::modal)
     return refuse(no_word, m.code_pos,
                   "polar words that are absolute or incremental by themselves have no counterpart here");
   // Polar words stand before the Cartesian ones (25.1).

@@ -149,6 +149,7 @@ bool peck_dwells(const HoleCycle& c, Arguments& args) {
 
 bool pecks(const HoleCycle& c, Arguments& args) {
   const ir::Pecks& p = c.pecks;
+  if (p.withdraws_to_retract) return false;
   if (!first_peck(c, args) || !degression(c, args) || !peck_dwells(c, args)) return false;
   if (p.has_first_feed_factor)
     args["FRF"] = p.first_feed_factor;

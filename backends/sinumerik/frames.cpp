@@ -120,11 +120,11 @@ void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
   add(std::move(text), Rank::head, a.pos);
 }
 
-/// AP or RP. Both are absolute or increments as the block is; AC() and IC() stand where that is another mode.
-void Writer::polar_word(const ir::MotionExtra& e, std::string_view address, const ir::Value& v) {
-  const bool absolute = e.polar_mode == ir::WordMode::absolute;
+/// AP or RP: absolute or an increment as the block is; AC() and IC() stand where that is another mode.
+void Writer::polar_word(ir::WordMode mode, std::string_view address, const ir::Value& v) {
+  const bool absolute = mode == ir::WordMode::absolute;
   const auto same = code_value(absolute ? ir::Distance::absolute : ir::Distance::incremental);
-  const bool plain = e.polar_mode == ir::WordMode::modal || setting(Setting::distance) == same;
+  const bool plain = mode == ir::WordMode::modal || setting(Setting::distance) == same;
   add(plain ? word(address, v, {}) : attribute_word(address, absolute ? "AC" : "IC", v, {}), Rank::motion_extra);
 }
 

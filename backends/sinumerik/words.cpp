@@ -421,7 +421,6 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   const auto extra = [&](std::string_view address, const ir::Value& v) {
     add(word(address, v, {}), Rank::motion_extra);
   };
-  const auto polar = [&](std::string_view address, const ir::Value& v) { polar_word(e, address, v); };
   for (const ir::ComputedWord& w : e.computed) {
     const std::string address = "AX[" + expression_text(w.axis) + ']';
     const bool modal = w.mode == ir::WordMode::modal;
@@ -448,8 +447,8 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
     const bool absolute = w.mode == ir::CenterMode::absolute;
     add(absolute ? attribute_word(address, "AC", w.value, w.pos) : word(address, w.value, w.pos), Rank::center, w.pos);
   }
-  if (e.has_polar_radius) polar("RP", e.polar_radius);
-  if (e.has_polar_angle) polar("AP", e.polar_angle);
+  if (e.has_polar_radius) polar_word(e.polar_mode, "RP", e.polar_radius);
+  if (e.has_polar_angle) polar_word(e.polar_angle_mode, "AP", e.polar_angle);
   if (e.has_line_angle) extra("ANG", e.line_angle);
   if (e.has_angle) extra("AR", e.opening_angle);
   if (e.has_turns) extra("TURN", e.turns);

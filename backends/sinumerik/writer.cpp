@@ -10,6 +10,7 @@
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/limits.h"
+#include "ir/search.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {
@@ -32,31 +33,14 @@ std::string name_of_digits(std::string_view stem) {
 }
 
 bool uses_css(const ir::Program& program) {
-  bool found = false;
-  for (const ir::Routine& r : program.routines) {
-    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      if (b == nullptr) return;
-      for (const ir::Action& a : b->actions) {
-        const auto* m = std::get_if<ir::ModalSet>(&a.data);
-        found = found || (m != nullptr && m->setting == ir::Setting::spindle_mode &&
-                          m->value == code_value(ir::SpindleMode::css));
-      }
-    });
-  }
-  return found;
+  return ir::any_action(program, [](const ir::Action& a) {
+    const auto* m = std::get_if<ir::ModalSet>(&a.data);
+    return m != nullptr && m->setting == ir::Setting::spindle_mode && m->value == code_value(ir::SpindleMode::css);
+  });
 }
 
 bool chooses_master(const ir::Program& program) {
-  bool found = false;
-  for (const ir::Routine& r : program.routines) {
-    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i)
-        found = found || std::holds_alternative<ir::MasterSpindle>(b->actions[i].data);
-    });
-  }
-  return found;
+  return ir::any_action(program, [](const ir::Action& a) { return std::holds_alternative<ir::MasterSpindle>(a.data); });
 }
 
 struct Offsets {

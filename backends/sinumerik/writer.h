@@ -108,7 +108,7 @@ class Writer final : public ProgramWriter {
 
   // words
   std::string value_text(const ir::Value& v, WordPos pos);
-  void polar_word(const ir::MotionExtra& e, std::string_view address, const ir::Value& v);
+  void polar_word(ir::WordMode mode, std::string_view address, const ir::Value& v);
   std::string attribute_word(std::string_view address, std::string_view attribute, const ir::Value& v, WordPos pos);
   std::string cycle_text(const ir::Cycle& cycle, WordPos pos);
   void feed_and_spindle_mode(const ir::Block& b);

@@ -108,7 +108,7 @@ void Lowering::line_words() {
     if (mode != ir::Distance::absolute) return refuse(*ex, "a polar end point under G91 is carried with numbers only");
     extra.has_line_angle = false;
     extra.has_polar_radius = extra.has_polar_angle = true;
-    extra.polar_mode = ir::WordMode::absolute;
+    extra.polar_mode = extra.polar_angle_mode = ir::WordMode::absolute;
     extra.polar_radius = value(*ex);
     extra.polar_angle = value(*ea);
   } else if (ea != nullptr && marks.end == ir::contour::ElementEnd::given && in_plane != 1 &&

@@ -41,17 +41,10 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
              "a variable must be set in a block of its own");
     return;
   }
-  const auto polar = [&] {
-    const auto mode = attribute == Attribute::ic   ? ir::WordMode::incremental
-                      : attribute == Attribute::ac ? ir::WordMode::absolute
-                                                   : ir::WordMode::modal;
-    const bool second = extra_.has_polar_radius && extra_.has_polar_angle;
-    if (second && extra().polar_mode != mode) {  // each has its own: one absolute, one incremental
-      failed_ = true;
-      c_.error("SIN-049", w.pos, "AP and RP of one block must be both absolute or both increments to be carried",
-               "give both words the same AC() or IC()");
-    }
-    extra().polar_mode = mode;
+  const auto polar = [&](ir::WordMode& word) {
+    word = attribute == Attribute::ic   ? ir::WordMode::incremental
+           : attribute == Attribute::ac ? ir::WordMode::absolute
+                                        : ir::WordMode::modal;
   };
   const auto corner = [&](ir::CornerKind kind, bool modal) {
     if (corner_ >= 0 || (value.literal() && value.number < 0)) {
@@ -83,11 +76,11 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
     case NamedWord::polar_radius:
       extra().has_polar_radius = true;
       extra_.polar_radius = std::move(value);
-      return polar();
+      return polar(extra_.polar_mode);
     case NamedWord::polar_angle:
       extra().has_polar_angle = true;
       extra_.polar_angle = std::move(value);
-      return polar();
+      return polar(extra_.polar_angle_mode);
     case NamedWord::line_angle:
       extra().has_line_angle = true;
       extra_.line_angle = std::move(value);

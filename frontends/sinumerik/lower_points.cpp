@@ -46,7 +46,8 @@ void WordLowering::finish_pole() {
 /// G110 AP= RP=: the place is carried by its axes, so the plane must be known.
 void WordLowering::polar_pole(ir::FrameChange& at) {
   const bool both = extra_.has_polar_radius && extra_.has_polar_angle;
-  if (!both || !out_->motion.coords.empty() || extra_.polar_mode != ir::WordMode::modal) {
+  if (!both || !out_->motion.coords.empty() || extra_.polar_mode != ir::WordMode::modal ||
+      extra_.polar_angle_mode != ir::WordMode::modal) {
     failed_ = true;
     c_.error("SIN-012", special_pos_,
              "a pole is given by the axes of the plane, or by AP= and RP= alone, without AC() and IC()");

@@ -77,7 +77,7 @@ double reapproach(const HoleNumbers& h, double depth) {
   return depth <= 30 ? 0.6 : std::min(depth / 50, 7.0);
 }
 
-void pecks(const HoleNumbers& h, Path& path) {
+void pecks(const HoleNumbers& h, Path& path, double retract) {
   const double top = h.from_surface ? h.surface : h.reference;
   const double depth = std::abs(top - h.bottom);
   const auto sizes = peck_sizes(h, depth);
@@ -86,7 +86,7 @@ void pecks(const HoleNumbers& h, Path& path) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const bool last = i + 1 == sizes.size();
     if (i > 0 && h.kind == HoleKind::peck_full) {
-      path.rapid(h.reference);
+      path.rapid(h.withdraws_to_retract ? retract : h.reference);
       path.dwell(h.dwell_top);
       path.rapid(h.up * std::min(h.up * h.reference, h.up * (z + h.up * gap)));
     } else if (i > 0 && h.lift > 0) {
@@ -256,7 +256,7 @@ std::vector<CycleMove> expand(const HoleNumbers& h, double height, RetractPlane 
       path.dwell(h.dwell_bottom);
       break;
     case HoleKind::peck_full:
-    case HoleKind::peck_break: pecks(h, path); break;
+    case HoleKind::peck_break: pecks(h, path, retract); break;
     case HoleKind::tap:
     case HoleKind::tap_floating: tap(h, path); break;
     case HoleKind::ream:

@@ -36,7 +36,8 @@ struct HoleNumbers {
   PeckLaw law = PeckLaw::none;
   double first = 0, count = 0, degression = 0, minimum = 0;  ///< sizes unsigned
   double lift = 0, reapproach = 0;
-  bool reapproach_automatic = false, from_surface = false, lift_rapid = false, approach_by_retract = false;
+  bool reapproach_automatic = false, from_surface = false, lift_rapid = false, withdraws_to_retract = false,
+       approach_by_retract = false;
   double first_feed_factor = 1;
   double pitch = 0;  ///< mm per rev; 0: feed over spindle speed
   double orient_angle = 0, shift_u = 0, shift_v = 0, shift_w = 0;

@@ -71,6 +71,7 @@ void read_pecks(const HoleCycle& c, WordReader& read, HoleNumbers& n) {
   n.reapproach = read.length(p.reapproach);
   n.reapproach_automatic = p.reapproach_automatic;
   n.lift_rapid = p.lift_rapid;
+  n.withdraws_to_retract = p.withdraws_to_retract;
   n.dwell_peck = read.seconds(p.dwell, c.dwell_scale);
   if (p.has_first_feed_factor) n.first_feed_factor = read.raw(p.first_feed_factor);
   if (p.law == PeckLaw::count && !c.bottom.given) n.bottom = n.reference + std::round(n.count) * first;

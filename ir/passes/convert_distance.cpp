@@ -193,11 +193,16 @@ class DistancePass {
  private:
   /// Polar words of a mode of their own that is in force anyway.
   static void polar_words(Block& b, const Facts& facts) {
-    if (!b.has_motion || !b.motion.extra || b.motion.extra->polar_mode == WordMode::modal) return;
+    if (!b.has_motion || !b.motion.extra) return;
+    const auto& now = *b.motion.extra;
+    if (now.polar_mode == WordMode::modal && now.polar_angle_mode == WordMode::modal) return;
     const auto mode = setting_in<Distance>(b, facts, Setting::distance);
-    if (!mode || (*mode == Distance::absolute) != (b.motion.extra->polar_mode == WordMode::absolute)) return;
-    MotionExtra extra = *b.motion.extra;
-    extra.polar_mode = WordMode::modal;
+    if (!mode) return;
+    const WordMode in_force = *mode == Distance::absolute ? WordMode::absolute : WordMode::incremental;
+    MotionExtra extra = now;
+    for (WordMode* word : {&extra.polar_mode, &extra.polar_angle_mode}) {
+      if (*word == in_force) *word = WordMode::modal;
+    }
     b.motion.extra = std::make_shared<const MotionExtra>(std::move(extra));
   }
   /// Of several changes in one block (each counts for the words behind it) the last one stays in force.

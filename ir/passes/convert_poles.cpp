@@ -303,7 +303,7 @@ class PolePass {
     Motion& m = b.motion;
     MotionExtra x = *m.extra;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const bool absolute = polar_absolute(x, distance);
+    const bool absolute = polar_absolute(x.polar_angle_mode, distance);
     if (!m.centers.empty() || x.has_polar_radius || !absolute || distance != Distance::absolute || !plane_)
       return false;
     std::optional<Value> r = radius_;
@@ -351,9 +351,11 @@ class PolePass {
   bool polar_words(Block& b, const Facts& facts) {
     MotionExtra x = *b.motion.extra;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const bool modal = x.polar_mode == WordMode::modal;
-    if (!pole_ || !plane_ || (modal && !distance)) return false;
-    const bool adds = modal ? *distance == Distance::incremental : x.polar_mode == WordMode::incremental;
+    const bool radius_modal = x.has_polar_radius && x.polar_mode == WordMode::modal;
+    const bool angle_modal = x.has_polar_angle && x.polar_angle_mode == WordMode::modal;
+    if (!pole_ || !plane_ || (!distance && (radius_modal || angle_modal))) return false;
+    const bool adds_r = x.has_polar_radius && !polar_absolute(x.polar_mode, distance);
+    const bool adds_q = x.has_polar_angle && !polar_absolute(x.polar_angle_mode, distance);
     const auto start = here(facts);
     std::optional<Value> from_r = radius_, from_q = angle_;
     if (start) {
@@ -363,10 +365,10 @@ class PolePass {
       if (!from_q) from_q = Value{length < 1e-6 ? 0 : clean(std::atan2(d.v, d.u) * 180 / std::numbers::pi)};
     }
     forget_point();
-    if ((adds || !x.has_polar_radius) && !from_r) return false;
-    if ((adds || !x.has_polar_angle) && !from_q) return false;
-    Value r = !x.has_polar_radius ? *from_r : (adds ? add(*from_r, x.polar_radius) : x.polar_radius);
-    Value q = !x.has_polar_angle ? *from_q : (adds ? add(*from_q, x.polar_angle) : x.polar_angle);
+    if ((adds_r || !x.has_polar_radius) && !from_r) return false;
+    if ((adds_q || !x.has_polar_angle) && !from_q) return false;
+    Value r = !x.has_polar_radius ? *from_r : (adds_r ? add(*from_r, x.polar_radius) : x.polar_radius);
+    Value q = !x.has_polar_angle ? *from_q : (adds_q ? add(*from_q, x.polar_angle) : x.polar_angle);
     r.text = q.text = {};
     const auto f = factors(b, facts, Distance::absolute);
     if (!f || (r.literal() && r.number < 0)) return false;
@@ -381,23 +383,27 @@ class PolePass {
       u = around(r, q, Function::cos, pole_->u, f->u);
       v = around(r, q, Function::sin, pole_->v, f->v);
     }
-    if (stays_polar(b) && say_radius_ && !says_radius(b, facts)) {  // the target would take its last one
+    const bool modal = radius_modal == x.has_polar_radius && angle_modal == x.has_polar_angle;
+    // A target whose words are all absolute or all increments has no polar words of the other kind.
+    const bool sayable = context_.target.distance_per_word || distance == Distance::absolute;
+    const bool say = say_radius_ && !says_radius(b, facts);  // the target would take its last one
+    if (stays_polar(b) && sayable && say) {
       x.has_polar_radius = true;
       x.polar_radius = r;
-      if (adds) {
+      if (adds_r || adds_q || distance != Distance::absolute) {
         x.has_polar_angle = true;
         x.polar_angle = q;
-        x.polar_mode = WordMode::absolute;
+        x.polar_mode = x.polar_angle_mode = WordMode::absolute;
       }
       b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
       return true;
     }
-    if (stays_polar(b)) {  // only followed
-      if (modal || context_.target.distance_per_word || distance != Distance::absolute) return true;
+    if (stays_polar(b) && (sayable || (modal && !say))) {  // only followed
+      if (modal || context_.target.distance_per_word) return true;
       x.has_polar_radius = x.has_polar_angle = true;
       x.polar_radius = r;
       x.polar_angle = q;
-      x.polar_mode = WordMode::modal;
+      x.polar_mode = x.polar_angle_mode = WordMode::modal;
       b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
       return true;
     }
@@ -430,7 +436,7 @@ class PolePass {
                         : !start || !plane_ ? std::nullopt
                                             : centre_of(b, facts, *start, *plane_, distance, context_.source_machine);
     const auto f = factors(b, facts, distance);
-    const bool absolute = polar_absolute(x, distance);
+    const bool absolute = polar_absolute(x.polar_angle_mode, distance);
     if (!start || !centre || !f || !distance || !x.polar_angle.literal()) return false;
     const Point2 d{start->u - centre->u, start->v - centre->v};
     const double turn = absolute ? 0 : std::atan2(d.v, d.u);

@@ -5,6 +5,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/passes.h"
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
@@ -18,13 +19,7 @@ bool has(const Block& b) {
 
 template <class T>
 bool program_has(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      if (const auto* b = std::get_if<Block>(&s.node)) found = found || has<T>(*b);
-    });
-  }
-  return found;
+  return any_action(program, [](const Action& a) { return std::holds_alternative<T>(a.data); });
 }
 
 bool sets(const Action& a, Setting s) {

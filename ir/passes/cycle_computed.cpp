@@ -92,7 +92,7 @@ Value ComputedHole::over(const Value& left, const Value& distance) {
 void ComputedHole::between(const Value& left, const Value& gap) {
   const Pecks& p = c_.pecks;
   if (c_.kind == HoleKind::peck_full) {
-    rapid(reference_);
+    rapid(p.withdraws_to_retract ? retract_ : reference_);
     dwell(c_.dwell_top);
     return rapid(over(left, gap));
   }

@@ -16,7 +16,7 @@ bool is_tap(const HoleCycle& c) {
 std::optional<double> speed_of(const Block& b, const Facts& facts) {
   std::optional<double> speed = facts.spindle;
   for (const auto& a : b.actions) {
-    if (const auto* s = std::get_if<SetSpindle>(&a.data); s != nullptr && s->number == 1)
+    if (const auto* s = std::get_if<SetSpindle>(&a.data); s != nullptr && s->number == facts.master)
       speed = s->value.literal() ? std::optional(s->value.number) : std::nullopt;
   }
   return speed;

@@ -25,7 +25,7 @@ Value around(const Value& r, const Value& q, Function wave, double from, double 
 
 bool says_radius(const Block& b, const Facts& facts) {
   const MotionExtra& x = *b.motion.extra;
-  return x.has_polar_radius && polar_absolute(x, setting_in<Distance>(b, facts, Setting::distance));
+  return x.has_polar_radius && polar_absolute(x.polar_mode, setting_in<Distance>(b, facts, Setting::distance));
 }
 
 std::optional<Point2> place_of(const PoleSet& p, Plane plane, std::optional<Point2> base, std::optional<Point2> pole,

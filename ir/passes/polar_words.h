@@ -22,9 +22,13 @@ Point2 around(Point2 pole, double r, double q);
 /// word).
 Value around(const Value& r, const Value& q, Function wave, double from, double factor);
 
-/// The polar words of the block count from the pole, not from the point before.
+/// A polar word of this mode counts from the pole, not from the point before.
+inline bool polar_absolute(WordMode mode, std::optional<Distance> distance) {
+  return mode == WordMode::absolute || (mode == WordMode::modal && distance == Distance::absolute);
+}
+/// Both polar words of the block do.
 inline bool polar_absolute(const MotionExtra& x, std::optional<Distance> distance) {
-  return x.polar_mode == WordMode::absolute || (x.polar_mode == WordMode::modal && distance == Distance::absolute);
+  return polar_absolute(x.polar_mode, distance) && polar_absolute(x.polar_angle_mode, distance);
 }
 
 /// The block says the radius by itself, whatever was before.

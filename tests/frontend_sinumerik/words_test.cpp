@@ -182,7 +182,8 @@ TEST(SinumerikWords, PoleAndPolarWords) {  // 14.3
   EXPECT_EQ(r.errors(), "");
   EXPECT_EQ(only<ir::PoleSet>(block_of(r.program, 0)).at->words.at(1).value.number, 20);
   EXPECT_EQ(block_of(r.program, 1).motion.extra->polar_radius.number, 50);
-  EXPECT_EQ(block_of(r.program, 2).motion.extra->polar_mode, ir::WordMode::incremental);
+  EXPECT_EQ(block_of(r.program, 2).motion.extra->polar_angle_mode, ir::WordMode::incremental);
+  EXPECT_EQ(block_of(r.program, 2).motion.extra->polar_mode, ir::WordMode::modal);
   EXPECT_NE(only<ir::PoleSet>(block_of(r.program, 3)).at, nullptr);  // from the point programmed last
   EXPECT_EQ(read("G112 X5\n").errors() + read("G112 X5\n").warnings(), "");
 }

@@ -110,6 +110,13 @@ TEST(Cycle, PecksWithFullRetract) {
                   "rapid Z-7", "linear Z-10 F100", "dwell 1s", "rapid Z2"));
 }
 
+TEST(Cycle, PecksMayWithdrawToTheRetractLevel) {
+  EXPECT_THAT(
+      lines_of(at_20 + "block cycle hole peck_full reference absolute 1 bottom absolute -9 retract absolute 5 "
+                       "pecks constant first 5 reapproach 1 withdraws_to_retract"),
+      ElementsAre("rapid Z20", "rapid Z1", "linear Z-4 F100", "rapid Z5", "rapid Z-3", "linear Z-9 F100", "rapid Z5"));
+}
+
 TEST(Cycle, PecksByCountGiveTheBottom) {
   // Peck -4, three times, below the reference 2: bottom -10.
   EXPECT_THAT(lines_of(at_20 + "block cycle hole peck_full reference absolute 2 retract absolute 2 pecks count first "
