@@ -81,6 +81,7 @@ class Writer : public ProgramWriter {
   void coordinate(const ir::Motion& m, const ir::CoordWord& w) override;
   void center(const ir::Motion& m, const ir::CenterWord& w) override;
   void motion_extra(const ir::Motion& m, const ir::MotionExtra& e) override;
+  [[nodiscard]] bool stands_still(const ir::CoordWord& w);
 
   bool joins(const ir::Statement& before, const ir::Statement& next) override;
   bool own_line(const ir::Action& a, const ir::Block& b) override;

@@ -275,12 +275,7 @@ class CyclePass {
     return action(SetFeed{Value{*facts.feed}, false});
   }
   /// Behind the tap, where the block has no F of its own. Also when the tap was off already, or another cycle follows.
-  void feed_comes_back(Block& b, const Facts& facts) {
-    if (!std::exchange(tap_feed_, false)) return;
-    const bool own = std::any_of(b.actions.begin(), b.actions.end(),
-                                 [](const Action& a) { return std::holds_alternative<SetFeed>(a.data); });
-    if (!own && facts.feed) b.actions.push_back(action(SetFeed{Value{*facts.feed}, false}));
-  }
+  void feed_comes_back(const Statement& s, Block& b, const Facts& facts);
   /// The way to the hole would be driven at the tap's feed.
   bool refuse_feed_of_tap(Statement& s, const Active& a) {
     if (!a.needs.feed) return false;
@@ -300,7 +295,7 @@ class CyclePass {
       if (!by_call_) {
         Block b;
         b.actions.push_back(action(CycleCancel{}));
-        feed_comes_back(b, facts_.before(s));
+        feed_comes_back(s, b, facts_.before(s));
         s.node = std::move(b);
       }
       out.push_back(std::move(s));
@@ -466,6 +461,7 @@ class CyclePass {
   bool written_out_ = false;
   bool lacking_ = false;                 ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;  ///< statements of this routine
+  std::set<std::uint32_t> taps_;         ///< those of them that define a tap
   bool has_modal_calls_ = false;         ///< of cycles
   bool plane_words_ = false;             ///< the program has G98 or G99
   bool enters_unsure_ = false;           ///< the callers do not agree on a cycle

@@ -18,7 +18,10 @@ void CyclePass::look_for_definitions() {
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
       const auto* d = std::get_if<CycleDefine>(&a.data);
-      if (d != nullptr && d->modal) definitions_.insert(s.id);
+      if (d == nullptr || !d->modal) continue;
+      definitions_.insert(s.id);
+      const auto* hole = d->cycle ? std::get_if<HoleCycle>(&d->cycle->node) : nullptr;
+      if (hole != nullptr && (hole->kind == HoleKind::tap || hole->kind == HoleKind::tap_floating)) taps_.insert(s.id);
     }
   });
   for (const auto& r : program_.routines) {
@@ -82,7 +85,25 @@ void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& p
     pieces.push_back(off_statement(s.line, true));
   else if (on)
     b.actions.insert(b.actions.begin(), action(CycleCancel{}));
-  feed_comes_back(b, facts);
+  feed_comes_back(s, b, facts);
+}
+
+void CyclePass::feed_comes_back(const Statement& s, Block& b, const Facts& facts) {
+  // A tap further down may be in force here too, by a jump back.
+  const bool by_a_jump =
+      !by_call_ && facts.reachable && !(active_ && sure(facts)) &&
+      (facts.cycle_from == Facts::several_cycles ? !taps_.empty() : taps_.count(facts.cycle_from) != 0);
+  if (!std::exchange(tap_feed_, false) && !by_a_jump) return;
+  if (action_in<SetFeed>(b) != nullptr) return;
+  if (facts.feed) {
+    b.actions.push_back(action(SetFeed{Value{*facts.feed}, false}));
+  } else {
+    context_.diagnostics.error(
+        "TRN-330", s.line.span,
+        "the tap before this block has its pitch as F there, and the F that comes back behind it "
+        "is not known here",
+        "write F behind the tap");
+  }
 }
 
 bool CyclePass::levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const {

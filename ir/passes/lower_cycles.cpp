@@ -284,7 +284,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   if (!a.native && !d.modal && d.here) feed_as_a_word(a, b, facts);
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
-  if (!a.native || !a.needs.feed) feed_comes_back(b, facts);
+  if (!a.native || !a.needs.feed) feed_comes_back(s, b, facts);
   a.from = s.id;
   a.said_by.push_back(s.id);
   lacking_ = lacking_ || (d.modal && !a.native);
