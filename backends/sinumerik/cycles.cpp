@@ -26,6 +26,7 @@ using ir::LevelBase;
 using ir::Value;
 
 constexpr double tiny = 1e-9;
+constexpr double written_places = 1e6;  ///< of a unit: what a number is rounded to (tables.h)
 
 using Arguments = std::map<std::string, Value, std::less<>>;
 
@@ -110,7 +111,13 @@ bool degression(const HoleCycle& c, Arguments& args) {
       if (!numbers) return false;
       const double depth = std::abs((numbers->from_surface ? numbers->surface : numbers->reference) - numbers->bottom);
       const double rest = std::fmod(depth, numbers->first);
-      return depth <= numbers->first + tiny || rest < tiny || numbers->first - rest < tiny;
+      const bool equal_pecks = depth <= numbers->first + tiny || rest < tiny || numbers->first - rest < tiny;
+      // A size cut off below its last decimal would leave a rest for a further peck.
+      if (equal_pecks && args.count("FDPR") != 0) {
+        const double up = std::ceil(numbers->first * written_places - 1e-3) / written_places;
+        if (up > numbers->first) args["FDPR"] = Value(up);
+      }
+      return equal_pecks;
     }
     default: return false;
   }
