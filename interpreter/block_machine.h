@@ -212,6 +212,7 @@ class BlockMachine final : public SystemData {
   Spindle* spindle(int number);
   void run_spindle(int number, ir::SpindleState state);
   void emit_spindle(int number);
+  void turn_at(const ir::cycles::TurnMove& m);
   void emit_if_running(const ir::Block& b, int number);
   void emit_tool(bool change);
   void emit_coolant(std::string_view state);

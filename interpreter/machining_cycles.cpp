@@ -175,6 +175,8 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
       spindles_[master_].angle = m.start_angle;
       emit_spindle(master_);
       return true;
+    case TurnStep::spindle_speed:
+    case TurnStep::spindle_cutting_speed: turn_at(m); return true;
     case TurnStep::live_run:
       spindles_[live].mode = ir::SpindleMode::rpm;
       spindles_[live].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = std::abs(m.speed);
@@ -186,6 +188,17 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
     case TurnStep::comp_off: set_comp(ir::CompSide::off); return true;
     default: return machining_path(m);
   }
+}
+
+void BlockMachine::turn_at(const ir::cycles::TurnMove& m) {
+  const bool cut = m.step == TurnStep::spindle_cutting_speed;
+  set_spindle_mode(cut ? ir::SpindleMode::css : ir::SpindleMode::rpm, true);
+  set_spindle_value({master_, ir::Value{m.speed}});
+  if (m.limit > 0) set_spindle_limit({master_, ir::Value{m.limit}, false});
+  if (m.sense != 0)
+    run_spindle(master_, m.sense > 0 ? ir::SpindleState::cw : ir::SpindleState::ccw);
+  else if (spindles_[master_].state != ir::SpindleState::off)
+    emit_spindle(master_);
 }
 
 bool BlockMachine::machining_path(const ir::cycles::TurnMove& m) {

@@ -29,7 +29,7 @@ constexpr std::array features{
                    "carried"},
     MissingFeature{"cycle.pattern", "free lists of hole positions by increments",
                    "lines, circles, grids and lists of absolute positions are carried"},
-    MissingFeature{"cycle.turning", "turning cycles whose moves are not described (parting, contour grooves)",
+    MissingFeature{"cycle.turning", "turning cycles whose moves are not described (contour turning and grooving)",
                    "read and kept; their sequence is not in the references"},
     MissingFeature{"feed.of_the_tool", "a feed for each tooth, a cutting speed for the diameter of the tool",
                    "carried where the text tells the kind of feed, the kind of speed and the unit"},

@@ -336,6 +336,10 @@ class Transfer {
         if (v != nullptr && n != 0.0) f_.feed = n;
       }
     }
+    if (machining_->name == "part.off") {  // it sets the speed, and may set its mode
+      f_.spindle.reset();
+      f_.settings[static_cast<std::size_t>(Setting::spindle_mode)].reset();
+    }
     if (kind_->ends == cycles::CycleEnd::at_call) return;
     const auto number = [this](std::string_view name) {
       const Value* v = word(name);

@@ -68,6 +68,20 @@ constexpr std::array specs{
                "where the left start of a shaped groove in the face lies; unknown: such grooves are refused"},
     OptionSpec{"cycle.groove_edge", "minus|plus", "minus",
                "which corner of its insert is the programmed point of a grooving tool whose nose is not 1 to 4"},
+    OptionSpec{"cycle.groove_depth", "smaller|absolute|increment", "smaller",
+               "depth of an alternating groove that does not say how it counts: from the surface, if that is not the "
+               "deeper cut (else refused), a coordinate of the base, or from the surface"},
+    OptionSpec{"cycle.groove_dwell", "number", "0", "seconds that an alternating groove waits behind each plunge"},
+    OptionSpec{"cycle.groove_position", "as_shaped|mirrored", "as_shaped",
+               "on which side of an alternating groove its start lies: by the digits of the shaped groove, or on the "
+               "other one"},
+    OptionSpec{"cycle.parting_part", "plus|minus", "plus",
+               "parting off: the part lies toward +Z of the place in the call and the insert toward -Z, or the other "
+               "way round"},
+    OptionSpec{"cycle.parting_retract", "always|by_variant", "always",
+               "parting off: the tool goes back at the end whatever the variant, or stays at the depth with 1"},
+    OptionSpec{"cycle.parting_speed", "by_limit|by_mode", "by_limit",
+               "parting off: a speed that comes with a limit is a cutting speed, or only the mode says so"},
     OptionSpec{"file.lines", "opened|named", "opened",
                "how a program writes lines into a program of the control: into the one it has opened, or each says "
                "which one"},

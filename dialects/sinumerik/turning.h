@@ -21,6 +21,21 @@ struct TurningCycle {
 
 // clang-format off
 inline constexpr std::array turning_cycles = {
+    TurningCycle{"CYCLE92", "part.off",
+                 {{{"SPD", "nominal"}, {"SPL", "z"}, {"DIAG1", "change_depth"}, {"DIAG2", "depth"}, {"RC", "outer_1"},
+                   {"SDIS", "clearance"}, {"SV1", "first_speed"}, {"SV2", "speed_limit"}, {"SDAC", "sense"},
+                   {"FF1", "rough_feed"}, {"FF2", "finish_feed"}, {"SS2", "second_speed"}, {"DIAGM", "catcher"},
+                   {"VARI", "variant"}, {"DN", "second_edge"}, {"DMODE", "display"}, {"AMODE", "mode"}}},
+                 "SPD,SPL,DIAG2,SDIS"},
+    TurningCycle{"CYCLE930", "groove.alternate",
+                 {{{"SPD", "nominal"}, {"SPL", "z"}, {"WIDG", "width"}, {"WIDG2", "width_top"}, {"DIAG", "depth"},
+                   {"DIAG2", "spare_1"}, {"STA", "slope_angle"}, {"ANG1", "flank_1"}, {"ANG2", "flank_2"},
+                   {"RCO1", "outer_1"}, {"RCI1", "inner_1"}, {"RCI2", "inner_2"}, {"RCO2", "outer_2"},
+                   {"FAL", "stock"}, {"IDEP1", "step"}, {"SDIS", "clearance"}, {"VARI", "variant"},
+                   {"DN", "second_edge"}, {"NUM", "count"}, {"DBH", "group_step"}, {"FF1", "rough_feed"},
+                   {"NR", "form"}, {"FALX", "stock_x"}, {"FALZ", "stock_z"}, {"DMODE", "display"},
+                   {"AMODE", "mode"}}},
+                 "SPD,SPL,DIAG,SDIS,VARI"},
     TurningCycle{"CYCLE93", "groove.shaped",
                  {{{"SPD", "x"}, {"SPL", "z"}, {"WIDG", "width"}, {"DIAG", "depth"}, {"STA1", "slope_angle"},
                    {"ANG1", "flank_1"}, {"ANG2", "flank_2"}, {"RCO1", "outer_1"}, {"RCO2", "outer_2"},

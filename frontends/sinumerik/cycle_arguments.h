@@ -51,6 +51,8 @@ void planes(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
 void check_planes(const ir::HoleCycle& hole, FileContext& c, WordPos pos);
 /// The final depth where DP is an amount: from the reference plane away from the retract plane.
 ir::Level depth_by_amount(const Arguments& a);
+/// What holds where neither the maker's manual nor the profile says how a cycle works (SIN-120 and on).
+void warn_of_assumptions(const std::string& name, FileContext& c, WordPos pos);
 /// A contour as a cycle names it: a subprogram, or two labels with a colon between them.
 void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words);
 /// The contour of a milling cycle that works along one; false: an error has been reported.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/text.h"
+#include "dialects/sinumerik/assumed.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/turning.h"
 #include "frontends/sinumerik/cycle_arguments.h"
@@ -26,6 +27,19 @@ ir::Value label_value(std::string_view text) {
 }
 
 }  // namespace
+
+void warn_of_assumptions(const std::string& name, FileContext& c, WordPos pos) {
+  const AssumedCycle* cycle = assumed_cycle(name);
+  if (cycle == nullptr) return;
+  std::string taken;
+  for (const auto& point : cycle->points) {
+    if (point.option.empty() || c.machine.profile->options.contains(std::string(point.option))) continue;
+    taken += (taken.empty() ? "" : "; ") + std::string(point.text) + " (" + std::string(point.option) + ')';
+  }
+  if (taken.empty()) return;
+  c.warning(cycle->code, pos,
+            "the maker's manual leaves parts of " + name + " open, and the profile does not say them; taken: " + taken);
+}
 
 void contour_words(const std::string& text, std::vector<std::pair<std::string, ir::Value>>& words) {
   const auto colon = text.find(':');
@@ -90,6 +104,7 @@ ir::CyclePtr StatementLowering::turning(const std::string& name, const std::vect
                "the side of the undercut follows from the edge of the tool, and no tool of the machine has one "
                "(\"nose\"): it is taken outside (forms C and D inside), the shoulder toward -Z");
   if (c_.errors != before) return nullptr;
+  warn_of_assumptions(name, c_, pos);
   auto made = std::make_shared<ir::Cycle>();
   made->node = std::move(out);
   return made;

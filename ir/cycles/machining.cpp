@@ -95,6 +95,14 @@ constexpr std::array parameters = {
     Parameter{"stock_flank", Quantity::length},
     Parameter{"base_dwell", Quantity::plain},
     Parameter{"second_edge", Quantity::plain},
+    Parameter{"group_step", Quantity::length},
+    Parameter{"width_top", Quantity::length},
+    Parameter{"mode", Quantity::plain},
+    Parameter{"first_speed", Quantity::plain},
+    Parameter{"speed_limit", Quantity::plain},
+    Parameter{"second_speed", Quantity::plain},
+    Parameter{"sense", Quantity::plain},
+    Parameter{"catcher", Quantity::length},
     Parameter{"form", Quantity::plain},
     Parameter{"quadrant", Quantity::plain},
     Parameter{"position", Quantity::plain},
@@ -146,6 +154,8 @@ constexpr std::array cycles = {
     MachiningCycle{"stock.contour", Kind::profile, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.blank", Kind::profile, false, false, false},
     MachiningCycle{"groove.shaped", Kind::shaped, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"groove.alternate", Kind::shaped, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"part.off", Kind::shaped, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"relief.shoulder", Kind::shaped, false, true, false, CycleEnd::elsewhere},
     MachiningCycle{"relief.thread", Kind::shaped, false, true, false, CycleEnd::elsewhere},
     MachiningCycle{"relief.placed", Kind::shaped, false, true, false, CycleEnd::elsewhere},
@@ -233,6 +243,9 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
   if (cycle.name == "stock.contour" || cycle.name == "groove.shaped") {
     const auto it = numbers.find("variant");
     face = it != numbers.end() && std::fmod(std::abs(it->second), 2) == 0;
+  } else if (cycle.name == "groove.alternate") {
+    const auto it = numbers.find("variant");
+    face = it != numbers.end() && std::fmod(std::floor(std::abs(it->second) / 100), 2) == 0;
   } else if (cycle.name == "stock.blank" || cycle.name == "stock.groove") {
     face = numbers.contains("axial_step");
   }
@@ -261,8 +274,10 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
       break;
     case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;
     case Kind::shaped:
-      done = cycle.name == "groove.shaped" ? detail::shaped_groove(roles, context, face, error)
-                                           : detail::relief(roles, context, error);
+      done = cycle.name == "groove.shaped"      ? detail::shaped_groove(roles, context, face, error)
+             : cycle.name == "groove.alternate" ? detail::alternate_groove(roles, context, face, error)
+             : cycle.name == "part.off"         ? detail::part_off(roles, context, error)
+                                                : detail::relief(roles, context, error);
       break;
     case Kind::profile:
       done = cycle.name == "stock.contour"  ? detail::contour_stock(roles, context, face, error)

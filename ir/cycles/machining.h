@@ -86,8 +86,10 @@ enum class TurnStep : std::uint8_t {
   spindle_reverse,
   spindle_restore,
   spindle_stop,
-  spindle_orient,  ///< to `start_angle`
-  live_run,        ///< the driven tool, `speed` rpm, negative: the other sense
+  spindle_orient,         ///< to `start_angle`
+  spindle_speed,          ///< `speed` rpm from here on, with `sense` also a command to turn
+  spindle_cutting_speed,  ///< the same as a constant cutting speed, not above `limit` rpm
+  live_run,               ///< the driven tool, `speed` rpm, negative: the other sense
   live_stop,
   comp_left,
   comp_right,
@@ -105,6 +107,8 @@ struct TurnMove {
   double pitch_change = 0;
   double seconds = 0;
   double speed = 0;
+  double limit = 0;         ///< rpm; 0: none
+  int sense = 0;            ///< +1 clockwise, -1 counter-clockwise, 0: as it turns
   bool per_minute = false;  ///< the feed in force is that of millimetres per minute, whatever the mode
   bool sharp = false;       ///< of a pass whose corners are cut sharp (exact stop), whatever path mode is in force
 };
@@ -117,14 +121,25 @@ struct LeftContours {
   bool face = false;  ///< passes along X
   double out = 1;     ///< sense of X (with `face`: of Z) that leads away from the part
 };
+/// What the words of a cycle leave open and the machine decides.
+enum class GrooveDepth : std::uint8_t { smaller, absolute, increment };
+struct TurnChoices {
+  bool part_at_plus = true;      ///< the part that is cut off lies toward +Z of its reference point
+  bool parting_by_mode = false;  ///< a limit alone does not make the speed of parting off a cutting speed
+  bool parting_stays = false;    ///< the variant may leave the tool at the final depth
+  GrooveDepth groove_depth = GrooveDepth::smaller;
+  bool groove_mirrored = false;  ///< the start of an alternating groove lies on the other side
+  double groove_dwell = 0;       ///< seconds
+};
 struct TurnContext {
-  TurnPoint start;                       ///< of the tool when the cycle is called
-  double nose_width = 0;                 ///< of the tool; 0: not known
-  double nose_radius = 0;                ///< of the tool
-  int edge = 0;                          ///< quadrant in which the tip lies (1: +Z +X, 2: -Z +X, 3: -Z -X, 4: +Z -X)
-  bool edge_at_plus = false;             ///< of a grooving tool, where the quadrant is not known
-  bool usual_relief = true;              ///< an undercut of an unknown edge lies outside, its shoulder toward -Z
-  std::optional<bool> left_is_larger;    ///< the left start of a groove in the face lies at the larger X
+  TurnPoint start;                     ///< of the tool when the cycle is called
+  double nose_width = 0;               ///< of the tool; 0: not known
+  double nose_radius = 0;              ///< of the tool
+  int edge = 0;                        ///< quadrant in which the tip lies (1: +Z +X, 2: -Z +X, 3: -Z -X, 4: +Z -X)
+  bool edge_at_plus = false;           ///< of a grooving tool, where the quadrant is not known
+  bool usual_relief = true;            ///< an undercut of an unknown edge lies outside, its shoulder toward -Z
+  std::optional<bool> left_is_larger;  ///< the left start of a groove in the face lies at the larger X
+  TurnChoices choices;
   std::optional<bool> longer_in_x;       ///< the tool is longer along X than along Z; nullopt: not known
   const TurnProfile* profile = nullptr;  ///< of the cycles that have one
   LeftContours* left = nullptr;          ///< wanted; stays empty for other cycles

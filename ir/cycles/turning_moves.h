@@ -110,6 +110,8 @@ bool straight_or_arc(bool arc, Roles& r, std::string* error);
 bool thread(Roles& r, std::string* error);
 bool groove(Roles& r, double nose_width, std::string* error);
 bool shaped_groove(Roles& r, const TurnContext& context, bool face, std::string* error);
+bool alternate_groove(Roles& r, const TurnContext& context, bool face, std::string* error);
+bool part_off(Roles& r, const TurnContext& context, std::string* error);
 /// Of the cycles "shape.thread" and "shape.corner".
 std::optional<std::vector<TurnMove>> newer_signature(std::string_view cycle, const TurnNumbers& numbers,
                                                      const TurnContext& context, std::string* error);

@@ -15,6 +15,7 @@ std::uint8_t* made_number(Action& a) {
   if (auto* run = std::get_if<SpindleRun>(&a.data)) number = &run->number;
   if (auto* orient = std::get_if<SpindleOrient>(&a.data)) number = &orient->number;
   if (auto* set = std::get_if<SetSpindle>(&a.data)) number = &set->number;
+  if (auto* limit = std::get_if<SpindleLimit>(&a.data)) number = &limit->number;
   return number != nullptr && *number == 1 ? number : nullptr;
 }
 

@@ -68,6 +68,8 @@ class Writer {
         live_turns_ = true;
         return blocks.push_back(made(line_, std::move(b))), true;
       }
+      case TurnStep::spindle_speed:
+      case TurnStep::spindle_cutting_speed: return turn_at(m);
       case TurnStep::live_stop: return put(SpindleRun{live, SpindleState::off});
       case TurnStep::comp_left: return comp(CompSide::left);
       case TurnStep::comp_right: return comp(CompSide::right);
@@ -114,6 +116,18 @@ class Writer {
   bool put(Data data) {
     blocks.push_back(make_block(line_, action(std::move(data))));
     return true;
+  }
+  bool turn_at(const TurnMove& m) {
+    ModalSet set;
+    set.setting = Setting::spindle_mode;
+    const bool cut = m.step == TurnStep::spindle_cutting_speed;
+    set.value = static_cast<std::uint8_t>(cut ? SpindleMode::css : SpindleMode::rpm);
+    Block b;
+    if (m.limit > 0) b.actions.push_back(action(SpindleLimit{1, Value{m.limit}, false}));
+    b.actions.push_back(action(set));
+    b.actions.push_back(action(SetSpindle{1, Value{m.speed}}));
+    if (m.sense != 0) b.actions.push_back(action(SpindleRun{1, m.sense > 0 ? SpindleState::cw : SpindleState::ccw}));
+    return blocks.push_back(made(line_, std::move(b))), true;
   }
   bool comp(CompSide side) {
     pending_comp_ = side;
@@ -322,6 +336,9 @@ void follow(const Block& b, TurnState& state) {
     if (const auto* run = std::get_if<SpindleRun>(&a.data); run != nullptr && run->number == 1)
       state.spindle = run->state;
     if (std::holds_alternative<SpindleOrient>(a.data)) state.spindle = SpindleState::off;
+    if (std::holds_alternative<CycleDefine>(a.data) && machining_of(b) != nullptr &&
+        machining_of(b)->name == "part.off")
+      state.spindle.reset();  // it may turn the other way
     if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
       const auto n = has_number(*t) ? known(t->number) : std::nullopt;
       state.tool = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
