@@ -15,10 +15,9 @@ constexpr Mask bit(AxisId a) {
   return Mask{1} << a;
 }
 
-/// Which axes the words of each axis may move, and what may be in force besides.
+/// Which axes the words of each axis may move.
 struct Exchanged {
   std::array<Mask, axis::count_max> moves{};
-  bool arc = false, comp = false, cycle = false;
 
   Exchanged() {
     for (std::size_t a = 0; a < moves.size(); ++a) moves[a] = bit(static_cast<AxisId>(a));
@@ -39,36 +38,35 @@ struct Exchanged {
   [[nodiscard]] bool any_of_space() const { return !own(axis::x) || !own(axis::y) || !own(axis::z); }
 };
 
+/// What may be in force besides.
+struct Shape {
+  bool arc = false, comp = false, cycle = false;
+};
+
 bool is_arc(MotionKind k) {
   return k == MotionKind::arc_cw || k == MotionKind::arc_ccw || k == MotionKind::arc_tangent ||
          k == MotionKind::arc_through_point;
 }
 
-struct Domain {
+/// The pairs in force. A routine that exchanges nothing itself leaves those of each of its callers as they are.
+struct PairDomain {
   using State = Exchanged;
   const ReadExchange* read;
 
   static State start(const Routine& /*r*/, bool /*called*/) { return {}; }
-  [[nodiscard]] bool touches(const Routine& /*r*/) const { return true; }
+  [[nodiscard]] bool touches(const Routine& r) const {
+    bool found = false;
+    for_each_statement(r.body, [&](const Statement& s) { found = found || (*read)(s).has_value(); });
+    return found;
+  }
   static void unknown(State& /*s*/) {}  // told at the call
   void transfer(const Statement& s, State& state) const {
-    if (const auto exchange = (*read)(s)) {
-      for (const AxisId a : exchange->ends) end(state, a);
-      for (const auto& [a, b] : exchange->pairs) {
-        state.moves[a] = bit(b);
-        state.moves[b] = bit(a);
-      }
-      return;
-    }
-    const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr) return;
-    if (b->has_motion && b->motion.kind != MotionKind::modal && b->motion.keeps_modal)
-      state.arc = is_arc(b->motion.kind);
-    for (const auto& a : b->actions) {
-      if (const auto* set = std::get_if<ModalSet>(&a.data); set != nullptr && set->setting == Setting::comp)
-        state.comp = set->value != static_cast<std::uint8_t>(CompSide::off);
-      if (const auto* d = std::get_if<CycleDefine>(&a.data)) state.cycle = d->modal;
-      if (std::holds_alternative<CycleCancel>(a.data)) state.cycle = false;
+    const auto exchange = (*read)(s);
+    if (!exchange) return;
+    for (const AxisId a : exchange->ends) end(state, a);
+    for (const auto& [a, b] : exchange->pairs) {
+      state.moves[a] = bit(b);
+      state.moves[b] = bit(a);
     }
   }
   static bool join(State& state, const State& other) {
@@ -78,13 +76,6 @@ struct Domain {
       changed = changed || both != state.moves[a];
       state.moves[a] = both;
     }
-    const auto also = [&changed](bool& mine, bool theirs) {
-      changed = changed || (theirs && !mine);
-      mine = mine || theirs;
-    };
-    also(state.arc, other.arc);
-    also(state.comp, other.comp);
-    also(state.cycle, other.cycle);
     return changed;
   }
 
@@ -100,9 +91,40 @@ struct Domain {
   }
 };
 
+struct ShapeDomain {
+  using State = Shape;
+
+  static State start(const Routine& /*r*/, bool /*called*/) { return {}; }
+  static bool touches(const Routine& /*r*/) { return true; }
+  static void unknown(State& /*s*/) {}
+  static void transfer(const Statement& s, State& state) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    if (b->has_motion && b->motion.kind != MotionKind::modal && b->motion.keeps_modal)
+      state.arc = is_arc(b->motion.kind);
+    for (const auto& a : b->actions) {
+      if (const auto* set = std::get_if<ModalSet>(&a.data); set != nullptr && set->setting == Setting::comp)
+        state.comp = set->value != static_cast<std::uint8_t>(CompSide::off);
+      if (const auto* d = std::get_if<CycleDefine>(&a.data)) state.cycle = d->modal;
+      if (std::holds_alternative<CycleCancel>(a.data)) state.cycle = false;
+    }
+  }
+  static bool join(State& state, const State& other) {
+    bool changed = false;
+    const auto also = [&changed](bool& mine, bool theirs) {
+      changed = changed || (theirs && !mine);
+      mine = mine || theirs;
+    };
+    also(state.arc, other.arc);
+    also(state.comp, other.comp);
+    also(state.cycle, other.cycle);
+    return changed;
+  }
+};
+
 class Rewriter {
  public:
-  Rewriter(const Exchanged& state, Statement& s) : state_(state), statement_(s) {}
+  Rewriter(const Exchanged& state, const Shape& shape, Statement& s) : state_(state), shape_(shape), statement_(s) {}
 
   /// nullopt: done, or nothing to do.
   std::optional<ExchangeFault> rewrite(bool& changed) {
@@ -127,8 +149,8 @@ class Rewriter {
     const Motion& m = b->motion;
     if (b->has_motion) {
       for (const auto& w : m.coords) look(w.axis);
-      const bool arc = is_arc(m.kind) || (m.kind == MotionKind::modal && state_.arc);
-      const bool curved = m.moves() && (arc || state_.comp || state_.cycle || m.extra || !m.centers.empty());
+      const bool arc = is_arc(m.kind) || (m.kind == MotionKind::modal && shape_.arc);
+      const bool curved = m.moves() && (arc || shape_.comp || shape_.cycle || m.extra || !m.centers.empty());
       other = other || (state_.any_of_space() && curved) || (named && m.kind == MotionKind::reference_point);
     }
     if (other) return ExchangeFault::not_said;
@@ -143,6 +165,7 @@ class Rewriter {
 
  private:
   const Exchanged& state_;
+  const Shape& shape_;
   Statement& statement_;
 };
 
@@ -177,6 +200,16 @@ bool at_hand(const Program& program, const Statement& s) {
   return c == nullptr || (!c->computed && program.find(c->routine) != nullptr);
 }
 
+/// Some blocks of another routine run here: what they exchange, and what they move, is not followed.
+bool runs_part(const Program& program, const Statement& s, const Exchanged& before, const PairDomain& pairs) {
+  const auto* c = std::get_if<CallRoutine>(&s.node);
+  const auto* r = std::get_if<Repeat>(&s.node);
+  const Routine* of = nullptr;
+  if (c != nullptr && c->has_range && !c->computed) of = program.find(c->routine);
+  if (r != nullptr && r->has_program) of = program.find(r->program);
+  return of != nullptr && (before.any() || pairs.touches(*of));
+}
+
 }  // namespace
 
 bool exchange_axes(Program& program, const ReadExchange& read, const TellExchange& fault, const TellExchanged& done) {
@@ -185,20 +218,24 @@ bool exchange_axes(Program& program, const ReadExchange& read, const TellExchang
     for_each_statement(r.body, [&](const Statement& s) { any = any || read(s).has_value(); });
   if (!any) return false;
   number_statements(program);
-  const Domain domain{&read};
-  const FlowStates<Domain> states(program, domain);
+  const PairDomain pairs{&read};
+  const FlowStates<PairDomain> states(program, pairs);
+  const ShapeDomain shapes;
+  const FlowStates<ShapeDomain> shape_of(program, shapes);
   for (auto& r : program.routines) {
     for_each_statement(r.body, [&](Statement& s) {
       const Exchanged* before = states.before(s);
-      if (before == nullptr) return;
+      const Shape* shape = shape_of.before(s);
+      if (before == nullptr || shape == nullptr) return;
       if (const auto exchange = read(s)) {
         if (pairs_again(*before, *exchange)) fault(s, ExchangeFault::twice);
         return;
       }
       if (reads_exchanged(*before, s)) return fault(s, ExchangeFault::not_said);
+      if (runs_part(program, s, *before, pairs)) return fault(s, ExchangeFault::unsure);
       if (before->any() && !at_hand(program, s)) fault(s, ExchangeFault::outside);
       bool changed = false;
-      const auto why = Rewriter(*before, s).rewrite(changed);
+      const auto why = Rewriter(*before, *shape, s).rewrite(changed);
       if (why) fault(s, *why);
       if (changed) done(s);
     });
