@@ -166,6 +166,11 @@ constexpr std::array specs{
         "fagor.rotary_rollover", "no|yes", "no",
         "absolute words of rotary axes: the sign is the direction and the value the target, or a plain coordinate"},
     OptionSpec{"fagor.mcall_repeat", "sub_only|move_and_sub", "move_and_sub", "what a block repeat does under MCALL"},
+    OptionSpec{"fagor.plane_angles", "trace|axis", "trace",
+               "angles I J of G49: between an axis and the line in which the plane meets the plane of that axis and Z, "
+               "or between the axis and the plane itself"},
+    OptionSpec{"fagor.plane_tilt", "rises|falls", "rises",
+               "a positive angle I or J of G49: the plane rises, or falls, toward the plus side of the axis"},
     OptionSpec{"num.family", "7xx|10xx|flx", "10xx", "series of the control"},
     OptionSpec{"num.g02_center", "absolute_in_G90|incremental", "absolute_in_G90", "I J K of an arc under G90"},
     OptionSpec{"num.linear_unit_um", "number", "1", "micrometres in one unit of a linear E parameter"},

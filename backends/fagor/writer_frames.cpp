@@ -97,7 +97,10 @@ void Writer::inclined_plane(const ir::Action& a, const ir::FrameChange& f) {
     add(std::string(g(Use::inclined_plane)) + (by_tool ? " T" : ""), Rank::setting, a.pos);
     return frame_words(f, a.pos);
   }
-  constexpr std::string_view letters = "ABCQRS";
+  constexpr std::string_view letters = "ABCQRS", as_written = "IJK";  // a turn is not the angle of I J K itself
+  const bool edge = !a.text.empty() && a.text[0] == 'R' && f.rotation_axis == ir::axis::z;
+  if (edge || (!a.text.empty() && as_written.find(a.text[0]) != std::string_view::npos))
+    return add(std::string(a.text), Rank::coordinate, a.pos);
   if (!a.text.empty() && letters.find(a.text[0]) != std::string_view::npos)
     return add(word(a.text.substr(0, 1), f.angle, a.pos), Rank::coordinate, a.pos);
   if (!f.angle.is(0)) refuse(no_word, a.pos, "this rotation has no counterpart here");

@@ -57,6 +57,8 @@ class BlockLowerer {
   void apply_frame(const GWord& g);
   void inclined_plane(const GWord& g);
   void along_the_tool(const GWord& g, bool by_axes);
+  void plane_by_angles(const GWord& g);
+  void assume_plane(const GWord& g, const ir::Value& i, const ir::Value& j, bool third);
   [[nodiscard]] bool full_retract(int code) const;
   void apply_special(const GWord& g);
   void setting(const GWord& g, ir::Order order);

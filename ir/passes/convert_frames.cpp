@@ -16,6 +16,12 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// A turn by 0 on top of what is in force.
+bool turns_nothing(const FrameChange& c) {
+  return c.kind == FrameKind::rotate && c.combine == FrameCombine::compose && c.has_angle && c.angle.is(0) &&
+         c.words.empty();
+}
+
 class FramePass {
  public:
   FramePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
@@ -117,6 +123,7 @@ class FramePass {
           return;
         }
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
+        if (program_.dialect != context_.target.dialect && target_.chains() && turns_nothing(*f->change)) continue;
         if (program_.dialect != context_.target.dialect && counts_from_machine(*f->change)) {
           refuse(s, program_, context_, "TRN-325",
                  "frame: a shift or preset that counts from the machine position, which is not known here",

@@ -80,8 +80,7 @@ std::string support(const facts::GCode& g) {
     case Use::c_axis: return "alone kept as text: C in degrees (FAG-008); with R carried (FAG-045)";
     case Use::plane_axes:
       return "carried for XY, ZX, YZ, on the lathe also XC and ZC (FAG-045); others " + reason("motion.transformation");
-    case Use::inclined_plane:
-      return "carried with A B C, with Q R S and with T (FAG-054); with I J K " + reason(g.feature);
+    case Use::inclined_plane: return "carried with A B C, with Q R S, with T (FAG-054) and with I J K (FAG-102)";
     case Use::home: return "carried with axes; alone " + reason("block.word");
     default: return "carried";
   }
