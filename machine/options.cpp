@@ -166,6 +166,9 @@ constexpr std::array specs{
         "fagor.rotary_rollover", "no|yes", "no",
         "absolute words of rotary axes: the sign is the direction and the value the target, or a plain coordinate"},
     OptionSpec{"fagor.mcall_repeat", "sub_only|move_and_sub", "move_and_sub", "what a block repeat does under MCALL"},
+    OptionSpec{"fagor.g92_mirror", "untouched|through", "untouched",
+               "G92 of a mirrored axis: the origin is set as without the mirror image, or so that the axis stands at "
+               "the value in the mirrored coordinates"},
     OptionSpec{"fagor.plane_angles", "trace|axis", "trace",
                "angles I J of G49: between an axis and the line in which the plane meets the plane of that axis and Z, "
                "or between the axis and the plane itself"},

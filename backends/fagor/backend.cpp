@@ -6,6 +6,8 @@
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "dialects/fagor/axis_exchange.h"
+#include "ir/passes/mirrored_presets.h"
+#include "ir/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -48,6 +50,34 @@ ir::Program with_written_axes(const ir::Program& program) {
   return out;
 }
 
+/// A preset says the mirrored coordinate in the IR; G92 takes the one that counts without the mirror image (7.5).
+std::optional<ir::Program> with_plain_presets(const ir::Program& program, const machine::Profile& profile,
+                                              Diagnostics& diagnostics) {
+  if (profile.option("fagor.g92_mirror", "untouched") == "through") return std::nullopt;
+  ir::Program out = program;
+  const bool any = ir::passes::presets_past_mirrors(
+      out,
+      [&](const ir::Statement& s) {
+        diagnostics.error("TRN-680", s.line.span,
+                          "whether an axis of this preset is mirrored depends on the way that leads here",
+                          "end the mirror image before the preset, and begin it again behind it");
+      },
+      [](const ir::Statement& /*s*/) {});
+  return any ? std::optional(std::move(out)) : std::nullopt;
+}
+
+bool has_presets(const ir::Program& program) {
+  bool found = false;
+  for (const ir::Routine& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      const auto* f = b != nullptr ? ir::action_in<ir::FrameOp>(*b) : nullptr;
+      found = found || (f != nullptr && f->change->combine == ir::FrameCombine::preset);
+    });
+  }
+  return found;
+}
+
 class FagorBackend : public Backend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return dialect_name; }
@@ -63,6 +93,10 @@ class FagorBackend : public Backend {
     if (!foreign && exchanges_axes(program)) relabelled = with_written_axes(program);
     if (foreign)
       relabelled = with_file_labels(program, file_groups(program, file_order(program, false), options), diagnostics);
+    if (has_presets(program)) {
+      if (auto plain = with_plain_presets(relabelled ? *relabelled : program, *options.profile, diagnostics))
+        relabelled = std::move(plain);
+    }
     return Writer(relabelled ? *relabelled : program, options, style, diagnostics).write();
   }
   std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override { return make_stream(options); }

@@ -381,6 +381,7 @@ void finish_program(ir::Program& program, LowerState& state) {
     }
   }
   judge_turned_plane(program, state);
+  set_presets_past_mirrors(program, state);
   resolve_exchanges(program, state);
   if (both && !in_order_of_text(program)) {
     state.set_line(facts.first_table_shift);

@@ -9,6 +9,9 @@ namespace cnctrans::fagor {
 /// G28 and G29 with axes (7.8): from here on every word names the axis that moves. FAG-051 where that can't be told.
 void resolve_exchanges(ir::Program& program, LowerState& state);
 
+/// G92 while axes are mirrored does not move their origin through the mirror image (7.5). FAG-103.
+void set_presets_past_mirrors(ir::Program& program, LowerState& state);
+
 /// No jump, call, subroutine or skipped block: what the text says is the order of work.
 bool in_order_of_text(const ir::Program& program);
 bool has_jumps(const ir::Program& program);
