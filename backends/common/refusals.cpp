@@ -122,8 +122,12 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
     return;
   }
   std::string source(trim(source_line(current_->line.span)));
-  refuse("TRN-205", {}, "'" + (source.empty() ? o.text : source) + "' is not translated",
-         "translate the line by hand before the program is run: what follows is written as if it stood there");
+  refuse(
+      "TRN-205", {}, "'" + (source.empty() ? o.text : source) + "' is not translated",
+      o.feature == "beside.coupling"
+          ? "couple the axes by hand with the target's own function and the factor of the follower: the moves of the "
+            "program name the leading axis only"
+          : "translate the line by hand before the program is run: what follows is written as if it stood there");
 }
 
 /// The structured statement being written, with all that it encloses. Without a text it is refused already.

@@ -163,6 +163,12 @@ void ProgramWriter::motion(const ir::Motion& m) {
                     "a thread whose lead changes by a computed value: whether it rises or falls is another code here",
                     "write the change as a number");
     }
+    if (code.empty() && m.kind == ir::MotionKind::to_stop) {
+      return refuse(
+          no_word, m.code_pos, "a move until the axis meets an obstacle has no counterpart here",
+          "write the target's own travel to a fixed stop by hand, with its force and its window, or a move to "
+          "a place that is known");
+    }
     if (code.empty()) {
       return refuse(no_word, m.code_pos, "a motion '" + std::string(ir::name(m.kind)) + "' has no counterpart here");
     }
