@@ -305,6 +305,7 @@ Statement TreeReader::make(std::string keyword, antlr4::ParserRuleContext* c) co
 }
 
 Expr TreeReader::program(Parser::ProgramContext* c) {
+  if (c->P() && c->PARAM()) return parameter(c->PARAM()->getSymbol());
   if (c->PARAM()) return std::move(parameter(c->PARAM()->getSymbol()).args.front());
   return expr(c->expr());
 }

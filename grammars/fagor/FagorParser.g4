@@ -42,7 +42,7 @@ action
   ;
 
 // A program's number: digits after P are the number itself, not a parameter (§12.5, §12.8)
-program : PARAM | P LPAREN expr RPAREN ;
+program : PARAM | P PARAM | P LPAREN expr RPAREN ;
 
 item : STRING | expr ;
 
