@@ -137,8 +137,20 @@ bool BlockMachine::run_milling() {
   if (mill_.shape->kind == ir::cycles::MillKind::contour_pocket) pocket_orders_.push_back(failure_.where);
   const double speed = spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
   const std::uint64_t first = emitter_.seen();
+  const auto sense = spindles_[master_].state;
   for (const auto& m : *moves) {
-    if (!milling_move(m, speed)) return false;
+    if (m.step == MillStep::orient) {
+      spindles_[master_].oriented = true;
+      spindles_[master_].state = ir::SpindleState::off;
+      spindles_[master_].angle = m.angle;
+      emit_spindle(master_);
+    } else if (m.step == MillStep::reverse || m.step == MillStep::restart) {
+      const bool turned = m.step == MillStep::reverse && sense != ir::SpindleState::off;
+      const bool cw = (sense == ir::SpindleState::cw) != turned;
+      run_spindle(master_, sense == ir::SpindleState::off ? sense : cw ? ir::SpindleState::cw : ir::SpindleState::ccw);
+    } else if (!milling_move(m, speed)) {
+      return false;
+    }
   }
   using ir::cycles::MillKind;
   const bool pocket = mill_.shape->kind == MillKind::rectangle || mill_.shape->kind == MillKind::circle;
@@ -184,9 +196,10 @@ bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
   move.to[plane.u] = m.u;
   move.to[plane.v] = m.v;
   move.to[plane.w] = m.w;
-  move.kind = m.step == MillStep::rapid ? Move::Kind::rapid
-              : m.step == MillStep::arc ? Move::Kind::arc
-                                        : Move::Kind::linear;
+  move.kind = m.step == MillStep::rapid    ? Move::Kind::rapid
+              : m.step == MillStep::arc    ? Move::Kind::arc
+              : m.step == MillStep::thread ? Move::Kind::thread
+                                           : Move::Kind::linear;
   move.feed = (m.has_feed ? m.feed : feed_now()) * m.feed_factor;
   move.feed_degrees.reset();
   if (move.kind == Move::Kind::arc) {
@@ -194,7 +207,10 @@ bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
     move.centre = {m.cu, m.cv};
     move.ccw = m.ccw;
   }
-  if (move.kind != Move::Kind::rapid && move.feed <= 0)
+  if (move.kind == Move::Kind::thread) {
+    move.pitch = m.amount;
+    move.start_angle = m.angle;
+  } else if (move.kind != Move::Kind::rapid && move.feed <= 0)
     return failure_.fail(code::bad_cycle, "a milling cycle needs a feed: its own, or the one in force");
   if (!emit_move(move, false)) return false;
   p_ = move.to;

@@ -23,8 +23,7 @@ constexpr std::array features{
                    "the coding of their rows is not described where the project looks it up"},
     MissingFeature{"cycle.hole", "parameters of hole cycles whose meaning is not sure",
                    "the cycles are carried; these words are not described where the project looks them up"},
-    MissingFeature{"cycle.milling",
-                   "pockets by words that are not known, depth profiles, threads by single points, engraving",
+    MissingFeature{"cycle.milling", "pockets by words that are not known, depth profiles, engraving",
                    "pockets (with islands too), slots, faces, spigots, milled threads and paths along a contour are "
                    "carried"},
     MissingFeature{"cycle.pattern", "free lists of hole positions by increments",

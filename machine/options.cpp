@@ -180,6 +180,22 @@ constexpr std::array specs{
     OptionSpec{"num.rotary_modulo", "text", "BC",
                "letters of the axes on which the sign of an absolute word is its direction; - for none"},
     OptionSpec{"num.rotary_unit", "number", "0.0001", "degrees in one unit of a rotary E parameter"},
+    OptionSpec{
+        "num.g31", "tool|1+|1-|2+|2-", "",
+        "what takes the point of G31 to its depth: the tool itself, or an axis of the plane; not set: as tool in "
+        "a run, and no translation"},
+    OptionSpec{"num.g31_back", "oriented|middle|reversed", "oriented",
+               "way out of the thread of G31: spindle stopped and 2 mm aside, from the middle, or along the thread"},
+    OptionSpec{"num.g63", "corner|tool", "",
+               "where G63 begins: before the corner of the blank, or where the tool stands; not set: as corner in a "
+               "run, and no translation"},
+    OptionSpec{"num.g66", "from_tool|from_end", "",
+               "the first plunge of G66; not set: as from_tool in a run, and no translation"},
+    OptionSpec{"num.g66_axis", "by_step|x|z", "by_step", "axis of the plunges of G66; by_step: Z with P, X with R"},
+    OptionSpec{"num.g66_back", "rapid|feed", "rapid", "how a plunge of G66 comes back"},
+    OptionSpec{"num.g66_steps", "equal|whole", "equal", "steps of G66"},
+    OptionSpec{"num.g66_width", "text", "",
+               "mm between the two edges of the tool of G66; empty: the width in the tool table"},
     OptionSpec{"num.face_x", "radius|machine", "radius", "X under G21: a radius, or as the machine's X is"},
     OptionSpec{"num.lenient_letter_O", "true|false", "true",
                "the letter O is read as the digit 0 in GO, with a warning"},

@@ -1,5 +1,7 @@
-// G45 in its own words (reference 11.6).
+// G45 and G31 in their own words (reference 11.6, 11.5).
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "backends/num/style.h"
 #include "backends/num/writer.h"
@@ -28,12 +30,28 @@ bool native_pocket(const ir::HoleCycle& c) {
 }
 
 void Writer::pocket(const ir::Action& a, const ir::HoleCycle& c) {
-  add(a.text.empty() || !same_dialect() ? "G45" : std::string(a.text), Rank::setting, a.pos);
+  const bool thread = c.mill.shape == "thread.chased";
+  const auto option = [this](std::string_view name) { return profile().option(name); };
+  if (thread && other_habits(a, c.mill.words, facts::thread_habits(option))) return;
+  add(a.text.empty() || !same_dialect() ? thread ? "G31" : "G45" : std::string(a.text), Rank::setting, a.pos);
   const auto plane = setting(ir::Setting::plane);
   const ir::AxisId axis = plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::z;
   add(level_word(axis_name(axis), c.bottom, a.pos), Rank::center);
   if (c.retract.base == ir::LevelBase::absolute) add(level_word("ER", c.retract, a.pos), Rank::motion_extra);
   if (c.surface.given) add(level_word("EH", c.surface, a.pos), Rank::motion_extra);
+  if (thread) {
+    const bool same = c.retract.base == c.reference.base && ir::equal(c.retract.value, c.reference.value);
+    if (!same && c.reference.base == ir::LevelBase::absolute)
+      add(level_word("EH", c.reference, a.pos), Rank::motion_extra);
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> rows{
+        {{"pitch", "K"}, {"depth", "P"}, {"last_pass", "Q"}, {"starts", "F"}, {"passes", "S"}, {"angle", "EC"}}};
+    for (const auto& [parameter, address] : rows) {
+      for (const auto& [name, v] : c.mill.words) {
+        if (name == parameter) add(word(address, v, a.pos), Rank::motion_extra);
+      }
+    }
+    return;
+  }
   for (const auto& row : facts::pocket_words) {
     for (const auto& [name, v] : c.mill.words) {
       const bool radius = name == "radius" && row.parameter == "corner";

@@ -443,54 +443,6 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   hole_cycle(a, *hole);
 }
 
-/// G33 and G64 in their own words; the points of a blank are the blocks that follow.
-bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
-  struct Row {
-    std::string_view cycle, parameter, address;
-  };
-  static constexpr std::array rows = {Row{"thread.chased", "x_end", "X"},
-                                      Row{"thread.chased", "z_end", "Z"},
-                                      Row{"thread.chased", "pitch", "K"},
-                                      Row{"thread.chased", "cone", "EA"},
-                                      Row{"thread.chased", "infeed_angle", "EB"},
-                                      Row{"thread.chased", "exit", "R"},
-                                      Row{"thread.chased", "depth", "P"},
-                                      Row{"thread.chased", "finish_stock", "Q"},
-                                      Row{"thread.chased", "starts", "F"},
-                                      Row{"thread.chased", "passes", "S"},
-                                      Row{"stock.blank", "first_label", "N"},
-                                      Row{"stock.blank", "last_label", "N"},
-                                      Row{"stock.blank", "stock_x", "I"},
-                                      Row{"stock.blank", "stock_z", "K"},
-                                      Row{"stock.blank", "step", "P"},
-                                      Row{"stock.blank", "axial_step", "R"},
-                                      Row{"stock.groove", "first_label", "N"},
-                                      Row{"stock.groove", "last_label", "N"},
-                                      Row{"stock.groove", "entry_angle", "EA"},
-                                      Row{"stock.groove", "step", "P"},
-                                      Row{"stock.groove", "axial_step", "R"},
-                                      Row{"stock.groove", "limit_x", "X"},
-                                      Row{"stock.groove", "limit_z", "Z"},
-                                      Row{"stock.groove", "stock_x", "I"},
-                                      Row{"stock.groove", "stock_z", "K"}};
-  const std::string_view code = c.name == "stock.blank"     ? "G64"
-                                : c.name == "stock.groove"  ? "G65"
-                                : c.name == "thread.chased" ? "G33"
-                                                            : "";
-  if (code.empty()) return false;
-  std::string text(a.text.empty() ? code : a.text);
-  const bool back = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "reversed"; });
-  std::vector<std::pair<std::string, ir::Value>> words = c.words;
-  if (back && words.size() > 1) std::swap(words[0].second, words[1].second);
-  for (const auto& [parameter, v] : words) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&c, &p = parameter](const Row& r) { return r.cycle == c.name && r.parameter == p; });
-    if (row != rows.end()) text += ' ' + word(row->address, v, a.pos);
-  }
-  add(std::move(text), Rank::setting, a.pos);
-  return true;
-}
-
 void Writer::cycle_cancel(const ir::Action& a) {
   add("G80", Rank::setting, a.pos);
 }

@@ -6,6 +6,7 @@
 #include "backends/common/file_groups.h"
 #include "backends/common/program_writer.h"
 #include "backends/num/chain_printer.h"
+#include "dialects/num/assumed_cycles.h"
 
 namespace cnctrans::backends::num {
 
@@ -79,6 +80,8 @@ class Writer final : public ProgramWriter {
   void pocket(const ir::Action& a, const ir::HoleCycle& c);
   void hole_cycle(const ir::Action& a, const ir::HoleCycle& c);
   bool turning_cycle(const ir::Action& a, const ir::NamedCycle& c);
+  using CycleWords = std::vector<std::pair<std::string, ir::Value>>;
+  bool other_habits(const ir::Action& a, const CycleWords& words, const dialects::num::CycleHabits& habits);
   void hole_levels(const ir::Action& a, const ir::HoleCycle& c);
   [[nodiscard]] std::string target_variable(const ir::VarRef& v);
 

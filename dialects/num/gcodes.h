@@ -206,8 +206,8 @@ inline std::vector<int> lathe_codes() {
 /// What is missing for this function: a key of the registry of missing features; empty: it is carried.
 constexpr std::string_view missing_feature(const GCode& row) {
   switch (row.kind) {
-    case GKind::turning_cycle: return row.code == 63 || row.code == 66 ? "cycle.turning" : "";
-    case GKind::milling_cycle: return row.code == 45 ? "" : "cycle.milling";
+    case GKind::turning_cycle: return "";
+    case GKind::milling_cycle: return row.code == 46 ? "cycle.milling" : "";
     case GKind::transform:
     case GKind::grinding_axis:
     case GKind::lathe_transform: return "motion.transformation";
@@ -227,10 +227,7 @@ inline constexpr std::array g_reasons{
     GRemark{7, "as G05"},
     GRemark{24, "an option of the control; neither its words nor its rotations are described"},
     GRemark{26, "an option of the control; what it does to the programmed point is not described"},
-    GRemark{31, "which axis takes the single point to the depth of a pass is not described"},
     GRemark{46, "the words of its parts (NU0 to NU9) and its path are not described"},
-    GRemark{63, "what X, Z, EX, ER, EA and EF say is not described"},
-    GRemark{66, "along which axis it plunges, where the first plunge is and which edge D names is not described"},
     GRemark{98, "what X says of the face or the cylinder is not described"},
     GRemark{997, "what the control stores under G999 is not described"},
     GRemark{998, "as G997"},
@@ -252,7 +249,10 @@ inline constexpr std::array g_remarks{
     GRemark{12, "left out with a warning (NUM-034)"},
     GRemark{16, "cycles work along it; a translation needs the plane whose normal it is (NUM-038)"},
     GRemark{29, "lines; the run shows the programmed points, no translation carries the correction (NUM-060)"},
+    GRemark{31, "its passes are those of options (num.g31, NUM-071); EF is not carried"},
     GRemark{43, "as G29"},
+    GRemark{63, "its passes are those of options (num.g63, NUM-071); EX is not carried"},
+    GRemark{66, "its plunges are those of options (num.g66, NUM-071); EX and EZ are not carried"},
     GRemark{75, "left out with a warning (NUM-033)"},
     GRemark{76,
             "with H: kept as text, it changes another program (NUM-034); into this program: kept as text too, a run "

@@ -42,8 +42,8 @@ void Lowering::put_cycle(const Word& at, std::shared_ptr<const ir::HoleCycle> cy
   if (collects_) cycles_[state_.cycle.line] = state_.cycle;
 }
 
-/// Words that all cycles share, into `cycle`; what is not given stays.
-bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
+/// ER and EH.
+bool Lowering::plane_words(ir::HoleCycle& cycle) {
   for (const int s : {e('R'), e('H')}) {
     if (!has(s)) continue;
     const Word& w = *pending_[static_cast<std::size_t>(s)];
@@ -66,6 +66,12 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
     cycle.reference = level(*eh);
     state_.cycle.has_impact_plane = true;
   }
+  return true;
+}
+
+/// Words that all cycles share, into `cycle`; what is not given stays.
+bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
+  if (!plane_words(cycle)) return false;
   if (const Word* ef = use(e('F'))) {
     if (number != 82 && number != 83 && number != 87 && number != 89) {
       report_.refuse("NUM-027", ef->pos, "EF (dwell) in this cycle is not described", {}, "cycle.hole");
@@ -181,6 +187,7 @@ bool Lowering::cycle_bottom(ir::HoleCycle& cycle, const Word& g) {
 void Lowering::define_cycle(const Word& g) {
   const int number = saturate<int>(g.number);
   if (number == 45) return pocket(g);
+  if (number == 31) return chased_on_mill(g);
   ir::HoleCycle cycle;
   switch (number) {
     case 81:
@@ -294,8 +301,8 @@ void Lowering::change_cycle() {
     if (at == nullptr && has(s)) at = pending_[static_cast<std::size_t>(s)];
   }
   if (refuses_new_depth()) return;
-  if (state_.cycle.code == 45) {
-    report_.refuse("NUM-026", at->pos, "the words of a pocket can't be changed while it is active",
+  if (state_.cycle.code == 45 || state_.cycle.code == 31) {
+    report_.refuse("NUM-026", at->pos, "the words of a pocket or of G31 can't be changed while it is active",
                    "write the cycle again");
     return;
   }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -201,6 +202,7 @@ class Lowering {
   bool refuses_new_depth();
   bool refuses_stale_words(const ir::HoleCycle& before, const Word& at);
   bool cycle_words(ir::HoleCycle& cycle, int number);
+  bool plane_words(ir::HoleCycle& cycle);
   bool equal_pecks(ir::HoleCycle& cycle, const Word& es, const Word* beside);
   void oriented_clearance(ir::HoleCycle& cycle);
   bool cycle_bottom(ir::HoleCycle& cycle, const Word& g);
@@ -211,6 +213,13 @@ class Lowering {
   void turning_cycle(const Word& g);
   void chased_thread(const Word& g);
   void stock_removal(const Word& g, bool groove);
+  // assumed_cycles.cpp: G63, G66, G31
+  void tell_assumed(const Word& g, const dialects::num::CycleHabits& habits);
+  bool keeps_open_words(const Word& g, std::initializer_list<int> slots);
+  bool profile_labels(const Word& g, ir::NamedCycle& cycle);
+  void reentrant_stock(const Word& g);
+  void plunged_groove(const Word& g);
+  void chased_on_mill(const Word& g);
   std::optional<ir::Value> take_absolute(ir::AxisId axis);
   void put_machining(const Word& g, std::shared_ptr<ir::Cycle> cycle);
 
@@ -248,7 +257,7 @@ class Lowering {
     const Word* retract = nullptr;        ///< G75
     const Word* interruptible = nullptr;  ///< G10
     const Word* thread = nullptr;         ///< G38
-    const Word* turning = nullptr;        ///< G33, G64, G65
+    const Word* turning = nullptr;        ///< G33, G63..G66
     const Word* spatial = nullptr;        ///< G29, G43
     const Word* macro = nullptr;          ///< G100..G255 with its program
     bool any = false;                     ///< one of those above

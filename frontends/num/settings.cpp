@@ -50,6 +50,12 @@ Settings make_settings(const machine::Profile& profile) {
   s.m30_ends = option(facts::option::m30) == "end";
   s.face_radius = option(facts::option::face_x) == "radius";
   s.pecks_constant = option(facts::option::peck_law) == "constant";
+  const auto set = [&profile](std::string_view name) { return profile.option(name); };
+  s.chased = facts::thread_habits(set);
+  s.reentrant = facts::reentrant_habits(set);
+  s.plunged_by_p = facts::plunge_habits(set, true);
+  s.plunged_by_r = facts::plunge_habits(set, false);
+  s.edge_width = set(facts::option::plunged_width);
   const auto unit = [&profile](std::string_view name, double fallback) {
     const auto value = parse_decimal(profile.option(name));
     return value && *value > 0 ? *value : fallback;

@@ -1,4 +1,4 @@
-// Turning cycles: G33, G64 and G65 (reference 12.1, 12.3, 12.4).
+// Turning cycles: G33, G64 and G65 (reference 12.1, 12.3, 12.4); G63 and G66: assumed_cycles.cpp.
 #include <cmath>
 #include <utility>
 
@@ -45,10 +45,10 @@ void Lowering::put_machining(const Word& g, std::shared_ptr<ir::Cycle> cycle) {
 void Lowering::turning_cycle(const Word& g) {
   if (marks_.motion || marks_.thread != nullptr || marks_.cycle != nullptr)
     return report_.refuse("NUM-011", g.pos, "a turning cycle beside another motion function");
-  if (g.number == 33)
-    chased_thread(g);
-  else
-    stock_removal(g, g.number == 65);
+  if (g.number == 33) return chased_thread(g);
+  if (g.number == 63) return reentrant_stock(g);
+  if (g.number == 66) return plunged_groove(g);
+  stock_removal(g, g.number == 65);
 }
 
 /// Non-modal: from the place of the tool to the root of the thread at its end.
@@ -78,24 +78,34 @@ void Lowering::chased_thread(const Word& g) {
   put_machining(g, std::move(cycle));
 }
 
+/// The block numbers of the finished profile.
+bool Lowering::profile_labels(const Word& g, ir::NamedCycle& cycle) {
+  const auto refuse = [&](std::string_view why) {
+    report_.refuse("NUM-004", g.pos, std::string(text_of(g)) + std::string(why), {}, "cycle.turning");
+    return false;
+  };
+  if (flow_->label_count != 2) return refuse(" needs the two block numbers of the finished profile");
+  const Word *first = flow_->labels[0], *last = flow_->labels[1];
+  flow_->label_count = 0;
+  if (first->is_expression || last->is_expression) return refuse(": the block numbers are fixed numbers");
+  const bool back = first->number > last->number;
+  if (back) std::swap(first, last);
+  cycle.words.emplace_back("first_label", ir::Value(first->number));
+  cycle.words.emplace_back("last_label", ir::Value(last->number));
+  if (back) cycle.words.emplace_back("reversed", ir::Value(1));
+  return true;
+}
+
 /// G64: until G80 the blocks are points of the blank. G65: one groove, down from the place of the tool.
 void Lowering::stock_removal(const Word& g, bool groove) {
   const std::string code = groove ? "G65" : "G64";
   const auto refuse = [&](std::string_view why) {
     report_.refuse("NUM-004", g.pos, code + std::string(why), {}, "cycle.turning");
   };
-  if (flow_->label_count != 2) return refuse(" needs the two block numbers of the finished profile");
-  const Word *first = flow_->labels[0], *last = flow_->labels[1];
-  flow_->label_count = 0;
-  if (first->is_expression || last->is_expression) return refuse(": the block numbers are fixed numbers");
   auto cycle = std::make_shared<ir::Cycle>();
   cycle->node = ir::NamedCycle{groove ? "stock.groove" : "stock.blank", {}};
   auto& words = named(*cycle).words;
-  const bool back = first->number > last->number;
-  if (back) std::swap(first, last);
-  words.emplace_back("first_label", ir::Value(first->number));
-  words.emplace_back("last_label", ir::Value(last->number));
-  if (back) words.emplace_back("reversed", ir::Value(1));
+  if (!profile_labels(g, named(*cycle))) return;
   const Word *p = use(letter('P')), *r = use(letter('R'));
   if ((p != nullptr) == (r != nullptr)) return refuse(" needs one depth of cut: P or R");
   const auto stock = [&] {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "ir/cycles/assumed.h"
 #include "ir/cycles/blank_points.h"
 #include "ir/cycles/turning_moves.h"
 
@@ -114,6 +115,8 @@ constexpr std::array parameters = {
     Parameter{"first_start", Quantity::plain},
     Parameter{"pitch_unit", Quantity::plain},
     Parameter{"display", Quantity::plain},
+    Parameter{assumed_word, Quantity::text},
+    Parameter{"assumed_width", Quantity::plain},
     // Words of newer signatures: carried, and only 0 is carried out.
     Parameter{"spare_1", Quantity::plain},
     Parameter{"spare_2", Quantity::plain},
@@ -162,6 +165,8 @@ constexpr std::array cycles = {
     MachiningCycle{"shape.thread", Kind::shaped, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"shape.corner", Kind::shaped, false, false, false, CycleEnd::elsewhere},
     MachiningCycle{"stock.groove", Kind::profile, false, false, false},
+    MachiningCycle{"stock.reentrant", Kind::profile, false, false, false, CycleEnd::elsewhere},
+    MachiningCycle{"groove.plunged", Kind::groove, false, false, false},
     MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
 
@@ -220,7 +225,7 @@ std::string_view family_of(std::string_view cycle) {
   const auto* row = find_machining(cycle);
   if (row == nullptr) return {};
   switch (row->kind) {
-    case Kind::profile: return cycle == "stock.groove" ? std::string_view{} : "stock";
+    case Kind::profile: return cycle == "stock.groove" || cycle == "stock.reentrant" ? std::string_view{} : "stock";
     case Kind::copy: return "stock";
     case Kind::thread: return cycle == "thread.chain" ? std::string_view{} : "thread";
     case Kind::shaped: return cycle == "shape.thread" ? "thread" : std::string_view{};
@@ -246,8 +251,11 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
   } else if (cycle.name == "groove.alternate") {
     const auto it = numbers.find("variant");
     face = it != numbers.end() && std::fmod(std::floor(std::abs(it->second) / 100), 2) == 0;
-  } else if (cycle.name == "stock.blank" || cycle.name == "stock.groove") {
+  } else if (cycle.name == "stock.blank" || cycle.name == "stock.groove" || cycle.name == "stock.reentrant") {
     face = numbers.contains("axial_step");
+  } else if (cycle.name == "groove.plunged") {
+    const auto it = numbers.find("main_axis");
+    face = it != numbers.end() && it->second != 0;
   }
   for (const auto& [name, value] : numbers) {
     if (!name.starts_with("spare_") || value == 0) continue;
@@ -272,7 +280,10 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
              : cycle.name == "thread.chain"  ? detail::chained_thread(roles, error)
                                              : detail::thread(roles, error);
       break;
-    case Kind::groove: done = detail::groove(roles, context.nose_width, error); break;
+    case Kind::groove:
+      done = cycle.name == "groove.plunged" ? detail::plunged_groove(roles, context.nose_width, face, error)
+                                            : detail::groove(roles, context.nose_width, error);
+      break;
     case Kind::shaped:
       done = cycle.name == "groove.shaped"      ? detail::shaped_groove(roles, context, face, error)
              : cycle.name == "groove.alternate" ? detail::alternate_groove(roles, context, face, error)
@@ -280,10 +291,11 @@ std::optional<std::vector<TurnMove>> expand(const MachiningCycle& cycle, const T
                                                 : detail::relief(roles, context, error);
       break;
     case Kind::profile:
-      done = cycle.name == "stock.contour"  ? detail::contour_stock(roles, context, face, error)
-             : cycle.name == "stock.blank"  ? detail::blank_stock(roles, context, face, error)
-             : cycle.name == "stock.groove" ? detail::groove_stock(roles, context, face, error)
-                                            : detail::stock_removal(roles, context, face, false, error);
+      done = cycle.name == "stock.contour"     ? detail::contour_stock(roles, context, face, error)
+             : cycle.name == "stock.blank"     ? detail::blank_stock(roles, context, face, error)
+             : cycle.name == "stock.groove"    ? detail::groove_stock(roles, context, face, error)
+             : cycle.name == "stock.reentrant" ? detail::reentrant_stock(roles, context, face, error)
+                                               : detail::stock_removal(roles, context, face, false, error);
       break;
     case Kind::copy: done = detail::stock_removal(roles, context, face, cycle.kind == Kind::copy, error); break;
     case Kind::live_drill:

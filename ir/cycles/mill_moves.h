@@ -64,6 +64,9 @@ class MillPath {
   void mill_to(double p, double q, double w);  ///< at the feed of milling
   /// In the open, at a feed of its own; 0: that of milling.
   void link(double p, double q, double w, double feed);
+  /// At a pitch, from a spindle angle.
+  void thread_to(double w, double pitch, double degrees);
+  void spindle(MillStep step, double degrees = 0);
   /// Radius compensation from the next move on: 1 left, -1 right, 0 off.
   void compensate(int side);
   void mill_arc(double p, double q, double cp, double cq, bool ccw);
@@ -105,6 +108,7 @@ bool ring_slots(MillPath& path, std::string* error);
 bool face(MillPath& path, std::string* error);
 bool boss(MillPath& path, bool circle, std::string* error);
 bool milled_thread(MillPath& path, std::string* error);
+bool chased_thread(MillPath& path, std::string* error);
 bool contour_path(MillPath& path, const std::vector<MillContour>* contours, std::string* error);
 bool contour_pocket(MillPath& path, const MillContext& context, std::string* error);
 

@@ -71,6 +71,18 @@ constexpr std::array parameters = {
     MillParameter{"outside", plain, "of several contours: 0 the largest one, 1 the first one"},
     MillParameter{"tool", plain, "number of the tool that mills"},
     MillParameter{"offset", plain, "number of its offset"},
+    MillParameter{"depth", length, "of a thread, from the hole's wall"},
+    MillParameter{"last_pass", length, "depth of the last pass of a thread"},
+    MillParameter{"passes", plain, "of a thread; left out: 1"},
+    MillParameter{"starts", plain, "of a thread; left out: 1"},
+    MillParameter{
+        "radial", plain,
+        "what takes the point to its depth: 0 the tool itself, 1 2 the plane's first axis upward and downward, "
+        "3 4 its second"},
+    MillParameter{
+        "back", plain,
+        "out of a thread: 0 spindle stopped at `angle` and 2 mm aside that way, 1 back to the middle, 2 along "
+        "the thread with the spindle reversed"},
     MillParameter{"apart", plain, "1: contours that cross each other are refused"},
 };
 
@@ -123,6 +135,8 @@ constexpr std::array shapes = {
               "holes where the roughing of such a pocket begins"},
     MillShape{"thread.mill", MillKind::thread, "u,v,diameter,core,pitch,mill_feed,sense,external",
               "thread milled on a helix"},
+    MillShape{"thread.chased", MillKind::chased, "pitch,depth,last_pass,passes,starts,angle,radial,back",
+              "thread by a single point along the tool axis"},
 };
 
 bool in_list(std::string_view rest, std::string_view name) {
@@ -166,6 +180,7 @@ bool has_sense(const MillNumbers& mill) {
 }
 
 RadiusNeed needs_radius(const MillNumbers& mill) {
+  if (mill.shape != nullptr && mill.shape->kind == MillKind::chased) return RadiusNeed::none;
   if (mill.shape == nullptr || mill.shape->kind != MillKind::path) return RadiusNeed::moves;
   const auto side = mill.words.find("side");
   return side != mill.words.end() && side->second == 40 ? RadiusNeed::none : RadiusNeed::lead;
@@ -214,6 +229,7 @@ std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleN
     case MillKind::boss:
     case MillKind::round_boss: done = detail::boss(path, mill.shape->kind == MillKind::round_boss, error); break;
     case MillKind::thread: done = detail::milled_thread(path, error); break;
+    case MillKind::chased: done = detail::chased_thread(path, error); break;
     case MillKind::face: done = detail::face(path, error); break;
     case MillKind::path: done = detail::contour_path(path, context.contours, error); break;
     case MillKind::contour_pocket: done = detail::contour_pocket(path, context, error); break;

@@ -43,7 +43,8 @@ enum class MillKind : std::uint8_t {
   round_boss,
   thread,
   path,
-  contour_pocket
+  contour_pocket,
+  chased  ///< a thread by a single point, pass by pass along the tool axis
 };
 struct MillShape {
   std::string_view name;  ///< `MillWords::shape`
@@ -93,7 +94,11 @@ enum class MillStep : std::uint8_t {
   restore_speed,  ///< the speed before the cycle
   comp_left,      ///< radius compensation from the next move on
   comp_right,
-  comp_off
+  comp_off,
+  thread,   ///< at the pitch `amount` (mm/rev), from the spindle angle `angle`
+  orient,   ///< the spindle stops at `angle`
+  reverse,  ///< the other sense than before the cycle
+  restart   ///< the sense before the cycle
 };
 struct MillMove {
   MillStep step = MillStep::rapid;
@@ -104,6 +109,7 @@ struct MillMove {
   double feed = 0;
   double feed_factor = 1;  ///< times the feed
   double amount = 0;
+  double angle = 0;  ///< degrees
 };
 struct MillContext {
   double u = 0, v = 0, w = 0;  ///< of the tool when the cycle runs, mm in the work frame; NaN: not known

@@ -128,6 +128,10 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
 /// By the contour alone, and by the contour within a blank.
 bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
 bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
+/// From a rectangle down to the contour, then its re-entrant zones.
+bool reentrant_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
+/// Plunges side by side between the place of the tool and the end point.
+bool plunged_groove(Roles& r, double nose_width, bool face, std::string* error);
 /// One groove of the profile, down to the limit on the other axis.
 bool groove_stock(Roles& r, const TurnContext& context, bool face, std::string* error);
 bool counted_thread(Roles& r, std::string* error);

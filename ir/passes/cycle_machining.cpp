@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "ir/cycles/assumed.h"
 #include "ir/passes/cycle_pass.h"
 #include "ir/source_line.h"
 
@@ -40,6 +41,8 @@ Statement rapid_to(const LineInfo& like, const TurnStart& place) {
 /// A machining cycle of a lathe: the target's own with the same moves, else its moves, with a note.
 void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
+  if (const std::string option = cycles::assumed_option(cycle); !option.empty())
+    return refuse_assumed(std::move(s), option, out);
   if (setting<CompSide>(facts_.before(s), Setting::comp) == CompSide::off) {  // it is off already
     const auto off = [](const Action& a) {
       const auto* set = std::get_if<ModalSet>(&a.data);
@@ -99,6 +102,14 @@ void CyclePass::write_out_machining(Statement&& s, const NamedCycle& cycle, Body
   }
   remark_words(s.line, out);
   put_moves(std::move(s), std::move(*moves), std::move(pieces), out);
+}
+
+void CyclePass::refuse_assumed(Statement&& s, const std::string& option, Body& out) {
+  refuse(s, program_, context_, "TRN-690",
+         "the manuals at hand do not describe the moves of this cycle; they are those of the option " + option +
+             ", which the source's machine profile does not set",
+         "compare with the machine, then set " + option + " in the profile");
+  out.push_back(std::move(s));
 }
 
 void CyclePass::remark_words(const LineInfo& line, Body& out) {

@@ -432,6 +432,8 @@ class CyclePass {
   void run_at_the_point(Block& b, const Facts& facts, Body& blocks) const;
   /// The words of the source above the moves that they become.
   void remark_words(const LineInfo& line, Body& out);
+  /// The moves are those of an option that nobody has confirmed.
+  void refuse_assumed(Statement&& s, const std::string& option, Body& out);
   void put_similar(Statement&& s, SimilarForm&& form, Body&& pieces, Body& out);
   void put_moves(Statement&& s, Body&& moves, Body&& pieces, Body& out);
   /// What follows the statement at hand may cut, or do whatever else, with the feed that a cycle leaves in force.

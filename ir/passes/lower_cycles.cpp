@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ir/cycles/assumed.h"
 #include "ir/cycles/pattern.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/cycle_ranges.h"
@@ -198,6 +199,8 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   if (w && !height) height = height_mm(b, facts, *w);
   const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
   const bool milling = hole != nullptr && hole->kind == HoleKind::mill;
+  if (const std::string option = milling ? cycles::assumed_option(*hole) : std::string(); !option.empty())
+    return refuse_assumed(std::move(s), option, out);
   if (milling && !lost && put_similar_pocket(*hole, s, pieces, height, false, out)) return;
   if (lost)
     error = "the height at which it was defined, to which it goes back, is not known here";

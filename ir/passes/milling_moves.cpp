@@ -70,7 +70,8 @@ class Writer {
   }
   Body blocks;
   double u = 0, v = 0, w = 0;
-  bool incremental = false;  ///< in the plane
+  bool incremental = false;           ///< in the plane
+  std::optional<SpindleState> sense;  ///< of the spindle before the cycle
 
   bool add(const MillMove& m, std::optional<double> speed, std::string* error) {
     if (m.step == MillStep::speed || m.step == MillStep::restore_speed) {
@@ -86,6 +87,13 @@ class Writer {
                                               : CompSide::right;
       return true;
     }
+    if (m.step == MillStep::orient) return put(SpindleOrient{1, Value{m.angle}});
+    if (m.step == MillStep::reverse || m.step == MillStep::restart) {
+      if (!sense || *sense == SpindleState::off)
+        return *error = "whether the spindle runs, and in which sense, is not known here", false;
+      const bool cw = (*sense == SpindleState::cw) == (m.step == MillStep::restart);
+      return put(SpindleRun{1, cw ? SpindleState::cw : SpindleState::ccw});
+    }
     Block b;
     if (side_) {
       ModalSet set;
@@ -98,11 +106,15 @@ class Writer {
     Motion& motion = b.motion;
     motion.explicit_code = true;
     motion.keeps_modal = false;
-    motion.kind = m.step == MillStep::rapid  ? MotionKind::rapid
-                  : m.step == MillStep::feed ? MotionKind::linear
-                  : m.ccw                    ? MotionKind::arc_ccw
-                                             : MotionKind::arc_cw;
-    if (m.step != MillStep::rapid && !feed(m, b, error)) return false;
+    motion.kind = m.step == MillStep::rapid    ? MotionKind::rapid
+                  : m.step == MillStep::feed   ? MotionKind::linear
+                  : m.step == MillStep::thread ? MotionKind::thread
+                  : m.ccw                      ? MotionKind::arc_ccw
+                                               : MotionKind::arc_cw;
+    if (m.step == MillStep::thread)
+      lead(m, motion);
+    else if (m.step != MillStep::rapid && !feed(m, b, error))
+      return false;
     const bool arc = m.step == MillStep::arc;
     coordinate(motion, axes_.u, m.u, u, incremental, arc);
     coordinate(motion, axes_.v, m.v, v, incremental, arc);
@@ -126,6 +138,22 @@ class Writer {
   }
 
  private:
+  template <class Data>
+  bool put(Data data) {
+    blocks.push_back(make_block(line_, action(std::move(data))));
+    return true;
+  }
+  void lead(const MillMove& m, Motion& motion) const {
+    auto extra = std::make_shared<MotionExtra>();
+    extra->has_lead = true;
+    extra->lead = Value{m.amount / unit_};
+    extra->lead_axis = axes_.w;
+    if (m.angle != 0) {
+      extra->has_start_angle = true;
+      extra->start_angle = Value{m.angle};
+    }
+    motion.extra = std::move(extra);
+  }
   bool feed(const MillMove& m, Block& b, std::string* error) {
     const bool own = m.has_feed || m.feed_factor != 1;
     if (!own && !changed_) return true;
@@ -390,6 +418,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   writer.v = context.v;
   writer.w = context.w;
   writer.incremental = incremental;
+  writer.sense = sense;
   for (const auto& m : *moves) {
     if (!writer.add(m, facts.spindle, error)) return std::nullopt;
   }

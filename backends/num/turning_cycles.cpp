@@ -1,0 +1,98 @@
+// Turning cycles in their own words (reference 12).
+#include <algorithm>
+#include <array>
+
+#include "backends/num/writer.h"
+
+namespace cnctrans::backends::num {
+
+namespace facts = dialects::num;
+
+/// The moves of the cycle follow from options, and the target's profile says others.
+bool Writer::other_habits(const ir::Action& a, const CycleWords& words, const facts::CycleHabits& habits) {
+  for (const auto& h : {habits.first, habits.second}) {
+    if (!h.given) continue;
+    const auto it = std::find_if(words.begin(), words.end(), [&h](const auto& w) { return w.first == h.word; });
+    if ((it == words.end() ? 0 : it->second.number) == h.value) continue;
+    refuse("TRN-691", a.pos,
+           "the moves of this cycle follow from " + std::string(habits.option) +
+               " and its fellows, and the target's machine profile sets them otherwise",
+           "set the same in both profiles");
+    return true;
+  }
+  return false;
+}
+
+/// G33, G63 to G66 in their own words; the points of a blank are the blocks that follow.
+bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
+  struct Row {
+    std::string_view cycle, parameter, address;
+  };
+  static constexpr std::array rows = {Row{"thread.chased", "x_end", "X"},
+                                      Row{"thread.chased", "z_end", "Z"},
+                                      Row{"thread.chased", "pitch", "K"},
+                                      Row{"thread.chased", "cone", "EA"},
+                                      Row{"thread.chased", "infeed_angle", "EB"},
+                                      Row{"thread.chased", "exit", "R"},
+                                      Row{"thread.chased", "depth", "P"},
+                                      Row{"thread.chased", "finish_stock", "Q"},
+                                      Row{"thread.chased", "starts", "F"},
+                                      Row{"thread.chased", "passes", "S"},
+                                      Row{"stock.blank", "first_label", "N"},
+                                      Row{"stock.blank", "last_label", "N"},
+                                      Row{"stock.blank", "stock_x", "I"},
+                                      Row{"stock.blank", "stock_z", "K"},
+                                      Row{"stock.blank", "step", "P"},
+                                      Row{"stock.blank", "axial_step", "R"},
+                                      Row{"stock.groove", "first_label", "N"},
+                                      Row{"stock.groove", "last_label", "N"},
+                                      Row{"stock.groove", "entry_angle", "EA"},
+                                      Row{"stock.groove", "step", "P"},
+                                      Row{"stock.groove", "axial_step", "R"},
+                                      Row{"stock.groove", "limit_x", "X"},
+                                      Row{"stock.groove", "limit_z", "Z"},
+                                      Row{"stock.groove", "stock_x", "I"},
+                                      Row{"stock.groove", "stock_z", "K"},
+                                      Row{"stock.reentrant", "first_label", "N"},
+                                      Row{"stock.reentrant", "last_label", "N"},
+                                      Row{"stock.reentrant", "x_2", "X"},
+                                      Row{"stock.reentrant", "z_2", "Z"},
+                                      Row{"stock.reentrant", "step", "P"},
+                                      Row{"stock.reentrant", "axial_step", "R"},
+                                      Row{"stock.reentrant", "stock_x", "I"},
+                                      Row{"stock.reentrant", "stock_z", "K"},
+                                      Row{"stock.reentrant", "withdrawal", "ER"},
+                                      Row{"stock.reentrant", "entry_angle", "EA"},
+                                      Row{"stock.reentrant", "groove_feed", "EF"},
+                                      Row{"groove.plunged", "second_edge", "D"},
+                                      Row{"groove.plunged", "x_end", "X"},
+                                      Row{"groove.plunged", "z_end", "Z"},
+                                      Row{"groove.plunged", "slope_angle", "EA"},
+                                      Row{"groove.plunged", "step", "P"},
+                                      Row{"groove.plunged", "axial_step", "R"},
+                                      Row{"groove.plunged", "base_dwell", "EF"}};
+  const std::string_view code = c.name == "stock.blank"       ? "G64"
+                                : c.name == "stock.groove"    ? "G65"
+                                : c.name == "stock.reentrant" ? "G63"
+                                : c.name == "groove.plunged"  ? "G66"
+                                : c.name == "thread.chased"   ? "G33"
+                                                              : "";
+  if (code.empty()) return false;
+  const bool by_p = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "step"; });
+  const auto option = [this](std::string_view name) { return profile().option(name); };
+  if (code == "G63" && other_habits(a, c.words, facts::reentrant_habits(option))) return true;
+  if (code == "G66" && other_habits(a, c.words, facts::plunge_habits(option, by_p))) return true;
+  std::string text(a.text.empty() ? code : a.text);
+  const bool back = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "reversed"; });
+  std::vector<std::pair<std::string, ir::Value>> words = c.words;
+  if (back && words.size() > 1) std::swap(words[0].second, words[1].second);
+  for (const auto& [parameter, v] : words) {
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&c, &p = parameter](const Row& r) { return r.cycle == c.name && r.parameter == p; });
+    if (row != rows.end()) text += ' ' + word(row->address, v, a.pos);
+  }
+  add(std::move(text), Rank::setting, a.pos);
+  return true;
+}
+
+}  // namespace cnctrans::backends::num
