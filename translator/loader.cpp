@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "translator/called.h"
 #include "translator/definitions.h"
 #include "translator/program_axes.h"
 
@@ -249,31 +250,23 @@ bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
 
 ir::Program* Loader::load(Candidate& c) {
   if (!c.program) {
-    const FileId id = files_.add(c.source);
-    const frontends::ReadOptions options{reader_, &profile_, &definitions()};
+    const bool alone = !by_callers_ && dialect_.frontend->reads_by_callers();  // it is read once more
+    if (!c.id) c.id = files_.add(c.source);
+    const FileId id = *c.id;
+    const frontends::ReadOptions options{reader_, &profile_, &definitions(), {}, &callers_};
     if (c.source->encoding() != Encoding::utf8) note_encoding(c.source->text(), 1, id, c.diagnostics);
     c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, c.diagnostics, nullptr));
     c.program->texts->hold(c.source);
-    note_faults(*c.program, id, c.diagnostics, 0);
+    if (!alone) note_faults(*c.program, id, c.diagnostics, 0);
     ir::number_statements(*c.program);
   }
   return c.program.get();
 }
 
-const ir::Program* Loader::find(const ir::RoutineName& name) {
+Loader::Candidate* Loader::locate(const ir::RoutineName& name) {
   list_candidates();
-  // What a file has to report counts only when something of it is called.
-  const auto use = [this](Candidate& c) -> const ir::Program* {
-    const ir::Program* p = c.program.get();
-    if (std::find(called_.begin(), called_.end(), p) != called_.end()) return p;
-    called_.push_back(p);
-    library_diagnostics_.append(c.diagnostics);
-    return p;
-  };
   for (auto& c : candidates_) {
-    if (!may_hold(c, name)) continue;
-    ir::Program* p = load(c);
-    if (p->find(name) != nullptr) return use(c);
+    if (may_hold(c, name) && load(c)->find(name) != nullptr) return &c;
   }
   for (auto& c : candidates_) {
     if (!stem_names(c.stem, name, dialect_.numbered_stem) || c.unreadable) continue;
@@ -285,14 +278,56 @@ const ir::Program* Loader::find(const ir::RoutineName& name) {
     ir::Program* p = load(c);
     // The file is the routine: its first routine answers to the stem's name.
     if (!p->routines.empty() && p->routines.front().name.empty()) p->routines.front().name = name;
-    if (p->find(name) != nullptr) return use(c);
+    if (p->find(name) != nullptr) return &c;
     if (p->routines.empty()) continue;
     const auto main = std::find_if(p->routines.begin(), p->routines.end(),
                                    [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
     (main != p->routines.end() ? *main : p->routines.front()).name = name;
-    return use(c);
+    return &c;
   }
   return nullptr;
+}
+
+void Loader::read_by_callers() {
+  if (by_callers_ || mains_.empty() || !dialect_.frontend->reads_by_callers()) return;
+  std::vector<Candidate*> reached;
+  std::vector<ir::RoutineName> wanted;
+  collect_calls(*mains_.front(), wanted);
+  while (!wanted.empty()) {
+    const ir::RoutineName name = wanted.back();
+    wanted.pop_back();
+    if (mains_.front()->find(name) != nullptr) continue;
+    Candidate* c = locate(name);
+    if (c == nullptr || std::find(reached.begin(), reached.end(), c) != reached.end()) continue;
+    reached.push_back(c);
+    collect_calls(*c->program, wanted);
+  }
+  by_callers_ = true;
+  std::vector<std::unique_ptr<ir::Program>> alone;
+  for (Candidate* c : reached) alone.push_back(std::move(c->program));
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    callers_ = {mains_.front().get()};
+    for (std::size_t n = 0; n < alone.size(); ++n) {
+      if (n != k) callers_.push_back(alone[n].get());
+    }
+    reached[k]->diagnostics.clear();
+    const ir::Program* read = load(*reached[k]);
+    for (std::size_t r = 0; r < read->routines.size() && r < alone[k]->routines.size(); ++r)
+      reached[k]->program->routines[r].name = alone[k]->routines[r].name;
+  }
+  callers_.clear();
+}
+
+const ir::Program* Loader::find(const ir::RoutineName& name) {
+  read_by_callers();
+  Candidate* c = locate(name);
+  if (c == nullptr) return nullptr;
+  // What a file has to report counts only when something of it is called.
+  const ir::Program* p = c->program.get();
+  if (std::find(called_.begin(), called_.end(), p) != called_.end()) return p;
+  called_.push_back(p);
+  library_diagnostics_.append(c->diagnostics);
+  return p;
 }
 
 std::string Loader::written_file(std::string_view name) const {

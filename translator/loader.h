@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -67,9 +68,14 @@ class Loader {
     std::unique_ptr<ir::Program> program;
     Diagnostics diagnostics;  ///< of reading it
     bool unreadable = false;
+    std::optional<FileId> id = {};
   };
   void list_candidates();
   ir::Program* load(Candidate& c);
+  /// The file that has the routine; null: none.
+  Candidate* locate(const ir::RoutineName& name);
+  /// Reads the files that the main program reaches once more, each with all the others as its callers.
+  void read_by_callers();
   void note_faults(const ir::Program& program, FileId file, const Diagnostics& said, std::size_t from);
   bool may_hold(Candidate& c, const ir::RoutineName& name);
 
@@ -82,11 +88,13 @@ class Loader {
   std::vector<std::unique_ptr<ir::Program>> mains_;
   std::vector<Candidate> candidates_;
   bool listed_ = false;
+  bool by_callers_ = false;  ///< read_by_callers() has been done
   bool defined_ = false;
   std::vector<std::string> definition_places_;  ///< the libraries, without the folder of the program
   std::vector<std::unique_ptr<ir::Program>> own_definitions_;
   std::vector<const ir::Program*> definitions_;
   std::vector<const ir::Program*> called_;
+  std::vector<const ir::Program*> callers_;  ///< of the file that is read
   Diagnostics library_diagnostics_;
   std::map<std::pair<FileId, std::uint32_t>, Diagnostic> faults_;  ///< line 0: of a routine without header
 };

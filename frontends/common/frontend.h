@@ -30,6 +30,8 @@ struct ReadOptions {
   /// Files that define names for every program of the machine, read before; may be null.
   const std::vector<const ir::Program*>* definitions = nullptr;
   TextLook look = {};  ///< of a stream; empty: there is nothing to look through
+  /// The other programs of the run, the main one first, where a file is read for those that call it; may be null.
+  const std::vector<const ir::Program*>* callers = {};
 };
 
 /// Counts for `check` and the corpus table.
@@ -88,6 +90,9 @@ class Frontend {
   /// Reads a whole file. Always returns a program; what could not be read is Opaque with a diagnostic.
   virtual ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
                            ReadStats* stats) const = 0;
+  /// What a file means depends on the modes that its callers leave in force: it is read once more with
+  /// ReadOptions::callers when they are known.
+  [[nodiscard]] virtual bool reads_by_callers() const { return false; }
   virtual std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                                std::string_view file_name) const = 0;
 };

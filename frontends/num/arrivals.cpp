@@ -30,11 +30,12 @@ bool straight(const ir::Program& program) {
   return only_blocks;
 }
 
-/// Every statement by its line, the first of each.
-std::map<std::uint32_t, const ir::Statement*> by_line(const ir::Program& program) {
+/// Every statement of the file by its line, the first of each.
+std::map<std::uint32_t, const ir::Statement*> by_line(const Ways& ways) {
   std::map<std::uint32_t, const ir::Statement*> lines;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&](const ir::Statement& s) { lines.emplace(s.line.span.line, &s); });
+  for (std::size_t i = ways.own; i < ways.whole.routines.size(); ++i) {
+    ir::for_each_statement(ways.whole.routines[i].body,
+                           [&](const ir::Statement& s) { lines.emplace(s.line.span.line, &s); });
   }
   return lines;
 }
@@ -69,11 +70,12 @@ bool leads_outside(const ir::Program& program) {
   return unread;
 }
 
-/// Lines of the main programs and of what the file itself calls.
-std::unordered_set<std::uint32_t> lines_with_callers(const ir::Program& program) {
+/// Lines of the main programs of the file, and of its programs that are called.
+std::unordered_set<std::uint32_t> lines_with_callers(const Ways& ways) {
+  const ir::Program& program = ways.whole;
   const ir::passes::CallGraph calls(program);
   std::unordered_set<std::uint32_t> lines;
-  for (std::size_t i = 0; i < program.routines.size(); ++i) {
+  for (std::size_t i = ways.own; i < program.routines.size(); ++i) {
     if (program.routines[i].kind != ir::RoutineKind::main && !calls.called(i)) continue;
     ir::for_each_statement(program.routines[i].body, [&](const ir::Statement& s) { lines.insert(s.line.span.line); });
   }
@@ -113,15 +115,34 @@ Match match(const ModalUse& use, Modal fact, const Arrival& brought) {
 
 }  // namespace
 
-Arrivals arrivals_at(ir::Program& program, const std::vector<ModalUse>& uses, const ir::ModalState& power_on) {
+Ways ways_of(const ir::Program& file, const std::vector<const ir::Program*>* callers) {
+  Ways ways;
+  const bool alone = callers == nullptr || callers->empty();
+  ways.straight = alone && straight(file);
+  if (ways.straight) return ways;
+  ways.whole.spaces = file.spaces;
+  const auto add = [&ways](const ir::Program& program, bool main) {
+    for (ir::Routine routine : program.routines) {
+      if (!main && routine.kind == ir::RoutineKind::main) routine.kind = ir::RoutineKind::sub;
+      ways.whole.routines.push_back(std::move(routine));
+    }
+  };
+  for (std::size_t k = 0; !alone && k < callers->size(); ++k) add(*(*callers)[k], k == 0);
+  ways.own = ways.whole.routines.size();
+  add(file, alone);
+  ir::number_statements(ways.whole);
+  return ways;
+}
+
+Arrivals arrivals_at(const Ways& ways, const std::vector<ModalUse>& uses, const ir::ModalState& power_on) {
   Arrivals arrivals;
-  if (uses.empty() || straight(program)) return arrivals;
-  ir::number_statements(program);
-  const ir::FactTable table = ir::analyse(program, power_on);
-  const auto lines = by_line(program);
+  if (uses.empty() || ways.straight) return arrivals;
+  const ir::FactTable table = ir::analyse(ways.whole, power_on);
+  const auto lines = by_line(ways);
   std::map<std::uint32_t, std::uint32_t> line_of;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&](const ir::Statement& s) { line_of.emplace(s.id, s.line.span.line); });
+  for (std::size_t i = ways.own; i < ways.whole.routines.size(); ++i) {
+    ir::for_each_statement(ways.whole.routines[i].body,
+                           [&](const ir::Statement& s) { line_of.emplace(s.id, s.line.span.line); });
   }
   for (const auto& use : uses) {
     const auto at = lines.find(use.where.line);
@@ -141,11 +162,11 @@ bool agrees(const std::vector<ModalUse>& uses, const Arrivals& arrivals) {
   });
 }
 
-void judge_uses(const ir::Program& program, const std::vector<ModalUse>& uses, const Arrivals& arrivals,
+void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arrivals& arrivals,
                 Diagnostics& diagnostics) {
   if (arrivals.empty()) return;
-  const bool outside = leads_outside(program);
-  const auto sure = lines_with_callers(program);
+  const bool outside = leads_outside(ways.whole);
+  const auto sure = lines_with_callers(ways);
   for (const auto& use : uses) {
     const auto at = arrivals.find(use.where.line);
     if (at == arrivals.end()) continue;

@@ -34,13 +34,20 @@ struct ModalUse {
   Arrival taken;
 };
 
-/// What the ways of the program bring to the lines of `uses`, as far as it is known (numbers the statements). Empty for
-/// a program whose only way is that of the text.
-Arrivals arrivals_at(ir::Program& program, const std::vector<ModalUse>& uses, const ir::ModalState& power_on);
+/// The file among the programs that call it and are called with it.
+struct Ways {
+  ir::Program whole;
+  std::size_t own = 0;    ///< index of the file's first routine
+  bool straight = false;  ///< the only way is that of the text
+};
+/// `callers`: the main program first; null: the file stands alone.
+Ways ways_of(const ir::Program& file, const std::vector<const ir::Program*>* callers);
+/// What the ways bring to the lines of `uses`, as far as it is known. Empty where the only way is that of the text.
+Arrivals arrivals_at(const Ways& ways, const std::vector<ModalUse>& uses, const ir::ModalState& power_on);
 /// Every use has taken what the ways bring.
 bool agrees(const std::vector<ModalUse>& uses, const Arrivals& arrivals);
 /// NUM-070 at each block that the ways reach with different facts.
-void judge_uses(const ir::Program& program, const std::vector<ModalUse>& uses, const Arrivals& arrivals,
+void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arrivals& arrivals,
                 Diagnostics& diagnostics);
 
 }  // namespace cnctrans::frontends::num

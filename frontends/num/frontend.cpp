@@ -124,13 +124,14 @@ ir::Program read_by_the_ways(const SourcePtr& source, FileId file, const ReadOpt
     if (reading > 1) reader.know_arrivals(arrivals, std::move(cycles));
     ir::Program program = reader.read();
     const auto& uses = reader.lowering().modal_uses();
-    arrivals = arrivals_at(program, uses, power_on);
+    const Ways ways = uses.empty() ? Ways{} : ways_of(program, options.callers);
+    arrivals = arrivals_at(ways, uses, power_on);
     if (reading < most_readings && !agrees(uses, arrivals)) {
       cycles = reader.lowering().cycles();
       continue;
     }
     diagnostics.append(said);
-    judge_uses(program, uses, arrivals, diagnostics);
+    judge_uses(ways, uses, arrivals, diagnostics);
     changed = reader.lowering().changed_cycles();
     return program;
   }
@@ -154,6 +155,7 @@ class NumFrontend : public Frontend {
     judge_compensation(program, options.profile->power_on, diagnostics);
     return program;
   }
+  [[nodiscard]] bool reads_by_callers() const override { return true; }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                                      std::string_view file_name) const override {
     return std::make_unique<NumStream>(file, options, file_name);
