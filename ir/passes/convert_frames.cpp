@@ -103,7 +103,8 @@ class FramePass {
       return;
     }
     std::vector<Action> actions;
-    std::optional<FrameState> first;  // before several changes in a row that build one frame
+    std::optional<FrameState> first;           // before several changes in a row that build one frame
+    std::shared_ptr<const FrameChange> begun;  // the first of a block's changes that say one frame together
     for (std::size_t n = 0; n < b.actions.size(); ++n) {
       Action& a = b.actions[n];
       if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
@@ -137,10 +138,15 @@ class FramePass {
           if (!first) first = before;
           continue;
         }
+        if (waits(s, b, n + 1, state)) {
+          if (!first) first = before;
+          if (!begun) begun = f->change;
+          continue;
+        }
         first.reset();
         const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
         const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
-        auto same = pending_ ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
+        auto same = pending_ || begun ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
         // Where nothing is turned yet, a turn on top of it is the turn.
         if (same && same->slot == FrameSlot::rotation && same->combine == FrameCombine::replace &&
             same->words.empty() && !same->angle.is(0) && !target_.part(before).turns() &&
@@ -151,11 +157,11 @@ class FramePass {
           if (same->combine != f->change->combine || same->by_distance_mode != f->change->by_distance_mode)
             a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*same))};
           actions.push_back(std::move(a));
-        } else if (silent) {
+        } else if (silent && !begun) {
           continue;  // a reset of what is not there, made by the reader
         } else if (waiting_.count(s.id) != 0) {
           pending_ = true;
-        } else if (!rebuild(s, a, *f->change, before, state, actions)) {
+        } else if (!rebuild(s, a, begun ? *begun : *f->change, before, state, actions)) {
           out.push_back(std::move(s));
           return;
         } else {
@@ -177,6 +183,21 @@ class FramePass {
     const auto* f = std::get_if<FrameOp>(&b.actions[n].data);
     return f != nullptr && f->change && f->change->slot == FrameSlot::chain &&
            f->change->combine == FrameCombine::compose;
+  }
+
+  /// The next change of the block makes a frame that is known out of one that is not (`now`), or takes all of it back.
+  bool waits(const Statement& s, const Block& b, std::size_t n, FrameState now) const {
+    if (program_.dialect == context_.target.dialect) return false;
+    const bool known = target_.part(now).known();
+    for (std::size_t k = n; k < b.actions.size(); ++k) {
+      const auto* f = std::get_if<FrameOp>(&b.actions[k].data);
+      if (f == nullptr || !f->change || f->change->slot == FrameSlot::chain || counts_from_machine(*f->change))
+        return false;
+      now.apply(*f->change, facts_.before(s), b, context_.source_machine);
+      const PlanarFrame next = target_.part(now);
+      if (known ? next.neutral() : next.known()) return true;
+    }
+    return false;
   }
 
   /// A mirror beside what the manual of one of the two controls leaves open.
