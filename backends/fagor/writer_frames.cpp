@@ -1,5 +1,6 @@
 // Work offsets, the programmable frame and the polar origin (manual 8.3 to 8.6, 11.4, 11.5, 25.1).
 #include <algorithm>
+#include <cmath>
 
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
@@ -48,6 +49,20 @@ std::optional<ir::Value> Writer::scaled(ir::AxisId axis, ir::WordScale scale, co
   if (diameter == (scale == ir::WordScale::diameter)) return v;
   if (!v.literal()) return std::nullopt;
   return ir::Value(v.number * (diameter ? 2 : 0.5));
+}
+
+/// The word says the place where its axis is known to stand.
+bool Writer::stands_still(const ir::CoordWord& w) {
+  if (facts() == nullptr || !w.value.literal() || !facts()->position[w.axis]) return false;
+  if (w.mode == ir::WordMode::incremental || known<ir::Distance>(ir::Setting::distance) != ir::Distance::absolute)
+    return false;
+  const machine::AxisSpec* spec = profile().axis(w.axis);
+  const auto mode = known<ir::DiameterMode>(ir::Setting::diameter);
+  const bool has_diameters = spec != nullptr && spec->diameter;
+  if (has_diameters && w.scale == ir::WordScale::modal && !mode) return false;
+  const bool diameter =
+      w.scale == ir::WordScale::diameter || (w.scale == ir::WordScale::modal && mode != ir::DiameterMode::radius);
+  return std::fabs(w.value.number * (has_diameters && diameter ? 0.5 : 1) - *facts()->position[w.axis]) < 1e-9;
 }
 
 void Writer::frame_words(const ir::FrameChange& f, WordPos pos) {

@@ -238,20 +238,6 @@ void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
   add(word(letter, *value, w.pos), Rank::center, w.pos);
 }
 
-/// The word says the place where its axis is known to stand.
-bool Writer::stands_still(const ir::CoordWord& w) {
-  if (facts() == nullptr || !w.value.literal() || !facts()->position[w.axis]) return false;
-  if (w.mode == ir::WordMode::incremental || known<ir::Distance>(ir::Setting::distance) != ir::Distance::absolute)
-    return false;
-  const machine::AxisSpec* spec = profile().axis(w.axis);
-  const auto mode = known<ir::DiameterMode>(ir::Setting::diameter);
-  const bool has_diameters = spec != nullptr && spec->diameter;
-  if (has_diameters && w.scale == ir::WordScale::modal && !mode) return false;
-  const bool diameter =
-      w.scale == ir::WordScale::diameter || (w.scale == ir::WordScale::modal && mode != ir::DiameterMode::radius);
-  return std::fabs(w.value.number * (has_diameters && diameter ? 0.5 : 1) - *facts()->position[w.axis]) < 1e-9;
-}
-
 void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   if (e.has_turns || e.has_angle)
     return refuse(no_word, m.code_pos, "an arc by its opening angle or with full turns has no counterpart here");

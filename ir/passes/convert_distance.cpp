@@ -7,6 +7,7 @@
 #include "ir/passes/editor.h"
 #include "ir/passes/flow_states.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/polar_words.h"
 #include "ir/passes/shifted_axes.h"
 #include "ir/passes/words.h"
 
@@ -115,7 +116,7 @@ class DistancePass {
   void block(Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     if (!context_.target.distance_inside_block) keep_last(b);
-    if (!context_.target.distance_per_word) polar_words(b, facts_.before(s));
+    if (!context_.target.distance_per_word) drop_modes_in_force(b, facts_.before(s));
     const bool settled = watch_frames(s, b);
     if (settled && !context_.target.distance_per_word &&
         setting_in<Distance>(b, facts_.before(s), Setting::distance) == Distance::incremental)
@@ -191,20 +192,6 @@ class DistancePass {
   }
 
  private:
-  /// Polar words of a mode of their own that is in force anyway.
-  static void polar_words(Block& b, const Facts& facts) {
-    if (!b.has_motion || !b.motion.extra) return;
-    const auto& now = *b.motion.extra;
-    if (now.polar_mode == WordMode::modal && now.polar_angle_mode == WordMode::modal) return;
-    const auto mode = setting_in<Distance>(b, facts, Setting::distance);
-    if (!mode) return;
-    const WordMode in_force = *mode == Distance::absolute ? WordMode::absolute : WordMode::incremental;
-    MotionExtra extra = now;
-    for (WordMode* word : {&extra.polar_mode, &extra.polar_angle_mode}) {
-      if (*word == in_force) *word = WordMode::modal;
-    }
-    b.motion.extra = std::make_shared<const MotionExtra>(std::move(extra));
-  }
   /// Of several changes in one block (each counts for the words behind it) the last one stays in force.
   static void keep_last(Block& b) {
     const auto sets = [](const Action& a) {

@@ -351,11 +351,8 @@ class PolePass {
   bool polar_words(Block& b, const Facts& facts) {
     MotionExtra x = *b.motion.extra;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const bool radius_modal = x.has_polar_radius && x.polar_mode == WordMode::modal;
-    const bool angle_modal = x.has_polar_angle && x.polar_angle_mode == WordMode::modal;
+    const auto [radius_modal, angle_modal, adds_r, adds_q] = polar_modes(x, distance);
     if (!pole_ || !plane_ || (!distance && (radius_modal || angle_modal))) return false;
-    const bool adds_r = x.has_polar_radius && !polar_absolute(x.polar_mode, distance);
-    const bool adds_q = x.has_polar_angle && !polar_absolute(x.polar_angle_mode, distance);
     const auto start = here(facts);
     std::optional<Value> from_r = radius_, from_q = angle_;
     if (start) {

@@ -23,6 +23,29 @@ Value around(const Value& r, const Value& q, Function wave, double from, double 
   return add(scale(leg, 1 / factor), Value{from / factor});
 }
 
+PolarModes polar_modes(const MotionExtra& x, std::optional<Distance> distance) {
+  PolarModes m;
+  m.radius_modal = x.has_polar_radius && x.polar_mode == WordMode::modal;
+  m.angle_modal = x.has_polar_angle && x.polar_angle_mode == WordMode::modal;
+  m.adds_radius = x.has_polar_radius && !polar_absolute(x.polar_mode, distance);
+  m.adds_angle = x.has_polar_angle && !polar_absolute(x.polar_angle_mode, distance);
+  return m;
+}
+
+void drop_modes_in_force(Block& b, const Facts& facts) {
+  if (!b.has_motion || !b.motion.extra) return;
+  const auto& now = *b.motion.extra;
+  if (now.polar_mode == WordMode::modal && now.polar_angle_mode == WordMode::modal) return;
+  const auto mode = setting_in<Distance>(b, facts, Setting::distance);
+  if (!mode) return;
+  const WordMode in_force = *mode == Distance::absolute ? WordMode::absolute : WordMode::incremental;
+  MotionExtra extra = now;
+  for (WordMode* word : {&extra.polar_mode, &extra.polar_angle_mode}) {
+    if (*word == in_force) *word = WordMode::modal;
+  }
+  b.motion.extra = std::make_shared<const MotionExtra>(std::move(extra));
+}
+
 bool says_radius(const Block& b, const Facts& facts) {
   const MotionExtra& x = *b.motion.extra;
   return x.has_polar_radius && polar_absolute(x.polar_mode, setting_in<Distance>(b, facts, Setting::distance));

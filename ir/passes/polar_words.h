@@ -31,6 +31,15 @@ inline bool polar_absolute(const MotionExtra& x, std::optional<Distance> distanc
   return polar_absolute(x.polar_mode, distance) && polar_absolute(x.polar_angle_mode, distance);
 }
 
+/// How the polar words of a block count.
+struct PolarModes {
+  bool radius_modal = false, angle_modal = false;  ///< the word is there, and the mode in force decides
+  bool adds_radius = false, adds_angle = false;    ///< the word is there, and is an increment
+};
+PolarModes polar_modes(const MotionExtra& x, std::optional<Distance> distance);
+/// Polar words of a mode of their own that is in force anyway lose it.
+void drop_modes_in_force(Block& b, const Facts& facts);
+
 /// The block says the radius by itself, whatever was before.
 bool says_radius(const Block& b, const Facts& facts);
 
