@@ -170,6 +170,8 @@ bool alternate_groove(Roles& r, const TurnContext& context, bool face, std::stri
   g.lift = r.number("clearance") != 0 ? std::abs(r.number("clearance")) : 1;
   g.dwell = context.choices.groove_dwell;
   g.sideways = std::min(overlap * w, flat_overlap * flat);
+  constexpr double most_plunges = 100'000;
+  if (g.step >= tiny && depth / g.step > most_plunges) return *error = "the cycle has too many passes", false;
   if (!g.set(Shape(width, depth, g.flanks, true), base_stock, flank_stock, w, error)) return false;
 
   const bool left = variant->left != context.choices.groove_mirrored;

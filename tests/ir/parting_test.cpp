@@ -115,6 +115,9 @@ TEST(AlternatingGroove, WhatIsRefused) {
   c.choices.groove_depth = GrooveDepth::absolute;
   std::string error;
   EXPECT_EQ(moves("groove.alternate", n, c, &error).at(2), "feed 25 -16.5") << error;
+  n["step"] = 1e-6;
+  EXPECT_NE(why("groove.alternate", n, c).find("too many"), std::string::npos);
+  n["step"] = 0;
   n["variant"] = 100;
   EXPECT_NE(why("groove.alternate", n, c).find("machining type"), std::string::npos);
   n["variant"] = 110;
