@@ -159,7 +159,7 @@ class StreamTranslation {
   }
 
   bool take(const SourceLine& line) {
-    if (shapes_ && !ended_ && shapes_->write(line.text, state_, out_)) {
+    if (shapes_ && !ended_ && !writer_->waits() && shapes_->write(line.text, state_, out_)) {
       watch_.passed_by();
       last_code_ = {file_, line.number, 1, line.number, static_cast<std::uint32_t>(line.text.size()) + 1};
       return true;

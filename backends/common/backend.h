@@ -63,6 +63,8 @@ class StreamWriter {
   /// Numbers with at most so many places (no plus sign) are written as the source has them, and a line depends on
   /// nothing but its statement; -1: not so.
   [[nodiscard]] virtual int places_kept() const { return -1; }
+  /// What was written last counts only if what comes next is of a certain kind: every line must be shown to write().
+  [[nodiscard]] virtual bool waits() const { return false; }
 };
 
 class Backend {

@@ -7,6 +7,7 @@
 #include "backends/common/comments.h"
 #include "backends/common/places.h"
 #include "backends/common/tool_words.h"
+#include "backends/common/waiting_offset.h"
 #include "base/short_copy.h"
 #include "base/text.h"
 
@@ -163,6 +164,11 @@ int PlainStreamWriter::places_kept() const {
 bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) {
   const ir::LineInfo& info = statement.line;
   if (!info.labels.empty()) return false;
+  if (offset_waits_) {
+    const OffsetStep step = offset_step(statement);
+    if (step == OffsetStep::lost) return false;  // the D does not belong beside its T
+    offset_waits_ = step == OffsetStep::passes;
+  }
   Words& words = *words_;
   words.clear();
   if (const auto* b = std::get_if<ir::Block>(&statement.node)) {
@@ -171,7 +177,10 @@ bool PlainStreamWriter::write(const ir::Statement& statement, std::string& out, 
     if (table_.offset_waits && tool_and_offset_only(*b)) {
       if (!changes_tools_ && options_.changes_tools) changes_tools_ = options_.changes_tools();
       if (!changes_tools_) return false;
-      if (*changes_tools_) return write_apart(info, *b, out, diagnostics);
+      if (*changes_tools_) {
+        if (info.skip_mask != 0) return false;
+        offset_waits_ = true;
+      }
     }
   } else if (const auto* e = std::get_if<ir::End>(&statement.node)) {
     const std::string_view text = same_dialect_ && !e->text.empty() ? e->text : table_.end_program;
@@ -225,20 +234,6 @@ void PlainStreamWriter::look_for_rotary(const ir::Block& b, const Span& span, Di
 }
 
 /// A tool and its offset where the offset would wait for the change: a line each.
-bool PlainStreamWriter::write_apart(const ir::LineInfo& info, const ir::Block& b, std::string& out,
-                                    Diagnostics& diagnostics) {
-  if (b.has_motion || b.actions.size() != 2 || info.skip_mask != 0) return false;
-  Words& words = *words_;
-  const bool offset_first = std::holds_alternative<ir::ToolOffset>(b.actions.front().data);
-  // By column, so that the tool comes first where the source says it first.
-  const ir::Action& offset = b.actions[offset_first ? 0 : 1];
-  const ir::Action& tool = b.actions[offset_first ? 1 : 0];
-  words.clear();
-  if (!add_action(tool, false, words) || !write_line(info, words, out, diagnostics)) return false;
-  words.clear();
-  return add_action(offset, false, words) && write_line(ir::LineInfo{}, words, out, diagnostics);
-}
-
 bool PlainStreamWriter::order_fits(const ir::Action& a, std::size_t code, bool moves) const {
   if (!moves) return true;
   return (a.order == ir::Order::after) == (m_after_[code] != 0);

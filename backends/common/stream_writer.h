@@ -60,6 +60,7 @@ class PlainStreamWriter : public StreamWriter {
   bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) final;
   void end(std::string& out) override;
   [[nodiscard]] int places_kept() const override;
+  [[nodiscard]] bool waits() const override { return offset_waits_; }
 
  protected:
   /// Lines before the first block (header, title). Default: none.
@@ -73,7 +74,6 @@ class PlainStreamWriter : public StreamWriter {
   struct Words;
   bool collect(const ir::Block& b, Words& words) const;
   void look_for_rotary(const ir::Block& b, const Span& span, Diagnostics& diagnostics);
-  bool write_apart(const ir::LineInfo& info, const ir::Block& b, std::string& out, Diagnostics& diagnostics);
   bool add_action(const ir::Action& a, bool moves, Words& words) const;
   bool add_modal(const ir::ModalSet& m, Word& w) const;
   bool add_motion(const ir::Motion& m, Words& words) const;
@@ -95,6 +95,7 @@ class PlainStreamWriter : public StreamWriter {
   bool lathe_ = false;
   bool rotary_told_ = false, incremental_ = false;
   std::optional<bool> changes_tools_;  ///< the answer of the options, asked once
+  bool offset_waits_ = false;          ///< a D stands beside its T: its change of the tool must come next
   bool ends_in_comment_ = false;       ///< the line written last: no word can follow in it
   bool rounded_ = false, rounding_noted_ = false;
   std::int64_t next_number_ = 0;

@@ -77,6 +77,7 @@ class Stream : public StreamWriter {
     if (writer_) writer_->end(out);
   }
   [[nodiscard]] int places_kept() const override { return writer_ != nullptr ? writer_->places_kept() : -1; }
+  [[nodiscard]] bool waits() const override { return writer_ != nullptr && writer_->waits(); }
 
  private:
   WriteOptions options_;

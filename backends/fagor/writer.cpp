@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "backends/common/comments.h"
+#include "backends/common/waiting_offset.h"
 #include "backends/fagor/file_labels.h"
 #include "backends/fagor/tables.h"
 #include "base/text.h"
@@ -47,8 +48,10 @@ Writer::Writer(const ir::Program& program, const WriteOptions& options, const St
   has_cycles_ = !same_dialect() && ir::any_action(program, [](const ir::Action& a) {
     return std::holds_alternative<ir::CycleDefine>(a.data);
   });
-  has_tool_changes_ =
-      ir::any_action(program, [](const ir::Action& a) { return std::holds_alternative<ir::ToolChange>(a.data); });
+  has_tool_changes_ = !same_dialect() && ir::any_action(program, [](const ir::Action& a) {
+    return std::holds_alternative<ir::ToolChange>(a.data);
+  });
+  if (has_tool_changes_) waiting_ = offsets_that_wait(this->program());
 }
 
 // ---- file frame ----------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -140,8 +141,9 @@ class Writer : public ProgramWriter {
   Printer printer_;
   const ir::Block* block_ = nullptr;
   bool has_surfaces_ = false;
-  bool has_cycles_ = false;  ///< of another control
-  bool has_tool_changes_ = false;
+  bool has_cycles_ = false;                 ///< of another control
+  bool has_tool_changes_ = false;           ///< by M06, in a program of another control
+  std::set<const ir::Statement*> waiting_;  ///< blocks whose D stays beside its T
   bool rotary_told_ = false;
   std::optional<ir::RotaryPlaces> rotary_places_;  ///< made when the first word asks for it
   ir::Block surface_block_;                        ///< the block at hand in the words of the face or the cylinder

@@ -145,7 +145,8 @@ static bool waits_for_change(const ir::Block& b) {
 bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
   const bool others = b.actions.size() > 1 || b.has_motion;
   if (others && stands_alone(a) && !(same_dialect() && !a.text.empty())) return true;
-  if (holds<ir::ToolOffset>(a) && !same_dialect() && has_tool_changes_ && waits_for_change(b)) return true;
+  if (holds<ir::ToolOffset>(a) && has_tool_changes_ && waits_for_change(b) && waiting_.count(&current()) == 0)
+    return true;
   return ProgramWriter::own_line(a, b);
 }
 
