@@ -43,6 +43,9 @@ constexpr std::array specs{
     OptionSpec{"corner.straight_on", "left_out|refused", "left_out",
                "a corner function of a block between two elements that meet without a corner: nothing is inserted, or "
                "an error"},
+    OptionSpec{
+        "stop.spindle", "goes_on|stops", "goes_on",
+        "a stop of the program (M00, M01 where the operator asks for it): the spindle turns on, or stands still"},
     OptionSpec{"cycle.axis_word", "moves|refused", "moves",
                "a word of the tool axis in a block while a hole cycle is active: a move, or an error"},
     OptionSpec{"cycle.levels", "as_written|by_mode", "as_written",

@@ -438,6 +438,13 @@ void Writer::message(const ir::Message& m) {
   }
 }
 
+/// M00 stops the spindle as well, M12 the program alone (3.2.1, 3.2.13).
+void Writer::stop(const ir::Action& a, const ir::Stop& s) {
+  const bool alone = !s.optional && !same_dialect() && profile().option("stop.spindle") == "stops";
+  if (!alone) return ProgramWriter::stop(a, s);
+  add(m_word(12), Rank::machine, a.pos);
+}
+
 bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
   // Text after $ runs to the end of the line.
   if (std::holds_alternative<ir::Message>(before.node) || std::holds_alternative<ir::Message>(next.node)) return false;

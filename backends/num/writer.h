@@ -39,6 +39,7 @@ class Writer final : public ProgramWriter {
   void modal_set(const ir::Action& a, const ir::ModalSet& m) override;
   void freezes_speed(const ir::Action& a, const ir::ModalSet& m);
   bool css_ = false;  ///< G96 was written last, G97 not since
+  void stop(const ir::Action& a, const ir::Stop& s) override;
   void spindle_orient(const ir::Action& a, const ir::SpindleOrient& s) override;
   void spindle_limit(const ir::Action& a, const ir::SpindleLimit& s) override;
   void tell_limit(const ir::Action& a, const ir::SpindleLimit& s);

@@ -48,6 +48,7 @@ Settings make_settings(const machine::Profile& profile) {
   s.range_by_position = option(facts::option::range_order) == "position";
   s.mends_ranges = option(facts::option::missing_end) == "to_last_lower";
   s.m30_ends = option(facts::option::m30) == "end";
+  s.stop_ends_spindle = profile.option("stop.spindle") == "stops";
   s.face_radius = option(facts::option::face_x) == "radius";
   s.pecks_constant = option(facts::option::peck_law) == "constant";
   const auto set = [&profile](std::string_view name) { return profile.option(name); };

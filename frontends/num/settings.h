@@ -27,8 +27,9 @@ struct Settings {
   bool range_by_position = false;
   bool mends_ranges = false;  ///< a range whose last block is missing ends with the greatest smaller number
   bool m30_ends = false;
-  bool face_radius = true;      ///< X of G21 is a radius
-  bool pecks_constant = false;  ///< P..Q as constant pecks and a last one
+  bool stop_ends_spindle = false;  ///< M00 stops the spindle (3.2.1)
+  bool face_radius = true;         ///< X of G21 is a radius
+  bool pecks_constant = false;     ///< P..Q as constant pecks and a last one
   dialects::num::CycleHabits chased, reentrant, plunged_by_p, plunged_by_r;
   std::string edge_width;                                ///< mm between the edges of the tool of G66; empty: not given
   double units_per_mm = 1000, units_per_degree = 10000;  ///< of E parameters

@@ -414,7 +414,9 @@ void Lowering::machine_function(const Word& w) {
   const auto put = [&](auto data) { act(w, step, std::move(data), m.order); };
   using machine::MMeaning;
   switch (m.meaning) {
-    case MMeaning::stop: return put(ir::Stop{false});
+    case MMeaning::stop:
+      if (n == 0 && settings_.stop_ends_spindle) put(ir::SpindleRun{1, ir::SpindleState::off});  // M12 lets it turn
+      return put(ir::Stop{false});
     case MMeaning::optional_stop: return put(ir::Stop{true});
     case MMeaning::program_end:
     case MMeaning::subprogram_end:

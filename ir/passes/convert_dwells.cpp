@@ -1,4 +1,5 @@
-// Dwells in the target's unit, exact stop, settings that the target can't switch (equivalences 13, 14.1).
+// Dwells in the target's unit, exact stop, stops with and without the spindle, settings that the target can't switch
+// (equivalences 13, 14.1, 26).
 #include <cmath>
 #include <set>
 
@@ -19,6 +20,7 @@ class DwellPass {
   void block(Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     drop_settings(s, b);
+    tell_optional_stops(s, b);
     Body pieces;
     std::size_t at = 0;
     for (std::size_t i = 0; i < b.actions.size(); ++i) {
@@ -40,6 +42,26 @@ class DwellPass {
  private:
   static Statement path_mode(const LineInfo& like, PathMode mode) {
     return make_block(like, action(ModalSet{Setting::path_mode, static_cast<std::uint8_t>(mode), true, {}}));
+  }
+
+  /// Whether the operator asks for it only the machine knows, and on one of the two the spindle stands behind it.
+  void tell_optional_stops(const Statement& s, const Block& b) {
+    const bool source = context_.source_machine.option("stop.spindle") == "stops";
+    const bool target = context_.target_machine.option("stop.spindle") == "stops";
+    if (source == target) return;
+    for (const auto& a : b.actions) {
+      const auto* stop = std::get_if<Stop>(&a.data);
+      if (stop == nullptr || !stop->optional) continue;
+      if (source)
+        context_.diagnostics.warning(
+            "TRN-740", word_span(s.line.span, a.pos),
+            "the optional stop stops the spindle on the source machine, and it turns on behind this one",
+            "write M5 before it where somebody reaches into the machine");
+      else
+        context_.diagnostics.warning("TRN-741", word_span(s.line.span, a.pos),
+                                     "the optional stop of the target stops the spindle, which turns on at the source",
+                                     "write M3 or M4 behind it");
+    }
   }
 
   /// Exact stop of one block where the target has the modal one only.

@@ -47,6 +47,7 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       places_(std::max(0, std::min(target.word_decimals, target.word_decimals_inch))),
       at_once_(passes::changes_on_select(target_machine)),
       keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")),
+      stop_differs_(source.option("stop.spindle") != target_machine.option("stop.spindle")),
       rapid_differs_(source.option("comp.rapid") != target_machine.option("comp.rapid")),
       needs_gear_(target.gear_needed && source.dialect != target.dialect),
       tables_differ_(passes::offset_tables_differ(source, target_machine)),
@@ -286,6 +287,7 @@ StreamWatch::Verdict StreamWatch::look(const Block& block) const {
   if (gear_is_new(block) || offset_is_new(block)) return Verdict::local;
   if (adds_length_ && takes_length(block)) return Verdict::local;
   if (rapid_differs_ && rapid_under_compensation(block)) return Verdict::local;
+  if (stop_differs_ && has<Stop>(block)) return Verdict::local;
   return plain_legal(block, target_, &target_machine_) ? Verdict::plain : Verdict::local;
 }
 

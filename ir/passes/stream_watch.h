@@ -78,6 +78,7 @@ class StreamWatch {
   int places_;                ///< of the target's coordinates, in the unit that has fewer
   bool at_once_;              ///< the target changes tools at T
   bool keeps_differ_;         ///< a change of the offsets keeps another point on the target
+  bool stop_differs_;         ///< a stop stops the spindle on one machine only
   bool rapid_differs_;        ///< a rapid move under radius compensation is compensated on one machine only
   bool adds_length_;          ///< the target wants length compensation switched on, the source has it always
   bool never_on_;             ///< the source switches it, the target has it always
