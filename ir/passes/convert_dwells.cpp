@@ -120,15 +120,25 @@ class DwellPass {
       context_.diagnostics.note("TRN-151", word_span(s.line.span, a.pos), std::move(text));
   }
 
-  /// Seconds of a dwell in revolutions under a known speed; nullopt (reported) otherwise.
-  std::optional<Value> seconds_of_revolutions(const Statement& s, const Action& a, const Dwell& d) {
+  /// A dwell in revolutions under a known speed, `scale` the seconds in one of it; nullopt (reported) otherwise.
+  std::optional<Value> seconds_of_revolutions(const Statement& s, const Action& a, const Dwell& d, double& scale) {
     const auto& f = facts_.before(s);
     const auto mode = setting<SpindleMode>(f, Setting::spindle_mode);
-    if (d.value.literal() && f.spindle && *f.spindle > 0 && mode == SpindleMode::rpm) {
+    const bool known = f.spindle && *f.spindle > 0 && mode == SpindleMode::rpm;
+    if (known && !d.value.literal()) {
+      const double each = d.scale * 60 / *f.spindle;
+      context_.diagnostics.warning("TRN-154", word_span(s.line.span, a.pos),
+                                   "a dwell of computed revolutions is written as " + rounded(each, 4) +
+                                       " s for each of them, for " + shortest(*f.spindle) + " rev/min");
+      scale = each;
+      return d.value;
+    }
+    if (known) {
       const double seconds = d.value.number * d.scale * 60 / *f.spindle;
       context_.diagnostics.warning("TRN-154", word_span(s.line.span, a.pos),
                                    "a dwell of " + shortest(d.value.number) + " revolutions is written as " +
                                        rounded(seconds, 2) + " s, for " + shortest(*f.spindle) + " rev/min");
+      scale = 1;
       return Value{seconds};
     }
     context_.diagnostics.error("TRN-155", word_span(s.line.span, a.pos),
@@ -144,10 +154,9 @@ class DwellPass {
     Value value = d.value;
     double scale = d.scale;
     if (d.revolutions) {
-      const auto seconds = seconds_of_revolutions(s, a, d);
+      const auto seconds = seconds_of_revolutions(s, a, d, scale);
       if (!seconds) return true;
       value = *seconds;
-      scale = 1;
     }
     if (!value.literal()) {
       d.value = ir::scale(value, scale / t.dwell_unit);
