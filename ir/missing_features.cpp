@@ -35,7 +35,7 @@ constexpr std::array features{
     MissingFeature{"frame.measured", "a measured frame put into the chain of frames (ADDFRAME)",
                    "how it changes the frame of its target is not described where the project looks it up"},
     MissingFeature{"language.computed_block", "a block whose text is computed when the program runs (EXECSTRING)",
-                   "written texts are carried"},
+                   "written texts, and numbers joined to them as values, are carried"},
     MissingFeature{"language.macro", "macros of the machine builder called by a code", "their text is on the machine"},
     MissingFeature{"language.statement", "a statement of the control that the IR does not carry",
                    "read and kept, not executed"},

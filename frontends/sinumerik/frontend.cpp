@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "frontends/sinumerik/context.h"
+#include "frontends/sinumerik/executed_text.h"
 #include "frontends/sinumerik/face_radius.h"
 #include "frontends/sinumerik/geometry_axes.h"
 #include "frontends/sinumerik/line_reader.h"
@@ -162,6 +163,7 @@ class FileReading {
   WordLowering words_;
   StatementLowering statements_;
   LineReader reader_;
+  bool joined_text_ = false;  ///< the line at hand is the text of an EXECSTRING() that was joined
   std::optional<BlockParser> macro_parser_;
   ReadStats& stats_;
   ir::FileLook look_;
@@ -314,29 +316,14 @@ void FileReading::take_words(const syntax::Block& block, ir::LineInfo info) {
   statements_.add(std::move(s));
 }
 
-/// `EXECSTRING("G0 X5")`: the block that the text is; nullopt when the text is not written there.
-std::optional<std::string> executed_text(std::string_view line) {
-  const std::string upper = to_upper_ascii(line);
-  const std::size_t at = upper.find("EXECSTRING");
-  if (at == std::string::npos || upper.find_first_of(";\"") < at) return std::nullopt;
-  const std::size_t open = upper.find_first_not_of(" \t", at + 10);
-  if (open == std::string::npos || upper[open] != '(') return std::nullopt;
-  const std::size_t first = upper.find_first_not_of(" \t", open + 1);
-  if (first == std::string::npos || upper[first] != '"') return std::nullopt;
-  const std::size_t last = upper.find('"', first + 1);
-  if (last == std::string::npos) return std::nullopt;
-  const std::size_t close = upper.find_first_not_of(" \t", last + 1);
-  if (close == std::string::npos || upper[close] != ')') return std::nullopt;
-  std::string out(line.substr(0, at));
-  out += line.substr(first + 1, last - first - 1);
-  out += line.substr(close + 1);
-  return out;
-}
-
 /// With macros written out; the columns of such a line are those of the text made.
 SourceLine FileReading::written_out(const SourceLine& line) {
   SourceLine out = line;
-  if (auto text = executed_text(line.text)) out.text = program_.keep(std::move(*text));
+  joined_text_ = false;
+  if (auto text = executed_text(line.text, context_)) {
+    joined_text_ = text->joined;
+    out.text = program_.keep(std::move(text->line));
+  }
   if (context_.macros.empty()) return out;
   if (auto text = expand_macros(out.text, context_.macros)) out.text = program_.keep(std::move(*text));
   return out;
@@ -352,6 +339,11 @@ void FileReading::take(const SourceLine& source_line) {
   context_.line = line_span(context_.file, line);
   context_.text = line.text;
   context_.errors = context_.kept = 0;
+  if (joined_text_) {
+    context_.note("SIN-142", WordPos{},
+                  "the text of this EXECSTRING() is the block `" + std::string(trim(line.text)) +
+                      "`: numbers joined to it are values of its words, not rounded to the digits of a text");
+  }
   const LineReader::Result result = reader_.read(line.text, block_);
   if (reader_.scanned()) ++stats_.scanner_blocks;
   if (!reader_.difference().empty()) {
