@@ -234,7 +234,8 @@ class BlockMachine final : public SystemData {
   bool use_frame(const Frame& f);
   [[nodiscard]] Frame offset_frame() const;
   [[nodiscard]] Frame settable_frame() const;
-  [[nodiscard]] Frame base_frame() const;
+  /// The base frames in force from this row on.
+  [[nodiscard]] Frame base_frame(std::int32_t from = 0) const;
   void load_base();
   void load_offset(std::int32_t row);
   [[nodiscard]] Frame programmable_frame() const;

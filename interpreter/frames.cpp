@@ -25,9 +25,11 @@ Frame BlockMachine::offset_frame() const {
   return base_frames_.empty() ? settable_frame() : compose(base_frame(), settable_frame());
 }
 
-Frame BlockMachine::base_frame() const {
+Frame BlockMachine::base_frame(std::int32_t from) const {
   Frame f;
-  for (const auto& [row, part] : base_frames_) f = compose(f, part);
+  for (const auto& [row, part] : base_frames_) {
+    if (row >= ir::frame_rows::active_base + from) f = compose(f, part);
+  }
   return f;
 }
 

@@ -5,6 +5,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/block_machine.h"
+#include "interpreter/contour_crossing.h"
 #include "interpreter/measured_frame.h"
 #include "interpreter/run_codes.h"
 #include "ir/active_units.h"
@@ -17,6 +18,7 @@ namespace {
 
 using ir::Datum;
 
+constexpr std::size_t crossing_count = 3 + 2 * element_values;
 constexpr std::size_t measured_count = 19;  ///< a row of measured points: its number and their coordinates
 
 std::string datum_key(const ir::SystemRef& ref, std::span<const double> args) {
@@ -249,6 +251,7 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       out = programmable_frame().apply(p_)[ref.axis] / axis_[ref.axis].scale_absolute;
       return true;
     case Datum::frame_settable:
+      if (args.size() == crossing_count && args[0] == ir::frame_rows::crossing) return crossing(args, failure_, out);
       if (args.size() != measured_count || args[0] != ir::frame_rows::measured) return false;
       out = measured_frame(args.subspan<1, measured_count - 1>()).quality;
       return true;
@@ -374,7 +377,7 @@ bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> 
         return true;
       }
       if (row == ir::frame_rows::total_base) {
-        out = base_frame();
+        out = base_frame(ir::frame_rows::own_base);
         return true;
       }
       if (const auto it = base_frames_.find(row); it != base_frames_.end()) {

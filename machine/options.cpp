@@ -221,11 +221,18 @@ constexpr std::array specs{
     OptionSpec{
         "sinumerik.geometry_axes", "XYZ|YZX|ZXY", "XYZ",
         "which axis is the first, second and third geometry axis (MD20050): G17 to G19 and I, J, K go by this order"},
+    OptionSpec{"sinumerik.contour_ok", "0|1", "0",
+               "what EXECUTE answers where a contour could be prepared (the manual says both)"},
+    OptionSpec{"sinumerik.inclined_axis", "plus|minus", "plus",
+               "which way Z goes where an inclined axis alone takes X up (G5, G7 under TRAANG with an angle above 0)"},
     OptionSpec{"sinumerik.r_count", "number", "100", "number of R parameters"},
     OptionSpec{"sinumerik.pud_visible", "no|yes", "no",
                "variables of the main program are seen in subprograms (MD11120)"},
     OptionSpec{"sinumerik.gotos", "goes_on|jumps", "goes_on",
                "GOTOS: the PLC does not ask for the jump (DB21.DBX384.0 is 0: one pass), or it always does"},
+    OptionSpec{
+        "sinumerik.table_turn", "unknown|with_angle|against_angle", "unknown",
+        "which way PAROT turns the coordinates with an angle of a table in $TC_CARR; unknown: such a turn is refused"},
     OptionSpec{"sinumerik.exact_greater", "no|yes", "no", "> and < compare exactly (MD10280 bit 0)"},
 };
 

@@ -7,8 +7,9 @@
 namespace cnctrans::sinumerik {
 
 inline constexpr std::string_view computed_functions[] = {
-    "CALCDAT(", "CTAB(",    "CTABINV(", "CTABTSV(",   "CTABTEV(",   "CTABTSP(",  "CTABTEP(", "CTABSSV(",
-    "CTABSEV(", "CTABTMIN", "CTABTMAX", "CTABEXISTS", "CTABPERIOD", "MEAFRAME(", "SPI(",     "DELDL"};
+    "CALCDAT(", "CTAB(",    "CTABINV(",  "CTABTSV(",  "CTABTEV(",   "CTABTSP(",   "CTABTEP(",
+    "CTABSSV(", "CTABSEV(", "CTABTMIN",  "CTABTMAX",  "CTABEXISTS", "CTABPERIOD", "MEAFRAME(",
+    "SPI(",     "DELDL",    "ADDFRAME(", "INTERSEC(", "DO $R"};
 
 /// True for the text of an assignment (capitals, without blanks) whose value the reader has computed.
 constexpr bool is_computed_text(std::string_view capitals) {

@@ -52,8 +52,8 @@ constexpr GFunction printed[] = {
     {"G148", 148, 2, 14, false, GUse::joint},
     {"G248", 248, 2, 15, false, GUse::joint},
     {"G348", 348, 2, 16, false, GUse::joint},
-    {"G5", 5, 2, 17, false, GUse::unsupported},
-    {"G7", 7, 2, 18, false, GUse::unsupported},
+    {"G5", 5, 2, 17, false, GUse::inclined, 1},
+    {"G7", 7, 2, 18, false, GUse::inclined},
     {"G751", 751, 2, 0, false, GUse::own_block},
     {"TRANS", -1, 3, 1, false, GUse::frame, u(FrameVerb::trans)},
     {"ROT", -1, 3, 2, false, GUse::frame, u(FrameVerb::rot)},
@@ -390,7 +390,6 @@ std::string_view missing_feature(const GFunction& g) {
   constexpr std::uint8_t motion_group = 1;
   constexpr std::uint8_t splines_from = 6, splines_to = 8, polynomial = 9;
   constexpr std::uint8_t oem = 31, more_oem = 32, language = 47;
-  if (g.number == 5 || g.number == 7) return "motion.inclined";
   if (g.number == 751) return "block.word";
   if (g.group == oem || g.group == more_oem || g.name.starts_with("OEM")) return "machine.makers_own";
   if (g.group == language) return "language.other_mode";

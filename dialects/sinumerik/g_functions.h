@@ -22,6 +22,7 @@ enum class GUse : std::uint8_t {
   pole,          ///< a = 0 G110, 1 G111, 2 G112
   limit,         ///< a = 0 lower (G25), 1 upper (G26)
   approach,      ///< reference point, fixed point: a = ir::MotionKind
+  inclined,      ///< plunging with an inclined axis: a = 0 to its start (G7), 1 the plunge (G5)
   timing,        ///< timing, dynamics, smoothing: the nominal path is the same
   compensation,  ///< how radius compensation goes round corners and starts: the programmed path is the same
   joint,         ///< the ends of the moves are the programmed ones, the way between them is another

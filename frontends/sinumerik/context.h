@@ -151,11 +151,28 @@ struct FileContext {
     if (more_planes) plane.reset();
     if (uses_css) css.reset();
     if (more_feeds) per_rev.reset();
+    inclined.reset();
+    carrier.chosen.reset();
+    real_time.locked = !real_time.cells.empty();
     tool.state = ToolDirection::State::unsure;
     contours = {};
   }
 
+  /// TRAANG in force, in the order of the text: the angle of the inclined axis in degrees; none: it does not tell.
+  std::optional<double> inclined{};
+  std::optional<ir::DiameterMode> diameter{};  ///< written last, in the order of the text; none: that of power-on
+  bool increments = false;                     ///< G91 was written
   ToolDirection tool{};
+  /// Tool carriers (TCARR): their data and which one is chosen, in the order of the text.
+  struct Carrier {
+    std::map<std::int32_t, std::map<int, double>> data{};  ///< $TC_CARRn[m], by m and n
+    bool unsure = false;                                   ///< data that the text does not tell
+    std::optional<std::int32_t> chosen{};                  ///< 0: none
+    bool turned = false;                                   ///< PAROT has turned the coordinates before in the text
+  };
+  Carrier carrier{};
+  [[nodiscard]] std::optional<double> carrier_datum(int number) const;
+  [[nodiscard]] std::optional<std::array<double, 3>> table_turn(std::string& why) const;
   bool framed = false;               ///< the program may have put a frame of its own, beside that of the tool
   bool tool_frame = false;           ///< the frame of the tool or of a swivelled plane is in force
   bool other_plane = false;          ///< G18 or G19 was written
@@ -167,6 +184,17 @@ struct FileContext {
   std::optional<bool> per_rev{};  ///< feed per revolution in force, in the order of the text; none: it does not tell
   bool more_feeds = false;        ///< the file has codes of feeds per revolution and of others
   bool words_of_tool = false;     ///< FZ= or SVC= is in force: it counts for the tool of its block
+
+  /// Tables of contours that the text tells, and as bits the columns of them that no text tells.
+  std::map<std::string, unsigned, std::less<>> prepared{};
+  /// R parameters that an action in real time sets with the next move: until the control has waited for it (STOPRE)
+  /// the program does not tell what they hold.
+  struct RealTimeCells {
+    std::set<std::int32_t> cells;
+    bool moved = false;   ///< the next move stands behind the action
+    bool locked = false;  ///< the program may go round the STOPRE
+  };
+  RealTimeCells real_time{};
 
   std::map<std::int32_t, CurveTable> tables{};          ///< CTABDEF, by number
   CurveTable* table = nullptr;                          ///< the one being defined

@@ -145,6 +145,12 @@ bool StatementLowering::transformation(const std::string& name, const std::vecto
   }
   add(ir::FrameOp{std::move(clear)});
   add(ir::WorkOffset{ir::Value(0), true});
+  c_.inclined.reset();
+  if (name == "TRAANG" && !args.empty() && args[0].kind != ExprKind::missing) {
+    const auto angle = exprs_.lower_as(args[0], ir::Type::real);
+    if (!angle) return false;
+    c_.inclined = ir::constant_value(angle);
+  }
   c_.tool.transformation(name != "TRAFOOF");
   if (name != "TRAORI" && name != "TRAFOOF") c_.tool.state = ToolDirection::State::unsure;
   c_.framed = c_.tool_frame = false;

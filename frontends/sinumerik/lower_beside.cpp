@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/g_functions.h"
@@ -59,7 +60,10 @@ bool StatementLowering::beside_word(const Word& w, Parts& parts) {
     if (row == nullptr) row = beside(w.address, BesideForm::procedure);
   }
   if (row == nullptr || c_.symbol(to_upper_ascii(w.address)) != nullptr) return false;
-  if (row->name == "TCARR") c_.tool.state = ToolDirection::State::unsure;
+  if (row->name == "TCARR") {
+    c_.tool.state = ToolDirection::State::unsure;
+    c_.carrier.chosen = w.expr < 0 ? std::optional(saturate<std::int32_t>(w.number)) : std::nullopt;
+  }
   const bool none = row->name == "TCARR" && w.expr < 0 && w.number == 0;  // no carrier: the tool as it is
   if (row->idle || none) return without_effect(std::string(row->name), w.pos, parts);
   put_beside(row->feature, w.pos, parts);
@@ -173,6 +177,10 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
                 "what stands up to " + std::string(definition_->end) + " defines and moves nothing; it",
                 definition_->feature);
     table_block(block, name);
+    if (name == "CONTPRON") {
+      c_.prepared.erase(block.statements.front().args.empty() ? std::string{} : block.statements.front().args[0].text);
+      begin_contour(block.statements.front().args, block.statements.front().pos);
+    }
     add_opaque(block, info, definition_->feature, true);
     return true;
   }
@@ -182,8 +190,11 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
   }
   const bool ends = name == definition_->end;
   table_block(block, name);
-  const bool known = !ends || !one || gives_unknown(block.statements.front().args);
+  if (!ends) contour_block(block);
+  const bool filled = ends && one && block.statements.front().args.size() == 1 && contour_known();
+  const bool known = filled || !ends || !one || gives_unknown(block.statements.front().args);
   add_opaque(block, info, known ? definition_->feature : std::string_view("language.statement"), known);
+  if (filled) fill_table(block.statements.front().args[0], block.statements.front().pos, info);
   if (ends) definition_ = nullptr;
   return true;
 }

@@ -297,6 +297,7 @@ bool StatementLowering::program_name(const Expr& e, ir::CallRoutine& call) {
 }
 
 bool StatementLowering::text_call(const Statement& s, ir::LineInfo& info) {
+  if (call_in_real_time(s.pos)) return false;
   ir::CallRoutine call;
   if (s.keyword == "EXTCALL") {
     if (!program_name(s.args[0], call)) return false;
@@ -343,6 +344,7 @@ bool StatementLowering::return_target(const std::vector<Expr>& args, WordPos pos
 }
 
 bool StatementLowering::path_call(const Statement& s, ir::LineInfo& info) {
+  if (call_in_real_time(s.pos)) return false;
   ir::CallRoutine call;
   const std::size_t slash = s.text.find_last_of('/');
   if (slash != std::string::npos)
@@ -354,6 +356,7 @@ bool StatementLowering::path_call(const Statement& s, ir::LineInfo& info) {
 }
 
 bool StatementLowering::modal_call(const Statement& s, ir::LineInfo& info) {
+  if (call_in_real_time(s.pos)) return false;
   ir::ModalCall out;
   if (s.text.empty()) {
     out.off = true;

@@ -155,6 +155,7 @@ ir::VarRef ExprLowering::r_parameter(const Expr& index, bool& ok) {
   ref.space = space::r;
   ref.index = lower_as(index, ir::Type::integer);
   ok = ref.index != nullptr;
+  if (ok && !c_.real_time.cells.empty()) ok = settled(ref, index);
   if (const auto* n = ok ? std::get_if<ir::Number>(&ref.index->node) : nullptr; n != nullptr) {
     if (n->value < 0 || n->value > r_parameter_max) {
       c_.error("SIN-017", index.pos, "there is no R parameter with this number",
@@ -179,6 +180,7 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
     return ref;
   }
   const Symbol* symbol = c_.symbol(e.text);
+  if (symbol != nullptr && !c_.prepared.empty() && !told_by_contour(e)) return std::nullopt;
   if (symbol == nullptr) {
     if (is_reserved(e.text)) {
       c_.keep("SIN-007", e.pos, "the value of " + e.text + " is not carried yet");
@@ -217,12 +219,26 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
 std::optional<ir::VarRef> ExprLowering::whole_array(const Expr& e, ir::Type& type) {
   const Symbol* symbol = e.kind == ExprKind::name || e.kind == ExprKind::variable ? c_.symbol(e.text) : nullptr;
   if (symbol == nullptr || symbol->dimensions == 0 || !e.args.empty()) return std::nullopt;
-  if (!may_be_read(e)) return std::nullopt;
+  if (!may_be_read(e) || !told_by_contour(e)) return std::nullopt;
   ir::VarRef ref;
   ref.space = symbol->space;
   ref.name = e.text;
   type = symbol->type;
   return ref;
+}
+
+/// False (reported) for what no text tells of a table of a prepared contour: some columns, and so the table as a whole.
+bool ExprLowering::told_by_contour(const Expr& e) {
+  const auto it = c_.prepared.find(e.text);
+  if (it == c_.prepared.end()) return true;
+  constexpr double columns = 11;
+  const bool literal =
+      e.args.size() == 2 && e.args[1].kind == ExprKind::number && e.args[1].number >= 0 && e.args[1].number < columns;
+  if (literal && (it->second >> static_cast<unsigned>(e.args[1].number) & 1U) == 0) return true;
+  c_.keep("SIN-140", e.pos,
+          std::string(c_.slice(e.pos)) + ": this part of the table of a prepared contour is known to the control only",
+          "columns are read by a written number; 7 (extremes of the contour) is not described");
+  return false;
 }
 
 /// False (reported) when a procedure that the run goes past has set the variable.

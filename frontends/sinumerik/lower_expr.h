@@ -86,6 +86,7 @@ class ExprLowering {
   std::optional<ir::Value> numbered_position(const syntax::Expr& e, Attribute& out);
   ir::ExprPtr frame_function(const syntax::Expr& e);
   void tell_position(const syntax::Expr& e);
+  bool settled(const ir::VarRef& ref, const syntax::Expr& index);
   ir::ExprPtr turn_in_plane(const syntax::Expr& e);
   ir::ExprPtr spindle_of_axis(const syntax::Expr& e);
   ir::ExprPtr axis_function(const syntax::Expr& e, bool& known);
@@ -97,6 +98,7 @@ class ExprLowering {
   ir::ExprPtr character_of(const syntax::Expr& e);
   ir::ExprPtr named(const syntax::Expr& e);
   bool may_be_read(const syntax::Expr& e);
+  bool told_by_contour(const syntax::Expr& e);
   ir::ExprPtr unary(const syntax::Expr& e);
   ir::ExprPtr binary(const syntax::Expr& e);
   ir::ExprPtr call(const syntax::Expr& e);

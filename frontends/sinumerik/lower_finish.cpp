@@ -160,6 +160,7 @@ bool WordLowering::finish() {
     case Special::dwell: finish_dwell(); break;
     case Special::frame: finish_frame(); break;
     case Special::pole: finish_pole(); break;
+    case Special::inclined: finish_inclined(); break;
     case Special::limit:
       if (out_->motion.coords.empty()) break;
       c_.note("SIN-009", special_pos_, "limits of the working area are kept as text: the programmed path is the same");
@@ -180,6 +181,7 @@ bool WordLowering::finish() {
     failed_ = true;
     c_.error("SIN-003", special_pos_, "RPL= belongs to ROT or AROT");
   }
+  c_.real_time.moved = c_.real_time.moved || !out_->motion.coords.empty();
   finish_motion();
   finish_orientation();
   default_offset();

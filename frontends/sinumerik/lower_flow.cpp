@@ -48,6 +48,12 @@ void StatementLowering::begin_routine(ir::Routine& routine) {
   const bool sub = routine.kind == ir::RoutineKind::sub;
   c_.units_by_text = sub ? std::nullopt : std::optional(c_.machine.profile->power_on.units);
   c_.units_called = c_.words_in_inches = false;
+  c_.inclined.reset();
+  c_.diameter.reset();
+  c_.carrier = {};
+  c_.real_time = {};
+  c_.prepared.clear();
+  contour_.reset();
   c_.tool = {};
   if (sub) c_.tool.state = ToolDirection::State::unsure;
   c_.framed = sub;
@@ -171,7 +177,9 @@ bool is_structure(const Statement& s) {
 }  // namespace
 
 bool StatementLowering::flow(const Block& block, ir::LineInfo info) {
-  const auto defines = [](const Statement& s) { return s.keyword == "DEF" || s.keyword == "PROC"; };
+  const auto defines = [](const Statement& s) {
+    return s.keyword == "DEF" || s.keyword == "PROC" || s.keyword == "SYNC";
+  };
   if (!std::all_of(block.statements.begin(), block.statements.end(), defines)) c_.interrupt_lasting();
   constexpr std::string_view calls[] = {"CALL", "PCALL", "EXTCALL", "MCALL"};
   for (const Statement& s : block.statements) {  // what the other text leaves behind is not known
@@ -229,6 +237,7 @@ bool StatementLowering::statement(const Statement& s, const Block& block, ir::Li
   }
   if (k == "SYNC") {
     const std::string_view feature = action_feature(s.text);
+    if (feature.empty() && sets_at_once(s, info)) return true;
     if (feature.empty())
       return refuse("language.synchronised", s.pos,
                     "this synchronised action is not carried: it can move an axis of the machine or set what the "

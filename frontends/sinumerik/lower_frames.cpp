@@ -1,4 +1,5 @@
 // Frames as values: CTRANS() and its like, chains, frame variables and their components (motion reference 7.2-7.5).
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -343,7 +344,10 @@ std::optional<bool> StatementLowering::assign_frame(const Expr& target, const Ex
     if (ref->datum == ir::Datum::frame_total)
       return refuse("language.system_variable", pos, "$P_ACTFRAME can only be read");
     if (const RowFrame* known = row_frame(ref->text); known != nullptr) {
-      if (known->row >= ir::frame_rows::neutral)
+      const bool of_control = std::any_of(std::begin(control_frames), std::end(control_frames), [&](const auto& f) {
+        return (f.active == ref->text || f.stored == ref->text) && !has_control_frame(f.active);
+      });
+      if (known->row >= ir::frame_rows::neutral || of_control)
         return refuse("language.system_variable", pos, ref->text + " is set by the control only");
       if (c_.said.contains("$P_CHBFRMASK"))
         return refuse("language.system_variable", pos, "base frames that a mask has chosen are not carried yet");

@@ -80,6 +80,7 @@ bool StatementLowering::assign_system(const Expr& target, const Expr& value, Wor
   if (mask) c_.said.emplace("$P_CHBFRMASK");
   const bool storage = mask || target.text == "$AC_MARKER" || target.text == "$AC_PARAM" ||
                        item.system.datum == ir::Datum::part_count || !beside_path.empty();
+  note_carrier(target, value);
   if (tool_data && c_.first_time("$TC_"))
     c_.note("SIN-009", pos, "tool data are kept: they do not change the programmed path");
   if (item.system.datum != ir::Datum::work_offset && item.system.datum != ir::Datum::work_offset_fine && !tool_data &&
@@ -167,6 +168,7 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
     return assign(cell, value, pos, parts);
   }
   if (const auto done = assign_frame(target, value, pos, parts.assign, parts.actions)) return *done;
+  if (value.kind == ExprKind::call && value.text == "ADDFRAME") return add_frame(target, value, pos, parts);
   const Symbol* symbol = c_.symbol(target.text);
   if (symbol != nullptr && symbol->type == ir::Type::string && target.args.size() == symbol->dimensions + 1U)
     return assign_character(target, value, pos, parts.assign);
@@ -186,6 +188,7 @@ bool StatementLowering::assign(const Expr& target, const Expr& value, WordPos po
   }
   if (list) return assign_list(*ref, type, value, c_.symbol(target.text), pos, parts.assign);
   if (value.kind == ExprKind::call && value.text == "CALCDAT") return circle_data(*ref, value, pos, parts.assign);
+  if (value.kind == ExprKind::call && value.text == "INTERSEC") return crossing(*ref, value, pos, parts.assign);
   ir::Assign::Item item;
   item.target = std::move(*ref);
   GivenBack given(c_, parts.assign, pos);
@@ -290,6 +293,7 @@ bool StatementLowering::predefined(Procedure use, const std::string& name, const
     case Procedure::message: return message(args, pos, parts);
     case Procedure::set_alarm: return alarm(args, pos, parts);
     case Procedure::stop_preparation: {
+      if (c_.real_time.moved && !c_.real_time.locked) c_.real_time = {};
       ir::Action a;
       a.data = ir::PreparationStop{};
       a.pos = pos;
@@ -383,6 +387,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
   if (c_.symbol(name) != nullptr || is_reserved(name)) {
     return refuse("language.statement", pos, name + " can't be called, or is not carried yet");
   }
+  if (call_in_real_time(pos)) return false;
   ir::CallRoutine call;
   call.routine = routine_name(name);
   c_.interrupt_lasting();
@@ -417,8 +422,8 @@ bool StatementLowering::sort_items(const Block& block, Parts& parts) {
 }
 
 bool StatementLowering::items(const Block& block, ir::LineInfo info) {
-  if (interrupt_routine(block, info) || return_move(block, info) || chosen_by_index(block, info) ||
-      split_block(block, info)) {
+  if (interrupt_routine(block, info) || return_move(block, info) || run_element(block, info) ||
+      chosen_by_index(block, info) || split_block(block, info)) {
     return true;
   }
   Parts parts;
@@ -467,6 +472,7 @@ bool StatementLowering::items(const Block& block, ir::LineInfo info) {
   if (!parts.assign.items.empty()) emit(info, std::move(parts.assign));
   const bool nothing_else = parts.calls.empty() && parts.beside_text.empty() && tail == Tail::none;
   if (!words.empty() || (nothing_else && !info.joined)) emit(info, std::move(words));
+  turn_with_table(block, info);
   if (!parts.beside_text.empty()) {
     ir::Opaque o;
     o.text = std::move(parts.beside_text);

@@ -12,6 +12,7 @@
 #include "frontends/sinumerik/context.h"
 #include "frontends/sinumerik/lower_expr.h"
 #include "frontends/sinumerik/lower_words.h"
+#include "frontends/sinumerik/prepared_contour.h"
 
 namespace cnctrans::sinumerik {
 
@@ -60,15 +61,29 @@ class StatementLowering {
   // what the reader computes (lower_computed.cpp)
   bool circle_data(const ir::VarRef& target, const syntax::Expr& call, WordPos pos, ir::Assign& out);
   void table_block(const syntax::Block& block, std::string_view name);
+  // tables of prepared contours (lower_contour_table.cpp)
+  [[nodiscard]] bool is_contour_table(const syntax::Expr& e) const;
+  void begin_contour(const std::vector<syntax::Expr>& args, WordPos pos);
+  std::optional<double> contour_value(const syntax::Block& block, const syntax::Word& w, Attribute& attribute);
+  void contour_block(const syntax::Block& block);
+  bool contour_known();
+  void fill_table(const syntax::Expr& error, WordPos pos, const ir::LineInfo& info);
+  bool run_element(const syntax::Block& block, const ir::LineInfo& info);
+  bool crossing(const ir::VarRef& target, const syntax::Expr& call, WordPos pos, ir::Assign& out);
   // frames (lower_frames.cpp); nullopt: the target is no frame
   std::optional<bool> assign_frame(const syntax::Expr& target, const syntax::Expr& value, WordPos pos,
                                    ir::Assign& assign, std::vector<ir::Action>& actions);
   bool frame_statements(const ir::ExprPtr& value, WordPos pos, std::vector<ir::Action>& out);
+  bool add_frame(const syntax::Expr& state, const syntax::Expr& call, WordPos pos, Parts& parts);
+  [[nodiscard]] bool has_control_frame(std::string_view active) const;
+  [[nodiscard]] std::vector<syntax::Expr> frames_inside(std::string_view active, int index, WordPos pos) const;
   bool offset_row(const ir::Expr& target, const ir::ExprPtr& value, WordPos pos, ir::Assign& out);
   // words of one axis (lower_axis_words.cpp)
   bool transformation(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool swivel(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool swivel_end(WordPos pos, Parts& parts);
+  void note_carrier(const syntax::Expr& target, const syntax::Expr& value);
+  void turn_with_table(const syntax::Block& block, const ir::LineInfo& info);
   bool exchange_geometry_axes(WordPos pos, Parts& parts);
   bool preset(const std::string& name, const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
   bool master_spindle(const std::vector<syntax::Expr>& args, WordPos pos, Parts& parts);
@@ -121,6 +136,8 @@ class StatementLowering {
   bool beside_statement(const syntax::Statement& s, Parts& parts);
   void put_beside(std::string_view feature, WordPos pos, Parts& parts);
   void tell_beside(WordPos pos, const std::string& what, std::string_view feature);
+  bool sets_at_once(const syntax::Statement& s, ir::LineInfo& info);
+  bool call_in_real_time(WordPos pos);
   bool file_statement(const syntax::Statement& s, Parts& parts);
   [[nodiscard]] bool can_be_shown(const syntax::Expr& e) const;
   bool interrupt_routine(const syntax::Block& block, const ir::LineInfo& info);
@@ -171,8 +188,19 @@ class StatementLowering {
   std::vector<std::string> labels_;                                ///< of the routine so far, in text order, capitals
   std::map<std::string, std::vector<bool>, std::less<>> externs_;  ///< name -> by reference?
   const Definition* definition_ = nullptr;                         ///< the blocks belong to it
-  Span definition_line_;                                           ///< where it begins
-  bool returned_ = false;  ///< the block before returns to the contour, and so from the routine
+  struct Contour {
+    std::string table;
+    syntax::Expr count;  ///< the variable for the number of relief cuts
+    char type = 'L';
+    ir::Plane plane = ir::Plane::xy;
+    bool metric = true, other_axis = false;
+    ir::MotionKind motion = ir::MotionKind::linear;
+    ContourPoint at;
+    std::vector<ContourElement> elements{};
+  };
+  std::optional<Contour> contour_{};  ///< being prepared; none: the text does not tell it
+  Span definition_line_;              ///< where it begins
+  bool returned_ = false;             ///< the block before returns to the contour, and so from the routine
   bool ended_ = false;
   bool other_mode_ = false;  ///< behind G291
   bool executable_seen_ = false;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/saturate.h"
+#include "base/text.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/lower_words.h"
 #include "frontends/sinumerik/row_parts.h"
@@ -149,6 +150,33 @@ void WordLowering::tool_frame(const GFunction& g, WordPos pos) {
                    ": the other two axes are taken as turned by the least angles; on the machine data (MD21110, "
                    "SD42980) depends where they point");
   }
+}
+
+/// PAROT: with a carrier chosen, the turn of its table is added behind the block (lower_carrier.cpp).
+void WordLowering::table_frame(WordPos pos) {
+  const bool carrier = c_.carrier.chosen.value_or(0) > 0;
+  if (!carrier && c_.carrier.chosen != 0 && c_.tool.state != ToolDirection::State::normal)
+    return refuse("motion.transformation", pos, "PAROT of an orientable table is not carried yet");
+  std::string why;
+  const auto turn = carrier ? c_.table_turn(why) : std::optional(std::array<double, 3>{});
+  if (!turn) {
+    return refuse(
+        "motion.transformation", pos, "PAROT is not carried: " + why,
+        "data: $TC_CARR23[n] (T, P or M), angles and directions, in the program or under \"data\" in the profile "
+        "(a letter by its code); sense: the option sinumerik.table_turn");
+  }
+  push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
+  if (*turn != std::array<double, 3>{})
+    return c_.warning(
+        "SIN-141", pos,
+        "PAROT turns the coordinates with the table of tool carrier " + std::to_string(*c_.carrier.chosen) +
+            ": about Z by " + shortest((*turn)[2]) + ", the new Y by " + shortest((*turn)[1]) + ", the new X by " +
+            shortest((*turn)[0]) +
+            " degrees, as its angles in $TC_CARR13 and $TC_CARR14 say; where the table takes the part is not "
+            "computed");
+  c_.note("SIN-009", pos,
+          carrier ? "PAROT is kept as text: the table of the tool carrier is not turned"
+                  : "PAROT is kept as text: no carrier is selected, so it turns nothing");
 }
 
 // --- swivelled planes -------------------------------------------------------------------------------------------

@@ -159,6 +159,8 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
              pos);
         break;
       }
+      if (static_cast<ir::Setting>(g.a) == ir::Setting::diameter) c_.diameter = static_cast<ir::DiameterMode>(g.b);
+      if (static_cast<ir::Setting>(g.a) == ir::Setting::distance && g.b != 0) c_.increments = true;
       push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting,
            ir::Order::before, pos);
       break;
@@ -190,6 +192,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
     case GUse::pole: special(Special::pole); break;
     case GUse::limit: special(Special::limit); break;
     case GUse::approach: special(Special::approach); break;
+    case GUse::inclined: special(Special::inclined); break;
     case GUse::timing:
     case GUse::compensation:
       push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
@@ -210,12 +213,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       }
       break;
     case GUse::tool_frame: tool_frame(g, pos); break;
-    case GUse::table_frame:
-      if (c_.tool.state != ToolDirection::State::normal)
-        return refuse("motion.transformation", pos, "PAROT of an orientable table is not carried yet");
-      push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::with, pos);
-      c_.note("SIN-009", pos, "PAROT is kept as text: no carrier is selected, so it turns nothing");
-      break;
+    case GUse::table_frame: table_frame(pos); break;
     case GUse::own_block:
     case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
   }

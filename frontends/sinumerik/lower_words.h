@@ -36,7 +36,7 @@ class WordLowering {
   [[nodiscard]] std::string_view feature() const { return feature_; }
 
  private:
-  enum class Special : std::uint8_t { none, dwell, frame, pole, limit, approach };
+  enum class Special : std::uint8_t { none, dwell, frame, pole, limit, approach, inclined };
   // Order in which actions are carried out, whatever their place in the block.
   enum class Rank : std::uint8_t {
     setting,
@@ -83,6 +83,7 @@ class WordLowering {
   void default_offset();
   [[nodiscard]] WordPos statement_pos() const;
   void finish_pole();
+  void finish_inclined();
   void polar_pole(ir::FrameChange& at);
   void open_line();
   void finish_dwell();
@@ -93,6 +94,7 @@ class WordLowering {
   void orientation(const syntax::Word& w);
   void finish_orientation();
   void tool_frame(const GFunction& g, WordPos pos);
+  void table_frame(WordPos pos);
   void check_words(bool arc);
   [[nodiscard]] ir::Plane plane_of_centres() const;
   void reject_axis_words(std::string_view why);

@@ -110,9 +110,10 @@ PlanarFrame KnownFrameDomain::row_of(const State& state, std::int32_t row) const
   return f;
 }
 
-PlanarFrame KnownFrameDomain::base(const State& state) const {
+PlanarFrame KnownFrameDomain::base(const State& state, std::int32_t from) const {
   PlanarFrame f;
-  for (auto it = state.row.lower_bound(rows::active_base); it != state.row.end() && it->first < rows::neutral; ++it)
+  for (auto it = state.row.lower_bound(rows::active_base + from); it != state.row.end() && it->first < rows::neutral;
+       ++it)
     f = compose(f, it->second);
   return f;
 }
@@ -140,7 +141,7 @@ FrameLookup KnownFrameDomain::lookup(const State& state) const {
       if (ref->datum == Datum::frame_programmed)
         f = state.programmed.whole(machine_);
       else if (ref->datum == Datum::frame_settable && row == rows::total_base)
-        f = base(state);
+        f = base(state, rows::own_base);
       else if (ref->datum == Datum::frame_settable && row)
         f = row_of(state, *row);
     }

@@ -48,7 +48,7 @@ class KnownFrameDomain {
 
  private:
   [[nodiscard]] PlanarFrame row_of(const State& state, std::int32_t row) const;
-  [[nodiscard]] PlanarFrame base(const State& state) const;
+  [[nodiscard]] PlanarFrame base(const State& state, std::int32_t from = 0) const;
   void select(const WorkOffset& w, State& state) const;
   void assign_system(const SystemRef& ref, const std::optional<PlanarFrame>& value, const Statement& s,
                      State& state) const;

@@ -44,7 +44,10 @@ std::string use_of(const facts::GFunction& g) {
     case tool_frame:
       return "carried where the text tells where the tool points (SIN-052); else kept as text, and a run stops there";
     case table_frame:
-      return "carried where no carrier is selected: it turns nothing; else kept as text, and a run stops there";
+      return "carried where no carrier is selected, or with the data of its table (SIN-141); else kept as text, and a "
+             "run "
+             "stops there";
+    case inclined: return "carried behind TRAANG with its angle, positions absolute (SIN-134)";
     case path: return g.b != 0 ? "carried as continuous path; the rounding is not (SIN-019)" : "carried";
     case limit: return "carried for spindles; limits of the working area are kept as text";
     case suppress: return "carried for straight moves";
