@@ -206,6 +206,7 @@ constexpr std::array specs{
     OptionSpec{"num.m30", "none|end", "none", "M30 ends the program"},
     OptionSpec{"num.m_programs", "text", "",
                "M functions that call a program, as M:program separated by blanks (\"6:9100\")"},
+    OptionSpec{"num.g83_withdraw", "EH|ER", "EH", "height to which a deep hole with EH withdraws between its pecks"},
     OptionSpec{"num.peck_law", "degressive|constant", "degressive", "pecks of a deep hole with first and last size"},
     OptionSpec{"num.range_order", "number|position", "number", "how the two ends of a block range are put in order"},
     OptionSpec{"num.structured", "no|yes", "yes", "structured statements are written for the 10xx and later"},

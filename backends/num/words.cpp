@@ -381,6 +381,11 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
   if (!later_family(profile()))
     return refuse(no_cycle, a.pos, "this control has no separate plane where the feed starts (EH)",
                   "use --cycles=explode");
+  const bool up =
+      profile().option(facts::option::peck_withdraw, facts::option_default(facts::option::peck_withdraw)) == "ER";
+  if (c.kind == ir::HoleKind::peck_full && !same_dialect() && up != c.pecks.withdraws_to_retract)
+    return refuse(no_cycle, a.pos, "between its pecks this cycle withdraws to another height (num.g83_withdraw)",
+                  "use --cycles=explode");
   add(level_word("EH", c.reference, a.pos), Rank::motion_extra);
 }
 

@@ -18,9 +18,10 @@ namespace option {
 inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
                                   letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
                                   missing_end = "num.missing_range_end", peck_law = "num.peck_law",
-                                  structured = "num.structured", face_x = "num.face_x", m_programs = "num.m_programs",
-                                  chased_radial = "num.g31", chased_back = "num.g31_back", reentrant = "num.g63",
-                                  plunged = "num.g66", plunged_axis = "num.g66_axis", plunged_steps = "num.g66_steps",
+                                  peck_withdraw = "num.g83_withdraw", structured = "num.structured",
+                                  face_x = "num.face_x", m_programs = "num.m_programs", chased_radial = "num.g31",
+                                  chased_back = "num.g31_back", reentrant = "num.g63", plunged = "num.g66",
+                                  plunged_axis = "num.g66_axis", plunged_steps = "num.g66_steps",
                                   plunged_back = "num.g66_back", plunged_width = "num.g66_width";
 }  // namespace option
 
@@ -54,6 +55,7 @@ inline constexpr std::array options{
     OptionRow{option::plunged_back, "rapid feed", "rapid", "G66: how a plunge comes back"},
     OptionRow{option::plunged_width, "*", "",
               "G66: mm between the two edges of the tool; not set: the width in the tool table"},
+    OptionRow{option::peck_withdraw, "EH ER", "EH", "G83 with EH: the height between the pecks"},
     OptionRow{option::peck_law, "degressive constant", "degressive", "how the pecks of G83 and G87 go from P to Q"},
 };
 

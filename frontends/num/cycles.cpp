@@ -66,6 +66,8 @@ bool Lowering::plane_words(ir::HoleCycle& cycle) {
     cycle.reference = level(*eh);
     state_.cycle.has_impact_plane = true;
   }
+  const bool full = cycle.kind == ir::HoleKind::peck_full;
+  cycle.pecks.withdraws_to_retract = full && settings_.withdraws_to_er && state_.cycle.has_impact_plane;
   return true;
 }
 

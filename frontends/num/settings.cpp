@@ -50,6 +50,7 @@ Settings make_settings(const machine::Profile& profile) {
   s.m30_ends = option(facts::option::m30) == "end";
   s.stop_ends_spindle = profile.option("stop.spindle") == "stops";
   s.face_radius = option(facts::option::face_x) == "radius";
+  s.withdraws_to_er = option(facts::option::peck_withdraw) == "ER";
   s.pecks_constant = option(facts::option::peck_law) == "constant";
   const auto set = [&profile](std::string_view name) { return profile.option(name); };
   s.chased = facts::thread_habits(set);

@@ -29,6 +29,7 @@ struct Settings {
   bool m30_ends = false;
   bool stop_ends_spindle = false;  ///< M00 stops the spindle (3.2.1)
   bool face_radius = true;         ///< X of G21 is a radius
+  bool withdraws_to_er = false;    ///< G83 with EH: between the pecks
   bool pecks_constant = false;     ///< P..Q as constant pecks and a last one
   dialects::num::CycleHabits chased, reentrant, plunged_by_p, plunged_by_r;
   std::string edge_width;                                ///< mm between the edges of the tool of G66; empty: not given

@@ -234,7 +234,9 @@ TEST(NumLower, ContourOfARoughingCycleIsNoMove) {  // 12.3
 
 TEST(NumLower, LinesByAngle) {  // 10.2, 10.3
   EXPECT_EQ(line("G1 EA45 X20"), "block linear as \"G1\" X 20 extra line_angle 45");
-  EXPECT_EQ(line("G1 EA30 EX40"), "block linear as \"G1\" extra polar_radius 40 polar_angle 30 polar_mode absolute");
+  EXPECT_EQ(
+      line("G1 EA30 EX40"),
+      "block linear as \"G1\" extra polar_radius 40 polar_angle 30 polar_mode absolute polar_angle_mode absolute");
   EXPECT_EQ(line("G1 EA30 ES"), "block opaque_word \"ES\" as \"ES\", linear as \"G1\" extra line_angle 30");
   for (const char* refused :
        {"G91 G1 EA30 EX L1", "G1 EA30", "G1 EA30 X5 Y6", "G1 EA30 ES ET", "G1 X5 Y5 E+", "G91 G1 X5 ET"})
