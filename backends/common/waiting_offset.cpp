@@ -15,6 +15,10 @@ OffsetStep offset_step(const ir::Statement& s) {
     if (std::holds_alternative<ir::ToolOffset>(a.data) || std::holds_alternative<ir::ToolSelect>(a.data) ||
         std::holds_alternative<ir::CycleDefine>(a.data))
       return OffsetStep::lost;
+    // A zero point or a pole may be set from where the tool stands, and the length of the tool counts there.
+    if (std::holds_alternative<ir::FrameOp>(a.data) || std::holds_alternative<ir::PoleSet>(a.data) ||
+        std::holds_alternative<ir::SurfaceSet>(a.data))
+      return OffsetStep::lost;
     change = change || std::holds_alternative<ir::ToolChange>(a.data);
   }
   return change ? OffsetStep::arrives : OffsetStep::passes;

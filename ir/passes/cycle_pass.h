@@ -276,6 +276,8 @@ class CyclePass {
   }
   /// Behind the tap, where the block has no F of its own. Also when the tap was off already, or another cycle follows.
   void feed_comes_back(const Statement& s, Block& b, const Facts& facts);
+  /// A tap that stands elsewhere in the text may be in force here too.
+  [[nodiscard]] bool tap_by_a_jump(const Facts& facts) const;
   /// The way to the hole would be driven at the tap's feed.
   bool refuse_feed_of_tap(Statement& s, const Active& a) {
     if (!a.needs.feed) return false;
@@ -463,7 +465,7 @@ class CyclePass {
   bool written_out_ = false;
   bool lacking_ = false;                 ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;  ///< statements of this routine
-  std::set<std::uint32_t> taps_;         ///< those of them that define a tap
+  std::set<std::uint32_t> taps_;         ///< statements of the program that define a tap
   bool has_modal_calls_ = false;         ///< of cycles
   bool plane_words_ = false;             ///< the program has G98 or G99
   bool enters_unsure_ = false;           ///< the callers do not agree on a cycle

@@ -10,6 +10,7 @@ namespace cnctrans::ir::passes {
 void CyclePass::modal_call(Statement&& s, Body& out) {
   const ModalCall m = std::get<ModalCall>(s.node);
   const bool ends_old = old_may_run(facts_.before(s));
+  tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s));
   active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_for_tap(s, Block{}));
   active_->from = s.id;
   active_->said_by = {s.id};

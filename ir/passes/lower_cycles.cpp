@@ -25,6 +25,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool was_on = active_->on_target;
   const bool changed = follow_retract_plane(b, facts);
   const bool hole_here = triggers(b, facts);
+  if (hole_here && tap_feed_ && !active_->needs.feed) feed_comes_back(s, b, facts);  // a tap stood before this cycle
   if (hole_here && refuse_unknown_plane(s, active_->source, out)) return;
   const LineInfo like = s.line;
   // A modal cycle of the target is in force on the same ways as the source's; one that each point gets is not.
