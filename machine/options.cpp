@@ -266,7 +266,7 @@ bool check_option(std::string_view name, std::string_view value, std::string* er
     *error = "there is no option \"" + std::string(name) + "\"";
     return false;
   }
-  if (spec->values == "text") return true;
+  if (spec->values == "text" || (value.empty() && spec->fallback.empty())) return true;  // empty: as if not set
   if (spec->values == "number" ? parse_decimal(value).has_value() : is_one_of(value, spec->values)) return true;
   *error = "option \"" + std::string(name) + "\" does not take \"" + std::string(value) + "\" but " +
            std::string(spec->values);

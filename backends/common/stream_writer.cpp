@@ -49,7 +49,8 @@ struct PlainStreamWriter::Words {
       columns = false;
     } else if (count != 0 && column <= list[count - 1].column) {
       for (std::size_t i = 0; i < count; ++i) {
-        if (list[i].column == column) return;  // one word of the source, several actions
+        // One word of the source, several actions, which another language may say in a word each.
+        if (list[i].column == column && list[i].address == list[count].address) return;
       }
       sorted = false;
     }

@@ -266,6 +266,7 @@ PlainTable plain_words(const machine::Profile& profile) {
   t.radius_major = false;
   t.end_program = "M02";
   t.work_offset_off = "G53";
+  if (profile.option("stop.spindle") == "stops") t.stops[0] = "M12";  // M00 stops the spindle as well
   t.work_offsets[1] = "G54";
   t.dwell = "G4 F";
   // Inch words have more places: the whole-program path writes them.

@@ -1,4 +1,5 @@
 // The pass over the words of a block: each word by itself. What they mean together: resolve.cpp.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -405,6 +406,12 @@ void Lowering::check_program_call() {
                  "write it in a block of its own", "language.macro");
 }
 
+static bool stops_spindle(const syntax::Block& b) {
+  return std::any_of(b.words.begin(), b.words.end(), [](const syntax::Word& w) {
+    return (w.address == "M" || w.address == "m") && !w.is_expression && w.number == 5;
+  });
+}
+
 void Lowering::machine_function(const Word& w) {
   const std::int64_t n = integer(w);
   if (n < 0 || n > facts::m_max) return unknown(w, "no M function");
@@ -415,7 +422,9 @@ void Lowering::machine_function(const Word& w) {
   using machine::MMeaning;
   switch (m.meaning) {
     case MMeaning::stop:
-      if (n == 0 && settings_.stop_ends_spindle) put(ir::SpindleRun{1, ir::SpindleState::off});  // M12 lets it turn
+      // M12 lets it turn, and M05 beside it stops it anyway.
+      if (n == 0 && settings_.stop_ends_spindle && !stops_spindle(*block_))
+        put(ir::SpindleRun{1, ir::SpindleState::off});
       return put(ir::Stop{false});
     case MMeaning::optional_stop: return put(ir::Stop{true});
     case MMeaning::program_end:

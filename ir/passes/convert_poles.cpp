@@ -281,11 +281,11 @@ class PolePass {
     return context_.target.polar && (!turns || context_.target.helix_turns);
   }
 
-  /// An angle about the centre: with its radius every target has it, the other forms become axis words. False: not
-  /// known.
+  /// An angle about the centre: with its radius every target has it, else axis words. False: not known.
   bool polar_arc(Block& b, const Facts& facts) {
     const MotionExtra& x = *b.motion.extra;
-    if (b.motion.centers.empty() && x.has_polar_radius && x.has_polar_angle && stays_polar(b)) {
+    const bool sayable = stays_polar(b) && (context_.target.distance_per_word || !modes_of_words(x));
+    if (b.motion.centers.empty() && x.has_polar_radius && x.has_polar_angle && sayable) {
       const auto distance = setting_in<Distance>(b, facts, Setting::distance);
       const bool absolute = polar_absolute(x, distance);
       forget_point();

@@ -291,7 +291,7 @@ class CyclePass {
 
   void cancel_statement(Statement&& s, Body& out) {
     const bool on = active_->on_target || active_->maybe_on_target;
-    tap_feed_ = tap_feed_ || (on && !by_call_ && active_->needs.feed);
+    tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s)) || (on && !by_call_ && active_->needs.feed);
     active_.reset();
     if (on) {
       if (!by_call_) {
@@ -329,6 +329,7 @@ class CyclePass {
     const bool cancelled = take_cancel(b);
     const auto definition = take_definition(b, pos);
     Body pieces;
+    if (cancelled || definition) tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s));
     if (cancelled) cancel(s, b, definition.has_value(), pieces);
     if (definition) {
       define_in_block(std::move(s), *definition, std::move(pieces), out);
@@ -465,7 +466,6 @@ class CyclePass {
   bool written_out_ = false;
   bool lacking_ = false;                 ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;  ///< statements of this routine
-  std::set<std::uint32_t> taps_;         ///< statements of the program that define a tap
   bool has_modal_calls_ = false;         ///< of cycles
   bool plane_words_ = false;             ///< the program has G98 or G99
   bool enters_unsure_ = false;           ///< the callers do not agree on a cycle

@@ -6,11 +6,6 @@
 
 namespace cnctrans::ir::passes {
 
-static bool is_tap(const CyclePtr& cycle) {
-  const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
-  return hole != nullptr && (hole->kind == HoleKind::tap || hole->kind == HoleKind::tap_floating);
-}
-
 void CyclePass::look_for_definitions() {
   const Statement* first = nullptr;
   for_each_statement(editor_.routine.body, [&](const Statement& s) {
@@ -29,15 +24,8 @@ void CyclePass::look_for_definitions() {
   });
   for (const auto& r : program_.routines) {
     for_each_statement(r.body, [this](const Statement& s) {
-      const auto* m = std::get_if<ModalCall>(&s.node);
-      if (m != nullptr && is_tap(m->cycle)) taps_.insert(s.id);
       const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      plane_words_ = plane_words_ || sets_retract_plane(*b);
-      for (const auto& a : b->actions) {
-        const auto* d = std::get_if<CycleDefine>(&a.data);
-        if (d != nullptr && d->modal && is_tap(d->cycle)) taps_.insert(s.id);
-      }
+      plane_words_ = plane_words_ || (b != nullptr && sets_retract_plane(*b));
     });
   }
   enters_unsure_ = first != nullptr && facts_.before(*first).cycle_from == Facts::several_cycles;
@@ -100,20 +88,21 @@ void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& p
 
 bool CyclePass::tap_by_a_jump(const Facts& facts) const {
   if (by_call_ || !facts.reachable || (active_ && sure(facts))) return false;
-  return facts.cycle_from == Facts::several_cycles ? !taps_.empty() : taps_.count(facts.cycle_from) != 0;
+  return facts.cycle_from == Facts::several_cycles ? !feeds_.taps().empty()
+                                                   : feeds_.taps().count(facts.cycle_from) != 0;
 }
 
 void CyclePass::feed_comes_back(const Statement& s, Block& b, const Facts& facts) {
-  const bool by_a_jump = tap_by_a_jump(facts);
-  if (!std::exchange(tap_feed_, false) && !by_a_jump) return;
+  if (!std::exchange(tap_feed_, false)) return;
   if (action_in<SetFeed>(b) != nullptr) return;
   if (facts.feed) {
     b.actions.push_back(action(SetFeed{Value{*facts.feed}, false}));
   } else {
-    context_.diagnostics.error("TRN-330", s.line.span,
-                               "the tap before this block has its pitch as F there, and the F that comes back behind it "
-                               "is not known here",
-                               "write F behind the tap");
+    context_.diagnostics.error(
+        "TRN-330", s.line.span,
+        "the tap before this block has its pitch as F there, and the F that comes back behind it "
+        "is not known here",
+        "write F behind the tap");
   }
 }
 

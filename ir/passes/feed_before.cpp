@@ -19,6 +19,20 @@ bool leaves_feed(const CyclePtr& cycle) {
   return row == nullptr || row->ends_modes;
 }
 
+bool is_tap(const CyclePtr& cycle) {
+  const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+  const bool tap = hole != nullptr && (hole->kind == HoleKind::tap || hole->kind == HoleKind::tap_floating);
+  return tap && !hole->pitch.is(0);
+}
+bool defines_tap(const Statement& s) {
+  if (const auto* m = std::get_if<ModalCall>(&s.node)) return is_tap(m->cycle);
+  const auto* b = std::get_if<Block>(&s.node);
+  return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+           const auto* d = std::get_if<CycleDefine>(&a.data);
+           return d != nullptr && d->modal && is_tap(d->cycle);
+         });
+}
+
 /// A domain of FlowStates: whether some way has given a feed.
 class GivenDomain {
  public:
@@ -153,7 +167,10 @@ struct FeedsBefore::Analysis {
     given = given || std::none_of(program.routines.begin(), program.routines.end(),
                                   [](const Routine& r) { return r.kind == RoutineKind::main; });
     for (const auto& r : program.routines) {
-      for_each_statement(r.body, [this](const Statement& s) { given = given || GivenDomain::says(s); });
+      for_each_statement(r.body, [this](const Statement& s) {
+        given = given || GivenDomain::says(s);
+        if (defines_tap(s)) taps.insert(s.id);
+      });
     }
     if (given && at_power_on > 0) power_on = at_power_on;
   }
@@ -163,6 +180,7 @@ struct FeedsBefore::Analysis {
   FlowStates<WordDomain> words;
   MinuteDomain minute_domain;
   FlowStates<MinuteDomain> minutes;
+  std::set<std::uint32_t> taps;
   bool given = false;              ///< F stands in the program, or may in what it calls or is called by
   std::optional<double> power_on;  ///< a feed to go back to, in a program that has F
 };
@@ -171,6 +189,10 @@ FeedsBefore::FeedsBefore(const Program& program, const LegaliseContext& context)
     : analysis_(std::make_unique<Analysis>(program, context.source_machine.power_on_feed,
                                            context.source_machine.power_on.feed_mode)) {}
 FeedsBefore::~FeedsBefore() = default;
+
+const std::set<std::uint32_t>& FeedsBefore::taps() const {
+  return analysis_->taps;
+}
 
 FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& facts) const {
   FeedBefore feed{facts.feed, false, {}, {}};

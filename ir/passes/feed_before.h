@@ -1,8 +1,10 @@
 // The feed that stands behind a cycle with feeds of its own: the one before it, or none where no F has been given yet.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "ir/passes/facts.h"
 
@@ -26,6 +28,8 @@ class FeedsBefore {
   FeedsBefore& operator=(const FeedsBefore&) = delete;
   /// Behind the F of the block itself. `b`: the block of `s`, perhaps without its motion.
   [[nodiscard]] FeedBefore at(const Statement& s, const Block& b, const Facts& facts) const;
+  /// The statements that define a tap with its pitch, modal ones: on some targets the pitch is an F.
+  [[nodiscard]] const std::set<std::uint32_t>& taps() const;
 
  private:
   struct Analysis;

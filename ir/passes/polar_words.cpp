@@ -35,7 +35,7 @@ PolarModes polar_modes(const MotionExtra& x, std::optional<Distance> distance) {
 void drop_modes_in_force(Block& b, const Facts& facts) {
   if (!b.has_motion || !b.motion.extra) return;
   const auto& now = *b.motion.extra;
-  if (now.polar_mode == WordMode::modal && now.polar_angle_mode == WordMode::modal) return;
+  if (!modes_of_words(now)) return;
   const auto mode = setting_in<Distance>(b, facts, Setting::distance);
   if (!mode) return;
   const WordMode in_force = *mode == Distance::absolute ? WordMode::absolute : WordMode::incremental;

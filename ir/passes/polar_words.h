@@ -31,6 +31,10 @@ inline bool polar_absolute(const MotionExtra& x, std::optional<Distance> distanc
   return polar_absolute(x.polar_mode, distance) && polar_absolute(x.polar_angle_mode, distance);
 }
 
+/// A polar word of the block has a mode of its own.
+inline bool modes_of_words(const MotionExtra& x) {
+  return x.polar_mode != WordMode::modal || x.polar_angle_mode != WordMode::modal;
+}
 /// How the polar words of a block count.
 struct PolarModes {
   bool radius_modal = false, angle_modal = false;  ///< the word is there, and the mode in force decides

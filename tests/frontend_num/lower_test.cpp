@@ -286,7 +286,8 @@ TEST(NumLower, Corners) {  // 10.1
 TEST(NumLower, MessagesAndSymbols) {  // 14.4, 18
   EXPECT_EQ(line("N9 $ TOOL SHORT !!"), "N9 message show (\"TOOL SHORT !!\")");
   EXPECT_EQ(line("$"), "message clear");
-  EXPECT_EQ(line("M0 $0 LOAD"), "message show (\"LOAD\")\n& block stop after as \"M0\"");
+  EXPECT_EQ(line("M0 $0 LOAD"),
+            "message show (\"LOAD\")\n& block spindle_run off after as \"M0\", stop after as \"M0\"");
   EXPECT_EQ(line("$1 TO PLC"), "opaque \"$1 TO PLC\" feature \"language.statement\" harmless !NUM-035");
   EXPECT_EQ(line("VAR\n[A]=5 [B]\nENDV\nL1=[A]*2"),
             "declare real in v \"[A]\" = (#5\"5\")\n& declare real in v \"[B]\"\nset L[1] = v.\"[A]\" * 2");
