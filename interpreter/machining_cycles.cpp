@@ -95,7 +95,15 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   CycleRun run;
   run.family = ir::cycles::family_of(c.name);
   run.first = emitter_.seen();
+  const Spindle before = spindles_[master_];
   if (!machining_moves(*cycle, *moves, taps)) return false;
+  auto& now = spindles_[master_];
+  const bool other = now.mode != before.mode || now.value != before.value;
+  if (c.name == "part.off" && other && profile_.option("cycle.parting_after") == "restored") {
+    set_spindle_mode(before.mode, true);
+    now.value = before.value;
+    if (now.state != ir::SpindleState::off) emit_spindle(master_);
+  }
   if (cycle_runs_ == nullptr || run.family.empty()) return true;
   run.last = emitter_.seen();
   keep_contours(left, run);

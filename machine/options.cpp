@@ -78,6 +78,9 @@ constexpr std::array specs{
     OptionSpec{"cycle.groove_position", "as_shaped|mirrored", "as_shaped",
                "on which side of an alternating groove its start lies: by the digits of the shaped groove, or on the "
                "other one"},
+    OptionSpec{
+        "cycle.parting_after", "kept|restored", "kept",
+        "parting off: behind it the spindle turns as at its end, or speed and G96 or G97 of the caller come back"},
     OptionSpec{"cycle.parting_part", "plus|minus", "plus",
                "parting off: the part lies toward +Z of the place in the call and the insert toward -Z, or the other "
                "way round"},

@@ -1,8 +1,10 @@
 // Turning cycles in their own words (reference 12).
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "backends/num/writer.h"
+#include "base/text.h"
 
 namespace cnctrans::backends::num {
 
@@ -82,6 +84,18 @@ bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
   const auto option = [this](std::string_view name) { return profile().option(name); };
   if (code == "G63" && other_habits(a, c.words, facts::reentrant_habits(option))) return true;
   if (code == "G66" && other_habits(a, c.words, facts::plunge_habits(option, by_p))) return true;
+  if (code == "G66") {  // the distance between the edges of its tool is no word
+    const auto it = std::find_if(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "width"; });
+    const double unit = setting(ir::Setting::units) == static_cast<std::uint8_t>(ir::Units::inch) ? 25.4 : 1;
+    const double theirs = it == c.words.end() ? 0 : it->second.number * unit;
+    if (std::abs(theirs - parse_decimal(option(facts::option::plunged_width)).value_or(0)) > 1e-6) {
+      refuse("TRN-691", a.pos,
+             "the plunges of this cycle follow from " + std::string(facts::option::plunged_width) +
+                 ", and the target's machine profile sets it otherwise",
+             "set the same in both profiles");
+      return true;
+    }
+  }
   std::string text(a.text.empty() ? code : a.text);
   const bool back = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "reversed"; });
   std::vector<std::pair<std::string, ir::Value>> words = c.words;

@@ -18,12 +18,13 @@ struct Way {
 };
 constexpr std::array<Way, 5> ways{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
-/// From the bottom to the reference plane, over the middle.
-void withdraw(MillPath& path, int back, double pitch, double degrees) {
+/// From the bottom to the reference plane, over the middle. `start`: the angle at which the pass began up there.
+void withdraw(MillPath& path, int back, double pitch, double degrees, double start) {
   const auto& n = path.levels();
-  if (back == 2) {
+  if (back == 2) {  // in the groove: by as many turns as the pass has made
+    const double turns = std::abs(n.reference - n.bottom) / pitch;
     path.spindle(MillStep::reverse);
-    path.thread_to(n.reference, pitch, 0);
+    path.thread_to(n.reference, pitch, std::remainder(start + 360 * turns, 360));
     path.spindle(MillStep::restart);
     path.rapid(0, 0);
     return;
@@ -81,7 +82,7 @@ bool chased_thread(MillPath& path, std::string* error) {
       const double d = i < passes ? (depth - last) * std::sqrt(i / (passes - 1)) : depth;
       path.rapid(out.p * d, out.q * d);
       path.thread_to(n.bottom, pitch, 360 * k / starts);
-      withdraw(path, static_cast<int>(back), pitch, path.get("angle"));
+      withdraw(path, static_cast<int>(back), pitch, path.get("angle"), 360 * k / starts);
     }
   }
   path.retract();

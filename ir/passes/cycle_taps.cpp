@@ -148,7 +148,40 @@ void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const Legalise
                               "write M3 or M4 before the cycle");
 }
 
-SpindleSense::SpindleSense(const Program& program) {
+namespace {
+
+/// The program starts its spindle before the first jump or call, in its only sense, and never stops it.
+std::optional<SpindleState> turns_throughout(const Program& program) {
+  std::optional<SpindleState> sense;
+  bool one = true;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        one = one && !std::holds_alternative<SpindleOrient>(a.data) && !std::holds_alternative<MasterSpindle>(a.data);
+        const auto* run = std::get_if<SpindleRun>(&a.data);
+        if (run == nullptr) continue;
+        one = one && run->number == 1 && run->state != SpindleState::off && (!sense || *sense == run->state);
+        sense = run->state;
+      }
+    });
+  }
+  const auto* main = program.main();
+  if (!one || !sense || main == nullptr) return std::nullopt;
+  for (const auto& s : main->body) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr && !ToolHeight::keeps(s)) return std::nullopt;
+    for (std::size_t i = 0; b != nullptr && i < b->actions.size() && s.line.skip_mask == 0; ++i) {
+      if (std::holds_alternative<SpindleRun>(b->actions[i].data)) return sense;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+SpindleSense::SpindleSense(const Program& program) : always_(turns_throughout(program)) {
   const auto turns_back = [this](const HoleCycle& c) {
     for (const SpindleStep s : {c.spindle_before, c.spindle_after}) only_cw_ = only_cw_ && s != SpindleStep::ccw;
   };
@@ -172,6 +205,7 @@ SpindleSense::SpindleSense(const Program& program) {
 void SpindleSense::forget() {
   state_.reset();
   stands_ = false;
+  known_.reset();
 }
 
 void SpindleSense::follow(const Statement& s, bool straight) {
@@ -184,6 +218,10 @@ void SpindleSense::follow(const Statement& s, bool straight) {
     if (run != nullptr && run->number == 1)
       state_ = run->state == SpindleState::ccw ? SpindleState::ccw : SpindleState::cw;
     if (run != nullptr && s.line.skip_mask != 0) state_.reset();
+    const bool stops = std::holds_alternative<SpindleOrient>(a.data);
+    if ((run != nullptr && run->number == 1) || stops)
+      known_ = s.line.skip_mask != 0 ? std::nullopt : std::optional(stops ? SpindleState::off : run->state);
+    if (std::holds_alternative<MasterSpindle>(a.data)) known_.reset();
   }
 }
 

@@ -207,7 +207,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
     error = "the height at which it was defined, to which it goes back, is not known here";
   else if (milling)
     moves = milling_.write_out(*hole, s, b, facts, height, active_->defined_at ? active_->defined_at : height,
-                               sense_.now(), &error);
+                               sense_.now(), sense_.surely(), &error);
   else if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
   else if ((moves = tap_strokes(*hole, s, b, &differs)))

@@ -50,11 +50,15 @@ class SpindleSense {
   [[nodiscard]] bool stands() const { return stands_; }
   /// As now(), and off where it stands.
   [[nodiscard]] std::optional<SpindleState> or_off() const { return stands_ ? SpindleState::off : now(); }
+  /// How it turns here for certain, off where it stands; nullopt: the text does not tell.
+  [[nodiscard]] std::optional<SpindleState> surely() const { return known_ ? known_ : always_; }
 
  private:
   bool only_cw_ = true;
   std::optional<SpindleState> state_ = SpindleState::cw;
   bool stands_ = false;
+  std::optional<SpindleState> known_ = SpindleState::off;
+  std::optional<SpindleState> always_;  ///< behind the straight beginning of the program, to its end
 };
 /// A tap that the spindle stands before: each control starts it, or does not, by itself.
 void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const LegaliseContext& context);

@@ -480,6 +480,18 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   for (const auto& move : *moves) {
     if (!writer.add(move, error)) return std::nullopt;
   }
+  if (cycle->name == "part.off" && context_.source_machine.option("cycle.parting_after") == "restored") {
+    const auto mode = setting_in<SpindleMode>(b, facts, Setting::spindle_mode);
+    const bool speeds = std::any_of(moves->begin(), moves->end(), [](const auto& move) {
+      return move.step == TurnStep::spindle_speed || move.step == TurnStep::spindle_cutting_speed;
+    });
+    if (speeds && (!mode || !facts.spindle))
+      return *error = "the speed of the spindle before it, which comes back, is not known here", std::nullopt;
+    TurnMove again;
+    again.step = mode == SpindleMode::css ? TurnStep::spindle_cutting_speed : TurnStep::spindle_speed;
+    again.speed = facts.spindle.value_or(0);
+    if (speeds && !writer.add(again, error)) return std::nullopt;
+  }
   if (!writer.finish(cycle->ends_modes, error)) return std::nullopt;
   if (values != nullptr) *values = listed(used);
   return std::move(writer.blocks);

@@ -88,11 +88,15 @@ class Writer {
       return true;
     }
     if (m.step == MillStep::orient) return put(SpindleOrient{1, Value{m.angle}});
-    if (m.step == MillStep::reverse || m.step == MillStep::restart) {
+    if (m.step == MillStep::reverse)
+      return *error =
+                 "on the way back along the thread a block of its own waits at the bottom for the angle of the "
+                 "spindle, and the point cuts beside the groove meanwhile",
+             false;
+    if (m.step == MillStep::restart) {
       if (!sense || *sense == SpindleState::off)
         return *error = "whether the spindle runs, and in which sense, is not known here", false;
-      const bool cw = (*sense == SpindleState::cw) == (m.step == MillStep::restart);
-      return put(SpindleRun{1, cw ? SpindleState::cw : SpindleState::ccw});
+      return put(SpindleRun{1, *sense});
     }
     Block b;
     if (side_) {
@@ -343,7 +347,7 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
 std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Statement& s, const Block& b,
                                                const Facts& facts, std::optional<double> height,
                                                std::optional<double> defined_at, std::optional<SpindleState> sense,
-                                               std::string* error) const {
+                                               std::optional<SpindleState> turns, std::string* error) const {
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
   const auto in_plane = setting_in<Plane>(b, facts, Setting::plane);
@@ -410,6 +414,8 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   if (by_spindle && cycles::has_sense(*words) && !sense)
     return *error = "climb milling depends on the sense of the spindle, which is not known here", std::nullopt;
   context.spindle_ccw = sense == SpindleState::ccw;
+  if (words->shape->kind == cycles::MillKind::chased && turns == SpindleState::off)
+    return *error = "the spindle stands before it, and its passes follow a spindle that turns", std::nullopt;
   const auto moves = cycles::expand(*words, *numbers, context, error);
   if (!moves) return std::nullopt;
   const FeedBefore feed = feeds_.at(s, b, facts);
@@ -418,7 +424,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   writer.v = context.v;
   writer.w = context.w;
   writer.incremental = incremental;
-  writer.sense = sense;
+  writer.sense = turns;
   for (const auto& m : *moves) {
     if (!writer.add(m, facts.spindle, error)) return std::nullopt;
   }

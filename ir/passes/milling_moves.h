@@ -27,7 +27,7 @@ class MillCycles {
   [[nodiscard]] std::optional<Explosion> write_out(const HoleCycle& cycle, const Statement& s, const Block& b,
                                                    const Facts& facts, std::optional<double> height,
                                                    std::optional<double> defined_at, std::optional<SpindleState> sense,
-                                                   std::string* error) const;
+                                                   std::optional<SpindleState> turns, std::string* error) const;
   /// A pocket as a cycle of the target that leaves the same part by other passes, when the options ask for it; nullopt
   /// with a sentence: none. `last_resort`: without being asked for too, unless they forbid the target's cycles.
   struct Similar {
