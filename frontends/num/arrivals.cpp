@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include "ir/dataflow.h"
 #include "ir/missing_features.h"
@@ -167,6 +168,7 @@ void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arriv
   if (arrivals.empty()) return;
   const bool outside = leads_outside(ways.whole);
   const auto sure = lines_with_callers(ways);
+  bool told = false;
   for (const auto& use : uses) {
     const auto at = arrivals.find(use.where.line);
     if (at == arrivals.end()) continue;
@@ -174,8 +176,14 @@ void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arriv
       if (!has(use, n.fact)) continue;
       const Match found = match(use, n.fact, at->second);
       // Of a cycle nobody knows, the judge of its changes says what is to be said (NUM-048).
-      const bool doubtful = found == Match::unknown && n.fact != Modal::cycle && !outside && sure.count(use.where.line);
-      if (found != Match::other && !doubtful) continue;
+      const bool unknown = found == Match::unknown && n.fact != Modal::cycle && sure.count(use.where.line) != 0;
+      if (unknown && outside && !std::exchange(told, true)) {
+        diagnostics.warning("NUM-072", use.where,
+                            "this block depends on " + std::string(n.what) +
+                                ", which a program of another file may have changed: it is read as the lines above say",
+                            n.hint);
+      }
+      if (found != Match::other && !(unknown && !outside)) continue;
       diagnostics.error("NUM-070", use.where,
                         "this block depends on " + std::string(n.what) +
                             ", and the ways of the program come to it with different ones",
