@@ -234,7 +234,6 @@ void PlainStreamWriter::look_for_rotary(const ir::Block& b, const Span& span, Di
   }
 }
 
-/// A tool and its offset where the offset would wait for the change: a line each.
 bool PlainStreamWriter::order_fits(const ir::Action& a, std::size_t code, bool moves) const {
   if (!moves) return true;
   return (a.order == ir::Order::after) == (m_after_[code] != 0);

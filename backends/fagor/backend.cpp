@@ -67,15 +67,10 @@ std::optional<ir::Program> with_plain_presets(const ir::Program& program, const 
 }
 
 bool has_presets(const ir::Program& program) {
-  bool found = false;
-  for (const ir::Routine& r : program.routines) {
-    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      const auto* f = b != nullptr ? ir::action_in<ir::FrameOp>(*b) : nullptr;
-      found = found || (f != nullptr && f->change->combine == ir::FrameCombine::preset);
-    });
-  }
-  return found;
+  return ir::any_action(program, [](const ir::Action& a) {
+    const auto* f = std::get_if<ir::FrameOp>(&a.data);
+    return f != nullptr && f->change && f->change->combine == ir::FrameCombine::preset;
+  });
 }
 
 class FagorBackend : public Backend {
