@@ -144,17 +144,11 @@ bool alternate_groove(Roles& r, const TurnContext& context, bool face, std::stri
   const auto variant = variant_of(r, error);
   if (!variant) return false;
   const double w = context.nose_width, flat = w - 2 * context.nose_radius;
-  if (w <= 0)
-    return *error = "the width of the grooving tool is not known: \"nose_width\" of the tool in the profile", false;
+  if (!knows_insert(context, face, error)) return false;
   if (flat < tiny) return *error = "the insert of the tool is not wider than its two corners", false;
   if (r.number("slope_angle") != 0) return *error = "a groove on a slope is not carried out", false;
   if (r.number("count") > 1) return *error = "a row of grooves is not carried out", false;
   if (digit(r, "mode", 1) != 0) return *error = "this way to give the width of a groove is not carried out", false;
-  if (face && !context.left_is_larger)
-    return *error =
-               "on which side of a groove in the face its start lies is not known: option "
-               "\"cycle.face_groove_left\"",
-           false;
   Groove g;
   double depth = 0, width = 0;
   if (!flanks_of(r, g.flanks, error) || !depth_of(r, context, face, variant->inside, depth, error)) return false;

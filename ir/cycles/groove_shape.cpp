@@ -50,6 +50,17 @@ double Shape::across() const {
   return width_ + depth_ * (std::tan(flanks_[0].angle) + std::tan(flanks_[1].angle));
 }
 
+bool knows_insert(const TurnContext& context, bool face, std::string* error) {
+  if (context.nose_width <= 0)
+    return *error = "the width of the grooving tool is not known: \"nose_width\" of the tool in the profile", false;
+  if (face && !context.left_is_larger)
+    return *error =
+               "on which side of a groove in the face its start lies is not known: option "
+               "\"cycle.face_groove_left\"",
+           false;
+  return true;
+}
+
 std::optional<Side> Shape::side(std::size_t k, double base_stock, double flank_stock, bool outer) const {
   const Flank& f = flanks_[k];
   const double deep = depth_ - base_stock, slope = std::tan(f.angle), turn = std::numbers::pi / 2 - f.angle;

@@ -15,6 +15,9 @@ namespace cnctrans::ir::cycles::detail {
 /// Passes not above `step`, at least one.
 double groove_passes(double total, double step);
 
+/// The width of the insert is known, and of a groove in the face on which side its start lies.
+bool knows_insert(const TurnContext& context, bool face, std::string* error);
+
 /// One side of the groove as its shape says.
 struct Flank {
   double angle = 0;             ///< radians, from the infeed

@@ -19,16 +19,10 @@ bool shaped_groove(Roles& r, const TurnContext& context, bool face, std::string*
     return *error = "the machining type of the groove is 1 to 8 or 11 to 18", false;
   const bool inside = (kind - 1) % 4 >= 2, left = kind <= 4;
   const double w = context.nose_width, width = std::abs(r.number("width")), depth = std::abs(r.number("depth"));
-  if (w <= 0)
-    return *error = "the width of the grooving tool is not known: \"nose_width\" of the tool in the profile", false;
+  if (!knows_insert(context, face, error)) return false;
   const double slope = std::fmod(r.number("slope_angle"), 180);
   if (std::abs(slope) > tiny && !(face && std::abs(slope - 90) < tiny))
     return *error = "a groove on a slope is not carried out", false;
-  if (face && !context.left_is_larger)
-    return *error =
-               "on which side of a groove in the face its start lies is not known: option "
-               "\"cycle.face_groove_left\"",
-           false;
   Groove g;
   g.flanks = {Flank{r.number("flank_1") * std::numbers::pi / 180, r.number("outer_1"), r.number("inner_1")},
               Flank{r.number("flank_2") * std::numbers::pi / 180, r.number("outer_2"), r.number("inner_2")}};
