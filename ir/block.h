@@ -319,10 +319,20 @@ struct SurfaceSet {
   Value diameter;  ///< cylinder: of the unrolled surface, in the unit of length; the number 0: on which X stands
 };
 
-using ActionData = std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear,
-                                MasterSpindle, ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell,
-                                ExactStopBlock, Coolant, MachineFunction, Stop, CycleDefine, CycleCancel, Corner,
-                                TangentialEnd, PreparationStop, OpaqueWord, SplineAxes, SurfaceSet>;
+/// One of the actions. Its special members are compiled once (ir/block.cpp): nearly every source file copies and moves
+/// blocks, and making them anew in each costs a third of the build.
+struct ActionData : std::variant<ModalSet, SetFeed, SetSpindle, SpindleRun, SpindleOrient, SpindleLimit, SpindleGear,
+                                 MasterSpindle, ToolSelect, ToolChange, ToolOffset, WorkOffset, FrameOp, PoleSet, Dwell,
+                                 ExactStopBlock, Coolant, MachineFunction, Stop, CycleDefine, CycleCancel, Corner,
+                                 TangentialEnd, PreparationStop, OpaqueWord, SplineAxes, SurfaceSet> {
+  using variant::variant;
+  ActionData();
+  ActionData(const ActionData&);
+  ActionData(ActionData&&) noexcept;
+  ActionData& operator=(const ActionData&);
+  ActionData& operator=(ActionData&&) noexcept;
+  ~ActionData();
+};
 
 /// When an action is carried out relative to the motion of its block.
 enum class Order : std::uint8_t { before, with, after };

@@ -130,12 +130,12 @@ inline constexpr NameList<27> action_names{
     "frame",        "pole",           "dwell",        "exact_stop_block", "coolant",        "machine_function",
     "stop",         "cycle",          "cycle_cancel", "corner",           "tangential",     "preparation_stop",
     "opaque_word",  "spline_axes",    "surface_set"};
-static_assert(action_names.size() == std::variant_size_v<ActionData>);
+static_assert(action_names.size() == std::variant_size_v<ActionData::variant>);
 
 /// Keyword of each kind of statement, in the order of Statement::node.
 inline constexpr NameList<19> statement_names{
     "block",  "set",  "if",         "while",  "until",       "for",     "loop",    "exit",  "jump",  "switch",
     "repeat", "call", "modal_call", "return", "end_program", "message", "declare", "label", "opaque"};
-static_assert(statement_names.size() == std::variant_size_v<decltype(Statement::node)>);
+static_assert(statement_names.size() == std::variant_size_v<StatementNode::variant>);
 
 }  // namespace cnctrans::ir::detail

@@ -17,13 +17,13 @@ LineInfo& last_line(Statement& s) {
   return s.line;
 }
 
-template <class Variant, std::size_t i = 0>
-void emplace_by_index(Variant& v, std::size_t index) {
-  if constexpr (i < std::variant_size_v<Variant>) {
+template <std::size_t i = 0, class... Kinds>
+void emplace_by_index(std::variant<Kinds...>& v, std::size_t index) {
+  if constexpr (i < sizeof...(Kinds)) {
     if (index == i) {
       v.template emplace<i>();
     } else {
-      emplace_by_index<Variant, i + 1>(v, index);
+      emplace_by_index<i + 1>(v, index);
     }
   }
 }

@@ -217,11 +217,21 @@ struct Opaque {
   bool harmless = false;
 };
 
+/// What a statement does. Its special members are compiled once (ir/statement.cpp), as those of ActionData.
+struct StatementNode : std::variant<Block, Assign, If, While, Until, For, Loop, Exit, Jump, Switch, Repeat, CallRoutine,
+                                    ModalCall, Return, End, Message, Declare, Label, Opaque> {
+  using variant::variant;
+  StatementNode();
+  StatementNode(const StatementNode&);
+  StatementNode(StatementNode&&) noexcept;
+  StatementNode& operator=(const StatementNode&);
+  StatementNode& operator=(StatementNode&&) noexcept;
+  ~StatementNode();
+};
+
 struct Statement {
   LineInfo line;
-  std::variant<Block, Assign, If, While, Until, For, Loop, Exit, Jump, Switch, Repeat, CallRoutine, ModalCall, Return,
-               End, Message, Declare, Label, Opaque>
-      node;
+  StatementNode node;
   std::uint32_t id = 0;  ///< given by number_statements()
 };
 

@@ -21,7 +21,7 @@ namespace {
 namespace facts = dialects::fagor;
 using syntax::Expr;
 using syntax::ExprKind;
-using Node = decltype(ir::Statement::node);
+using Node = ir::StatementNode;
 
 constexpr std::array<std::string_view, 4> screen_variables = {"DW", "DWH", "DWB", "SK"};
 

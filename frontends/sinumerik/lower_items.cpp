@@ -40,7 +40,7 @@ bool StatementLowering::refuse(std::string_view feature, WordPos pos, std::strin
   return false;
 }
 
-void StatementLowering::emit(ir::LineInfo& info, decltype(ir::Statement::node) node) {
+void StatementLowering::emit(ir::LineInfo& info, ir::StatementNode node) {
   ir::Statement s;
   s.line = info;
   s.node = std::move(node);

@@ -178,7 +178,7 @@ class StatementLowering {
   bool program_name(const syntax::Expr& e, ir::CallRoutine& call);
   std::optional<ir::Type> type_of(const syntax::Expr& type);
 
-  void emit(ir::LineInfo& info, decltype(ir::Statement::node) node);
+  void emit(ir::LineInfo& info, ir::StatementNode node);
 
   FileContext& c_;
   WordLowering& words_;

@@ -15,7 +15,7 @@ struct StatementLowering::Parts {
   syntax::Block words;  ///< the address words; `exprs` is the source block's
   std::vector<std::pair<const GFunction*, WordPos>> indirect;
   std::vector<ir::Action> actions;  ///< further actions (spindle positions, preparation stop)
-  std::vector<decltype(ir::Statement::node)> calls;
+  std::vector<ir::StatementNode> calls;
   std::vector<ir::CoordWord> coords;         ///< positioning axes, axes named by a constant
   std::vector<ir::ComputedWord> computed;    ///< axes named by a variable
   std::vector<ir::CenterWord> centers;       ///< IP[..]

@@ -23,7 +23,7 @@ ir::Argument argument(std::string letter, ir::ExprPtr value) {
   a.value = std::move(value);
   return a;
 }
-ir::Statement statement(decltype(ir::Statement::node) node) {
+ir::Statement statement(ir::StatementNode node) {
   ir::Statement s;
   s.node = std::move(node);
   return s;

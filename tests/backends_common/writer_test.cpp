@@ -69,7 +69,7 @@ struct Fixture {
     profile.m_codes.push_back({5, machine::MMeaning::spindle_stop, ir::Order::after, 0, "stop"});
     options.profile = &profile;
   }
-  ir::Statement& add(decltype(ir::Statement::node) node) {
+  ir::Statement& add(ir::StatementNode node) {
     ir::Statement s;
     s.node = std::move(node);
     program.routines[0].body.push_back(std::move(s));
@@ -109,7 +109,7 @@ ir::Action action(Data d, ir::Order order = ir::Order::before) {
 }
 
 TEST(ProgramWriter, WhatADialectDoesNotOverrideIsRefused) {
-  const std::vector<decltype(ir::Statement::node)> all{ir::Assign{}, ir::If{},     ir::While{},       ir::Until{},
+  const std::vector<ir::StatementNode> all{ir::Assign{}, ir::If{},     ir::While{},       ir::Until{},
                                                        ir::For{},    ir::Loop{},   ir::Exit{},        ir::Jump{},
                                                        ir::Switch{}, ir::Repeat{}, ir::CallRoutine{}, ir::ModalCall{},
                                                        ir::Return{}, ir::End{},    ir::Message{},     ir::Declare{}};

@@ -131,7 +131,7 @@ class RandomProgram {
     fill(x.setting);
     x.value = static_cast<std::uint8_t>(chance(90) ? below(2) : below(200));
   }
-  void action(ir::ActionData& data) { fill_variant(data, below(std::variant_size_v<ir::ActionData>)); }
+  void action(ir::ActionData& data) { fill_variant(data, below(std::variant_size_v<ir::ActionData::variant>)); }
   void cycle(std::variant<ir::HoleCycle, ir::NamedCycle>& node) { fill_variant(node, below(2)); }
   void block(ir::Block& b) {
     fill_list(b.actions);
@@ -233,13 +233,13 @@ class RandomProgram {
   void fill_list(std::vector<T>& list) {
     for (unsigned n = below(3); n != 0; --n) fill(list.emplace_back());
   }
-  template <class Variant, std::size_t i = 0>
-  void fill_variant(Variant& v, std::size_t index) {
-    if constexpr (i < std::variant_size_v<Variant>) {
+  template <std::size_t i = 0, class... Kinds>
+  void fill_variant(std::variant<Kinds...>& v, std::size_t index) {
+    if constexpr (i < sizeof...(Kinds)) {
       if (index == i) {
         fill(v.template emplace<i>());
       } else {
-        fill_variant<Variant, i + 1>(v, index);
+        fill_variant<i + 1>(v, index);
       }
     }
   }
