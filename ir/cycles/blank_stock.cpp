@@ -155,7 +155,7 @@ bool reentrant_stock(Roles& r, const TurnContext& context, bool face, std::strin
   if (!passes_of(*task, outline, work, step, style, error)) return false;
   work.step(step);
   work.climbs(r.number("groove_feed"));
-  for (const auto& v : valleys) work.valley(v.chain, v.chain.front().a.p, false);
+  work.dig(outline, valleys);
   work.home();
   return true;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,7 +32,9 @@ class Remover {
 
   void passes(const Chain& outline, const Chain& blank) {
     double before = a_.p;
-    for (const double p : levels(a_.p, outline.front().a.p, step_)) {
+    heights_ = levels(a_.p, outline.front().a.p, step_);
+    leaves_steps_ = withdraws_;
+    for (const double p : heights_) {
       const double entry = blank.empty() ? a_.q : entry_at(blank, p);
       std::size_t at = 0;
       const double end = first_meeting(outline, p, at);
@@ -57,6 +60,8 @@ class Remover {
   void passes_at(const Chain& outline, double top, const std::vector<double>& heights, const Chain& blank,
                  const Style& style) {
     double before = top;
+    heights_ = heights;
+    leaves_steps_ = !style.rounds;
     for (const double p : heights) {
       const double entry = blank.empty() ? a_.q : entry_at(blank, p, 0);
       std::size_t at = 0;
@@ -84,26 +89,12 @@ class Remover {
   }
   void step(double s) { step_ = s; }
 
-  /// One valley, from its edges down: along the wall, across, and out again.
-  void valley(const Chain& chain, double top, bool inside) {
-    const double bottom = lowest(chain);
-    const double level = std::max(bottom, top - step_);
-    auto parts = below(chain, level);
-    if (parts.empty()) {  // the bottom itself
-      const auto flat = std::find_if(chain.begin(), chain.end(), [&](const Piece& x) { return x.b.p < level + tiny; });
-      auto last = flat;
-      for (auto it = flat; it != chain.end(); ++it) {
-        if (it->b.p < level + tiny) last = it;
-      }
-      pass(chain, chain.front().a, flat->b, last->b, top, inside);
-      return;
-    }
-    RolePoint from = chain.front().a;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const Chain& deep = parts[k];
-      if (k > 0) from = ridge(chain, parts[k - 1].back().b.q, deep.front().a.q);
-      pass(chain, from, deep.front().a, {level, deep.back().b.q}, top, inside && k == 0);
-      valley(deep, level, true);
+  /// The valleys that the passes left out, one after the other. Where a pass ended at the contour before the edge of
+  /// a valley and did not follow it, stock stands from there to the edge: the way begins where that pass ended.
+  void dig(const Chain& outline, const std::vector<Valley>& valleys) {
+    for (const auto& v : valleys) {
+      const RolePoint edge = v.chain.front().a;
+      valley(v.chain, edge.p, false, leaves_steps_ ? between(outline, interruption(outline, edge), edge) : Chain{});
     }
   }
 
@@ -132,6 +123,43 @@ class Remover {
   }
 
  private:
+  /// One valley, from its edge down: along the wall, across, and out again. `lead`: the way to its edge that is to be
+  /// cut.
+  void valley(const Chain& chain, double top, bool inside, const Chain& lead = {}) {
+    const double bottom = lowest(chain);
+    const double level = std::max(bottom, top - step_);
+    auto parts = below(chain, level);
+    if (parts.empty()) {  // the bottom itself
+      const auto flat = std::find_if(chain.begin(), chain.end(), [&](const Piece& x) { return x.b.p < level + tiny; });
+      auto last = flat;
+      for (auto it = flat; it != chain.end(); ++it) {
+        if (it->b.p < level + tiny) last = it;
+      }
+      pass(chain, lead, chain.front().a, flat->b, last->b, top, inside);
+      return;
+    }
+    RolePoint from = chain.front().a;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Chain& deep = parts[k];
+      if (k > 0) from = parts[k - 1].back().b;  // where the pass before was interrupted: over the ridge from there
+      pass(chain, k > 0 ? Chain{} : lead, from, deep.front().a, {level, deep.back().b.q}, top, inside && k == 0);
+      valley(deep, level, true);
+    }
+  }
+
+  /// Where the last pass that ended before the edge met the outline; the edge itself when a pass went along it.
+  [[nodiscard]] RolePoint interruption(const Chain& outline, RolePoint edge) const {
+    RolePoint at = edge;
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const double p : heights_) {
+      if (std::abs(p - edge.p) < tiny) return edge;
+      if (p > edge.p || p <= nearest) continue;
+      std::size_t piece = 0;
+      nearest = p;
+      at = {p, first_meeting(outline, p, piece)};
+    }
+    return at;
+  }
   void piece(const Piece& x, double f) {
     if (x.arc)
       r_.arc(o_.role(x.b), o_.role(x.c), x.ccw != (o_.sp * o_.sq < 0), f);
@@ -179,16 +207,14 @@ class Remover {
     }
     feed(to, style.feed);
   }
-  /// Down the wall from `from` to `foot`, across to `end`, and out.
-  void pass(const Chain& chain, RolePoint from, RolePoint foot, RolePoint end, double top, bool inside) {
-    if (inside) {
-      rapid({std::max(here().p, from.p), here().q});
-      rapid({here().p, from.q});
-    } else {
-      rapid({a_.p, here().q});
-      rapid({a_.p, from.q});
-    }
-    rapid(from);
+  /// Along `lead` to `from`, down the wall to `foot`, across to `end`, and out.
+  void pass(const Chain& chain, const Chain& lead, RolePoint from, RolePoint foot, RolePoint end, double top,
+            bool inside) {
+    const RolePoint begin = lead.empty() ? from : lead.front().a;
+    rapid({inside ? std::max(here().p, begin.p) : a_.p, here().q});
+    rapid({here().p, begin.q});
+    rapid(begin);
+    along(lead, across_feed_);
     along(between(chain, from, foot), dig_feed_);
     feed(end, across_feed_);
     if (withdraws_) {
@@ -202,24 +228,12 @@ class Remover {
       piece(x, 0);
     }
   }
-  static RolePoint ridge(const Chain& chain, double from, double to) {
-    RolePoint best = chain.front().a;
-    bool found = false;
-    for (const auto& x : chain) {
-      for (const RolePoint t : {x.a, x.b}) {
-        if (t.q > from + tiny || t.q < to - tiny || (found && t.p <= best.p)) continue;
-        best = t;
-        found = true;
-      }
-    }
-    return best;
-  }
-
   Roles& r_;
   Orientation o_;
   RolePoint a_;
   double step_ = 0, dig_feed_ = 0, across_feed_ = 0, withdrawal_ = 0;
-  bool withdraws_ = false;
+  bool withdraws_ = false, leaves_steps_ = false;  ///< a pass that withdraws leaves a step of stock on the contour
+  std::vector<double> heights_;                    ///< of the passes that were made
 };
 
 }  // namespace cnctrans::ir::cycles::detail

@@ -148,7 +148,7 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
     std::vector<Valley> valleys;
     const Chain outline = bridged(target, valleys);
     work.passes(outline, closed_blank(*context.profile, *o));
-    for (const auto& v : valleys) work.valley(v.chain, v.chain.front().a.p, false);
+    work.dig(outline, valleys);
     if (!valleys.empty()) work.rapid({work.start().p, work.here().q});
     work.rapid(work.start());
     if (const double f = r.number("rough_feed"); f > 0) {
@@ -217,7 +217,7 @@ bool contour_stock(Roles& r, const TurnContext& context, bool face, std::string*
     work.passes_at(outline, top, heights, {}, style);
     work.feeds(r.number("groove_feed"), style.lift);
     work.step(most);
-    for (const auto& v : valleys) work.valley(v.chain, v.chain.front().a.p, false);
+    work.dig(outline, valleys);
     work.home();
   }
   if (finishes) work.finish(*part, r.number("finish_feed"), style.lift);

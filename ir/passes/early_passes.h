@@ -36,6 +36,8 @@ void say_tangent_arcs(Program& program, const LegaliseContext& context);
 void write_thread_angles(Program& program, const LegaliseContext& context);
 /// A tap with a compensating chuck as a straight move.
 void write_floating_taps(Program& program, const LegaliseContext& context);
+/// The tapping form of the axial drilling cycle of a lathe as a tap.
+void say_axial_taps(Program& program, const LegaliseContext& context);
 /// Taps that turn the spindle by themselves, for targets whose taps take the spindle as it runs.
 void write_tap_speeds(Program& program, const LegaliseContext& context);
 /// A feed of one block as a feed and the one of before behind it.

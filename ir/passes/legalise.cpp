@@ -42,6 +42,7 @@ constexpr std::array pipeline{
     Pass{"said_tangents", passes::say_tangent_arcs, false},
     Pass{"thread_angles", passes::write_thread_angles, false},
     Pass{"floating_taps", passes::write_floating_taps, false},
+    Pass{"axial_taps", passes::say_axial_taps, false},
     Pass{"block_feeds", passes::write_block_feeds, false},
     Pass{"positioning", passes::write_positioning, false},
     Pass{"directions", passes::choose_directions, false},
