@@ -110,9 +110,9 @@ ir::Action action(Data d, ir::Order order = ir::Order::before) {
 
 TEST(ProgramWriter, WhatADialectDoesNotOverrideIsRefused) {
   const std::vector<ir::StatementNode> all{ir::Assign{}, ir::If{},     ir::While{},       ir::Until{},
-                                                       ir::For{},    ir::Loop{},   ir::Exit{},        ir::Jump{},
-                                                       ir::Switch{}, ir::Repeat{}, ir::CallRoutine{}, ir::ModalCall{},
-                                                       ir::Return{}, ir::End{},    ir::Message{},     ir::Declare{}};
+                                           ir::For{},    ir::Loop{},   ir::Exit{},        ir::Jump{},
+                                           ir::Switch{}, ir::Repeat{}, ir::CallRoutine{}, ir::ModalCall{},
+                                           ir::Return{}, ir::End{},    ir::Message{},     ir::Declare{}};
   for (const auto& node : all) {
     Fixture f;
     f.add(node);
