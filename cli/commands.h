@@ -30,7 +30,7 @@ struct Arguments {
   std::string report;
   std::string names;
   std::string diagnostics = "text";
-  bool verify = false;
+  bool verify = false, no_verify = false;
   bool explore = false;
   int replays = 100;
   bool annotate = false;

@@ -56,8 +56,7 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   out.machine = a.machine;
   out.target_machine = a.target_machine;
   out.libraries = a.libraries;
-  out.verify = a.verify || a.explore;
-  if (a.explore) out.explore = static_cast<std::size_t>(a.replays);
+  if (a.explore) out.further.explore = static_cast<std::size_t>(a.replays);
   out.annotate = a.annotate;
   out.origin = !a.no_origin;
   out.number_step = a.number_step;
@@ -68,6 +67,21 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   for (const auto& [option, word] : words) translator::set_word(out, option, word);  // the command line was checked
   out.run.max_events = translator::kept_events;
   return run_limits(a, out.run);
+}
+
+bool proved_options(const Arguments& a, translator::TranslateOptions& out) {
+  const bool asked = a.verify || a.explore;
+  if (asked && a.no_verify) {
+    usage_error(a, std::string(a.verify ? "--verify" : "--explore") + " and --no-verify contradict each other");
+    return false;
+  }
+  if (!translate_options(a, out)) return false;
+  if (a.no_verify) return true;
+  const translator::FurtherReplays asked_for = out.further;
+  translator::prove_as_usual(out);
+  out.strict = asked;
+  if (a.explore) out.further = asked_for;
+  return true;
 }
 
 bool run_options(const Arguments& a, translator::RunOptions& out) {

@@ -16,6 +16,8 @@ namespace cnctrans::cli {
 int exit_of(const verifier::Verdict& verdict);
 /// False and a message on stderr when an argument is not usable.
 bool translate_options(const Arguments& a, translator::TranslateOptions& out);
+/// The same for a command that makes translations: with the proof that it is to have.
+bool proved_options(const Arguments& a, translator::TranslateOptions& out);
 bool run_options(const Arguments& a, translator::RunOptions& out);
 /// Says on stderr why the call can't be done; the exit status for it.
 int usage_error(const Arguments& a, std::string_view message);

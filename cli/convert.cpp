@@ -152,11 +152,12 @@ bool may_write(const Arguments& a, const translator::TranslateResult& result, co
   return false;
 }
 
-int write_outputs(const Arguments& a, const translator::TranslateResult& result, bool unverified) {
+int write_outputs(const Arguments& a, const translator::TranslateResult& result) {
   if (a.output.empty() || a.output == "-") {
-    if (unverified) {
+    if (result.held_back) {
       a.messages->say(Severity::note, "CNC-WRITTEN",
-                      "cnctrans: the translation is not printed; use -o to keep it as FILE.unverified");
+                      "cnctrans: the translation is not printed; -o FILE keeps it as FILE.unverified, --no-verify "
+                      "writes it without proof");
       return ok;
     }
     for (const auto& out : result.outputs) write_all(stdout, out.bytes);
@@ -164,7 +165,7 @@ int write_outputs(const Arguments& a, const translator::TranslateResult& result,
   }
   for (const auto& out : result.outputs) {
     fs::path path = target_path(a, out);
-    if (unverified) path += ".unverified";
+    if (result.held_back) path += ".unverified";
     std::string error;
     if (!write_file(path, out.bytes, &error)) {
       not_written(a, error);
@@ -197,16 +198,49 @@ bool write_report(const Arguments& a, const translator::TranslateOptions& option
 /// The files of the verification under the names they were written to.
 FileTable targets_as_written(const Arguments& a, const translator::TranslateResult& result) {
   if (a.output.empty() || a.output == "-") return result.target_files;
-  const bool bad = !result.verdict.good();
   FileTable files;
   for (const auto& out : result.outputs)
-    files.add(SourceText::from_string(target_path(a, out).string() + (bad ? ".unverified" : ""), out.bytes));
+    files.add(
+        SourceText::from_string(target_path(a, out).string() + (result.held_back ? ".unverified" : ""), out.bytes));
   return files;
 }
 
-/// The whole-program path: in memory, with calls, verified on request.
+/// What the proofs of a call came to: its last lines.
+class Proofs {
+ public:
+  explicit Proofs(const Arguments& a) : a_(a) {}
+
+  void add(const std::string& input, const translator::TranslateOptions& options,
+           const translator::TranslateResult& result) {
+    if (!result.verified) return;
+    const FileTable targets = targets_as_written(a_, result);
+    a_.messages->add(result.target_diagnostics, targets);
+    const std::string text = input + ": " + translator::proof_text(result, targets);
+    if (result.verdict.good()) {
+      if (!a_.quiet || options.strict) lines_.push_back({Severity::note, text});
+    } else {
+      lines_.push_back({result.held_back ? Severity::error : Severity::warning, text});
+    }
+  }
+  void not_proved(const std::string& input, const std::string& why) {
+    lines_.push_back({Severity::warning, input + ": not proved: " + why});
+  }
+  void say() const {
+    for (const auto& line : lines_) a_.messages->say(line.severity, "CNC-VERDICT", line.text);
+  }
+
+ private:
+  struct Line {
+    Severity severity;
+    std::string text;
+  };
+  const Arguments& a_;
+  std::vector<Line> lines_;
+};
+
+/// The whole-program path: in memory, with calls, proved.
 int convert_whole(const Arguments& a, const translator::TranslateOptions& options, const std::string& input, Job& job,
-                  ir::NameMap& names) {
+                  ir::NameMap& names, Proofs& proofs) {
   translator::TranslateOptions with = options;
   with.taken = job.names();
   with.single_output = a.output.empty() || a.output == "-";
@@ -221,32 +255,35 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   }
   if (!with.single_output && !may_write(a, result, input, job)) return refused;
   job.take_names(result);
-  const bool bad = result.verified && !result.verdict.good();
-  const int status = write_outputs(a, result, bad);
-  if (status == ok && !bad) translator::add_names(names, result.names);
-  if (!result.verified) return status;
-  const int found = exit_of(result.verdict);
-  a.messages->say(found == ok ? Severity::note : Severity::error, "CNC-VERDICT",
-                  input + ": " + verifier::describe(result.verdict, result.files, targets_as_written(a, result)));
-  return std::max(status, found);
+  const int status = write_outputs(a, result);
+  if (status == ok && !result.held_back) translator::add_names(names, result.names);
+  proofs.add(input, options, result);
+  return result.held_back ? std::max(status, exit_of(result.verdict)) : status;
 }
+
+/// A file of this size and its translation are still replayed: that takes memory for both traces (docs/verify.md).
+constexpr std::uintmax_t replayed_bytes = 2'000'000;
 
 /// Tries the stream; nullopt: the whole-program path must do it.
 std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options,
-                                  const std::string& input) {
-  if (options.verify || options.annotate || options.names != nullptr || is_folder(a.output)) return std::nullopt;
+                                  const std::string& input, Proofs& proofs) {
+  if (options.annotate || options.names != nullptr || is_folder(a.output) || !a.report.empty()) return std::nullopt;
+  if (options.verify && options.strict) return std::nullopt;
   std::error_code ignored;
+  if (options.verify && fs::file_size(input, ignored) <= replayed_bytes) return std::nullopt;
   if (fs::equivalent(a.output, input, ignored)) return std::nullopt;
   ProgressLine progress(input);
   const auto tell = [&progress](double part) { progress(part); };
   const bool to_stdout = a.output.empty() || a.output == "-";
   std::string error;
+  translator::TranslateOptions with = options;
+  with.verify = false;
   translator::StreamResult result;
   if (to_stdout) {
     StdoutSink sink;
     if (!sink.good()) return std::nullopt;
     result = translator::translate_stream(
-        input, options, [&sink](std::string_view t) { return sink.write(t); }, tell);
+        input, with, [&sink](std::string_view t) { return sink.write(t); }, tell);
     const bool kept = result.outcome == translator::StreamOutcome::done;
     if (!(kept ? sink.commit() : sink.discard())) {
       not_written(a, "the standard output could not be written");
@@ -256,7 +293,7 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
     AtomicFile file(a.output);
     if (!file.open(&error)) return std::nullopt;
     result = translator::translate_stream(
-        input, options, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
+        input, with, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
     if (result.outcome == translator::StreamOutcome::done && !file.commit(&error)) {
       not_written(a, error);
       return refused;
@@ -265,6 +302,11 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
   if (result.outcome != translator::StreamOutcome::done) return std::nullopt;
   a.messages->add(result.diagnostics, result.files);
   if (!to_stdout) wrote(a, a.output);
+  if (options.verify) {
+    proofs.not_proved(input,
+                      "a file of more than 2 MB is translated line by line, and its moves are not kept for a "
+                      "comparison; --verify compares them, with memory for all of them");
+  }
   return ok;
 }
 
@@ -283,19 +325,21 @@ int convert(const Arguments& a) {
     why = output_conflict({{"-o", folder}, {"--report", a.report}, {"--names", a.names}}, machine_files(a));
   if (!why.empty()) return usage_error(a, why);
   translator::TranslateOptions options;
-  if (!translate_options(a, options)) return usage;
-  if (!a.report.empty())
-    options.verify = options.keep_traces = true;  // a report without its proof would be half of one
+  if (!proved_options(a, options)) return usage;
+  options.keep_traces = !a.report.empty();
   int status = ok;
   Job job(a.inputs);
   NamesFile names(a);
   if (!names.read()) return usage;
   if (!a.names.empty()) options.names = &names.map;
+  Proofs proofs(a);
   for (const auto& input : a.inputs) {
-    const auto streamed = convert_stream(a, options, input);
-    status = std::max(status, streamed ? *streamed : convert_whole(a, options, input, job, names.map));
+    const auto streamed = convert_stream(a, options, input, proofs);
+    status = std::max(status, streamed ? *streamed : convert_whole(a, options, input, job, names.map, proofs));
   }
-  return names.write() ? status : std::max<int>(status, refused);
+  if (!names.write()) status = std::max<int>(status, refused);
+  proofs.say();
+  return status;
 }
 
 }  // namespace cnctrans::cli

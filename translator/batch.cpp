@@ -71,7 +71,8 @@ std::string job_sum(const BatchOptions& o) {
   for (const auto& l : t.libraries) text += "|" + l;
   if (t.names != nullptr) text += "|" + names_text(*t.names, t.from, t.to);
   if (!t.origin) text += "|no origin";
-  if (t.explore != 0) text += "|explore " + std::to_string(t.explore);
+  text += fmt::format("|proof {} {} {} {} {}", t.verify, t.strict, t.further.skips, t.further.explore,
+                      t.further.time ? t.further.time->count() : 0);
   for (const auto& [name, value] : t.run.set) text += "|" + name + "=" + value;
   return sum_of(text + "|" + std::to_string(t.run.skip_mask) + "|" + std::to_string(t.run.max_steps));
 }
@@ -100,10 +101,10 @@ std::string first_error(const TranslateResult& result) {
   return {};
 }
 
-std::string status_of(const TranslateResult& result) {
+std::string status_of(const TranslateResult& result, bool readable) {
   if (!result.error.empty()) return "unreadable";
   if (result.refused) return "refused";
-  if (!result.verified) return "written";
+  if (!result.verified || !readable) return "written";
   switch (result.verdict.status) {
     case verifier::Status::verified: return "verified";
     case verifier::Status::within_tolerance: return "within tolerance";
@@ -128,7 +129,7 @@ class Batch {
       result.error = options_.in + " is not a folder";
     if (!result.error.empty()) return result;
     fs::create_directories(options_.out, ignored);
-    verify_ = readable(*to);
+    readable_ = readable(*to);
     const auto all = programs_below(options_.in, options_.out, *from);
     result.all = all.size();
     if (!options_.collect_only) work(all, result, progress);
@@ -232,7 +233,7 @@ class Batch {
   BatchRecord translate_one(const std::string& program) const {
     const fs::path in(options_.in);
     TranslateOptions t = options_.translate;
-    t.verify = verify_;
+    t.strict = t.strict && readable_;
     TranslateResult result;
     try {
       result = translate((in / program).string(), t);
@@ -240,7 +241,7 @@ class Batch {
       return failed(program, "crashed", "not enough memory for this program");
     }
     BatchRecord r = failed(program, "", {});
-    r.status = status_of(result);
+    r.status = status_of(result, readable_);
     r.lines = result.lines;
     r.moves = result.verdict.moves;
     r.max_length = result.verdict.max_length;
@@ -249,14 +250,14 @@ class Batch {
       r.detail = result.error;
     } else if (result.refused) {
       r.detail = first_error(result);
-    } else if (result.verified && !result.verdict.good()) {
-      r.detail = verifier::describe(result.verdict, result.files, result.target_files);
+    } else if (!result.verified || !result.verdict.good()) {
+      r.detail = proof_text(result, result.target_files);
     }
     r.detail = one_line(std::move(r.detail));
     for (FileId i = 1; i < result.files.size(); ++i) note_read(result.files.name(i), r);
     note_read((in / program).string(), r);
     for (const auto& machine : {t.machine, t.target_machine}) note_read(machine, r);
-    const bool bad = result.verified && !result.verdict.good() && r.status != "no motion";
+    const bool bad = result.held_back && r.status != "no motion";
     for (const auto& out : result.outputs) {
       const std::string name = bad ? out.name + ".unverified" : out.name;
       if (write_file(folder_of(program) / name, out.bytes)) r.outputs.push_back(name);
@@ -291,7 +292,7 @@ class Batch {
 
   const BatchOptions& options_;
   std::string job_;
-  bool verify_ = true;
+  bool readable_ = true;  ///< the target: what is written can be replayed
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace cnctrans::translator {
 
 struct BatchOptions {
-  TranslateOptions translate;      ///< for each program; verified whenever the target can be read back
+  TranslateOptions translate;      ///< for each program
   std::string in, out;             ///< folders
   unsigned jobs = 1;               ///< processes side by side, 1..
   unsigned shard = 1, shards = 1;  ///< this run takes every `shards`-th program, from number `shard` on (1..shards)
@@ -26,7 +26,7 @@ struct BatchOptions {
 struct BatchRecord {
   std::string program;      ///< path below the input folder, '/' between folders
   std::string status;       ///< one of batch_statuses()
-  std::string detail;       ///< reason, first difference or first error, one line
+  std::string detail;       ///< why it was not proved, first difference or first error, one line
   double max_length = 0;    ///< mm: the greatest distance of two end points that were taken as equal
   std::uint64_t moves = 0;  ///< compared
   std::uint64_t lines = 0;  ///< of the source
@@ -36,8 +36,9 @@ struct BatchRecord {
   std::string job;                                      ///< sum of the options and the version
 };
 
-/// The statuses in the order of the summary: "verified", "within tolerance", "written" (the target can't be read back),
-/// "no motion", "not replayable", "differs", "refused", "unreadable", "crashed", "timed out".
+/// The statuses in the order of the summary: "verified", "within tolerance", "written" (without a proof: none was asked
+/// for, or the target can't be read back), "no motion", "not replayable", "differs", "refused", "unreadable",
+/// "crashed", "timed out".
 const std::vector<std::string>& batch_statuses();
 
 struct BatchProgress {

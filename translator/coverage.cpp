@@ -17,7 +17,7 @@ bool acts(const ir::Statement& s) {
 
 }  // namespace
 
-verifier::Coverage coverage_of(const ir::Program& program, const std::vector<bool>& covered) {
+verifier::Coverage coverage_of(const ir::Program& program, const std::vector<bool>& covered, std::string also) {
   std::map<std::pair<FileId, std::uint32_t>, bool> lines;
   for (const auto& routine : program.routines) {
     ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
@@ -27,6 +27,7 @@ verifier::Coverage coverage_of(const ir::Program& program, const std::vector<boo
     });
   }
   verifier::Coverage c;
+  c.also = std::move(also);
   c.blocks = lines.size();
   if (!lines.empty()) c.main = lines.begin()->first.first;
   const std::pair<const std::pair<FileId, std::uint32_t>, bool>* before = nullptr;

@@ -1,6 +1,7 @@
 // Which lines of a program a run has carried out: a verification proves those and no others.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "ir/program.h"
@@ -9,7 +10,8 @@
 namespace cnctrans::translator {
 
 /// Lines that hold a block, an assignment, a jump, a call or a message, and how many of them `covered` (by
-/// Statement::id, from interpreter::Result) knows. Marks, declarations and program ends do not count.
-verifier::Coverage coverage_of(const ir::Program& program, const std::vector<bool>& covered);
+/// Statement::id, from interpreter::Result) knows. Marks, declarations and program ends do not count. `also`: inputs of
+/// a second replay.
+verifier::Coverage coverage_of(const ir::Program& program, const std::vector<bool>& covered, std::string also = {});
 
 }  // namespace cnctrans::translator

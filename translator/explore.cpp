@@ -52,17 +52,30 @@ const std::string* text_of(const ir::ExprPtr& e) {
 
 }  // namespace
 
+std::string plain_name(const std::string& name) {
+  std::string text = to_upper_ascii(name);
+  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+  return text;
+}
+
+std::uint16_t skip_switches(const ir::Program& program) {
+  unsigned mask = 0;
+  for (const auto& routine : program.routines)
+    ir::for_each_statement(routine.body, [&mask](const ir::Statement& s) { mask |= s.line.skip_mask; });
+  return static_cast<std::uint16_t>(mask);
+}
+
 Explorer::Explorer(const ir::Program& program, Inputs start, std::function<bool(const std::string&)> settable)
     : start_(std::move(start)),
       settable_([spaces = program.spaces, known = std::move(settable)](const std::string& name) {
         return !zeroed(spaces, name) && known(name);
       }) {
+  skips_ = skip_switches(program);
   for (const auto& routine : program.routines) {
     for (const auto& p : routine.parameters) defined_.insert(name_of(program, p.variable));
     ir::for_each_statement(routine.body, [&](const ir::Statement& s) { collect(program, routine, s); });
   }
   spread_values(program);
-  tried_.insert({start_.set, start_.skip_mask});
 }
 
 void Explorer::add_value(const std::string& variable, std::string value) {
@@ -121,7 +134,6 @@ void Explorer::branch(const ir::Program& program, const ir::Statement& s, const 
 }
 
 void Explorer::collect(const ir::Program& program, const ir::Routine& routine, const ir::Statement& s) {
-  skips_ = static_cast<std::uint16_t>(skips_ | s.line.skip_mask);
   const auto numbers = [&](const ir::ExprPtr& e) {
     for (const auto& v : variables_of(program, e)) {
       ir::for_each_statement(routine.body, [&](const ir::Statement& labelled) {
@@ -232,16 +244,18 @@ std::vector<std::string> Explorer::relevant() const {
 
 std::optional<Inputs> Explorer::next() {
   const auto fresh = [this](const Inputs& in) { return tried_.insert({in.set, in.skip_mask}).second; };
-  for (std::uint16_t bit = 1; bit != 0; bit = static_cast<std::uint16_t>(bit << 1)) {
-    if ((skips_ & bit) == 0 || (start_.skip_mask & bit) != 0) continue;
-    Inputs in = start_;
-    in.skip_mask = static_cast<std::uint16_t>(in.skip_mask | bit);
-    if (fresh(in)) return in;
+  const auto with_switches = [this](unsigned more) {
+    return Inputs{start_.set, static_cast<std::uint16_t>(start_.skip_mask | more)};
+  };
+  if (const Inputs all = with_switches(skips_); fresh(all)) return all;
+  for (unsigned bit = 1; bit <= skips_; bit <<= 1) {
+    if ((skips_ & bit) == 0) continue;
+    if (const Inputs one = with_switches(bit); fresh(one)) return one;
   }
   const auto variables = relevant();
   for (auto it = kept_.rbegin(); it != kept_.rend(); ++it) {
     for (const auto& name : variables) {
-      const auto given = [&name](const auto& s) { return iequals_ascii(s.first, name); };
+      const auto given = [&name](const auto& s) { return plain_name(s.first) == plain_name(name); };
       if (std::any_of(start_.set.begin(), start_.set.end(), given)) continue;
       for (const auto& value : known_.at(name).values) {
         Inputs in = *it;
@@ -256,6 +270,7 @@ std::optional<Inputs> Explorer::next() {
 
 void Explorer::note(const Inputs& inputs, const interpreter::Result& result) {
   ++replays_;
+  tried_.insert({inputs.set, inputs.skip_mask});
   bool news = kept_.empty();
   const auto size = std::max(result.covered.size(), result.outcomes.size());
   if (covered_.size() < size) covered_.resize(size);

@@ -22,6 +22,12 @@ struct Inputs {
   std::uint16_t skip_mask = 0;                           ///< block-skip switches that are on
 };
 
+/// A number may stand in brackets: PLCM12, PLCM[12].
+std::string plain_name(const std::string& name);
+
+/// Every block-skip switch that some block of the program asks.
+std::uint16_t skip_switches(const ir::Program& program);
+
 /// Proposes inputs one by one. Values come from the program: what its conditions compare with, one less and one more,
 /// numbers of labels where the label is computed, 0, 1 and -1; for the variables that a condition depends on, also
 /// through assignments and arguments.
@@ -32,7 +38,7 @@ class Explorer {
   Explorer(const ir::Program& program, Inputs start, std::function<bool(const std::string&)> settable);
   /// The next inputs to try, other than `start`; nullopt: nothing is left that could lead anywhere new.
   std::optional<Inputs> next();
-  /// A replay with `inputs` has run and counts.
+  /// A replay with `inputs` has run and counts; they are not proposed any more.
   void note(const Inputs& inputs, const interpreter::Result& result);
   /// Adds to `c` the replays, and the branches with those that none of them has taken.
   void report(verifier::Coverage& c) const;

@@ -41,7 +41,7 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
                       {options.run,
                        target_settings,
                        {},
-                       options.explore,
+                       options.further,
                        a.dialect().first_skip_switch,
                        !b.dialect().backend->capabilities_for(b.profile()).diameter_switch});
   result.verdict = std::move(proof.verdict);

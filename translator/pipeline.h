@@ -13,6 +13,7 @@
 #include "interpreter/interpreter.h"
 #include "ir/passes/legalise.h"
 #include "translator/loader.h"
+#include "translator/proof.h"
 #include "translator/registry.h"
 #include "verifier/compare.h"
 
@@ -53,10 +54,11 @@ struct TranslateOptions : InputOptions {
   backends::Numbering numbering = backends::Numbering::keep;
   std::int32_t number_step = 10;
   bool annotate = false;
-  bool origin = false;  ///< a remark at the head names the source's file and control
-  bool verify = false;
-  std::size_t explore = 0;      ///< with `verify`: most replays with other inputs
-  bool keep_traces = false;     ///< with `verify`: both traces stay in the result, for a report
+  bool origin = false;          ///< a remark at the head names the source's file and control
+  bool verify = false;          ///< a proof is made; then:
+  FurtherReplays further;       ///< beside the one of the program as written
+  bool strict = true;           ///< what can't be replayed is held back as well, not only what differs
+  bool keep_traces = false;     ///< both traces stay in the result, for a report
   bool single_output = false;   ///< everything in one file (standard output): as an archive where the target has one
   bool files_apart = false;     ///< called programs of other files go to files of their own, in every language
   std::set<std::string> taken;  ///< names that other translations of the job have: see backends::WriteOptions
@@ -77,14 +79,19 @@ struct OutputText {
   bool main = false;
 };
 
+/// The proof that a translation gets without being asked.
+void prove_as_usual(TranslateOptions& options);
+
 struct TranslateResult {
-  bool refused = false;  ///< nothing may be written
+  bool refused = false;    ///< nothing may be written
+  bool held_back = false;  ///< by the proof: the outputs may be looked at and not used
   std::vector<OutputText> outputs;
   Diagnostics diagnostics;
   FileTable files;
   bool verified = false;  ///< a verification ran
   verifier::Verdict verdict;
   FileTable target_files;                                      ///< of the verification
+  Diagnostics target_diagnostics;                              ///< why the translation could not be replayed
   std::vector<interpreter::Event> source_trace, target_trace;  ///< with `keep_traces`
   std::string source_machine, target_machine;                  ///< names of the profiles
   bool lathe = false;                                          ///< the source's machine is one
@@ -92,6 +99,10 @@ struct TranslateResult {
   ir::NameMap names;  ///< those that the translation has, given or chosen
   std::string error;  ///< could not even start (file missing, unknown dialect): usage
 };
+
+/// What the proof came to, in words; `targets`: the files of the verification under the names to tell. "not asked"
+/// where none was made, else it begins with "verified", "not verified" or "not proved: ".
+std::string proof_text(const TranslateResult& result, const FileTable& targets);
 
 /// Translates one program in memory, with what it calls.
 TranslateResult translate(const Input& input, const TranslateOptions& options);

@@ -16,6 +16,8 @@ using interpreter::EndReason;
 
 constexpr std::uint64_t explored_events = 1'000'000;  ///< most of one replay with other inputs
 constexpr std::uint64_t explored_silent_steps = 1'000'000;
+/// Where the time is short: so many times the work of the first replay, and this much in any case.
+constexpr std::uint64_t short_times = 4, short_events = 20'000, short_steps = 100'000;
 
 Replayed replay(const Side& side, interpreter::Options options) {
   Replayed r;
@@ -80,13 +82,6 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
   return verdict;
 }
 
-/// A number may stand in brackets: PLCM12, PLCM[12].
-std::string plain_name(const std::string& name) {
-  std::string text = to_upper_ascii(name);
-  std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
-  return text;
-}
-
 constexpr std::string_view tool_radius = "TOOL_RADIUS";  ///< machine datum of a run, no variable of the program
 
 class Prover {
@@ -95,44 +90,103 @@ class Prover {
       : source_(source), target_(target), options_(options) {}
 
   Proof run() {
-    Proof proof = with({options_.run.set, options_.run.skip_mask}, options_.run);
-    if (options_.explore == 0 || !proof.verdict.good()) {
-      proof.verdict.coverage = coverage_of(source_.program, proof.source.result.covered);
-      return proof;
-    }
-    Explorer explorer(source_.program, {options_.run.set, options_.run.skip_mask}, [this](const std::string& name) {
-      return !options_.target_settings({{name, "0"}}).empty();
-    });
-    explorer.note({options_.run.set, options_.run.skip_mask}, proof.source.result);
-    interpreter::Options run = options_.run;
-    run.max_events = std::min(run.max_events, explored_events);
-    run.max_silent_steps = std::min(run.max_silent_steps, explored_silent_steps);
-    for (std::size_t n = 0; n < options_.explore; ++n) {
-      const auto inputs = explorer.next();
-      if (!inputs) break;
-      Proof other = with(*inputs, run);
-      if (other.source.result.reason != EndReason::program_end) continue;
-      const auto status = other.verdict.status;
-      if (!other.verdict.good() && status != verifier::Status::nothing_to_compare) {
-        other.verdict.inputs = described(*inputs);
-        proof = std::move(other);
-        break;
-      }
-      add(proof.verdict, other.verdict);
-      explorer.note(*inputs, other.source.result);
-    }
-    proof.verdict.coverage = coverage_of(source_.program, explorer.covered());
-    explorer.report(proof.verdict.coverage);
+    const auto start = Clock::now();
+    runs_.push_back({{options_.run.set, options_.run.skip_mask}, {}});
+    Proof proof = *with(runs_.front().inputs, options_.run, true);
+    runs_.front().result = proof.source.result;
+    const auto took = Clock::now() - start;
+    if (proof.verdict.good() && options_.further.skips) proof = with_skips(std::move(proof));
+    const bool in_time = !options_.further.time || took < *options_.further.time;
+    if (proof.verdict.good() && options_.further.explore != 0 && in_time) return explore(std::move(proof));
+    proof.verdict.coverage = coverage_of(source_.program, covered_by(runs_), std::move(also_));
     return proof;
   }
 
  private:
-  Proof with(const Inputs& inputs, interpreter::Options run) const {
+  using Clock = std::chrono::steady_clock;
+  /// A replay that counts.
+  struct Run {
+    Inputs inputs;
+    interpreter::Result result;  ///< of the source
+  };
+
+  static std::vector<bool> covered_by(const std::vector<Run>& runs) {
+    std::vector<bool> covered;
+    for (const auto& run : runs) {
+      if (covered.size() < run.result.covered.size()) covered.resize(run.result.covered.size());
+      for (std::size_t i = 0; i < run.result.covered.size(); ++i) covered[i] = covered[i] || run.result.covered[i];
+    }
+    return covered;
+  }
+
+  /// The replay fails: neither the same moves nor none.
+  static bool fails(const verifier::Verdict& v) {
+    return !v.good() && v.status != verifier::Status::nothing_to_compare;
+  }
+  Proof failed(Proof proof, const Inputs& inputs) const {
+    proof.verdict.inputs = described(inputs);
+    return proof;
+  }
+
+  /// Once more with every switch on that the program uses. A source that can't run like that proves nothing.
+  Proof with_skips(Proof proof) {
+    Inputs inputs = runs_.front().inputs;
+    inputs.skip_mask = static_cast<std::uint16_t>(inputs.skip_mask | skip_switches(source_.program));
+    if (inputs.skip_mask == options_.run.skip_mask) return proof;
+    auto other = with(inputs, options_.run);
+    if (!other) return proof;
+    if (fails(other->verdict)) return failed(*std::move(other), inputs);
+    if (other->verdict.good()) {
+      also_ = described({{}, inputs.skip_mask});
+      add_distance(proof.verdict, other->verdict);
+    }
+    runs_.push_back({std::move(inputs), std::move(other->source.result)});
+    return proof;
+  }
+
+  Proof explore(Proof proof) const {
+    const auto start = Clock::now();
+    const auto& further = options_.further;
+    Explorer explorer(source_.program, runs_.front().inputs, [this](const std::string& name) {
+      return !options_.target_settings({{name, "0"}}).empty();
+    });
+    for (const auto& run : runs_) explorer.note(run.inputs, run.result);
+    interpreter::Options run = options_.run;
+    run.max_events = std::min(run.max_events, explored_events);
+    run.max_silent_steps = std::min(run.max_silent_steps, explored_silent_steps);
+    if (further.time) {
+      const auto& first = runs_.front().result;
+      run.max_events = std::min(run.max_events, std::max(short_events, short_times * first.events));
+      run.max_steps = std::min(run.max_steps, std::max(short_steps, short_times * first.steps));
+    }
+    for (std::size_t n = 0; n < further.explore; ++n) {
+      if (further.time && Clock::now() - start > *further.time) break;
+      const auto inputs = explorer.next();
+      if (!inputs) break;
+      auto other = with(*inputs, run);
+      if (!other) continue;
+      const verifier::Verdict& v = other->verdict;
+      if (further.time ? v.differs() : fails(v)) {
+        proof = failed(*std::move(other), *inputs);
+        break;
+      }
+      if (!further.time) add(proof.verdict, v);
+      explorer.note(*inputs, other->source.result);
+    }
+    const auto covered = further.time ? covered_by(runs_) : explorer.covered();
+    proof.verdict.coverage = coverage_of(source_.program, covered, also_);
+    if (!further.time) explorer.report(proof.verdict.coverage);
+    return proof;
+  }
+
+  /// nullopt: the source does not run to its end with these inputs, and `anyway` does not ask what comes of it.
+  std::optional<Proof> with(const Inputs& inputs, interpreter::Options run, bool anyway = false) const {
     const Settings set = with_shared_data(inputs.set);
     run.set = set;
     run.skip_mask = inputs.skip_mask;
     Proof p;
     p.source = replay(source_, run);
+    if (!anyway && p.source.result.reason != EndReason::program_end) return std::nullopt;
     run.set = options_.target_settings(set);
     for (const auto& [name, value] : inputs.set) {  // a tool belongs to both machines
       const auto same = [&n = name](const auto& s) { return s.first == n; };
@@ -157,14 +211,17 @@ class Prover {
     return set;
   }
 
+  static void add_distance(verifier::Verdict& sum, const verifier::Verdict& v) {
+    sum.max_length = std::max(sum.max_length, v.max_length);
+    if (v.status == verifier::Status::within_tolerance) sum.status = v.status;
+  }
   static void add(verifier::Verdict& sum, const verifier::Verdict& v) {
     if (!v.good()) return;  // moved nothing
     sum.events += v.events;
     sum.moves += v.moves;
     sum.unfed_moves += v.unfed_moves;
     sum.similar_cycles += v.similar_cycles;
-    sum.max_length = std::max(sum.max_length, v.max_length);
-    if (v.status == verifier::Status::within_tolerance) sum.status = v.status;
+    add_distance(sum, v);
   }
 
   [[nodiscard]] std::string described(const Inputs& inputs) const {
@@ -182,6 +239,8 @@ class Prover {
   const Side& source_;
   const Side& target_;
   const ProofOptions& options_;
+  std::vector<Run> runs_;  ///< those that are always made: as written, with the switches on
+  std::string also_;       ///< inputs of the second one that agreed
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Replays a program and its translation and compares the two: once, or with one set of inputs after the other.
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,13 +27,23 @@ struct Side {
   Loader& loader;
 };
 
+/// Replays behind the first one, which takes the program as it is written.
+struct FurtherReplays {
+  bool skips = false;       ///< one with every block-skip switch on that the program uses
+  std::size_t explore = 0;  ///< most replays with other inputs; this one is the first of them
+  /// Exploring ends after this time. What it comes to depends on the computer then: only a difference is told.
+  std::optional<std::chrono::milliseconds> time;
+};
+/// What a translation gets without being asked.
+inline constexpr FurtherReplays usual_replays{true, 20, std::chrono::milliseconds(100)};
+
 struct ProofOptions {
   interpreter::Options run;  ///< of the first replay, with the names of the source
   std::function<Settings(const Settings&)> target_settings;
   /// Machine data that the map of names places on the target, under the source's names: both replays read the same
   /// values of them.
   std::vector<std::string> shared_data;
-  std::size_t explore = 0;    ///< most replays with other inputs; 0: only the first replay
+  FurtherReplays further;
   int first_skip_switch = 0;  ///< number of the first block-skip switch on the source's control
   /// The target's language can't switch between radius and diameter: its programs are always in the mode of its
   /// machine.

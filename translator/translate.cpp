@@ -141,6 +141,7 @@ class Translation {
   ir::Program work_;    ///< as the passes get it
   ir::LegaliseReport names_;
   std::optional<ReadBack> back_;
+  bool left_out_ = false;  ///< there were errors, written over as asked
 };
 
 bool Translation::open(const Input& input) {
@@ -267,6 +268,7 @@ bool Translation::look_back() {
   }
   (void)names_differ(result_.outputs, result_.diagnostics);
   if (refused()) return false;
+  left_out_ = result_.diagnostics.has_errors();
   result_.diagnostics = as_warnings(result_.diagnostics);  // written all the same, as asked
   return true;
 }
@@ -276,6 +278,12 @@ void Translation::prove() {
   if (!back_) {
     result_.verdict.status = verifier::Status::not_replayable;
     result_.verdict.reason = std::string(to_->title) + ": nothing here reads the translation back";
+    result_.held_back = options_.strict;
+    return;
+  }
+  if (left_out_ && !options_.strict) {
+    result_.verdict.status = verifier::Status::not_replayable;
+    result_.verdict.reason = "what --unsupported leaves out is missing in the translation";
     return;
   }
   const auto target_settings = [this](const Settings& set) {
@@ -284,10 +292,11 @@ void Translation::prove() {
   const auto given_data = same_language() ? std::vector<std::string>{} : ir::passes::given_data(names_);
   Proof proof = translator::prove(
       {source_, reading_.profile(), reading_.loader()}, {back_->program, *target_profile_, back_->loader},
-      {options_.run, target_settings, given_data, options_.explore, reading_.dialect().first_skip_switch,
+      {options_.run, target_settings, given_data, options_.further, reading_.dialect().first_skip_switch,
        !to_->backend->capabilities_for(*target_profile_).diameter_switch});
   result_.verdict = std::move(proof.verdict);
-  if (const auto twice = shared_name(back_->program); !twice.empty()) {
+  const auto twice = shared_name(back_->program);
+  if (!twice.empty()) {
     result_.verdict.status = verifier::Status::not_replayable;
     result_.verdict.reason = "two programs of the translation have the same name: " + twice;
   }
@@ -297,16 +306,30 @@ void Translation::prove() {
     result_.target_trace = std::move(proof.target.events);
   }
   if (result_.verdict.good()) return;
-  for (const auto& d : proof.source.diagnostics.all()) {
+  result_.held_back = options_.strict || result_.verdict.differs() || !twice.empty();
+  const auto weighed = [this](const Diagnostics& said) { return result_.held_back ? said : as_warnings(said); };
+  const Diagnostics running = weighed(proof.source.diagnostics);
+  for (const auto& d : running.all()) {
     const auto& said = result_.diagnostics.all();
     if (std::find(said.begin(), said.end(), d) == said.end()) result_.diagnostics.add(d);
   }
   back_->diagnostics.append(proof.target.diagnostics);
-  if (back_->diagnostics.has_errors())
-    result_.verdict.reason += "\n" + render_text(back_->diagnostics, result_.target_files);
+  if (back_->diagnostics.has_errors()) result_.target_diagnostics = weighed(back_->diagnostics);
 }
 
 }  // namespace
+
+void prove_as_usual(TranslateOptions& options) {
+  options.verify = true;
+  options.strict = false;
+  options.further = usual_replays;
+}
+
+std::string proof_text(const TranslateResult& result, const FileTable& targets) {
+  if (!result.verified) return "not asked";
+  const bool told = result.verdict.good() || result.held_back;
+  return told ? verifier::describe(result.verdict, result.files, targets) : verifier::not_proved(result.verdict);
+}
 
 TranslateResult translate(const Input& input, const TranslateOptions& options) {
   TranslateResult result;

@@ -68,6 +68,7 @@ struct Coverage {
     std::uint32_t line = 0;
     bool always = false;  ///< it always held; else never
   };
+  std::string also;                      ///< inputs of a second replay that agreed too; empty: there was none
   bool explored = false;                 ///< more than one replay was looked for; then:
   std::size_t replays = 1;               ///< that were compared
   std::size_t ways = 0, ways_taken = 0;  ///< of conditions: each can hold or not
@@ -89,6 +90,8 @@ struct Verdict {
   /// With not_replayable: the source ran to its end, the translation moved and did not.
   bool target_stopped = false;
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }
+  /// The translation does otherwise than the source. Neither good nor this: nothing is known.
+  [[nodiscard]] bool differs() const { return status == Status::differs || target_stopped; }
 };
 
 /// Aligns and compares. Normalised first: a linear or rapid move split in collinear parts with the same feed is one
@@ -100,6 +103,8 @@ Verdict compare(const std::vector<interpreter::Event>& source, const std::vector
 
 /// Text for people: status line, and with a difference both source lines.
 std::string describe(const Verdict& verdict, const FileTable& source_files, const FileTable& target_files);
+/// In one line why neither sameness nor a difference was found: "not proved: the program moves nothing".
+std::string not_proved(const Verdict& verdict);
 std::string_view name(Status s);
 
 }  // namespace cnctrans::verifier

@@ -63,6 +63,15 @@ std::string not_replayed(const Coverage& c, const FileTable& files) {
   return fmt::format("; {} of {} lines were not reached ({})", c.blocks - c.replayed, c.blocks, lines);
 }
 
+std::string also_with(const Coverage& c) {
+  return c.also.empty() ? std::string() : "; also with " + c.also;
+}
+
+std::string why_nothing(const Verdict& v) {
+  if (v.status == Status::nothing_to_compare) return "the program moves nothing, so there is nothing to compare";
+  return v.reason;
+}
+
 std::string started_with(const Verdict& v) {
   return v.inputs.empty() ? std::string() : " with " + v.inputs;
 }
@@ -90,17 +99,25 @@ std::string_view name(Status s) {
   return status_names[static_cast<std::size_t>(s)];
 }
 
+std::string not_proved(const Verdict& v) {
+  std::string why = why_nothing(v);
+  std::replace_if(
+      why.begin(), why.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return "not proved" + started_with(v) + ": " + why;
+}
+
 std::string describe(const Verdict& v, const FileTable& source_files, const FileTable& target_files) {
   switch (v.status) {
     case Status::verified:
-      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + by_radius(v) +
-             without_feed(v) + not_replayed(v.coverage, source_files) + explored(v.coverage, source_files);
-    case Status::within_tolerance:
-      return fmt::format("verified: {} events, {} moves, {}", v.events, v.moves, apart(v)) + by_contour(v) +
+      return fmt::format("verified: {} events, {} moves, all equal", v.events, v.moves) + also_with(v.coverage) +
              by_radius(v) + without_feed(v) + not_replayed(v.coverage, source_files) +
              explored(v.coverage, source_files);
-    case Status::nothing_to_compare: return "not verified: the program moves nothing, so there is nothing to compare";
-    case Status::not_replayable: return "not verified" + started_with(v) + ": " + v.reason;
+    case Status::within_tolerance:
+      return fmt::format("verified: {} events, {} moves, {}", v.events, v.moves, apart(v)) + also_with(v.coverage) +
+             by_contour(v) + by_radius(v) + without_feed(v) + not_replayed(v.coverage, source_files) +
+             explored(v.coverage, source_files);
+    case Status::nothing_to_compare:
+    case Status::not_replayable: return "not verified" + started_with(v) + ": " + why_nothing(v);
     case Status::differs: break;
   }
   const auto& d = v.difference;
@@ -109,7 +126,6 @@ std::string describe(const Verdict& v, const FileTable& source_files, const File
                       source_line_text(source_files, d.source_file, d.source_line));
   text += fmt::format("\n  translation {}:{}: {}", target_files.name(d.target_file), d.target_line,
                       source_line_text(target_files, d.target_file, d.target_line));
-  if (!v.reason.empty()) text += "\n" + v.reason;
   return text;
 }
 

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   cnctrans::api::TranslateOptions options;
   options.from = "fagor";
   options.to = argv[2];
-  options.verify = true;
+  options.verify = true;  // what can't be proved is not taken either
   options.one_file = true;
   const std::string path = argv[1];
   const auto result = cnctrans::api::translate(cnctrans::api::text(path.substr(path.rfind('/') + 1), made), options);

@@ -99,9 +99,12 @@ struct TranslateOptions : Options {
   bool raise_structure = false;  ///< jumps become structures where that is provably the same
   bool annotate = false;         ///< each line gets its source line as a comment
   bool origin = false;           ///< a remark at the head names the source's file and control
-  bool verify = false;           ///< replay both and compare
-  unsigned explore = 0;          ///< with `verify`: most replays with other inputs
-  bool one_file = false;         ///< called programs come in the main program's file
+  /// Replay both and compare: as written, with the block-skip switches on, and shortly with other inputs. What differs
+  /// gets Status::differs; what can't be replayed is `ok`, and the verdict says "not proved: " and why.
+  bool prove = true;
+  bool verify = false;    ///< prove, and what can't be replayed gets Status::refused (its outputs are there)
+  unsigned explore = 0;   ///< as `verify`, with so many replays at most with other inputs
+  bool one_file = false;  ///< called programs come in the main program's file
   Encoding encoding = Encoding::as_source;
   LineEnd line_end = LineEnd::as_source;
 };
@@ -122,7 +125,8 @@ struct Verdict {
   std::uint64_t events = 0, moves = 0;   ///< that were compared
   double max_length = 0;                 ///< largest difference of an end point, mm
   std::size_t blocks = 0, replayed = 0;  ///< of the source, that do something, and that the replay came to
-  std::string text;                      ///< as the command prints it
+  /// As the command prints it: "verified: ...", "not verified: ...", "not proved: ...".
+  std::string text;
   [[nodiscard]] bool good() const { return result == Result::verified || result == Result::within_tolerance; }
 };
 
@@ -131,7 +135,7 @@ struct Translation {
   std::string error;            ///< with Status::usage
   std::vector<Output> outputs;  ///< the main program first. There also where the verdict is bad: not to be cut with
   std::vector<Diagnostic> diagnostics;
-  std::optional<Verdict> verdict;  ///< with `verify`
+  std::optional<Verdict> verdict;  ///< empty: no proof was asked for
   std::string source_machine, target_machine;
 };
 CNCTRANS_API Translation translate(const Program& program, const TranslateOptions& options);

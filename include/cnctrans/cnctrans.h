@@ -35,8 +35,9 @@ CNCTRANS_API cnctrans_job* cnctrans_job_new(void);
 CNCTRANS_API void cnctrans_job_free(cnctrans_job* job);
 /* An option under its name on the command line without the dashes: "from", "to", "dialect", "machine",
  * "target-machine", "lib", "set" (NAME=VALUE), "skip" (0,3), "unsupported", "numbering", "number-step", "cycles",
- * "structure", "annotate" (1 or 0), "origin" (1 or 0), "verify", "explore" (most replays), "one-file", "encoding",
- * "eol", "max-events".
+ * "structure", "annotate" (1 or 0), "origin" (1 or 0), "verify" (1: what can't be replayed is refused; 0: as
+ * "no-verify"), "no-verify" (1: without a proof), "explore" (most replays), "one-file", "encoding", "eol",
+ * "max-events".
  * "lib" and "set" add, the others replace. CNCTRANS_USAGE: there is no such option, or it does not take this value. */
 CNCTRANS_API cnctrans_status cnctrans_job_set(cnctrans_job* job, const char* option, const char* value);
 /* A program in memory that may be called; `name` as a file's. */
@@ -60,7 +61,8 @@ CNCTRANS_API void cnctrans_result_free(cnctrans_result* result);
 CNCTRANS_API cnctrans_status cnctrans_result_status(const cnctrans_result* result);
 /* With CNCTRANS_USAGE: what is wrong. Else empty. */
 CNCTRANS_API const char* cnctrans_result_error(const cnctrans_result* result);
-/* Of a comparison or a translation with "verify", as the command prints it. Else empty. */
+/* Of a comparison or a translation, as the command prints it: "verified: ...", "not verified: ...", "not proved:
+ * ...". Empty: no proof was asked for, or nothing was translated. */
 CNCTRANS_API const char* cnctrans_result_verdict(const cnctrans_result* result);
 
 /* The programs of a translation, the main program first. There also where the status is CNCTRANS_DIFFERS: not to be

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cnctrans/api.h"
@@ -78,6 +79,33 @@ TEST(Api, ATextHasNoFolder) {
   ASSERT_FALSE(done.diagnostics.empty());
   EXPECT_EQ(done.diagnostics.front().place.line, 2U);
   EXPECT_THAT(done.diagnostics.front().shown, HasSubstr("(CALL 7)"));
+}
+
+TEST(Api, ProvesUnlessToldOtherwise) {
+  api::TranslateOptions options;
+  options.from = "fagor";
+  options.to = "num";
+  const api::Program moves = api::text("a.pim", "G1 X10 F100\nM30\n"),
+                     fails = api::text("b.pim", "G1 X10 F100\n(P100=1/0)\nM30\n");
+  const auto proved = api::translate(moves, options);
+  ASSERT_TRUE(proved.verdict);
+  EXPECT_THAT(proved.verdict->text, testing::StartsWith("verified: "));
+
+  const auto open = api::translate(fails, options);
+  EXPECT_EQ(open.status, api::Status::ok);
+  ASSERT_TRUE(open.verdict);
+  EXPECT_EQ(open.verdict->result, api::Verdict::Result::not_replayable);
+  EXPECT_THAT(open.verdict->text, testing::StartsWith("not proved: the source stopped"));
+  for (const auto& d : open.diagnostics) EXPECT_NE(d.severity, api::Severity::error) << d.shown;
+
+  options.verify = true;
+  const auto asked = api::translate(fails, options);
+  EXPECT_EQ(asked.status, api::Status::refused);
+  EXPECT_THAT(asked.outputs, SizeIs(1));
+  EXPECT_THAT(asked.verdict->text, testing::StartsWith("not verified: the source stopped"));
+
+  options.verify = options.prove = false;
+  EXPECT_FALSE(api::translate(moves, options).verdict);
 }
 
 TEST(Api, UsageErrorsAreNamed) {
@@ -230,6 +258,26 @@ TEST(CApi, RunsAndTellsWhatIsWrong) {
   EXPECT_STREQ(d.file, "bad.pim");
   EXPECT_EQ(d.severity, CNCTRANS_ERROR);
   EXPECT_EQ(cnctrans_result_diagnostic(bad.result, 1000, &d), 0);
+}
+
+TEST(CApi, ProvesUnlessToldOtherwise) {
+  const std::string fails = "G1 X10 F100\n(P100=1/0)\nM30\n";
+  const auto told = [&fails](const char* option, const char* value) {
+    Job j;
+    EXPECT_EQ(cnctrans_job_set(j.job, "from", "fagor"), CNCTRANS_OK);
+    EXPECT_EQ(cnctrans_job_set(j.job, "to", "num"), CNCTRANS_OK);
+    if (option != nullptr) EXPECT_EQ(cnctrans_job_set(j.job, option, value), CNCTRANS_OK);
+    const Result r(cnctrans_translate(j.job, "a.pim", fails.data(), fails.size()));
+    return std::pair(cnctrans_result_status(r.result), std::string(cnctrans_result_verdict(r.result)));
+  };
+  EXPECT_EQ(told(nullptr, nullptr).first, CNCTRANS_OK);
+  EXPECT_THAT(told(nullptr, nullptr).second, testing::StartsWith("not proved: "));
+  EXPECT_EQ(told("verify", "1").first, CNCTRANS_REFUSED);
+  EXPECT_THAT(told("verify", "1").second, testing::StartsWith("not verified: "));
+  EXPECT_EQ(told("explore", "5").first, CNCTRANS_REFUSED);
+  EXPECT_EQ(told("verify", "0"), std::pair(CNCTRANS_OK, std::string()));
+  EXPECT_EQ(told("no-verify", "1"), std::pair(CNCTRANS_OK, std::string()));
+  EXPECT_EQ(told("no-verify", "0").second, told(nullptr, nullptr).second);
 }
 
 TEST(CApi, NullIsNoCrash) {

@@ -74,8 +74,9 @@ bool take(const TranslateOptions& given, house::TranslateOptions& out, std::stri
   out.raise_structure = given.raise_structure;
   out.annotate = given.annotate;
   out.origin = given.origin;
-  out.verify = given.verify || given.explore != 0;
-  out.explore = given.explore;
+  if (given.prove || given.verify || given.explore != 0) house::prove_as_usual(out);
+  out.strict = given.verify || given.explore != 0;
+  if (given.explore != 0) out.further = {false, given.explore, {}};
   out.single_output = given.one_file;
   out.encoding = house_word(given.encoding);
   out.eol = house_word(given.line_end);

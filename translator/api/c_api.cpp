@@ -17,6 +17,7 @@ namespace api = cnctrans::api;
 namespace house = cnctrans::translator;
 
 struct cnctrans_job {
+  cnctrans_job() { house::prove_as_usual(options); }
   house::TranslateOptions options;
   std::string dialect;
   std::string skips;
@@ -75,13 +76,22 @@ constexpr std::array free_options{
                }},
     FreeOption{"origin", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.origin); }},
     FreeOption{"annotate", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.annotate); }},
-    FreeOption{"verify", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.verify); }},
+    FreeOption{"verify",
+               [](cnctrans_job& j, std::string_view v) {
+                 return on_off(v, j.options.strict) && ((j.options.verify = j.options.strict), true);
+               }},
+    FreeOption{"no-verify",
+               [](cnctrans_job& j, std::string_view v) {
+                 bool none = false;
+                 return on_off(v, none) && ((j.options.verify = !none), true);
+               }},
     FreeOption{"one-file", [](cnctrans_job& j, std::string_view v) { return on_off(v, j.options.single_output); }},
     FreeOption{"explore",
                [](cnctrans_job& j, std::string_view v) {
                  std::uint64_t replays = 0;
                  if (!whole_number(v, replays)) return false;
-                 j.options.explore = replays;
+                 j.options.further = replays != 0 ? house::FurtherReplays{false, replays, {}} : house::usual_replays;
+                 j.options.strict = j.options.strict || replays != 0;
                  j.options.verify = j.options.verify || replays != 0;
                  return true;
                }},
@@ -91,6 +101,7 @@ constexpr std::array free_options{
 /// The job's options for a call, with what depends on the program's language. A null job has none.
 house::TranslateOptions options_of(const cnctrans_job* job) {
   house::TranslateOptions with;
+  house::prove_as_usual(with);
   with.run.max_events = house::kept_events;
   if (job == nullptr) return with;
   with = job->options;

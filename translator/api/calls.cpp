@@ -99,6 +99,7 @@ api::Translation translate_for(const Input& input, const TranslateOptions& optio
       return;
     }
     add_diagnostics(out.diagnostics, done.diagnostics, done.files);
+    add_diagnostics(out.diagnostics, done.target_diagnostics, done.target_files);
     out.source_machine = std::move(done.source_machine);
     out.target_machine = std::move(done.target_machine);
     out.status = done.refused ? api::Status::refused : api::Status::ok;
@@ -109,7 +110,8 @@ api::Translation translate_for(const Input& input, const TranslateOptions& optio
     }
     if (!done.verified) return;
     out.verdict = verdict_of(done.verdict, done.files, done.target_files);
-    out.status = status_of(done.verdict);
+    out.verdict->text = proof_text(done, done.target_files);
+    if (done.held_back) out.status = status_of(done.verdict);
   });
 }
 

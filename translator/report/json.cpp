@@ -127,11 +127,17 @@ std::string report_sarif(const Report& r) {
       result["locations"] = Json::array({sarif_place(r.sources[r.differs_source->file].name, r.differs_source->line)});
     results.push_back(std::move(result));
   }
+  if (r.verdict_text.starts_with("not proved")) {
+    rule("VER-002");
+    results.push_back(sarif_result("VER-002", "warning", to_utf8(r.verdict_text)));
+  }
   const Json tool{{"driver", {{"name", "cnctrans"}, {"version", version}, {"rules", std::move(rules)}}}};
-  const Json log{
-      {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
-      {"version", "2.1.0"},
-      {"runs", Json::array({{{"tool", tool}, {"columnKind", "utf16CodeUnits"}, {"results", std::move(results)}}})}};
+  const Json log{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+                 {"version", "2.1.0"},
+                 {"runs", Json::array({{{"tool", tool},
+                                        {"columnKind", "utf16CodeUnits"},
+                                        {"properties", {{"verdict", r.verdict}, {"text", to_utf8(r.verdict_text)}}},
+                                        {"results", std::move(results)}}})}};
   return dump(log, 1) + "\n";
 }
 

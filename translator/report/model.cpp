@@ -182,11 +182,11 @@ Report make_report(const std::string& path, const TranslateOptions& options, con
   for (std::size_t i = 0; i < std::min(written.size(), r.targets.size()); ++i) r.targets[i].name = to_utf8(written[i]);
   link_lines(r, result, source_index);
   mark_diagnostics(r, source_index);
-  r.verdict = result.refused ? "refused" : "not verified";
+  r.verdict = result.refused ? "refused" : "not asked";
+  if (!result.refused) r.verdict_text = proof_text(result, result.target_files);
   if (result.verified) {
     const auto& v = result.verdict;
     r.verdict = verifier::name(v.status);
-    r.verdict_text = verifier::describe(v, result.files, result.target_files);
     r.events = v.events;
     r.moves = v.moves;
     r.max_length = v.max_length;

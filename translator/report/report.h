@@ -52,7 +52,7 @@ struct Report {
   std::string source_machine, target_machine;
   bool lathe = false;
   bool refused = false;
-  std::string verdict;       ///< a name of verifier::Status, or "refused"
+  std::string verdict;       ///< a name of verifier::Status, "not asked", or "refused"
   std::string verdict_text;  ///< for people
   std::uint64_t events = 0, moves = 0;
   double max_length = 0;                 ///< mm

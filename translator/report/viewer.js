@@ -298,7 +298,7 @@
   function head() {
     var verdict = byId('verdict'), v = data.verdict;
     verdict.textContent = data.refused ? 'Refused: nothing is written.' : (v.text || v.status);
-    verdict.className = /^verified|^within/.test(v.status) ? 'good' : 'bad';
+    verdict.className = /^verified/.test(v.status) ? 'good' : /^not (asked|proved)/.test(v.text) ? 'open' : 'bad';
     byId('source-title').textContent = data.from + ' (' + data.machine + ')';
     byId('target-title').textContent = data.to + ' (' + data.target_machine + ')';
     Object.keys(data.lines).forEach(function (status) {
