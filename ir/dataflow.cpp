@@ -92,7 +92,7 @@ class Analysis {
       if (callee.known) modal_targets_.push_back(callee.routine);
       modal_unknown_ |= !callee.known;
     }
-    framed_ = framed_axes(program_, power_on_);
+    framed_ = frame_reach(program_, power_on_);
     probes_ = probes(cycles_);
     find_changes();
   }
@@ -449,7 +449,7 @@ class Analysis {
   std::vector<std::size_t> modal_targets_;
   CyclesUsed cycles_;
   std::array<Facts, 4> probes_;
-  std::uint32_t framed_ = ~0U;
+  FrameReach framed_;
   bool modal_unknown_ = false;
   bool chooses_spindles_ = false;  ///< some block has a MasterSpindle
 };

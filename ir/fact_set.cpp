@@ -57,7 +57,7 @@ std::array<Facts, 4> probes(const CyclesUsed& cycles) {
   return all;
 }
 
-FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, std::uint32_t framed) {
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, const FrameReach& framed) {
   FactSet set;
   for (const Facts& before : states) {
     Facts after = before;
@@ -67,7 +67,18 @@ FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, std::
   return set;
 }
 
-std::uint32_t framed_axes(const Program& program, const ModalState& power_on) {
+namespace {
+
+/// The two axes that a rotation about a named one turns; nullopt: it is no such rotation.
+std::optional<std::uint32_t> turned_by(const FrameChange& c) {
+  constexpr std::uint32_t space = 1U << axis::x | 1U << axis::y | 1U << axis::z;
+  if (c.kind != FrameKind::rotate || !c.has_angle || c.rotation_axis > axis::z) return std::nullopt;
+  return space & ~(1U << c.rotation_axis);
+}
+
+}  // namespace
+
+FrameReach frame_reach(const Program& program, const ModalState& power_on) {
   constexpr std::uint32_t all = ~0U;
   std::uint32_t axes = 0, planes = 0;
   bool turns = false;
@@ -77,8 +88,11 @@ std::uint32_t framed_axes(const Program& program, const ModalState& power_on) {
   };
   const auto note = [&](const FrameChange& c) {
     if (c.combine == FrameCombine::preset) return;  // says where the tool is
+    if (c.combine == FrameCombine::clear) return;   // takes back what other statements have set
     if (c.kind == FrameKind::rotate && c.rotation_axis == axis::none && c.has_angle) {
       turns = true;
+    } else if (const auto across = turned_by(c)) {
+      axes |= *across;
     } else if (c.kind == FrameKind::rotate || (c.kind == FrameKind::scale && c.uniform_scale)) {
       axes = all;
     } else {
@@ -97,7 +111,7 @@ std::uint32_t framed_axes(const Program& program, const ModalState& power_on) {
       }
     });
   }
-  return turns ? axes | planes : axes;
+  return {turns ? axes | planes : axes, power_on.work_offset != 0};
 }
 
 }  // namespace cnctrans::ir::detail

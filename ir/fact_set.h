@@ -25,10 +25,16 @@ struct CyclesUsed {
   bool other_than_holes = false;
 };
 
-/// Bit n: some frame statement of the program can move coordinates of axis n.
-std::uint32_t framed_axes(const Program& program, const ModalState& power_on);
+/// What the frame statements of a program reach.
+struct FrameReach {
+  std::uint32_t axes = ~0U;  ///< bit n: one of them can move coordinates of axis n
+  /// A preset is part of the work offset, which this machine has in force from the beginning: while the offsets are
+  /// off, it says nothing of where the tool is.
+  bool presets_by_offset = false;
+};
+FrameReach frame_reach(const Program& program, const ModalState& power_on);
 /// ir::apply() in a program where frame statements reach these axes only.
-void apply(const Statement& statement, Facts& facts, std::uint32_t framed);
+void apply(const Statement& statement, Facts& facts, const FrameReach& framed);
 
 /// Which facts differ.
 FactSet differing(const Facts& a, const Facts& b);
@@ -37,6 +43,6 @@ void take(Facts& facts, const Facts& from, const FactSet& set);
 /// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
 std::array<Facts, 4> probes(const CyclesUsed& cycles);
 /// What a statement can change, carried out under any of these states.
-FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, std::uint32_t framed);
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, const FrameReach& framed);
 
 }  // namespace cnctrans::ir::detail

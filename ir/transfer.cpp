@@ -27,7 +27,7 @@ MotionKind left_in_force(MotionKind k) {
 
 class Transfer {
  public:
-  explicit Transfer(Facts& facts, std::uint32_t framed = ~0U, std::uint32_t id = 0)
+  explicit Transfer(Facts& facts, const detail::FrameReach& framed = {}, std::uint32_t id = 0)
       : f_(facts), framed_(framed), id_(id) {}
 
   void block(const Block& b) {
@@ -102,11 +102,14 @@ class Transfer {
   void operator()(const FrameOp& x) {
     if (!x.change || x.change->combine != FrameCombine::preset) {
       for (std::size_t i = 0; i < f_.position.size(); ++i) {
-        if ((framed_ >> i & 1U) != 0) f_.position[i].reset();
+        if ((framed_.axes >> i & 1U) != 0) f_.position[i].reset();
       }
       return;
     }
-    for (const auto& w : x.change->words) set_position(w.axis, resolved(w.axis, w.scale, true, known(w.value)));
+    if (framed_.presets_by_offset && f_.work_offset == 0) return;
+    const bool in_force = f_.work_offset.has_value() || !framed_.presets_by_offset;
+    for (const auto& w : x.change->words)
+      set_position(w.axis, !in_force ? std::nullopt : resolved(w.axis, w.scale, true, known(w.value)));
   }
   void operator()(const CycleDefine& x) {
     const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
@@ -357,7 +360,8 @@ class Transfer {
   }
 
   Facts& f_;
-  std::uint32_t framed_, id_;
+  detail::FrameReach framed_;
+  std::uint32_t id_;
   std::optional<double> left_at_;  ///< height after the hole of this block
   bool stays_ = false;             ///< the hole of this block ends where it began
   const NamedCycle* machining_ = nullptr;
@@ -404,10 +408,10 @@ void Facts::forget() {
 }
 
 void apply(const Statement& statement, Facts& facts) {
-  detail::apply(statement, facts, ~0U);
+  detail::apply(statement, facts, {});
 }
 
-void detail::apply(const Statement& statement, Facts& facts, std::uint32_t framed) {
+void detail::apply(const Statement& statement, Facts& facts, const FrameReach& framed) {
   if (const auto* b = std::get_if<Block>(&statement.node)) {
     Transfer(facts, framed, statement.id).block(*b);
     if (facts.modal_call != 0 && b->has_motion && b->motion.moves()) facts.forget();

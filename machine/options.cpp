@@ -105,6 +105,8 @@ constexpr std::array specs{
     OptionSpec{
         "frame.preset", "own|with_work_offset", "own",
         "a preset of the zero point stands by itself, or belongs to the work offset and is out of force with it"},
+    OptionSpec{"frame.preset_outlasts", "no|yes", "no",
+               "a preset of the zero point is written into the datum table: it holds on behind the end of the program"},
     OptionSpec{"frame.rotation_centre", "as_written|scaled_and_mirrored", "as_written",
                "whether the centre of a rotation goes through scale and mirror"},
     OptionSpec{"compare.equal_within", "number", "0",

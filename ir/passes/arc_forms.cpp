@@ -1,51 +1,9 @@
-// Arcs by radius, through a point, by angle, with pitch or turns, and the ones that rounding would close.
+// Arcs by radius, through a point, by angle, with pitch or turns.
 #include "ir/passes/arc_pass.h"
 
 namespace cnctrans::ir::passes {
 
 using namespace geometry;
-
-void ArcPass::tiny(Arc& arc) {
-  const auto units = setting_in<Units>(arc.b, arc.facts, Setting::units);
-  const int places = units == Units::inch ? context_.target.word_decimals_inch : context_.target.word_decimals;
-  if (!known(arc.start) || !known(arc.end) || arc.b.motion.extra) return;
-  const Vec a = point(arc.start), b = point(arc.end);
-  const double chord = std::hypot(b.u - a.u, b.v - a.v), place = std::pow(10, -places);
-  if (a.u == b.u && a.v == b.v) return;
-  const auto angle = partial_angle(arc);
-  Motion& m = arc.b.motion;
-  const auto same = [&](AxisId axis, double from, double to) {
-    const auto word =
-        std::find_if(m.coords.begin(), m.coords.end(), [axis](const CoordWord& c) { return c.axis == axis; });
-    if (word == m.coords.end()) return true;
-    if (distance_of(*word, arc.b, arc.facts) == Distance::incremental) return std::fabs(to - from) < 0.5 * place;
-    return rounded(from, places) == rounded(to, places);
-  };
-  if (m.radius_given && m.radius.literal() && m.radius.number < 0 && arc.ccw) {
-    // Nearly a full circle by its radius: rounding turns the chord, and the centre with it.
-    constexpr double centre_tolerance = 0.002;
-    const auto fits = [place](double v) { return std::fabs(v / place - std::round(v / place)) < 1e-6; };
-    if (fits(a.u) && fits(a.v) && fits(b.u) && fits(b.v)) return;
-    const auto c = centre_by_radius(a, b, m.radius.number, *arc.ccw, long_chord);
-    if (c && std::fabs(m.radius.number) * place > centre_tolerance * chord) {
-      set_center(arc, *c);
-      centers(arc);
-    }
-    return;
-  }
-  if (chord > 2 * place) return;
-  if (!same(arc.axis[0], a.u, b.u) || !same(arc.axis[1], a.v, b.v) || !angle || *angle > 180) return;
-  m.kind = MotionKind::linear;
-  m.explicit_code = true;
-  m.keeps_modal = false;
-  m.code_text = {};
-  m.centers.clear();
-  m.radius_given = false;
-  context_.diagnostics.warning("TRN-315", word_span(arc.s.line.span, m.code_pos),
-                               "an arc shorter than the last place of the target's words is written as a line: the "
-                               "path differs by less than " +
-                                   shortest(place));
-}
 
 bool ArcPass::in_plane(Arc& arc) {
   if (!plane_known_ || program_.dialect == context_.target.dialect) return true;
@@ -125,6 +83,34 @@ bool ArcPass::through_point(Arc& arc) {
   m.extra = std::move(extra);
   drop_empty_extra(m);
   set_center(arc, c);
+  return true;
+}
+
+bool ArcPass::through_in_plane(Arc& arc) {
+  Motion& m = arc.b.motion;
+  if (program_.dialect == context_.target.dialect || !plane_known_ || !m.extra) return true;
+  const auto outside = [&arc](const CenterWord& w) { return w.axis != arc.axes.u && w.axis != arc.axes.v; };
+  const auto same = [&](const CenterWord& w) {
+    const bool steps = w.mode == CenterMode::from_start ||
+                       (w.mode == CenterMode::follows_distance && arc.distance == Distance::incremental);
+    if (w.axis != arc.axes.w || !w.value.literal()) return false;
+    return steps ? w.value.number == 0 : arc.start[2] && std::fabs(*arc.start[2] - w.value.number) < same_point;
+  };
+  const auto word =
+      std::find_if(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
+  const bool level =
+      word == m.coords.end() || (arc.start[2] && arc.end[2] && std::fabs(*arc.start[2] - *arc.end[2]) < same_point);
+  const auto& through = m.extra->through;
+  if (!std::all_of(through.begin(), through.end(), [&](const CenterWord& w) { return !outside(w) || same(w); }) ||
+      (!level && std::any_of(through.begin(), through.end(), outside))) {
+    fail(arc, "TRN-653", "the point on this arc lies, or may lie, outside of the plane: an arc in space",
+         "give the height before the arc as a number, or select the plane in which the arc lies");
+    return false;
+  }
+  if (std::none_of(through.begin(), through.end(), outside)) return true;
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  std::erase_if(extra->through, outside);
+  m.extra = std::move(extra);
   return true;
 }
 

@@ -8,6 +8,8 @@
 #include "base/text.h"
 #include "ir/geometry.h"
 #include "ir/passes/editor.h"
+#include "ir/passes/flow_states.h"
+#include "ir/passes/said_points.h"
 #include "ir/passes/words.h"
 
 namespace cnctrans::ir::passes {
@@ -18,7 +20,13 @@ void check_first_arcs(const Program& program, const LegaliseContext& context, co
 class ArcPass {
  public:
   ArcPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts), symbolic_(context.source_machine) {}
+      : program_(program),
+        context_(context),
+        facts_(facts),
+        said_domain_(facts, context.target),
+        symbolic_(context.source_machine) {
+    if (program.dialect != context.target.dialect && SaidPoints::needed(program)) said_.emplace(program, said_domain_);
+  }
 
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
@@ -133,11 +141,12 @@ class ArcPass {
       return fail(arc, "TRN-301", "a tangent arc: the target has none", "program the arc by its centre or radius");
     }
     if (kind == MotionKind::arc_through_point) {
-      if (context_.target.arc_through_point) return;
+      if (!through_in_plane(arc) || context_.target.arc_through_point) return;
       if (!through_point(arc)) return;
     }
     if (m.extra && !extras(arc)) return;
     if (!in_plane(arc)) return;
+    if (near_its_start(arc) && keep_closed(arc)) return;
     if (m.radius_given) {
       if (!radius(arc)) return;
     }
@@ -147,11 +156,24 @@ class ArcPass {
                setting_in<Surface>(arc.b, arc.facts, Setting::surface) == Surface::none) {
       both_ends(arc, false);
     }
-    if (std::holds_alternative<Block>(s.node)) tiny(arc);
+    if (std::holds_alternative<Block>(s.node)) almost_closed(arc);
   }
 
-  /// End and start fall together when the target rounds its words: a short arc would become a full circle.
-  void tiny(Arc& arc);
+  // --- start and end beside each other (arc_ends.cpp) --------------------------------------------------------------
+
+  /// Start and end are numbers so near to each other that rounding may change the full circle to none, or back.
+  [[nodiscard]] bool near_its_start(const Arc& arc) const;
+  /// Where the target's control begins and ends the arc.
+  struct Ends {
+    geometry::Vec start, end;
+  };
+  [[nodiscard]] Ends on_target(const Arc& arc) const;
+  /// A full circle, or nearly one, that the target's own start and rounded end would make short: its end is said as
+  /// its start, whatever that is. False: it is none.
+  bool keep_closed(Arc& arc);
+  /// A short arc that the target would take for a full circle; nearly a full circle by its radius.
+  void almost_closed(Arc& arc);
+  void say_line(Arc& arc);
 
   WordScale radius_scale(AxisId axis) const {
     return is_diameter_axis(context_.source_machine, axis) ? WordScale::radius : WordScale::modal;
@@ -184,6 +206,9 @@ class ArcPass {
   bool radius(Arc& arc);
 
   bool through_point(Arc& arc);
+  /// A word of the point on the arc that lies outside of the plane: it is left out where it says nothing. False:
+  /// refused.
+  bool through_in_plane(Arc& arc);
 
   static void drop_empty_extra(Motion& m) {
     const MotionExtra& e = *m.extra;
@@ -375,6 +400,8 @@ class ArcPass {
   Program& program_;
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  const SaidPoints said_domain_;
+  std::optional<FlowStates<SaidPoints>> said_;  ///< none: every point is said
   SymbolicPosition symbolic_;
   LabelUses uses_;
   bool plane_known_ = true;

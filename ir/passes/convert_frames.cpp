@@ -9,6 +9,7 @@
 #include "ir/passes/frame_rebuild.h"
 #include "ir/passes/frame_variables.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/preset_ends.h"
 #include "ir/passes/without_length.h"
 #include "ir/passes/words.h"
 
@@ -29,8 +30,9 @@ class FramePass {
         context_(context),
         facts_(facts),
         states_(program, facts, context),
-        target_(program, context, ends_preset()),
-        without_length_(program, context, facts) {}
+        target_(program, context, presets_as_shifts(program, context, facts, states_)),
+        without_length_(program, context, facts),
+        preset_ends_(program, context) {}
 
   void routine(Routine& r) {
     find_groups(r.body, label_uses(program_, r));
@@ -51,32 +53,6 @@ class FramePass {
   [[nodiscard]] const std::set<std::uint32_t>& lost() const { return lost_; }
 
  private:
-  /// A preset is in force somewhere where it is taken back, on another language than the target's own.
-  bool ends_preset() const {
-    if (program_.dialect == context_.target.dialect) return false;
-    bool found = false;
-    for (const auto& r : program_.routines) {
-      for_each_statement(r.body, [&](const Statement& s) {
-        const auto* b = std::get_if<Block>(&s.node);
-        if (b == nullptr || found) return;
-        FrameState state = states_.before(s);
-        for (const auto& a : b->actions) {
-          const FrameState before = state;
-          if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
-            state.select(*w, context_.source_machine);
-            found = found || !(before.slot(FrameSlot::preset) == state.slot(FrameSlot::preset));
-          }
-          const auto* f = std::get_if<FrameOp>(&a.data);
-          if (f == nullptr || !f->change) continue;
-          state.apply(*f->change, facts_.before(s), *b, context_.source_machine);
-          found = found || (f->change->slot == FrameSlot::preset && f->change->combine == FrameCombine::clear &&
-                            !before.slot(FrameSlot::preset).neutral());
-        }
-      });
-    }
-    return found;
-  }
-
   static bool concerns(const Block& b) {
     return std::any_of(b.actions.begin(), b.actions.end(),
                        [](const Action& a) {
@@ -156,6 +132,7 @@ class FramePass {
         if (same && !(said_otherwise && target_.part(state).known())) {
           if (same->combine != f->change->combine || same->by_distance_mode != f->change->by_distance_mode)
             a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*same))};
+          preset_ends_.tell(s, a, true);
           actions.push_back(std::move(a));
         } else if (silent && !begun) {
           continue;  // a reset of what is not there, made by the reader
@@ -166,6 +143,7 @@ class FramePass {
           return;
         } else {
           pending_ = false;
+          preset_ends_.tell(s, a, false);
         }
       } else {
         actions.push_back(std::move(a));
@@ -432,6 +410,7 @@ class FramePass {
   std::set<std::uint32_t> waiting_, lost_;
   bool pending_ = false;  ///< statements before this one wait to be said here
   bool mirror_told_ = false;
+  const PresetEnds preset_ends_;
 };
 
 bool uses_frames(const Program& program) {

@@ -85,7 +85,7 @@ class PolePass {
   }
   bool zero_counts() const { return stays_ != target_stays_; }
   void forget_point() {
-    at_.reset();
+    led_ = {};
     radius_.reset();
     angle_.reset();
   }
@@ -127,6 +127,10 @@ class PolePass {
     WordPos place;
     for (auto& a : b.actions) {
       if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane) {
+        if (source_resets_ || plane_ != static_cast<Plane>(m->value)) {  // radius and angle are about another pole now
+          if (!radius_stays_) radius_.reset();
+          angle_.reset();
+        }
         plane_ = static_cast<Plane>(m->value);
         actions.push_back(std::move(a));
         if (!plane_code(actions)) problem = "where the pole of the polar words behind this plane function lies";
@@ -190,36 +194,22 @@ class PolePass {
     if (!before) pole_.reset();
     if (pole_) pole_->u = clean(pole_->u * factor), pole_->v = clean(pole_->v * factor);
     if (!before || (radius_ && !radius_->literal())) return forget_point();
-    if (at_) at_ = Point2{clean(at_->u * factor), clean(at_->v * factor)};
+    led_.scale(factor);
     if (radius_) radius_ = Value{clean(radius_->number * factor)};
   }
 
-  /// The point of the polar words over a block without such words: moves along other axes leave it where it is.
+  /// The point of the polar words over a block without such words.
   void follow_point(const Block& b, const Facts& facts) {
-    if (loses_point(b)) return forget_point();
-    if (!b.has_motion || !b.motion.moves()) return;
-    const bool plain = plane_ && b.motion.frame == FrameUse::normal && !b.motion.extra;
-    if (!plain) return forget_point();
-    const PlaneAxes axes = plane_axes(*plane_);
-    bool in_plane = !b.motion.centers.empty() || b.motion.kind == MotionKind::reference_point;
-    for (const auto& w : b.motion.coords) in_plane = in_plane || w.axis == axes.u || w.axis == axes.v;
-    if (!in_plane) return;
-    radius_.reset();
-    angle_.reset();
-    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    for (const auto& w : b.motion.coords) {
-      if (!at_) return;
-      double* slot = w.axis == axes.u ? &at_->u : w.axis == axes.v ? &at_->v : nullptr;
-      if (slot == nullptr) continue;
-      const bool steps =
-          w.mode == WordMode::incremental || (w.mode == WordMode::modal && distance == Distance::incremental);
-      const auto f = to_radius(w.axis, w.scale, steps ? Distance::incremental : Distance::absolute, b, facts,
-                               context_.source_machine);
-      const bool known = w.value.literal() && f && (w.mode != WordMode::modal || distance) &&
-                         (w.mode == WordMode::modal || w.mode == WordMode::absolute || w.mode == WordMode::incremental);
-      if (!known) return at_.reset();
-      *slot = (steps ? *slot : 0) + w.value.number * *f;
+    const bool plain =
+        plane_ && b.motion.frame == FrameUse::normal && !b.motion.extra && b.motion.kind != MotionKind::reference_point;
+    const bool moves = b.has_motion && b.motion.moves();
+    if (loses_point(b) || (moves && !plain)) return forget_point();
+    if (!moves) return;
+    if (touches_plane(b, plane_axes(*plane_))) {
+      radius_.reset();
+      angle_.reset();
     }
+    led_.follow(b, facts, context_.source_machine);
   }
 
   /// After a plane function: the pole of the source, said again. False: not known.
@@ -256,12 +246,9 @@ class PolePass {
   }
 
   std::optional<Point2> here(const Facts& facts) const {
-    if (at_) return at_;
-    if (!plane_) return std::nullopt;
-    const PlaneAxes axes = plane_axes(*plane_);
-    if (!facts.position[axes.u] || !facts.position[axes.v]) return std::nullopt;
-    return Point2{*facts.position[axes.u], *facts.position[axes.v]};
+    return plane_ ? led_.at(plane_axes(*plane_), facts) : std::nullopt;
   }
+  void led_to(Point2 to) { led_.set(plane_axes(*plane_), to); }
 
   /// The value of a word of each axis of the plane times this is its radius.
   std::optional<Point2> factors(const Block& b, const Facts& facts, std::optional<Distance> d) const {
@@ -290,7 +277,7 @@ class PolePass {
       const bool absolute = polar_absolute(x, distance);
       forget_point();
       if (absolute && pole_ && x.polar_angle.literal() && x.polar_radius.literal())
-        at_ = around(*pole_, x.polar_radius.number, x.polar_angle.number);
+        led_to(around(*pole_, x.polar_radius.number, x.polar_angle.number));
       if (absolute) radius_ = x.polar_radius;
       return true;
     }
@@ -315,7 +302,7 @@ class PolePass {
     r->text = {};
     const Value q = x.polar_angle;
     forget_point();
-    if (r->literal() && q.literal()) at_ = around(*pole_, r->number, q.number);
+    if (r->literal() && q.literal()) led_to(around(*pole_, r->number, q.number));
     radius_ = r;
     angle_ = q;
     angle_->text = {};
@@ -372,10 +359,12 @@ class PolePass {
     radius_ = r;
     angle_ = q;
     Value u, v;
+    std::optional<Point2> to;
     if (r.literal() && q.literal()) {
-      at_ = around(*pole_, r.number, q.number);
-      u = Value{at_->u / f->u};
-      v = Value{at_->v / f->v};
+      to = around(*pole_, r.number, q.number);
+      led_to(*to);
+      u = Value{to->u / f->u};
+      v = Value{to->v / f->v};
     } else {
       u = around(r, q, Function::cos, pole_->u, f->u);
       v = around(r, q, Function::sin, pole_->v, f->v);
@@ -405,10 +394,10 @@ class PolePass {
       return true;
     }
     const auto inc = factors(b, facts, Distance::incremental);
-    const bool steps = distance == Distance::incremental && start && at_ && inc;
+    const bool steps = distance == Distance::incremental && start && to && inc;
     if (steps) {
-      u = Value{clean((at_->u - start->u) / inc->u)};
-      v = Value{clean((at_->v - start->v) / inc->v)};
+      u = Value{clean((to->u - start->u) / inc->u)};
+      v = Value{clean((to->v - start->v) / inc->v)};
     }
     const PlaneAxes axes = plane_axes(*plane_);
     for (const auto& [axis, value] : {std::pair{axes.u, u}, std::pair{axes.v, v}}) {
@@ -441,7 +430,7 @@ class PolePass {
     const double r = std::hypot(d.u, d.v);
     const Point2 end{centre->u + r * std::cos(angle), centre->v + r * std::sin(angle)};
     forget_point();
-    at_ = Point2{clean(end.u), clean(end.v)};
+    led_to({clean(end.u), clean(end.v)});
     const PlaneAxes axes = plane_axes(*plane_);
     const bool inc = distance == Distance::incremental;
     const auto word = [&](AxisId axis, double to, double from, double factor) {
@@ -474,7 +463,7 @@ class PolePass {
   const FactsOf& facts_;
   LabelUses uses_;
   State pole_, way_;                     ///< way_: behind the block before, where the dataflow does not know it
-  std::optional<Point2> at_;             ///< where polar words have led, when the dataflow does not know it
+  LedPoint led_;                         ///< where polar words have led
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   const FlowStates<RadiusDomain>* radii_ = nullptr;

@@ -338,6 +338,7 @@ class CornerPass {
     points_.set_end(element.motion, here->plane, f.to);
     points_.set_end(then.motion, here->plane, after->e.b);
     if (after->e.arc) PathPoints::set_centre(then.motion, here->plane, f.to, after->e.c);
+    points_.begins_at(*next, f.to);
     if (!straight) PathPoints::set_centre(element.motion, here->plane, f.from, f.centre);
     if (c.feed) add_feed(element, *c.feed);
     if (c.feed && !given) add_feed(then, Value{*feed});

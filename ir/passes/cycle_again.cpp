@@ -136,7 +136,10 @@ void CyclePass::note_writes_of_loop(std::uint32_t first, std::uint32_t last) {
 void CyclePass::come_back_to(const Statement& s) {
   for (const auto& l : labels_on(s.line)) {
     const auto use = last_use_.find({l.is_number, l.text});
-    if (uses_.computed || use != last_use_.end()) note_writes_of_loop(s.id, uses_.computed ? last_id_ : use->second);
+    if (!uses_.computed && use == last_use_.end()) continue;
+    const std::uint32_t last = uses_.computed ? last_id_ : use->second;
+    note_writes_of_loop(s.id, last);
+    for (const Statement* r = rest_.first; r != rest_.second && r->id <= last; ++r) leave_height(*r);
   }
 }
 

@@ -161,6 +161,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     active_.reset();
     return true;
   }
+  for_each_statement(program_.routines[*callee].body, [this](const Statement& s) { leave_height(s); });
   active_->on_target = copy->on_target_after;
   active_->height = copy->height_after;
   return true;

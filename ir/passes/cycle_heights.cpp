@@ -39,6 +39,25 @@ bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   return (retract - *height) * up > 1e-9 && (retract - reference) * up > 1e-9;
 }
 
+bool CyclePass::follow_height(const Block& b, const Facts& facts) {
+  const auto w = tool_axis(active_->source, b, facts);
+  active_->left_height = active_->left_height || (w && moves_along(b, *w));
+  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  if (!active_->left_height || !active_->native || by_call_ || hole == nullptr || !triggers(b, facts) ||
+      back_is_known(*hole, active_->defined_at, b, facts))
+    return false;
+  active_->native = nullptr;
+  lacking_ = true;
+  return true;
+}
+
+void CyclePass::leave_height(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !active_) return;
+  const auto w = tool_axis(active_->source, *b, facts_.before(s));
+  active_->left_height = active_->left_height || (w && moves_along(*b, *w));
+}
+
 /// A single run whose retract plane is not the height it starts from: the target's cycle would go there first. It
 /// returns to the reference plane instead, and the rest is a move of its own. The place to go to; empty: as it is.
 std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active& a) const {

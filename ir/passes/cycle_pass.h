@@ -92,6 +92,7 @@ class CyclePass {
     std::optional<AxisId> axis;            ///< of the tool at the definition
     std::optional<double> defined_at;      ///< height of the tool at the definition, mm
     std::optional<double> height;          ///< of the tool over the holes, mm
+    bool left_height = false;              ///< the tool has left the height of its definition
     std::optional<Units> units;            ///< of its words
     std::vector<VarRef> stale;             ///< read by its words and changed since its definition
     std::vector<std::uint32_t> said_by{};  ///< the statements that gave it its words
@@ -417,6 +418,10 @@ class CyclePass {
   void plain(Statement&& s, Body&& pieces, Body& out);
   /// A new retract plane while the cycle is active is a new cycle. True: the target's own one has changed.
   bool follow_retract_plane(const Block& b, const Facts& facts);
+  /// The tool leaves the height at which the cycle was defined, which only the run knows: a cycle of the target that
+  /// begins anew would take the present one for it. True: the target's own one has changed.
+  bool follow_height(const Block& b, const Facts& facts);
+  void leave_height(const Statement& s);  ///< one that a loop or a called routine carries out
 
   // --- written out ----------------------------------------------------------------------------------------------
 

@@ -249,6 +249,7 @@ void CyclePass::bodies(Statement& s) {
     each_body(s, [&](Body& inner) {
       if (!inner.empty()) note_writes_of_loop(s.id, last_inside(inner));
       sense_.forget();  // the next pass may begin with another sense
+      for_each_statement(inner, [this](const Statement& x) { leave_height(x); });  // its end is before its beginning
       walk_inside(inner);
     });
     // The next pass of a loop begins as the first one did.
@@ -272,6 +273,7 @@ void CyclePass::bodies(Statement& s) {
   active_->was_on_target = active_->was_on_target || then->was_on_target;
   active_->maybe_on_target = either && !active_->on_target;
   if (active_->height != then->height) active_->height.reset();
+  active_->left_height = active_->left_height || then->left_height;
   active_->stale.insert(active_->stale.end(), then->stale.begin(), then->stale.end());
 }
 

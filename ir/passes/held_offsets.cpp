@@ -54,6 +54,25 @@ struct Waiting {
   }
 };
 
+/// A domain of FlowStates: the program has selected an offset, or switched them off, on every way. Before that each
+/// control works with what its power-on has put in force.
+struct Chosen {
+  using State = bool;
+  [[nodiscard]] static State start(const Routine& /*unused*/, bool /*unused*/) { return false; }
+  static void transfer(const Statement& s, State& state) { state = state || selects(s); }
+  [[nodiscard]] static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) { found = found || selects(s); });
+    return found;
+  }
+  static void unknown(State& /*state*/) {}
+  static bool join(State& a, const State& b) {
+    const bool changed = a && !b;
+    a = a && b;
+    return changed;
+  }
+};
+
 class HeldOffsets {
  public:
   HeldOffsets(Program& program, const LegaliseContext& context) : program_(program), context_(context) {}
@@ -74,10 +93,15 @@ class HeldOffsets {
   /// Those of a row that is, or may be, in force.
   void find_writings() {
     const FactsOf facts(program_, context_);
+    const Chosen domain;
+    const FlowStates<Chosen> chosen(program_, domain);
     for (const auto& r : program_.routines) {
       for_each_statement(r.body, [&](const Statement& s) {
         if (!writes_offset(s)) return;
-        const auto& in_force = facts.before(s).work_offset;
+        auto in_force = facts.before(s).work_offset;
+        const bool* by_program = chosen.before(s);
+        if (in_force == 0 && by_program != nullptr && !*by_program)
+          in_force = context_.target_machine.power_on.work_offset;
         for (const auto& item : std::get<Assign>(s.node).items) {
           if (!is_offset(item)) continue;
           const auto row = item.system.args.empty() ? std::nullopt : constant_value(item.system.args[0]);

@@ -23,7 +23,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   if (triggers(b, facts) && follow_units(s, b, facts, pieces, out)) return;
   if (sure(facts) && triggers(b, facts)) turn(b, facts, s.line, pieces);
   const bool was_on = active_->on_target;
-  const bool changed = follow_retract_plane(b, facts);
+  const bool new_plane = follow_retract_plane(b, facts), changed = follow_height(b, facts) || new_plane;
   const bool hole_here = triggers(b, facts);
   if (hole_here && tap_feed_ && !active_->needs.feed) feed_comes_back(s, b, facts);  // a tap stood before this cycle
   if (hole_here && refuse_unknown_plane(s, active_->source, out)) return;

@@ -55,7 +55,8 @@ std::optional<Path> PathPoints::path_of(const Statement& s, bool by_three) const
   const auto kind = motion_in(*b, facts);
   if (!plane || !kind) return std::nullopt;
   const auto axes = plane_axes(*plane);
-  const auto u = facts.position[axes.u], v = facts.position[axes.v];
+  auto u = facts.position[axes.u], v = facts.position[axes.v];
+  if (const auto cut = starts_.find(s.id); cut != starts_.end() && s.id != 0) u = cut->second.u, v = cut->second.v;
   if (!u || !v) return std::nullopt;
   Path path{*plane, {false, {*u, *v}, {*u, *v}, {}, false}};
   for (const auto& c : b->motion.coords) {

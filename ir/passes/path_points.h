@@ -1,6 +1,7 @@
 // The points of the path where they are numbers, and words for points that a pass has computed.
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "ir/geometry.h"
@@ -23,6 +24,8 @@ class PathPoints {
   [[nodiscard]] std::optional<Path> path_of(const Statement& s, bool by_three = false) const;
   /// Both words of the plane, absolute and as radius; the other words stay.
   void set_end(Motion& m, Plane plane, geometry::Vec to) const;
+  /// The element begins here and no longer where the one before it was programmed to end: a corner has cut it.
+  void begins_at(const Statement& s, geometry::Vec at) { starts_[s.id] = at; }
   /// The centre as seen from the start of the arc.
   static void set_centre(Motion& m, Plane plane, geometry::Vec from, geometry::Vec centre);
 
@@ -32,6 +35,7 @@ class PathPoints {
                                                      geometry::Vec start) const;
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  std::map<std::uint32_t, geometry::Vec> starts_;  ///< by the id of the statement
 };
 
 /// The frame or the work offset changes in this block.

@@ -124,6 +124,43 @@ void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId n
   x.turns = Value{};
 }
 
+void LedPoint::set(const PlaneAxes& axes, Point2 to) {
+  at_[axes.u] = to.u;
+  at_[axes.v] = to.v;
+}
+
+std::optional<Point2> LedPoint::at(const PlaneAxes& axes, const Facts& facts) const {
+  const auto u = at_[axes.u] ? at_[axes.u] : facts.position[axes.u];
+  const auto v = at_[axes.v] ? at_[axes.v] : facts.position[axes.v];
+  return u && v ? std::optional(Point2{*u, *v}) : std::nullopt;
+}
+
+void LedPoint::scale(double factor) {
+  for (auto& x : at_) {
+    if (x) x = clean(*x * factor);
+  }
+}
+
+void LedPoint::follow(const Block& b, const Facts& facts, const machine::Profile& machine) {
+  const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+  for (const auto& w : b.motion.coords) {
+    if (w.axis >= at_.size() || !at_[w.axis]) continue;
+    auto& slot = at_[w.axis];
+    const bool steps =
+        w.mode == WordMode::incremental || (w.mode == WordMode::modal && distance == Distance::incremental);
+    const auto f = to_radius(w.axis, w.scale, steps ? Distance::incremental : Distance::absolute, b, facts, machine);
+    const bool known = w.value.literal() && f && (w.mode != WordMode::modal || distance) &&
+                       (w.mode == WordMode::modal || w.mode == WordMode::absolute || w.mode == WordMode::incremental);
+    slot = known ? std::optional((steps ? *slot : 0) + w.value.number * *f) : std::nullopt;
+  }
+}
+
+bool touches_plane(const Block& b, const PlaneAxes& axes) {
+  return !b.motion.centers.empty() ||
+         std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                     [&axes](const CoordWord& w) { return w.axis == axes.u || w.axis == axes.v; });
+}
+
 bool moves_zero(const Action& a) {
   const auto* f = std::get_if<FrameOp>(&a.data);
   return std::holds_alternative<WorkOffset>(a.data) ||

@@ -1,6 +1,8 @@
 // Polar words as coordinates: parts of the pass of the poles.
 #pragma once
 
+#include <array>
+
 #include "ir/passes/words.h"
 #include "ir/program.h"
 
@@ -68,6 +70,22 @@ std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start
 struct ArcPoints {
   Point2 start, end, centre;
 };
+/// The point to which polar words have led, where the dataflow does not know it: by axis, so that it holds on in
+/// another plane.
+class LedPoint {
+ public:
+  void set(const PlaneAxes& axes, Point2 to);
+  [[nodiscard]] std::optional<Point2> at(const PlaneAxes& axes, const Facts& facts) const;
+  /// A change of the unit.
+  void scale(double factor);
+  /// Over a block without polar words.
+  void follow(const Block& b, const Facts& facts, const machine::Profile& machine);
+
+ private:
+  std::array<std::optional<double>, 3> at_{};  ///< X, Y, Z
+};
+/// The block moves in the plane.
+bool touches_plane(const Block& b, const PlaneAxes& axes);
 /// A hole along the normal of the plane leaves the tool over its point.
 inline bool leaves_point(const CycleDefine& d) {
   const auto* hole = d.cycle ? std::get_if<HoleCycle>(&d.cycle->node) : nullptr;
