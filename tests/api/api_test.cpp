@@ -266,7 +266,9 @@ TEST(CApi, ProvesUnlessToldOtherwise) {
     Job j;
     EXPECT_EQ(cnctrans_job_set(j.job, "from", "fagor"), CNCTRANS_OK);
     EXPECT_EQ(cnctrans_job_set(j.job, "to", "num"), CNCTRANS_OK);
-    if (option != nullptr) EXPECT_EQ(cnctrans_job_set(j.job, option, value), CNCTRANS_OK);
+    if (option != nullptr) {
+      EXPECT_EQ(cnctrans_job_set(j.job, option, value), CNCTRANS_OK);
+    }
     const Result r(cnctrans_translate(j.job, "a.pim", fails.data(), fails.size()));
     return std::pair(cnctrans_result_status(r.result), std::string(cnctrans_result_verdict(r.result)));
   };
