@@ -20,6 +20,10 @@ namespace cnctrans::ir::passes {
 ///   bool adds(const Routine&): the routine's own statements can put something into a state;
 ///   void only_kept(State& back, const State& before): behind a call of routines that put nothing in, nothing is there
 ///     that was not there before the call, whatever other callers have.
+/// It may have
+///   void crosses(const Statement&, std::optional<std::size_t> callee, State&): the border of a routine, on the way
+///   into
+///     `callee` or (nullopt) on the way back from the call.
 template <class Domain>
 class FlowStates {
  public:
@@ -163,26 +167,31 @@ class FlowStates {
   std::optional<State> after(const Statement& s, State state) {
     if (const auto* call = std::get_if<CallRoutine>(&s.node)) {
       const auto callee = call->computed ? std::nullopt : calls_.index_of(call->routine);
-      return called(callee, call->has_range, call->count != nullptr, state);
+      return called(s, callee, call->has_range, call->count != nullptr, state);
     }
     if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program)
-      return called(calls_.index_of(r->program), true, true, state);
+      return called(s, calls_.index_of(r->program), true, true, state);
     domain_.transfer(s, state);
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr || !b->has_motion) return state;
     if (modal_unknown_) domain_.unknown(state);
     for (const auto callee : modal_callees_) {
-      const auto back = called(callee, false, true, state);
+      const auto back = called(s, callee, false, true, state);
       if (back) domain_.join(state, *back);
     }
     return state;
   }
-  std::optional<State> called(std::optional<std::size_t> callee, bool part, bool maybe_never, State state) {
+  void crosses(const Statement& s, std::optional<std::size_t> callee, State& state) const {
+    if constexpr (requires(const Domain& d) { d.crosses(s, callee, state); }) domain_.crosses(s, callee, state);
+  }
+  std::optional<State> called(const Statement& s, std::optional<std::size_t> callee, bool part, bool maybe_never,
+                              State state) {
     if (!callee) {
       domain_.unknown(state);
       return state;
     }
     auto& of = routines_[*callee];
+    crosses(s, callee, state);
     if (!part) enter(*callee, state);
     if (!of.touches) return state;
     if (part) {
@@ -191,6 +200,7 @@ class FlowStates {
     }
     if (!of.exit) return std::nullopt;
     State back = *of.exit;
+    crosses(s, std::nullopt, back);
     if constexpr (keeps_own) {
       if (!of.adds) domain_.only_kept(back, state);
     }

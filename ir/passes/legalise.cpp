@@ -10,6 +10,7 @@
 #include "ir/passes/given_data.h"
 #include "ir/passes/lines.h"
 #include "ir/passes/mixed_feeds.h"
+#include "ir/passes/motion_codes.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/skip_levels.h"
 #include "ir/passes/spindle_limits.h"
@@ -99,6 +100,7 @@ constexpr std::array pipeline{
     Pass{"numbers", passes::order_numbers, false},
     Pass{"balance", passes::balance_rows, false},
     Pass{"safe_start", passes::safe_start, false},
+    Pass{"motion_codes", passes::say_motion_codes, false},
     Pass{"tidy", passes::tidy, false},
 };
 
