@@ -384,8 +384,9 @@ void Runner::leave(bool returned) {
     state_ = State::ended;
     return;
   }
-  if (--a.left > 0) {  // what the last pass made of its parameters is gone
+  if (--a.left > 0) {  // what the last pass made of its parameters is gone, and each pass ends the routine (SAVE)
     enter_top();
+    if (a.saved) machine_.restore_modal(*a.saved);
     const std::vector<Bound> arguments = a.arguments;
     if (hand_over(arguments, true)) at_ = a.entry;
     return;

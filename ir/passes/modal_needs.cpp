@@ -146,6 +146,17 @@ bool ModalNeeds::behind(const CallSite& site, const ModalGroup& group) {
   Search search{group};
   if (call->count && site.callee) enter(*site.callee, search);
   behind_statement(site.caller, *site.statement, search);
+  return runs_into_use(search);
+}
+
+bool ModalNeeds::again(const CallSite& site, const ModalGroup& group) {
+  if (!site.callee) return true;
+  Search search{group};
+  enter(*site.callee, search);
+  return runs_into_use(search);
+}
+
+bool ModalNeeds::runs_into_use(Search& search) {
   while (!search.needed && !search.open.empty()) {
     const auto [routine, id] = search.open.back();
     search.open.pop_back();

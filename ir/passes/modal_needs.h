@@ -23,12 +23,15 @@ class ModalNeeds {
   /// False: on every way behind the call the program sets the group again before anything depends on it. What is not
   /// followed (texts that are only kept, routines that are not at hand, modal calls) depends on it.
   [[nodiscard]] bool behind(const CallSite& site, const ModalGroup& group);
+  /// False: a further pass of the called routine sets the group again before anything depends on it.
+  [[nodiscard]] bool again(const CallSite& site, const ModalGroup& group);
 
  private:
   enum class Effect : std::uint8_t { none, sets, uses };
   struct Search;
   [[nodiscard]] static Effect effect(const Block& block, const ModalGroup& group);
   [[nodiscard]] Effect effect(const Statement& s, const ModalGroup& group) const;
+  bool runs_into_use(Search& search);
   void step(std::size_t routine, const Statement& s, Search& search);
   void behind_statement(std::size_t routine, const Statement& s, Search& search);
   void enter(std::size_t routine, Search& search);

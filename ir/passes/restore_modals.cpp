@@ -8,6 +8,7 @@
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/feed_units.h"
 #include "ir/passes/kept_values.h"
 #include "ir/passes/modal_needs.h"
 
@@ -18,7 +19,12 @@ namespace {
 class Restore {
  public:
   Restore(Program& program, const LegaliseContext& context)
-      : program_(program), context_(context), calls_(program), facts_(program, context), needs_(program, calls_) {}
+      : program_(program),
+        context_(context),
+        calls_(program),
+        facts_(program, context),
+        needs_(program, calls_),
+        feed_units_(program, FeedUnits(context.source_machine.power_on.units_feed_too)) {}
 
   void run() {
     for (std::size_t i = 0; i < program_.routines.size(); ++i) {
@@ -34,6 +40,7 @@ class Restore {
   struct Changes {
     std::set<Setting> settings;
     bool motion = false, offset = false;
+    std::size_t callee = 0;  ///< behind a call: of it
   };
 
   Changes changes_of(std::size_t index) const {
@@ -60,8 +67,10 @@ class Restore {
     const Changes changes = changes_of(index);
     Changes at_return;
     std::string missing;
+    std::vector<std::pair<ModalGroup, std::string_view>> groups;
     const auto group = [&](const ModalGroup& g, std::string_view what, auto&& put) {
-      if (known(g, entry))
+      groups.emplace_back(g, what);
+      if (known(g, entry, r.body.front()))
         put(at_return);
       else if (!behind_calls(index, g, put))
         missing += (missing.empty() ? "" : ", ") + std::string(what);
@@ -75,6 +84,7 @@ class Restore {
     if (changes.offset) {
       group({ModalGroup::Kind::offset}, "work offset", [](Changes& c) { c.offset = true; });
     }
+    tell_passes(index, groups);
     if (missing.empty()) {
       at_returns_.emplace_back(index, at_return);
       return;
@@ -87,24 +97,59 @@ class Restore {
         "write the state after each call");
   }
 
-  static bool known(const ModalGroup& g, const Facts& facts) {
+  /// Before statement `s`, where `facts` hold.
+  bool known(const ModalGroup& g, const Facts& facts, const Statement& s) const {
     switch (g.kind) {
       case ModalGroup::Kind::setting:
-        return facts.settings[static_cast<std::size_t>(g.setting)] && g.setting != Setting::units;
+        if (g.setting == Setting::units && facts.settings[static_cast<std::size_t>(g.setting)])
+          return feed_too(facts, s).has_value();
+        return facts.settings[static_cast<std::size_t>(g.setting)].has_value();
       case ModalGroup::Kind::offset: return facts.work_offset.has_value();
       case ModalGroup::Kind::motion: break;
     }
     return facts.motion == MotionKind::rapid || facts.motion == MotionKind::linear;
   }
 
-  static bool same(const ModalGroup& g, const Facts& a, const Facts& b) {
-    const auto s = static_cast<std::size_t>(g.setting);
-    switch (g.kind) {
-      case ModalGroup::Kind::setting: return a.settings[s] == b.settings[s];
-      case ModalGroup::Kind::offset: return a.work_offset == b.work_offset;
-      case ModalGroup::Kind::motion: break;
+  /// Whether the unit in force before the statement holds for F too. Millimetres are the same either way, but have to
+  /// take F back from inches that did.
+  std::optional<bool> feed_too(const Facts& facts, const Statement& s) const {
+    if (facts.settings[static_cast<std::size_t>(Setting::units)] == static_cast<std::uint8_t>(Units::metric))
+      return any_action(program_, [](const Action& a) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        return m != nullptr && m->setting == Setting::units && m->feed_too;
+      });
+    const auto* state = feed_units_.before(s);
+    return state == nullptr ? std::nullopt : state->value;
+  }
+
+  /// The passes of a call with a count: each of them ends the routine, so each gives the state back.
+  void tell_passes(std::size_t index, const std::vector<std::pair<ModalGroup, std::string_view>>& groups) {
+    for (const auto& site : calls_.sites()) {
+      const auto* call = std::get_if<CallRoutine>(&site.statement->node);
+      const auto count = call != nullptr && call->count ? constant_value(call->count) : std::optional(1.0);
+      if (site.callee != index || (count && *count < 2)) continue;
+      std::string text;
+      for (const auto& [group, what] : groups) {
+        if (needs_.again(site, group)) text += (text.empty() ? "" : ", ") + std::string(what);
+      }
+      if (text.empty()) continue;
+      context_.diagnostics.warning(
+          "TRN-612", site.statement->line.span,
+          "each pass of this call is taken to begin with the modal state of the call (SAVE): " + text,
+          "set it at the head of the subprogram");
     }
-    return a.motion == b.motion;
+  }
+
+  /// What holds where the routine ends, but for what another one below it was not made to give back.
+  Facts as_left(std::size_t index, Facts facts) const {
+    for (const auto r : reached_from(calls_, index)) {
+      const auto open = r == index ? left_open_.end() : left_open_.find(r);
+      if (open == left_open_.end()) continue;
+      for (const auto s : open->second.settings) facts.settings[static_cast<std::size_t>(s)].reset();
+      if (open->second.motion) facts.motion.reset();
+      if (open->second.offset) facts.work_offset.reset();
+    }
+    return facts;
   }
 
   /// What holds at the end of the routine, whichever way it ends.
@@ -135,14 +180,20 @@ class Restore {
     for (const auto& site : calls_.sites()) {
       if (site.callee != index) continue;
       called = true;
-      if (!needs_.behind(site, g)) continue;
+      if (!needs_.behind(site, g)) {
+        put(left_open_[index]);
+        continue;
+      }
       const auto* call = std::get_if<CallRoutine>(&site.statement->node);
       const bool once = call != nullptr && !call->count && !call->has_range && !call->computed;
       const Facts& before = facts_.before(*site.statement);
-      if (!once || !known(g, before)) return false;
-      if (!same(g, before, exit_of(index))) places.push_back(site.statement->id);
+      if (!once || !known(g, before, *site.statement)) return false;
+      places.push_back(site.statement->id);
     }
-    for (const auto id : places) put(behind_[id]);
+    for (const auto id : places) {
+      behind_[id].callee = index;
+      put(behind_[id]);
+    }
     return called;
   }
 
@@ -156,13 +207,15 @@ class Restore {
           out.push_back(std::move(s));
           return;
         }
-        Body pieces;
-        const Facts before = facts_.before(s);
+        Body back;
         LineInfo like;
         like.span = s.line.span;
         like.skip_mask = s.line.skip_mask;
+        const std::size_t callee = changes->second.callee;
+        written_back(like, changes->second, s, as_left(callee, exit_of(callee)), back);
+        Body pieces;
         pieces.push_back(std::move(s));
-        written_back(like, changes->second, before, Facts{}, pieces);
+        for (auto& b : back) pieces.push_back(std::move(b));
         editor.put_group(out, std::move(pieces), 0);
       });
     }
@@ -170,13 +223,14 @@ class Restore {
 
   void routine(std::size_t index, const Changes& changes) {
     Routine& r = program_.routines[index];
-    const Facts entry = facts_.before(r.body.front());
+    Statement entry;  // where the routine begins
+    entry.id = r.body.front().id;
     Editor editor(program_, r, context_);
     rewrite_body(r.body, [&](Statement&& s, Body& out) {
       const auto* end = std::get_if<End>(&s.node);
       const bool back = std::holds_alternative<Return>(s.node) || (end != nullptr && end->returns_from_sub);
       Body pieces;
-      if (back) written_back(s.line, changes, entry, facts_.before(s), pieces);
+      if (back) written_back(s.line, changes, entry, as_left(index, facts_.before(s)), pieces);
       const bool of_its_own = !pieces.empty();  // not in the block of a move that the return stands in
       const std::size_t at = out.size();
       editor.put(out, std::move(pieces), std::move(s));
@@ -188,8 +242,10 @@ class Restore {
     for (auto& p : pieces) r.body.push_back(std::move(p));
   }
 
-  void written_back(const LineInfo& like, const Changes& changes, const Facts& entry, const Facts& now,
+  /// The state before the statement `as` comes back where `now` holds.
+  void written_back(const LineInfo& like, const Changes& changes, const Statement& as, const Facts& now,
                     Body& out) const {
+    const Facts& entry = facts_.before(as);
     Block b;
     for (const auto s : changes.settings) {
       const auto index = static_cast<std::size_t>(s);
@@ -204,6 +260,7 @@ class Restore {
       set.setting = s;
       set.value = *entry.settings[index];
       set.feed_memory = FeedMemory::per_mode;
+      if (s == Setting::units) set.feed_too = feed_too(entry, as).value_or(true);
       b.actions.push_back(action(set));
     }
     if (changes.offset && now.work_offset != entry.work_offset) {
@@ -222,8 +279,10 @@ class Restore {
   CallGraph calls_;
   FactsOf facts_;
   ModalNeeds needs_;
+  FlowStates<FeedUnits> feed_units_;
   std::vector<std::pair<std::size_t, Changes>> at_returns_;
-  std::map<std::uint32_t, Changes> behind_;  ///< by the id of the call
+  std::map<std::size_t, Changes> left_open_;  ///< by routine: what counts for nothing behind some call of it
+  std::map<std::uint32_t, Changes> behind_;   ///< by the id of the call
 };
 
 }  // namespace
