@@ -350,6 +350,17 @@ void follow(const Block& b, TurnState& state) {
   }
 }
 
+/// What both ways leave: the one through blocks that a switch passes over and the one around them.
+TurnState join(TurnState a, const TurnState& b) {
+  if (a.spindle != b.spindle) a.spindle.reset();
+  if (a.tool != b.tool) a.tool.reset();
+  if (a.offset != b.offset) a.offset.reset();
+  for (const auto place : {&TurnState::x, &TurnState::z}) {
+    if (a.*place && !(b.*place && equal(*(a.*place), *(b.*place)))) (a.*place).reset();
+  }
+  return a;
+}
+
 }  // namespace
 
 cycles::TurnUnits turn_units(const ModalState& m) {
@@ -394,10 +405,16 @@ TurnCycles::TurnCycles(const Program& program, const Routine& routine, const Leg
       constants_(program),
       written_(written_data(program, context.source_machine)) {
   const LabelUses uses = label_uses(program, routine);
-  TurnState state;
+  TurnState state, around;     // `around`: at the first of the blocks at hand that one switch passes over
+  std::uint16_t switches = 0;  // of these blocks; 0: the block at hand is carried out always
   const auto sense = only_sense(program);
   const bool absolute = always_absolute(program, context.source_machine.power_on);
   for_each_statement(routine.body, [&](const Statement& s) {
+    if (s.line.skip_mask != switches) {
+      if (switches != 0) state = join(state, around);
+      around = state;
+      switches = s.line.skip_mask;
+    }
     for (const auto& l : labels_on(s.line)) {
       if (!uses.is_target(l)) continue;
       // It runs one way only: that it runs has been seen before, and the label is reached from there or later.
