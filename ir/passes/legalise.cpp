@@ -8,6 +8,7 @@
 #include "ir/passes/cycle_spindles.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/given_data.h"
+#include "ir/passes/jumped_ends.h"
 #include "ir/passes/lines.h"
 #include "ir/passes/mixed_feeds.h"
 #include "ir/passes/motion_codes.h"
@@ -34,6 +35,7 @@ constexpr std::array pipeline{
     Pass{"mixed_feeds", passes::check_mixed_feeds, false},
     Pass{"texts", passes::write_known_texts, false},
     Pass{"called_parts", passes::separate_called_parts, false},
+    Pass{"jumped_ends", passes::name_jumped_ends, false},
     Pass{"known_frames", passes::say_known_frames, false},
     Pass{"returns", passes::normalise_returns, false},
     Pass{"range_ends", passes::mark_range_ends, false},

@@ -10,8 +10,10 @@
 #include "ir/passes/flow_states.h"
 #include "ir/passes/kept_values.h"
 #include "ir/passes/lower_cycles.h"
+#include "ir/passes/modal_callees.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
@@ -20,13 +22,6 @@ namespace {
 /// On this machine F, S and a bare motion code run a modal subprogram as well.
 bool words_run(const machine::Profile& machine) {
   return machine.option("call.modal_words") == "yes";
-}
-
-bool defines(const Routine& r) {
-  bool found = false;
-  for_each_statement(r.body,
-                     [&found](const Statement& s) { found = found || std::holds_alternative<ModalCall>(s.node); });
-  return found;
 }
 
 /// A domain of FlowStates: the statement that switched the modal call in force on.
@@ -38,7 +33,7 @@ struct InForce {
   static void transfer(const Statement& s, State& state) {
     if (const auto* m = std::get_if<ModalCall>(&s.node)) state = m->off || m->cycle ? 0 : s.id;
   }
-  [[nodiscard]] static bool touches(const Routine& r) { return defines(r); }
+  [[nodiscard]] static bool touches(const Routine& r) { return has_modal_call(r); }
   static void unknown(State& /*state*/) {}  // what is not at hand is taken to leave the caller's modal call alone
   static bool join(State& a, const State& b) {
     if (a == b || a == several) return false;
@@ -72,7 +67,8 @@ class ModalCalls {
     active_.reset();
     on_target_.reset();
     from_ = 0;
-    const auto* entry = routine.body.empty() || defines(routine) ? nullptr : in_force_.before(routine.body.front());
+    const auto* entry =
+        routine.body.empty() || has_modal_call(routine) ? nullptr : in_force_.before(routine.body.front());
     brought_ = entry == nullptr ? 0 : *entry;
     Editor editor(program_, routine, context_);
     editor_ = &editor;
@@ -128,6 +124,11 @@ class ModalCalls {
   void one(Statement&& s, Body& out) {
     auto* m = std::get_if<ModalCall>(&s.node);
     if (m != nullptr && !m->cycle) return definition(std::move(s), out);
+    if (m != nullptr) {  // a cycle in its place
+      active_.reset();
+      on_target_.reset();
+      from_ = 0;
+    }
     if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
     auto* b = std::get_if<Block>(&s.node);
     if (b != nullptr && by_another_way(s, *b)) {
@@ -143,8 +144,13 @@ class ModalCalls {
       return;
     }
     if (const auto* pattern = pattern_in(*b)) {
-      if (active_) return points(std::move(s), *pattern, out);
-      out.push_back(std::move(s));  // each of its points runs the target's own modal call
+      return points(std::move(s), *pattern, out);
+    }
+    if (on_target_ && replaced_by_cycle(*b)) {
+      refuse(s, program_, context_, "TRN-561",
+             "a canned cycle beside a modal subprogram: the target has one of them at a time",
+             "end the modal subprogram before the cycle");
+      out.push_back(std::move(s));
       return;
     }
     const bool only_moves = b->repeat_given != 0 && b->repeat.is(0);
@@ -194,20 +200,29 @@ class ModalCalls {
                                "where it is written",
                                "end the modal call before this one");
   }
-  /// The subprogram runs at each point of a pattern.
+  /// The subprogram runs at each point of a pattern. The target's own modal call does so by itself, but for ways at a
+  /// feed of their own, behind which the feed of before counts again.
   void points(Statement&& s, const NamedCycle& pattern, Body& out) {
     const LineInfo like = s.line;
     std::string error;
     bool guessed = false;
     auto blocks = pattern_blocks(pattern, like, std::get<Block>(s.node), facts_.before(s), &guessed, &error);
+    const bool own_feed = blocks && std::any_of(blocks->begin(), blocks->end(), [](const Statement& p) {
+                            return !std::get<Block>(p.node).actions.empty();
+                          });
+    if (!active_ && !own_feed) return out.push_back(std::move(s));
+    const CallRoutine call = active_ ? *active_ : on_target_->call;
     if (guessed) {
       blocks.reset();
       error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
     }
-    if (blocks && std::any_of(blocks->begin(), blocks->end(),
-                              [](const Statement& p) { return !std::get<Block>(p.node).actions.empty(); })) {
+    const auto feed = facts_.before(s).feed;
+    if (own_feed && (!feed || !leaves_feed(program_, calls_, call, *feed))) {
       blocks.reset();
-      error = "the tool goes from point to point at a feed of the pattern's own";
+      error = "the tool goes from point to point at a feed of the pattern's own, and the feed behind it is not known";
+    } else if (own_feed && !active_ && !fixed_arguments(call)) {
+      blocks.reset();
+      error = "the arguments of the modal subprogram are computed";
     }
     if (!blocks) {
       if (error.empty()) error = "its words are computed when the program runs";
@@ -217,12 +232,33 @@ class ModalCalls {
       return;
     }
     balance_increments(*blocks, s, std::get<Block>(s.node), facts_.before(s), context_);
-    bool first = true;
+    Body pieces;
+    if (!active_ && !just_begun(s, out)) pieces.push_back(made(like, off_call()));
     for (auto& p : *blocks) {
-      if (first) p.line = like;
-      first = false;
-      written_out(std::move(p), out);
+      auto& b = std::get<Block>(p.node);
+      for (auto& a : b.actions) std::get<SetFeed>(a.data).block_only = false;
+      const bool way = !b.actions.empty();
+      pieces.push_back(std::move(p));
+      if (way) pieces.push_back(make_block(like, action(SetFeed{Value{*feed}})));
+      pieces.push_back(made(like, call));
     }
+    if (!active_) pieces.push_back(made(like, *on_target_));
+    pieces.front().line = like;
+    editor_->put_group(out, std::move(pieces), 0);
+    if (active_) return;
+    wrapped_in_ = &out;
+    wrapped_size_ = out.size();
+  }
+  /// The statement before switches the target's call on for nothing: it goes.
+  bool just_begun(const Statement& next, Body& out) const {
+    if (out.empty() || is_target(next)) return false;
+    const auto* on = std::get_if<ModalCall>(&out.back().node);
+    const LineInfo& line = out.back().line;
+    if (on == nullptr || on->off || on->cycle || on->here || !line.number.empty() || !line.labels.empty() ||
+        !line.comments.empty())
+      return false;
+    out.pop_back();
+    return true;
   }
   static ModalCall off_call() {
     ModalCall off;
@@ -306,6 +342,12 @@ class ModalCalls {
       leave_line(std::move(s), out);
       return;
     }
+    if (program_.dialect != context_.target.dialect && changes_modal_calls(program_, calls_, m.call)) {
+      refuse(s, program_, context_, "TRN-393",
+             "the modal subprogram begins or ends a modal call itself: what is modal behind it depends on its runs",
+             "end the modal call where it was begun");
+      return out.push_back(std::move(s));
+    }
     const bool modal = context_.target.modal_call && !never_modal(m.call);
     const LineInfo like = s.line;
     if (take_back_on(s, out)) on_target_.reset();
@@ -382,34 +424,22 @@ class ModalCalls {
   /// A modal subprogram ends a modal cycle; written out it leaves no word that would.
   void end_cycle(Statement& s, bool stays_modal, Body& out) const {
     const Facts& facts = facts_.before(s);
-    if (stays_modal || (facts.cycle_active_known && !facts.cycle_active) || !by_calls_) return;
-    Statement off = made(s.line, off_call());
+    if (stays_modal || (facts.cycle_active_known && !facts.cycle_active)) return;
+    Statement off = by_calls_ ? made(s.line, off_call()) : make_block(s.line, action(CycleCancel{}));
     move_head(s.line, off.line);
     out.push_back(std::move(off));
   }
-  /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each
-  /// call.
-  bool shared_too(const CallRoutine& call) const {
-    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
-    return callee && !call.arguments.empty() && calls_.called_with(*callee, CallLevel::shared) &&
-           call.level == CallLevel::new_level;
+  /// A cycle of this block would take the place of the target's modal call.
+  bool replaced_by_cycle(const Block& b) const {
+    const auto* define = action_in<CycleDefine>(b);
+    return define != nullptr && define->modal && context_.target.modal_cycle_by_call &&
+           program_.dialect != context_.target.dialect;
   }
-  /// The subprogram, or one that it calls, defines a cycle, which ends the target's modal call.
-  bool ends_itself(const CallRoutine& call) const {
-    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
-    if (!callee || !context_.target.modal_cycle_by_call || program_.dialect == context_.target.dialect) return false;
-    bool found = false;
-    for (const auto r : reached_from(calls_, *callee)) {
-      for_each_statement(program_.routines[r].body, [&found](const Statement& s) {
-        const auto* b = std::get_if<Block>(&s.node);
-        if (b == nullptr || pattern_in(*b)) return;
-        found = found || std::any_of(b->actions.begin(), b->actions.end(),
-                                     [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
-      });
-    }
-    return found;
+  bool never_modal(const CallRoutine& call) const {
+    const bool ends_itself = context_.target.modal_cycle_by_call && program_.dialect != context_.target.dialect &&
+                             defines_cycle(program_, calls_, call);
+    return ends_itself || shares_level_too(calls_, call);
   }
-  bool never_modal(const CallRoutine& call) const { return shared_too(call) || ends_itself(call); }
   static void leave_line(Statement&& s, Body& out) {
     if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
     s.node = Label{};

@@ -69,6 +69,10 @@ class Steps {
     if (heads_.count(s.id) != 0) state = Step::apart;
     const Facts& facts = facts_.before(s);
     const bool point = is_point_of_hole(*b, facts);
+    const bool in_cycle = point && (action_in<CycleDefine>(*b) != nullptr || facts.cycle_active_known);
+    if (in_cycle && rapid_points_ && !rapid_at_holes_ && b->has_motion && b->motion.kind == MotionKind::rapid &&
+        !b->motion.keeps_modal)
+      return;  // reached without a code
     if (b->has_motion && b->motion.kind != MotionKind::modal)
       state = b->motion.keeps_modal || facts.motion == b->motion.kind ? Step::same : Step::apart;
     else if (b->has_motion && b->motion.moves() && !(point && rapid_points_))

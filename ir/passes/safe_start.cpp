@@ -126,8 +126,8 @@ class SafeStart {
           !std::holds_alternative<Message>(s.node) && !std::holds_alternative<Label>(s.node))
         return false;
       if (b == nullptr || !b->has_motion) continue;
-      if (b->motion.kind != MotionKind::modal) return true;
-      if (!b->motion.moves() || !b->motion.centers.empty()) continue;
+      if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
+      if (b->motion.kind != MotionKind::modal || !b->motion.moves() || !b->motion.centers.empty()) continue;
       for (const auto& l : labels_on(s.line)) {
         if (uses.is_target(l)) return false;  // comes here again with another function
       }
