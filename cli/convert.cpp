@@ -11,6 +11,7 @@
 #include "translator/names_file.h"
 #include "translator/report/report.h"
 #include "translator/stream.h"
+#include "translator/stream_proof.h"
 
 namespace cnctrans::cli {
 
@@ -222,6 +223,9 @@ class Proofs {
       lines_.push_back({result.held_back ? Severity::error : Severity::warning, text});
     }
   }
+  void verified(const std::string& input, const verifier::Verdict& verdict) {
+    if (!a_.quiet) lines_.push_back({Severity::note, input + ": " + verifier::describe(verdict, {}, {})});
+  }
   void not_proved(const std::string& input, const std::string& why) {
     lines_.push_back({Severity::warning, input + ": not proved: " + why});
   }
@@ -261,8 +265,58 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   return result.held_back ? std::max(status, exit_of(result.verdict)) : status;
 }
 
-/// A file of this size and its translation are still replayed: that takes memory for both traces (docs/verify.md).
+/// A straight-line file of this size is still proved as a whole program where a proof in step can't be made: that takes
+/// memory (docs/verify.md).
 constexpr std::uintmax_t replayed_bytes = 2'000'000;
+
+using Spool = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// The text of a spool goes to where the call wants it. False: it can't be written; that is said.
+bool write_spool(const Arguments& a, std::FILE* spool) {
+  const bool to_stdout = a.output.empty() || a.output == "-";
+  std::string error = "the standard output could not be written";
+  AtomicFile file(a.output);
+  bool good = to_stdout || file.open(&error);
+  std::string buffer(1U << 18U, '\0');
+  std::rewind(spool);
+  while (good) {
+    const std::string_view piece(buffer.data(), std::fread(buffer.data(), 1, buffer.size(), spool));
+    if (piece.empty()) break;
+    good = to_stdout ? write_all(stdout, piece) : file.write(piece, &error);
+  }
+  good = good && std::ferror(spool) == 0 && (to_stdout ? stdout_arrived() : file.commit(&error));
+  if (!good) not_written(a, error);
+  return good;
+}
+
+/// The stream with its proof: what it writes is put aside until both texts have been replayed in step.
+std::optional<int> convert_stream_proved(const Arguments& a, const translator::TranslateOptions& options,
+                                         const std::string& input, Proofs& proofs) {
+  const Spool spool(std::tmpfile(), &std::fclose);
+  if (!spool) return std::nullopt;
+  ProgressLine progress(input);
+  translator::TranslateOptions with = options;
+  with.verify = false;
+  const auto keep = [&spool](std::string_view text) { return write_all(spool.get(), text); };
+  const auto result = translator::translate_stream(input, with, keep, [&progress](double part) { progress(part); });
+  if (result.outcome != translator::StreamOutcome::done || std::fflush(spool.get()) != 0) return std::nullopt;
+  const std::string text = "/proc/self/fd/" + std::to_string(::fileno(spool.get()));
+  const auto proof = translator::prove_stream(input, text, options);
+  std::error_code ignored;
+  const bool small = fs::file_size(input, ignored) <= replayed_bytes;
+  const bool proved = proof.proved == translator::StreamProved::yes;
+  if (!proved && (small || proof.proved == translator::StreamProved::no)) return std::nullopt;
+  if (!write_spool(a, spool.get())) return refused;
+  a.messages->add(result.diagnostics, result.files);
+  if (!a.output.empty() && a.output != "-") wrote(a, a.output);
+  if (proved) {
+    proofs.verified(input, proof.verdict);
+  } else {
+    proofs.not_proved(input,
+                      "a file of more than 2 MB that can't be replayed line by line; --verify replays it in memory");
+  }
+  return ok;
+}
 
 /// Tries the stream; nullopt: the whole-program path must do it.
 std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options,
@@ -270,20 +324,18 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
   if (options.annotate || options.names != nullptr || is_folder(a.output) || !a.report.empty()) return std::nullopt;
   if (options.verify && options.strict) return std::nullopt;
   std::error_code ignored;
-  if (options.verify && fs::file_size(input, ignored) <= replayed_bytes) return std::nullopt;
   if (fs::equivalent(a.output, input, ignored)) return std::nullopt;
+  if (options.verify) return convert_stream_proved(a, options, input, proofs);
   ProgressLine progress(input);
   const auto tell = [&progress](double part) { progress(part); };
   const bool to_stdout = a.output.empty() || a.output == "-";
   std::string error;
-  translator::TranslateOptions with = options;
-  with.verify = false;
   translator::StreamResult result;
   if (to_stdout) {
     StdoutSink sink;
     if (!sink.good()) return std::nullopt;
     result = translator::translate_stream(
-        input, with, [&sink](std::string_view t) { return sink.write(t); }, tell);
+        input, options, [&sink](std::string_view t) { return sink.write(t); }, tell);
     const bool kept = result.outcome == translator::StreamOutcome::done;
     if (!(kept ? sink.commit() : sink.discard())) {
       not_written(a, "the standard output could not be written");
@@ -293,7 +345,7 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
     AtomicFile file(a.output);
     if (!file.open(&error)) return std::nullopt;
     result = translator::translate_stream(
-        input, with, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
+        input, options, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
     if (result.outcome == translator::StreamOutcome::done && !file.commit(&error)) {
       not_written(a, error);
       return refused;
@@ -302,11 +354,6 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
   if (result.outcome != translator::StreamOutcome::done) return std::nullopt;
   a.messages->add(result.diagnostics, result.files);
   if (!to_stdout) wrote(a, a.output);
-  if (options.verify) {
-    proofs.not_proved(input,
-                      "a file of more than 2 MB is translated line by line, and its moves are not kept for a "
-                      "comparison; --verify compares them, with memory for all of them");
-  }
   return ok;
 }
 

@@ -65,6 +65,14 @@ std::uint16_t skip_switches(const ir::Program& program) {
   return static_cast<std::uint16_t>(mask);
 }
 
+std::string skip_option(std::uint16_t mask, int first) {
+  std::string levels;
+  for (int bit = 0; bit < 16; ++bit) {
+    if ((mask >> bit & 1) != 0) levels += (levels.empty() ? "" : ",") + std::to_string(bit + first);
+  }
+  return levels.empty() ? levels : "--skip " + levels;
+}
+
 Explorer::Explorer(const ir::Program& program, Inputs start, std::function<bool(const std::string&)> settable)
     : start_(std::move(start)),
       settable_([spaces = program.spaces, known = std::move(settable)](const std::string& name) {

@@ -28,6 +28,9 @@ std::string plain_name(const std::string& name);
 /// Every block-skip switch that some block of the program asks.
 std::uint16_t skip_switches(const ir::Program& program);
 
+/// The option that sets these switches, "--skip 0,2"; `first`: number of the control's first one.
+std::string skip_option(std::uint16_t mask, int first);
+
 /// Proposes inputs one by one. Values come from the program: what its conditions compare with, one less and one more,
 /// numbers of labels where the label is computed, 0, 1 and -1; for the variables that a condition depends on, also
 /// through assignments and arguments.

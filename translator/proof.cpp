@@ -137,7 +137,7 @@ class Prover {
     if (!other) return proof;
     if (fails(other->verdict)) return failed(*std::move(other), inputs);
     if (other->verdict.good()) {
-      also_ = described({{}, inputs.skip_mask});
+      also_ = skip_option(inputs.skip_mask, options_.first_skip_switch);
       add_distance(proof.verdict, other->verdict);
     }
     runs_.push_back({std::move(inputs), std::move(other->source.result)});
@@ -227,13 +227,8 @@ class Prover {
   [[nodiscard]] std::string described(const Inputs& inputs) const {
     std::string text;
     for (const auto& [name, value] : inputs.set) text += (text.empty() ? "" : " ") + ("--set " + name + "=" + value);
-    std::string levels;
-    for (int bit = 0; bit < 16; ++bit) {
-      if ((inputs.skip_mask >> bit & 1) == 0) continue;
-      levels += (levels.empty() ? "" : ",") + std::to_string(bit + options_.first_skip_switch);
-    }
-    if (!levels.empty()) text += (text.empty() ? "" : " ") + ("--skip " + levels);
-    return text;
+    const std::string skips = skip_option(inputs.skip_mask, options_.first_skip_switch);
+    return text.empty() || skips.empty() ? text + skips : text + " " + skips;
   }
 
   const Side& source_;

@@ -10,54 +10,19 @@
 #include "ir/passes/legalise.h"
 #include "ir/passes/stream_watch.h"
 #include "ir/search.h"
-#include "translator/definitions.h"
 #include "translator/encode.h"
 #include "translator/line_shapes.h"
 #include "translator/origin.h"
 #include "translator/program_axes.h"
-#include "translator/readable.h"
 #include "translator/stream_tools.h"
+#include "translator/stream_windows.h"
 
 namespace cnctrans::translator {
 
 namespace {
 
-constexpr std::size_t window_bytes = 1U << 20U;
 /// The head must fit into the first window: longer ones take the whole-program path.
 constexpr std::size_t head_limit = 2000;
-
-/// A source as windows of whole lines; the first window also tells encoding and line ends.
-struct Windows {
-  LineWindowReader reader{window_bytes};
-  std::string_view first;
-  Encoding encoding = Encoding::utf8;
-  Eol eol = Eol::lf;
-  bool bom = false;
-
-  bool open(const std::string& path, std::string* error) {
-    if (!reader.open(path, error)) return false;
-    first = reader.next();
-    bom = first.substr(0, 3) == "\xEF\xBB\xBF";
-    if (bom) first.remove_prefix(3);
-    encoding = valid_utf8(first) ? Encoding::utf8 : Encoding::windows1252;
-    std::string_view look = first;
-    SourceLine line;
-    if (take_line(look, line) && line.has_eol) eol = line.eol;
-    return true;
-  }
-};
-
-frontends::TextLook look_through(const std::string& path) {
-  return [path](const std::function<bool(std::string_view)>& holds) {
-    LineWindowReader reader(window_bytes);
-    std::string error;
-    if (!reader.open(path, &error)) return true;
-    for (std::string_view text = reader.next(); !text.empty(); text = reader.next()) {
-      if (holds(text)) return true;
-    }
-    return !reader.read_error().empty();
-  };
-}
 
 class StreamTranslation {
  public:
@@ -412,81 +377,13 @@ class StreamTranslation {
 StreamResult translate_stream(const std::string& path, const TranslateOptions& options, const TextSink& sink,
                               const Progress& progress) {
   StreamResult result;
-  const Dialect* from = find_dialect(options.from);
-  const Dialect* to = find_dialect(options.to);
-  result.outcome = StreamOutcome::needs_program;
-  // In its own language a program keeps its spelling, which the stream does not look at closely enough.
-  if (from == nullptr || !readable(*from) || to == nullptr || from == to || options.verify || options.annotate ||
-      options.reader != frontends::Reader::scanner || !can_reopen(path) ||
-      !definition_files(*from, options.libraries).empty())
-    return result;
-  Windows look;
-  if (!look.open(path, &result.error)) {
-    result.outcome = StreamOutcome::failed;
+  const auto ends = stream_ends(path, options, &result.error);
+  if (!ends || options.verify || options.annotate) {
+    result.outcome = StreamOutcome::needs_program;
     return result;
   }
-  const auto head = SourceText::from_string(path, std::string(look.first));
-  const auto source = choose_profile(*from, options.machine, head.get(), &result.error);
-  if (!source) return result;
-  auto target = machine::load(!options.target_machine.empty()
-                                  ? options.target_machine
-                                  : std::string(to->name) + (source->kind == machine::Kind::lathe ? "-lathe" : "-mill"),
-                              &result.error);
-  if (!target) return result;
-  if (options.target_machine.empty()) {
-    add_axes(*target, added_axes(*source));
-    if (target->tools.empty()) target->tools = source->tools;  // as in the whole-program path
-  }
-  result.outcome = StreamOutcome::done;
-  StreamTranslation(*from, *to, *source, *target, options, result, sink).run(path, progress);
+  StreamTranslation(*ends->from, *ends->to, ends->source, ends->target, options, result, sink).run(path, progress);
   return result;
-}
-
-StreamRun run_stream(const std::string& path, const Dialect& dialect, const machine::Profile& profile,
-                     const RunOptions& options, interpreter::TraceSink& sink, FileTable& files) {
-  StreamRun run;
-  Windows windows;
-  std::string error;
-  run.outcome = StreamOutcome::needs_program;
-  if (!definition_files(dialect, options.libraries).empty() || !windows.open(path, &error)) return run;
-  const FileId file = files.add_name(path);
-  const frontends::ReadOptions read{options.reader, &profile, nullptr, look_through(path)};
-  const auto reader = dialect.frontend->stream(file, read, path);
-  if (!reader || options.reader != frontends::Reader::scanner) return run;
-  interpreter::BlockRunner runner(profile, options.run, sink, run.diagnostics);
-  ir::Statement statement;
-  Span last{file, 1, 1, 1, 1};  // an empty program ends on its first line
-  std::string_view window = windows.first;
-  std::uint32_t number = 0;
-  bool going = true;
-  bool utf8 = true;
-  while (!window.empty()) {
-    if (utf8 && !valid_utf8(window)) {
-      utf8 = false;
-      note_encoding(window, number + 1, file, run.diagnostics);
-    }
-    SourceLine line;
-    while (take_line(window, line)) {
-      line.number = ++number;
-      // Lines after the end are read as well: what they have to report belongs to the program.
-      const auto errors = run.diagnostics.error_count();
-      const auto kind = reader->read(line, statement, run.diagnostics);
-      if (run.diagnostics.error_count() != errors) return run;  // which lines are reached tells the whole program
-      if (kind == frontends::StreamLine::no_statement) continue;
-      if (kind == frontends::StreamLine::needs_program) return run;
-      if (!going) continue;
-      last = statement.line.span;
-      going = runner.step(statement) && kind != frontends::StreamLine::program_end;
-    }
-    window = windows.reader.next();
-  }
-  if (!windows.reader.read_error().empty()) return run;  // the whole-program path reports
-  Diagnostics closing;
-  if (reader->end(number, closing) != frontends::StreamEnd::complete) return run;
-  if (closing.has_errors() || closing.warning_count() != 0) return run;
-  run.outcome = StreamOutcome::done;
-  run.result = runner.finish(last);
-  return run;
 }
 
 }  // namespace cnctrans::translator

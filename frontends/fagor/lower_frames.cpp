@@ -106,7 +106,7 @@ void BlockLowerer::apply_offset(const GWord& g) {
     }
     case Use::shift:
       state_.facts.shift = state_.facts.inner_frames = true;
-      result_->needs_program = true;
+      if (coord_count_ != 0) result_->needs_program = true;
       change.slot = ir::FrameSlot::shift;
       change.combine = coord_count_ == 0 ? ir::FrameCombine::clear : ir::FrameCombine::replace_named;
       take_coordinates_into(change);

@@ -1,0 +1,50 @@
+// A file as windows of whole lines, and what stands at both ends of a stream.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/text.h"
+#include "frontends/common/frontend.h"
+#include "translator/pipeline.h"
+
+namespace cnctrans::translator {
+
+constexpr std::size_t window_bytes = 1U << 20U;
+
+/// A source as windows of whole lines; the first window also tells encoding and line ends.
+struct Windows {
+  LineWindowReader reader{window_bytes};
+  std::string_view first;
+  Encoding encoding = Encoding::utf8;
+  Eol eol = Eol::lf;
+  bool bom = false;
+
+  bool open(const std::string& path, std::string* error) {
+    if (!reader.open(path, error)) return false;
+    first = reader.next();
+    bom = first.substr(0, 3) == "\xEF\xBB\xBF";
+    if (bom) first.remove_prefix(3);
+    encoding = valid_utf8(first) ? Encoding::utf8 : Encoding::windows1252;
+    std::string_view look = first;
+    SourceLine line;
+    if (take_line(look, line) && line.has_eol) eol = line.eol;
+    return true;
+  }
+};
+
+/// Looks through a file, window by window.
+frontends::TextLook look_through(const std::string& path);
+
+/// Languages and machines of a translation of this file that may go through as a stream.
+struct StreamEnds {
+  const Dialect* from = nullptr;
+  const Dialect* to = nullptr;
+  machine::Profile source, target;
+};
+/// nullopt: it may not.
+std::optional<StreamEnds> stream_ends(const std::string& path, const TranslateOptions& options, std::string* error);
+
+}  // namespace cnctrans::translator
