@@ -9,6 +9,7 @@
 #include "ir/cycles/profile_blocks.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
+#include "ir/search.h"
 #include "ir/tool_number.h"
 #include "machine/turning_tool.h"
 
@@ -31,6 +32,10 @@ const NamedCycle* machining_of(const Block& b) {
 
 std::optional<double> known(const Value& v) {
   return v.literal() ? std::optional(v.number) : constant_value(v.expr);
+}
+std::optional<std::int32_t> known_number(const Value& v) {
+  const auto n = known(v);
+  return n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
 }
 
 /// Moves as blocks.
@@ -269,38 +274,24 @@ class Writer {
 
 /// The only sense in which the program ever turns its spindle; nullopt: both, or none.
 std::optional<SpindleState> only_sense(const Program& program) {
-  bool cw = false, ccw = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) {
-        const auto* run = std::get_if<SpindleRun>(&a.data);
-        if (run == nullptr || run->number != 1) continue;
-        cw = cw || run->state == SpindleState::cw;
-        ccw = ccw || run->state == SpindleState::ccw;
-      }
+  const auto turns = [&program](SpindleState sense) {
+    return any_action(program, [sense](const Action& a) {
+      const auto* run = std::get_if<SpindleRun>(&a.data);
+      return run != nullptr && run->number == 1 && run->state == sense;
     });
-  }
-  if (cw == ccw) return std::nullopt;
+  };
+  const bool cw = turns(SpindleState::cw);
+  if (cw == turns(SpindleState::ccw)) return std::nullopt;
   return cw ? SpindleState::cw : SpindleState::ccw;
 }
 
 /// No block of the program counts from where the tool stands.
 bool always_absolute(const Program& program, const ModalState& power_on) {
-  bool absolute = power_on.distance == Distance::absolute;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr) return;
-      for (const auto& a : b->actions) {
-        const auto* set = std::get_if<ModalSet>(&a.data);
-        if (set != nullptr && set->setting == Setting::distance)
-          absolute = absolute && set->value == static_cast<std::uint8_t>(Distance::absolute);
-      }
-    });
-  }
-  return absolute;
+  return power_on.distance == Distance::absolute && !any_action(program, [](const Action& a) {
+           const auto* set = std::get_if<ModalSet>(&a.data);
+           return set != nullptr && set->setting == Setting::distance &&
+                  set->value != static_cast<std::uint8_t>(Distance::absolute);
+         });
 }
 
 /// The cycle of the block leaves the tool where it was.
@@ -339,14 +330,9 @@ void follow(const Block& b, TurnState& state) {
     if (std::holds_alternative<CycleDefine>(a.data) && machining_of(b) != nullptr &&
         machining_of(b)->name == "part.off")
       state.spindle.reset();  // it may turn the other way
-    if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
-      const auto n = has_number(*t) ? known(t->number) : std::nullopt;
-      state.tool = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
-    }
-    if (const auto* d = std::get_if<ToolOffset>(&a.data)) {
-      const auto n = known(d->number);
-      state.offset = n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
-    }
+    if (const auto* t = std::get_if<ToolSelect>(&a.data))
+      state.tool = has_number(*t) ? known_number(t->number) : std::nullopt;
+    if (const auto* d = std::get_if<ToolOffset>(&a.data)) state.offset = known_number(d->number);
   }
 }
 
@@ -362,13 +348,6 @@ TurnState join(TurnState a, const TurnState& b) {
 }
 
 }  // namespace
-
-cycles::TurnUnits turn_units(const ModalState& m) {
-  cycles::TurnUnits u;
-  u.along = u.length = u.feed = m.units == Units::inch ? 25.4 : 1;
-  u.cross = m.diameter == DiameterMode::radius ? u.length : u.length / 2;
-  return u;
-}
 
 std::optional<ModalState> modes_at(const Block& b, const Facts& facts, const ModalState& power_on) {
   ModalState m = power_on;

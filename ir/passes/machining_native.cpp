@@ -55,6 +55,13 @@ TurnMove rapid_to(cycles::TurnPoint place) {
 
 }  // namespace
 
+cycles::TurnUnits turn_units(const ModalState& m) {
+  cycles::TurnUnits u;
+  u.along = u.length = u.feed = m.units == Units::inch ? 25.4 : 1;
+  u.cross = m.diameter == DiameterMode::radius ? u.length : u.length / 2;
+  return u;
+}
+
 std::optional<TurnForm> TurnCycles::native(const NamedCycle& words, const Statement& s, const Block& b,
                                            const Facts& facts) const {
   const auto& accepts = context_.target.native_cycle;
