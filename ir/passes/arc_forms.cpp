@@ -221,9 +221,15 @@ bool ArcPass::exact_pitch(Arc& arc) {
     return false;
   }
   const double travel = std::fabs(*arc.end[2] - *arc.start[2]);
+  auto extra = std::make_shared<MotionExtra>(*m.extra);
+  if (travel == 0) {  // no helix
+    extra->has_pitch = false;
+    m.extra = std::move(extra);
+    drop_empty_extra(m);
+    return true;
+  }
   const double turns = std::max(0.0, std::round(travel / std::fabs(pitch.number) - *angle / 360)) + *angle / 360;
   if (turns == 0 || std::fabs(std::fabs(pitch.number) * turns - travel) < 1e-9) return true;
-  auto extra = std::make_shared<MotionExtra>(*m.extra);
   extra->pitch = Value{travel / turns};
   m.extra = std::move(extra);
   return true;

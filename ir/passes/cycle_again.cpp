@@ -11,7 +11,9 @@ void CyclePass::lower(Statement&& s, Body& out) {
   check_words(s);
   leave_while_off(s);
   if (auto* m = std::get_if<ModalCall>(&s.node)) {
-    if (m->off && active_) return cancel_statement(std::move(s), out);
+    // What ends a modal subprogram that is made at once as well leaves a modal cycle in force.
+    if (m->off && m->here && facts_.before(s).modal_call == 0) return leave_line(std::move(s), out);
+    if (m->off && active_ && !m->here) return cancel_statement(std::move(s), out);
     // Only a cycle can be meant, or nothing.
     const bool nothing = facts_.before(s).cycle_active_known && !facts_.before(s).cycle_active;
     const bool no_call = facts_.before(s).modal_call == 0 && !(nothing && context_.target.modal_call);

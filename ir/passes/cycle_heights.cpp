@@ -29,7 +29,9 @@ std::optional<Block> code_before_cycle(Block& b, const Facts& facts, const Legal
 
 bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto* hole = std::get_if<HoleCycle>(&active_->native->node);
-  const auto height = in_units(active_->height, b, facts);
+  const auto w = tool_axis(active_->source, b, facts);
+  const bool moves_tool = w && moves_along(b, *w);
+  const auto height = in_units(moves_tool ? height_after(b, facts, *w) : active_->height, b, facts);
   if (hole == nullptr || !height || !hole->retract.given) return false;
   const auto fixed = [](const Level& l) { return l.base == LevelBase::absolute && l.value.literal(); };
   if (!fixed(hole->retract) || !fixed(hole->reference) || !stands_by_itself(*hole)) return false;

@@ -220,10 +220,11 @@ std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b
   if (row->kind == PatternKind::line) {
     // A row from the point that is done: the tool stands at its nearer end.
     const double step = std::hypot(points->front().u - *at->at_u, points->front().v - *at->at_v);
-    const auto* angle = word(pattern, "angle");
-    const bool backwards =
-        numbers->contains("step") ? numbers->at("step") < 0 : numbers->contains("length") && numbers->at("length") < 0;
-    const double turned = (angle != nullptr ? numbers->at("angle") : 0) + (backwards ? 180 : 0);
+    const double angle = word(pattern, "angle") != nullptr ? numbers->at("angle") : 0;
+    const double radians = angle * std::acos(-1.0) / 180;
+    const double along =
+        std::cos(radians) * (points->front().u - *at->at_u) + std::sin(radians) * (points->front().v - *at->at_v);
+    const double turned = angle + (along < 0 ? 180 : 0);
     c.name = "points.row";
     c.words = {{"u", Value{*at->at_u}},         {"v", Value{*at->at_v}},        {"angle", Value{turned}},
                {"first", Value{rounded(step)}}, {"step", Value{rounded(step)}}, {"count", count}};

@@ -150,15 +150,27 @@ void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const Legalise
 
 namespace {
 
-/// The program starts its spindle before the first jump or call, in its only sense, and never stops it.
+/// A hole that does not start a spindle that stands.
+bool only_bores(const Cycle& cycle) {
+  const auto* hole = std::get_if<HoleCycle>(&cycle.node);
+  return hole != nullptr && hole->kind != HoleKind::tap && hole->kind != HoleKind::tap_floating &&
+         hole->spindle_before == SpindleStep::usual && hole->spindle_after == SpindleStep::usual;
+}
+
+/// The program starts its spindle before the first jump or call, in its only sense, and never stops it; or nothing in
+/// it ever starts one (a tap would).
 std::optional<SpindleState> turns_throughout(const Program& program) {
   std::optional<SpindleState> sense;
-  bool one = true;
+  bool one = true, cycles_start = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      cycles_start = cycles_start || (m != nullptr && m->cycle && !only_bores(*m->cycle));
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) return;
       for (const auto& a : b->actions) {
+        const auto* d = std::get_if<CycleDefine>(&a.data);
+        cycles_start = cycles_start || (d != nullptr && d->cycle && !only_bores(*d->cycle));
         one = one && !std::holds_alternative<SpindleOrient>(a.data) && !std::holds_alternative<MasterSpindle>(a.data);
         const auto* run = std::get_if<SpindleRun>(&a.data);
         if (run == nullptr) continue;
@@ -168,6 +180,7 @@ std::optional<SpindleState> turns_throughout(const Program& program) {
     });
   }
   const auto* main = program.main();
+  if (one && !sense && main != nullptr && !cycles_start) return SpindleState::off;
   if (!one || !sense || main == nullptr) return std::nullopt;
   for (const auto& s : main->body) {
     const auto* b = std::get_if<Block>(&s.node);

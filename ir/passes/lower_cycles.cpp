@@ -1,5 +1,4 @@
-// Canned cycles (equivalences 22): native where the target has exactly the moves, else written out move by move. Some
-// controls run the cycle where it is defined and at each later point, some only at later points by a modal call.
+// Canned cycles (equivalences 22): native where the target has exactly the moves, else written out move by move.
 #include "ir/passes/cycle_pass.h"
 
 #include <algorithm>
@@ -93,15 +92,18 @@ static Statement under_absolute(const LineInfo& like, const CyclePtr& cycle, boo
 void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
+  const auto w = tool_axis(active_->source, b, facts);
+  const bool moves_tool = w && moves_along(b, *w);
+  const bool may_be_on = active_->on_target || active_->maybe_on_target;
   // The target would go up first, the source goes straight down.
-  if (!active_->on_target && !active_->maybe_on_target && sure(facts) && below_retract_plane(b, facts)) {
+  if ((moves_tool || !may_be_on) && sure(facts) && below_retract_plane(b, facts)) {
     if (refuse_stale(s, out)) return;
+    if (may_be_on) pieces.push_back(off_statement(s.line, false));
+    active_->on_target = active_->maybe_on_target = false;
     return write_out(std::move(s), std::move(pieces), out);
   }
-  const auto w = tool_axis(active_->source, b, facts);
   const auto kind = way_to_hole(b, facts, context_);
   const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
-  const bool moves_tool = w && moves_along(b, *w);
   // The target takes no motion code beside its cycle: one that stays in force has to go elsewhere.
   const bool new_code = target_rapid && active_->on_target && b.motion.explicit_code && b.motion.keeps_modal &&
                         facts.motion != b.motion.kind;
@@ -127,8 +129,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     return;
   }
   if (refuse_stale(s, out)) return;
-  const bool maybe_on = active_->maybe_on_target && !active_->on_target;
-  if (maybe_on) pieces.push_back(off_statement(like, false));  // else the way to the point would run it
+  if (may_be_on && !active_->on_target) pieces.push_back(off_statement(like, false));  // the way would run it
   active_->maybe_on_target = false;
   const bool apart = levels_by_mode(active_->native, b, facts);  // the move first, then the cycle with its levels
   if (as_is && rises_first(*active_, b, facts)) {
@@ -192,6 +193,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  const auto sense = sense_.surely() == SpindleState::off ? SpindleState::off : sense_.or_off();
   std::string error, differs;
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;
@@ -214,13 +216,13 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
     error.clear();
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
     moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
-                    active_->defined_at.value_or(height.value_or(1e6)), sense_.or_off(), &error);
+                    active_->defined_at.value_or(height.value_or(1e6)), sense, &error);
   if (!moves && milling && !lost && put_similar_pocket(*hole, s, pieces, height, true, out)) return;
   if (!moves && error.empty()) {
     const auto initial = active_->defined_at ? active_->defined_at : height;
     bool downward = false;
-    moves = explode_computed(*hole, s.line, b, facts, feeds_.at(s, b, facts), initial, sense_.or_off(), editor_,
-                             &downward, &error);
+    moves =
+        explode_computed(*hole, s.line, b, facts, feeds_.at(s, b, facts), initial, sense, editor_, &downward, &error);
     if (moves && downward)
       context_.diagnostics.warning("TRN-334", s.line.span,
                                    "the hole is taken to go downward: how deep it is only the run knows");

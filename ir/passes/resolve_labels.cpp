@@ -266,8 +266,21 @@ class LabelPass {
     return std::any_of(have.begin(), have.end(), [&label](const LabelRef& l) { return same_label(l, label); });
   }
 
-  /// Two labels on one line, and numbers only: the number that stands there serves both.
-  void second_number(Mark& m) { m.renamed = label_of(std::string(m.s->line.number), true); }
+  /// Two labels on one line, and numbers only: the number that stands there serves both, but for one that an earlier
+  /// block has too and that is found there.
+  void second_number(Mark& m) {
+    LineInfo& line = m.s->line;
+    const LabelRef number = label_of(std::string(line.number), true);
+    const auto hidden = [&](const Mark& o) {
+      return o.s == m.s && o.hidden && !o.renamed && same_label(o.label, number);
+    };
+    if (std::none_of(marks_.begin(), marks_.end(), hidden)) {
+      m.renamed = number;
+      return;
+    }
+    line.number = {};
+    set_label(line, *m.renamed, program_);
+  }
 
   void keep_as_comment(LineInfo& line, const std::string& name) {
     CommentText c;

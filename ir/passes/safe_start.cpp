@@ -125,12 +125,12 @@ class SafeStart {
       if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Declare>(s.node) &&
           !std::holds_alternative<Message>(s.node) && !std::holds_alternative<Label>(s.node))
         return false;
-      if (b == nullptr || !b->has_motion) continue;
-      if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
-      if (b->motion.kind != MotionKind::modal || !b->motion.moves() || !b->motion.centers.empty()) continue;
       for (const auto& l : labels_on(s.line)) {
         if (uses.is_target(l)) return false;  // comes here again with another function
       }
+      if (b == nullptr || !b->has_motion) continue;
+      if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
+      if (b->motion.kind != MotionKind::modal || !b->motion.moves() || !b->motion.centers.empty()) continue;
       // A hole that is reached in rapid whatever function is in force says nothing of it.
       const bool hole = std::any_of(b->actions.begin(), b->actions.end(),
                                     [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
