@@ -99,7 +99,7 @@ void ProgramWriter::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {
     return diagnostics_.warning(
         "TRN-205", span_of(a.pos),
         "'" + std::string(w.word) +
-            "' is left out: the programmed path is the same without it; accuracy, timing or the "
+            "' is left out: the programmed path is the same without it; the feed, accuracy, timing or the "
             "corners of a compensated path may differ (said once for each such word)");
   }
   refuse("TRN-205", a.pos, "the word '" + std::string(w.word) + "' is not translated");

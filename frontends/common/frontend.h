@@ -27,7 +27,7 @@ using TextLook = std::function<bool(const std::function<bool(std::string_view)>&
 struct ReadOptions {
   Reader reader = Reader::scanner;
   const machine::Profile* profile = nullptr;  ///< never null when called
-  /// Files that define names for every program of the machine, read before; may be null.
+  /// Files that define names for every program of the machine, read before; null: this file is one of them.
   const std::vector<const ir::Program*>* definitions = nullptr;
   TextLook look = {};  ///< of a stream; empty: there is nothing to look through
   /// The other programs of the run, the main one first, where a file is read for those that call it; may be null.

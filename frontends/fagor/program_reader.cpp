@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
+#include "frontends/common/block_start.h"
 #include "frontends/fagor/lower_statement.h"
 #include "frontends/fagor/subroutine_ends.h"
 
@@ -147,7 +148,9 @@ void ProgramReader::unread(std::string_view text, const ParseError& error) {
                "it is kept as text; the program can't run with it");
   ir::Statement s;
   s.line.span = state_.line();
-  s.node = ir::Opaque{std::string(trim(text)), "text.unread", false};
+  const frontends::BlockStart start = frontends::block_start(text);  // what jumps there finds it
+  s.line.number = start.number;
+  s.node = ir::Opaque{std::string(start.number.empty() ? trim(text) : start.rest), "text.unread", false};
   add(std::move(s));
 }
 

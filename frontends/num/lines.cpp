@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "dialects/num/limits.h"
 #include "dialects/num/variables.h"
+#include "frontends/common/block_start.h"
 
 namespace cnctrans::frontends::num {
 
@@ -321,7 +322,9 @@ void FileReader::line(const SourceLine& source_line) {
     line_.span = span_;
     line_.blank_lines_before = std::exchange(blank_, std::uint16_t{0});
     only_comments_ = false;
-    return opaque(span_, text_, "text.unread", false);
+    const frontends::BlockStart start = frontends::block_start(text_);  // what jumps there finds it
+    line_.number = start.number;
+    return opaque(span_, start.number.empty() ? text_ : start.rest, "text.unread", false);
   }
   if (blank_line) {
     if (blank_ == std::numeric_limits<std::uint16_t>::max()) close_blank(span_);

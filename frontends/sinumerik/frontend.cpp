@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "frontends/common/block_start.h"
 #include "frontends/sinumerik/context.h"
 #include "frontends/sinumerik/executed_text.h"
 #include "frontends/sinumerik/face_radius.h"
@@ -219,7 +220,7 @@ void FileReading::take_header(const syntax::Block& block, const SourceLine& line
   routine_.header.blank_lines_before = blank_;
   blank_ = 0;
   look_.archive = true;
-  if (!data) return;
+  if (!data || context_.definitions == nullptr) return;  // a file that is read for what it defines
   context_.warning("SIN-112", {},
                    name + " is no program: it is not run, and what it defines is not seen by the programs here",
                    "save it as a file of its own and name it with --lib");
@@ -282,6 +283,8 @@ void FileReading::unread(const syntax::Block& block, ir::LineInfo info) {
   } else {
     context_.error("SIN-001", pos, "the block can't be read: " + e.message);
   }
+  if (info.labels.empty())
+    if (const auto label = frontends::block_start(context_.text).label; !label.empty()) info.labels.push_back(label);
   statements_.add_unread(block, std::move(info));
 }
 

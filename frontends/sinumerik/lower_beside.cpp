@@ -6,6 +6,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/beside.h"
+#include "dialects/sinumerik/feed_words.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/variables.h"
 #include "frontends/sinumerik/lower_statements.h"
@@ -37,7 +38,7 @@ bool StatementLowering::without_effect(const std::string& name, WordPos pos, Par
   o.text = c_.slice(pos);
   o.feature = "language.statement";
   o.harmless = true;
-  std::string text = name + " is kept as text: it does not change the programmed path";
+  std::string text = kept_text(name);
   if (name == "FGROUP") {
     text +=
         "; in splines and polynomials under SPATH other axes follow the length of the way of X, Y and Z, whatever it "

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "dialects/sinumerik/feed_words.h"
 #include "frontends/sinumerik/lower_words.h"
 #include "ir/frame_angles.h"
 
@@ -142,7 +143,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
     case NamedWord::timing:
     case NamedWord::compensation:
       push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
-      c_.note("SIN-009", w.pos, name + " is kept as text: it does not change the programmed path");
+      c_.note("SIN-009", w.pos, kept_text(name));
       return;
     case NamedWord::tooth_feed: return tooth_feed(w, value);
     case NamedWord::cutting_speed: return cutting_speed(w, value);

@@ -8,6 +8,7 @@
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
+#include "dialects/sinumerik/feed_words.h"
 #include "dialects/sinumerik/limits.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/row_parts.h"
@@ -215,7 +216,7 @@ bool StatementLowering::sort_assignment(const syntax::Statement& s, Parts& parts
   if ((target.text == "MEASA" || target.text == "MEAWA") && one_index) return probe_item(s, parts);
   if (is_timing_of_axis(target.text)) {
     parts.act(ir::OpaqueWord{c_.slice(s.pos)}, s.pos, c_.slice(s.pos)).order = ir::Order::with;
-    c_.note("SIN-009", s.pos, target.text + "[] is kept as text: it does not change the programmed path");
+    c_.note("SIN-009", s.pos, kept_text(target.text, "[]"));
     return true;
   }
   if (is_reserved(target.text)) return refuse("block.word", s.pos, target.text + "[...]= is not carried yet");

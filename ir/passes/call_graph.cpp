@@ -76,7 +76,7 @@ const ControlFlow& ReadFirst::flow(std::size_t routine) {
 bool ReadFirst::operator()(std::size_t routine, const VarRef& v) {
   std::string key = std::to_string(v.space) + ":" + v.name;
   if (const auto n = constant_index(v); v.index && n) key += std::to_string(*n);
-  return search(routine, v, key);
+  return search(routine, v, key).reads;
 }
 
 bool ReadFirst::statement_reads(const Statement& s, const VarRef& v, bool& written) const {
@@ -93,38 +93,60 @@ bool ReadFirst::statement_reads(const Statement& s, const VarRef& v, bool& writt
     }
     return false;
   }
+  if (const auto* d = std::get_if<Declare>(&s.node); d != nullptr && d->space == v.space) {
+    written = std::any_of(d->items.begin(), d->items.end(), [&](const Declare::Item& i) {
+      return !v.name.empty() && i.name == v.name && !i.initial.empty() && i.dimensions.empty();
+    });
+  }
   bool found = false;
   each_expression(s, [&](const ExprPtr& e) { found = found || reads(e, v); });
   if (const auto* f = std::get_if<For>(&s.node); f != nullptr && !found && same_variable(f->counter, v)) written = true;
   return found;
 }
 
-bool ReadFirst::search(std::size_t routine, const VarRef& v, const std::string& key) {
-  auto [it, fresh] = memo_.try_emplace({routine, key}, Seen::open);
-  if (!fresh) return it->second == Seen::yes;
+namespace {
+/// The whole of one routine runs, at least once.
+bool certain_call(const Statement& s) {
+  const auto* c = std::get_if<CallRoutine>(&s.node);
+  if (c == nullptr || c->computed || c->has_range) return false;
+  const auto count = c->count ? constant_value(c->count) : std::optional(1.0);
+  return count && *count >= 1;
+}
+}  // namespace
+
+ReadFirst::Seen ReadFirst::search(std::size_t routine, const VarRef& v, const std::string& key) {
+  auto [it, fresh] = memo_.try_emplace({routine, key});
+  if (!fresh) return it->second;
   const ControlFlow& cf = flow(routine);
-  bool found = false;
+  Seen found{false, program_.routines[routine].body.empty()};
   std::vector<bool> seen(cf.statements.size(), false);
   std::vector<std::uint32_t> open;
   if (!program_.routines[routine].body.empty()) open.push_back(program_.routines[routine].body.front().id);
-  while (!open.empty() && !found) {
+  while (!open.empty() && !found.reads) {
     const auto id = open.back();
     open.pop_back();
-    if (id == 0 || id >= cf.statements.size() || seen[id] || cf.statements[id] == nullptr) continue;
+    if (id >= cf.statements.size() || seen[id] || cf.statements[id] == nullptr) continue;
     seen[id] = true;
     const Statement& s = *cf.statements[id];
     bool written = false;
-    found = statement_reads(s, v, written);
+    found.reads = statement_reads(s, v, written);
     for (const auto& site : calls_.sites()) {
-      if (found || site.statement != &s || !site.callee) continue;
+      if (found.reads || site.statement != &s || !site.callee) continue;
       if (site.level == CallLevel::new_level && !follows_new_level_) continue;
-      found = search(*site.callee, v, key);
+      const Seen callee = search(*site.callee, v, key);
+      found.reads = callee.reads;
+      written = written || (certain_call(s) && !callee.passes);
     }
-    if (found || (written && s.line.skip_mask == 0)) continue;
-    for (const auto next : cf.successors[id]) open.push_back(next);
+    if (found.reads || (written && s.line.skip_mask == 0)) continue;
+    const auto* end = std::get_if<End>(&s.node);
+    for (const auto next : cf.successors[id]) {
+      if (next != 0)
+        open.push_back(next);
+      else
+        found.passes = found.passes || end == nullptr || end->returns_from_sub;
+    }
   }
-  memo_[{routine, key}] = found ? Seen::yes : Seen::no;
-  return found;
+  return memo_[{routine, key}] = found;
 }
 
 namespace {

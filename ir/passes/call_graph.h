@@ -34,7 +34,7 @@ class CallGraph {
   std::vector<CallSite> sites_;
 };
 
-/// Reading before writing, through calls that share the variable. `selects` says whether a reference is the variable.
+/// Reading before writing, through calls that share the variable: what a called routine certainly writes is written.
 class ReadFirst {
  public:
   /// `follows_new_level`: a call with a level of its own reaches the variable too (true for globals).
@@ -42,8 +42,11 @@ class ReadFirst {
   [[nodiscard]] bool operator()(std::size_t routine, const VarRef& v);
 
  private:
-  enum class Seen : std::uint8_t { open, no, yes };
-  bool search(std::size_t routine, const VarRef& v, const std::string& key);
+  struct Seen {
+    bool reads = false;  ///< before it writes
+    bool passes = true;  ///< it can return without having written
+  };
+  Seen search(std::size_t routine, const VarRef& v, const std::string& key);
   bool statement_reads(const Statement& s, const VarRef& v, bool& written) const;
   const ControlFlow& flow(std::size_t routine);
   const Program& program_;

@@ -28,18 +28,19 @@ class FeedPass {
     FeedState now = *before;
     domain_.settle(*b, facts, now);
     const auto mode = setting_in<std::uint8_t>(*b, facts, Setting::feed_mode);
-    bool same = true, none = false, differs = false;
+    if (!mode && gives_feed(*b)) return;  // whatever the mode is, this is the feed of both controls
+    bool same = true, none = false, given = false, differs = false;
     std::optional<double> value;
     for (std::size_t i = 0; i < now.slots.size(); ++i) {
       if (mode && *mode != i) continue;
       same = same && now.slots[i].same;
       none = none || now.slots[i].maybe_none;
+      given = given || now.slots[i].maybe_given;
       differs = differs || (!now.slots[i].same && !now.slots[i].maybe_none);
       value = mode ? now.slots[i].value : std::nullopt;
     }
     if (!cuts && !differs) return;
-    if (none && !motion_in(*b, facts) && context_.diagnostics.error_count() != 0) return;  // a refused block before it
-    if (none && !differs) return no_feed(s, value.has_value());
+    if (none && !differs) return no_feed(s, given);
     if (same) return;
     if (value) {
       b->actions.insert(b->actions.begin(), action(SetFeed{Value{*value}, false}));
@@ -57,6 +58,12 @@ class FeedPass {
   }
 
  private:
+  static bool gives_feed(const Block& b) {
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      const auto* f = std::get_if<SetFeed>(&a.data);
+      return f != nullptr && !f->block_only;
+    });
+  }
   void no_feed(const Statement& s, bool sometimes) {
     context_.diagnostics.warning(
         "TRN-159", s.line.span,

@@ -19,6 +19,12 @@ const ModalSet* set_of(const Action& a, Setting s) {
   return m != nullptr && m->setting == s ? m : nullptr;
 }
 
+/// A block that the reader could not take: its words may hold an F.
+bool unread(const Statement& s) {
+  const auto* o = std::get_if<Opaque>(&s.node);
+  return o != nullptr && !o->harmless;
+}
+
 bool feeds_itself(const Cycle& c) {
   const auto* hole = std::get_if<HoleCycle>(&c.node);
   if (hole != nullptr && hole->kind == HoleKind::tap && !hole->pitch.is(0)) return true;
@@ -77,6 +83,7 @@ FeedState FeedDomain::start(const Routine& r, bool called) const {
 bool FeedDomain::touches(const Routine& r) {
   bool found = false;
   for_each_statement(r.body, [&found](const Statement& s) {
+    found = found || unread(s);
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     for (const auto& a : b->actions) {
@@ -91,6 +98,8 @@ void FeedDomain::unknown(FeedState& state) {
   for (auto& s : state.slots) {
     s.value.reset();
     s.maybe_power_on = false;
+    s.maybe_none = false;
+    s.maybe_given = true;
   }
 }
 
@@ -101,6 +110,7 @@ bool FeedDomain::join(FeedState& a, const FeedState& b) {
     const auto& y = b.slots[i];
     if (x.value != y.value) x.value.reset();
     x.maybe_none = x.maybe_none || y.maybe_none;
+    x.maybe_given = x.maybe_given || y.maybe_given;
     x.maybe_power_on = x.maybe_power_on || y.maybe_power_on;
     x.same = x.same && y.same;
   }
@@ -120,7 +130,7 @@ void FeedDomain::change_mode(const ModalSet& set, std::optional<std::uint8_t> be
   const FeedState::Slot from = state.slots[*before];
   const bool target_kept = to.same;
   if (own == FeedMemory::shared) to = from;
-  if (own == FeedMemory::cleared) to = FeedState::Slot{std::nullopt, true, false, true};
+  if (own == FeedMemory::cleared) to = FeedState::Slot{std::nullopt, true, false, false, true};
   if (own == other)
     to.same = own == FeedMemory::shared ? from.same : (own == FeedMemory::per_mode ? target_kept : true);
   else
@@ -150,7 +160,7 @@ void FeedDomain::settle(const Block& b, const Facts& facts, FeedState& state) co
       if (f->value.literal() && !(f->zero_is_maximum && f->value.number == 0)) value = f->value.number;
       for (std::size_t i = 0; i < state.slots.size(); ++i) {
         if (mode == i)
-          state.slots[i] = FeedState::Slot{value, false, false, true};
+          state.slots[i] = FeedState::Slot{value, false, true, false, true};
         else if (!mode)
           state.slots[i].value.reset(), state.slots[i].maybe_none = false;
       }
@@ -171,6 +181,7 @@ bool FeedDomain::cuts(const Block& b, const Facts& facts) {
 }
 
 void FeedDomain::transfer(const Statement& s, FeedState& state) const {
+  if (unread(s)) unknown(state);
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr) return;
   const Facts& facts = facts_.before(s);

@@ -15,6 +15,7 @@ struct FeedState {
   struct Slot {
     std::optional<double> value;  ///< of the source, in program units; none: not known
     bool maybe_none = false;      ///< on some way no F has been given for it
+    bool maybe_given = false;     ///< on some way one has
     bool maybe_power_on = false;  ///< on some way it is the feed of power-on
     bool same = true;             ///< the target has the same feed
     bool operator==(const Slot&) const = default;
@@ -38,6 +39,7 @@ class FeedDomain {
   [[nodiscard]] State start(const Routine& r, bool called) const;
   void transfer(const Statement& s, State& state) const;
   [[nodiscard]] static bool touches(const Routine& r);
+  /// Behind what nobody here has read: whether it has given an F is not known.
   static void unknown(State& state);
   static bool join(State& a, const State& b);
 

@@ -34,16 +34,17 @@ VariableUse::VariableUse(const Program& program, const LegaliseContext& context)
       each_expression(s, [&](const ExprPtr& e) {
         walk(e, [&](const ExprPtr& x) {
           if (const auto* v = as_variable(x)) note(*v, r, s.line);
-          if (const auto* sys = std::get_if<SystemRef>(&x->node)) system(*sys, s);
+          if (const auto* sys = std::get_if<SystemRef>(&x->node)) system(*sys);
         });
       });
       each_target(s, [&](const VarRef& v) { note(v, r, s.line); });
       if (const auto* d = std::get_if<Declare>(&s.node)) dimensions(*d, r);
       if (const auto* a = std::get_if<Assign>(&s.node)) {
         for (const auto& i : a->items) {
-          if (i.to_system && !left_out(i.system)) system(i.system, s);
+          if (i.to_system && !left_out(i.system)) system(i.system);
         }
       }
+      say_missing(s);
       const auto* c = std::get_if<CallRoutine>(&s.node);
       if (c != nullptr && c->level == CallLevel::new_level) levels = true;
     });
@@ -61,12 +62,22 @@ void VariableUse::dimensions(const Declare& d, std::size_t routine) {
   }
 }
 
-void VariableUse::system(const SystemRef& ref, const Statement& s) {
+void VariableUse::system(const SystemRef& ref) {
   if (has_name(ref, context_)) return;
-  context_.diagnostics.error("TRN-122", s.line.span,
-                             "the target has no counterpart of " + quoted(name_of_datum(ref, program_)),
-                             "say what stands for it on the target in a file of names (--names, \"data\"), or replace "
-                             "it by a variable or a fixed value");
+  missing_[std::string(ref.text)].insert(name_of_datum(ref, program_));
+}
+
+void VariableUse::say_missing(const Statement& s) {
+  for (const auto& [kind, names] : missing_) {
+    const std::size_t more = names.size() - 1;
+    context_.diagnostics.error(
+        "TRN-122", s.line.span,
+        "the target has no counterpart of " + quoted(*names.begin()) +
+            (more == 0 ? "" : " and of " + std::to_string(more) + " more that " + quoted(kind) + " asks for here"),
+        "say what stands for it on the target in a file of names (--names, \"data\"), or replace it by a variable or a "
+        "fixed value");
+  }
+  missing_.clear();
 }
 
 }  // namespace cnctrans::ir::passes

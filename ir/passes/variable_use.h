@@ -38,7 +38,10 @@ struct VariableUse {
  private:
   void note(const VarRef& v, std::size_t routine, const LineInfo& line);
   void dimensions(const Declare& d, std::size_t routine);
-  void system(const SystemRef& ref, const Statement& s);
+  void system(const SystemRef& ref);
+  /// Says what the statement reads or writes and the target has not: once for each kind of datum, with their number.
+  void say_missing(const Statement& s);
+  std::map<std::string, std::set<std::string>> missing_;  ///< of the statement: names by kind
   const Program& program_;
   const LegaliseContext& context_;
 };
