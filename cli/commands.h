@@ -35,6 +35,7 @@ struct Arguments {
   int replays = 100;
   bool annotate = false;
   bool no_origin = false;
+  bool force = false;  ///< files that are not cnctrans's own are replaced
   bool quiet = false;
   std::vector<std::string> set;
   std::string skip;

@@ -24,14 +24,6 @@ void say_doubts(const Arguments& a) {
       a.messages->say(Severity::warning, "CNC-LIB",
                       "cnctrans: warning: --lib " + folder + ": there is no such folder or file");
   }
-  const auto foreign = [&a](const char* option, const std::string& machine, const std::string& dialect) {
-    const std::string title = translator::foreign_machine(machine, dialect);
-    if (!title.empty())
-      a.messages->say(Severity::warning, "CNC-MACHINE",
-                      std::string("cnctrans: warning: ") + option + " " + machine + " is a machine of " + title);
-  };
-  foreign("--machine", a.machine, a.dialect.empty() ? a.from : a.dialect);
-  foreign("--target-machine", a.target_machine, a.to);
 }
 
 bool run_limits(const Arguments& a, interpreter::Options& run) {

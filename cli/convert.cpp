@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "base/sum.h"
 #include "base/text.h"
 #include "cli/common.h"
 #include "cli/stdout_sink.h"
@@ -12,10 +13,12 @@
 #include "translator/report/report.h"
 #include "translator/stream.h"
 #include "translator/stream_proof.h"
+#include "translator/written_files.h"
 
 namespace cnctrans::cli {
 
 namespace fs = std::filesystem;
+using translator::WrittenFiles;
 
 namespace {
 
@@ -48,41 +51,23 @@ fs::path target_path(const Arguments& a, const translator::OutputText& out) {
   return fs::path(a.output).parent_path() / out.name;
 }
 
-/// What the job has written. No file is written twice with different content, and no input is written over.
+/// What the job may write. No input is written over, and nothing that was made of another program (written_files.h).
 class Job {
  public:
-  explicit Job(const std::vector<std::string>& inputs) : inputs_(inputs) {}
+  explicit Job(const Arguments& a) : a_(a) {}
 
-  /// Names that the programs of further inputs may not have.
-  [[nodiscard]] const std::set<std::string>& names() const { return names_; }
-
-  /// Why `bytes` can't be written to `path`; empty when they can.
-  std::string conflict(const fs::path& path, std::string_view bytes, const std::string& input, const FileTable& read) {
-    std::error_code ignored;
-    const auto is_input = [&](const std::string& name) { return fs::equivalent(path, name, ignored); };
-    bool source = std::any_of(inputs_.begin(), inputs_.end(), is_input);
-    for (FileId i = 1; i < read.size(); ++i) source = source || is_input(read.name(i));
-    if (source) return path.string() + " is read by this job and is not written over; choose another place with -o";
-    const Written now{input, std::hash<std::string_view>{}(bytes), bytes.size()};
-    const auto [it, fresh] =
-        written_.emplace(to_upper_ascii(fs::weakly_canonical(fs::absolute(path), ignored).string()), now);
-    const Written& before = it->second;
-    if (fresh || (before.hash == now.hash && before.size == now.size)) return {};
-    return path.string() + " holds a different program already, from the translation of " + before.input +
-           "; translate the two into different folders";
+  void begin(std::size_t input) { at_ = input; }
+  [[nodiscard]] const std::string& input() const { return a_.inputs[at_]; }
+  [[nodiscard]] WrittenFiles::Origin origin() const {
+    return {input(), {a_.inputs.begin() + static_cast<std::ptrdiff_t>(at_) + 1, a_.inputs.end()}, a_.force};
   }
 
-  /// Another file of this job has the program that this one would bring: the control knows programs by these.
-  std::string same_program(const fs::path& path, const translator::OutputText& out, const std::string& input) {
-    if (out.program.size() < 2 || out.program.find_first_not_of("0123456789", 1) != std::string::npos) return {};
-    std::error_code ignored;
-    const auto place = fs::weakly_canonical(fs::absolute(path), ignored).string();
-    const auto [it, fresh] = programs_.emplace(out.program, std::pair{place, input});
-    if (fresh || iequals_ascii(it->second.first, place)) return {};
-    return path.string() + " would be the program " + out.program + ", which " + it->second.first +
-           " is already, from the translation of " + it->second.second + "; give one of them another number by --names";
+  /// Names that the program of this input may not have.
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> names = names_;
+    if (is_folder(a_.output)) names.merge(WrittenFiles(a_.output, WrittenFiles::Use::look).taken(origin()));
+    return names;
   }
-
   void take_names(const translator::TranslateResult& result) {
     for (const auto& out : result.outputs) {
       names_.insert(to_upper_ascii(out.name));
@@ -90,16 +75,51 @@ class Job {
     }
   }
 
+  /// The job reads the file.
+  [[nodiscard]] bool reads(const fs::path& path, const FileTable& read) const {
+    std::error_code ignored;
+    const auto is_input = [&](const std::string& name) { return fs::equivalent(path, name, ignored); };
+    bool source = std::any_of(a_.inputs.begin(), a_.inputs.end(), is_input);
+    for (FileId i = 1; i < read.size(); ++i) source = source || is_input(read.name(i));
+    return source;
+  }
+
  private:
-  struct Written {
-    std::string input;
-    std::size_t hash = 0, size = 0;
-  };
-  const std::vector<std::string>& inputs_;
-  std::map<std::string, Written> written_;  ///< by path in capitals: the target's file system may not tell case
-  std::map<std::string, std::pair<std::string, std::string>> programs_;  ///< file and input by `%n`
+  const Arguments& a_;
+  std::size_t at_ = 0;
   std::set<std::string> names_;
 };
+
+/// A pipe or a device: nothing is replaced there.
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  if (path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
+  return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
+}
+
+/// Says why files are left alone; true: none is.
+bool say_conflicts(const Arguments& a, const std::vector<std::string>& why, const FileTable& files) {
+  Diagnostics diagnostics;
+  for (const auto& text : why)
+    diagnostics.error("TRN-093", {}, text, "choose another place with -o, or replace it with --force");
+  a.messages->add(diagnostics, files);
+  return why.empty();
+}
+
+/// A file that an option names, written as an output is.
+bool write_named(const Arguments& a, const std::string& path, std::string_view bytes, const Job& job) {
+  std::string error;
+  if (is_stream(path)) {
+    if (write_file(path, bytes, &error)) return true;
+  } else {
+    WrittenFiles folder(fs::path(path).parent_path());
+    const std::vector<translator::FileToWrite> file{{fs::path(path).filename().string(), bytes, {}, true}};
+    if (!say_conflicts(a, folder.conflicts(file, job.origin()), {})) return false;
+    if (folder.write(file, job.origin(), &error)) return true;
+  }
+  not_written(a, error);
+  return false;
+}
 
 /// The map of names of --names: what stands in the file, and what the translations of this call add.
 class NamesFile {
@@ -138,48 +158,47 @@ class NamesFile {
   ir::NameMap before_;
 };
 
-/// Reports every file of the translation that can't be written; true: none.
-bool may_write(const Arguments& a, const translator::TranslateResult& result, const std::string& input, Job& job) {
-  Diagnostics diagnostics;
+/// The files of the translation, all of one folder. False, and the reason is said: one of them can't be written, and
+/// none is.
+bool write_files(const Arguments& a, const translator::TranslateResult& result, const Job& job) {
+  const fs::path output(a.output), place = is_folder(a.output) ? output : output.parent_path();
+  std::vector<translator::FileToWrite> files;
+  std::vector<std::string> why;
   for (const auto& out : result.outputs) {
-    const std::string why = job.conflict(target_path(a, out), out.bytes, input, result.files);
-    const std::string same = job.same_program(target_path(a, out), out, input);
-    for (const auto& text : {why, same})
-      if (!text.empty()) diagnostics.error("TRN-093", {}, text);
+    const fs::path path = target_path(a, out);
+    if (job.reads(path, result.files)) why.push_back(path.string() + " is read by this job and is not written over");
+    files.push_back({path.filename().string() + (result.held_back ? ".unverified" : ""), out.bytes, out.program,
+                     out.main && !is_folder(a.output)});
   }
-  if (!diagnostics.has_errors()) return true;
-  a.messages->add(diagnostics, result.files);
-  refuse(a, input);
-  return false;
-}
-
-int write_outputs(const Arguments& a, const translator::TranslateResult& result) {
-  if (a.output.empty() || a.output == "-") {
-    if (result.held_back) {
-      a.messages->say(Severity::note, "CNC-WRITTEN",
-                      "cnctrans: the translation is not printed; -o FILE keeps it as FILE.unverified, --no-verify "
-                      "writes it without proof");
-      return ok;
-    }
-    for (const auto& out : result.outputs) write_all(stdout, out.bytes);
-    return stdout_arrived() ? ok : refused;
-  }
-  for (const auto& out : result.outputs) {
-    fs::path path = target_path(a, out);
-    if (result.held_back) path += ".unverified";
-    std::string error;
-    if (!write_file(path, out.bytes, &error)) {
-      not_written(a, error);
-      return refused;
-    }
-    wrote(a, path.string());
-  }
-  return ok;
-}
-
-bool write_report(const Arguments& a, const translator::TranslateOptions& options, const std::string& input,
-                  const translator::TranslateResult& result) {
+  WrittenFiles folder(place, is_stream(a.output) ? WrittenFiles::Use::look : WrittenFiles::Use::write);
+  if (why.empty()) why = folder.conflicts(files, job.origin());
   std::string error;
+  if (!say_conflicts(a, why, result.files)) {
+    refuse(a, job.input());
+    return false;
+  }
+  if (!folder.write(files, job.origin(), &error)) {
+    not_written(a, error);
+    return false;
+  }
+  for (const auto& f : files) wrote(a, (place / f.name).string());
+  return true;
+}
+
+int write_outputs(const Arguments& a, const translator::TranslateResult& result, const Job& job) {
+  if (!a.output.empty() && a.output != "-") return write_files(a, result, job) ? ok : refused;
+  if (result.held_back) {
+    a.messages->say(Severity::note, "CNC-WRITTEN",
+                    "cnctrans: the translation is not printed; -o FILE keeps it as FILE.unverified, --no-verify "
+                    "writes it without proof");
+    return ok;
+  }
+  for (const auto& out : result.outputs) write_all(stdout, out.bytes);
+  return stdout_arrived() ? ok : refused;
+}
+
+bool write_report(const Arguments& a, const translator::TranslateOptions& options, const Job& job,
+                  const translator::TranslateResult& result) {
   std::vector<std::string> written;
   if (was_read(a.report, result.files)) {
     not_written(a, a.report + " is read by this job and is not written over; choose another place with --report");
@@ -187,11 +206,9 @@ bool write_report(const Arguments& a, const translator::TranslateOptions& option
   }
   for (const auto& out : result.outputs)
     written.push_back(a.output.empty() || a.output == "-" ? out.name : target_path(a, out).string());
-  const auto text = (*translator::report_writer(a.report))(translator::make_report(input, options, result, written));
-  if (!write_file(a.report, text, &error)) {
-    not_written(a, error);
-    return false;
-  }
+  const auto text =
+      (*translator::report_writer(a.report))(translator::make_report(job.input(), options, result, written));
+  if (!write_named(a, a.report, text, job)) return false;
   wrote(a, a.report);
   return true;
 }
@@ -243,8 +260,9 @@ class Proofs {
 };
 
 /// The whole-program path: in memory, with calls, proved.
-int convert_whole(const Arguments& a, const translator::TranslateOptions& options, const std::string& input, Job& job,
-                  ir::NameMap& names, Proofs& proofs) {
+int convert_whole(const Arguments& a, const translator::TranslateOptions& options, Job& job, ir::NameMap& names,
+                  Proofs& proofs) {
+  const std::string& input = job.input();
   translator::TranslateOptions with = options;
   with.taken = job.names();
   with.single_output = a.output.empty() || a.output == "-";
@@ -252,18 +270,51 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   const auto result = translator::translate(input, with);
   if (!result.error.empty()) return usage_error(a, result.error);
   a.messages->add(result.diagnostics, result.files);
-  if (!a.report.empty() && !write_report(a, options, input, result)) return refused;
+  if (!a.report.empty() && !write_report(a, options, job, result)) return refused;
   if (result.refused) {
     refuse(a, input);
     return refused;
   }
-  if (!with.single_output && !may_write(a, result, input, job)) return refused;
-  job.take_names(result);
-  const int status = write_outputs(a, result);
+  const int status = write_outputs(a, result, job);
+  if (status == ok) job.take_names(result);
   if (status == ok && !result.held_back) translator::add_names(names, result.names);
   proofs.add(input, options, result);
   return result.held_back ? std::max(status, exit_of(result.verdict)) : status;
 }
+
+/// The file of -o, written piece by piece: like every output it stands in the list, and only where it may.
+class OutputFile {
+ public:
+  OutputFile(const Arguments& a, const Job& job) : a_(a), job_(job), file_(a.output) {}
+
+  bool open(std::string* error) { return file_.open(error); }
+  bool write(std::string_view piece, std::string* error) {
+    sum_.add(piece);
+    return file_.write(piece, error);
+  }
+  /// False: why not is said.
+  bool commit() {
+    std::string error;
+    if (!is_stream(a_.output)) {
+      WrittenFiles folder(fs::path(a_.output).parent_path());
+      const translator::FileToWrite file{fs::path(a_.output).filename().string(), {}, {}, true};
+      if (!say_conflicts(a_, folder.conflicts(file, sum_.text(), job_.origin()), {})) {
+        refuse(a_, job_.input());
+        return false;
+      }
+      folder.add(file, sum_.text(), job_.origin());
+    }
+    if (file_.commit(&error)) return true;
+    not_written(a_, error);
+    return false;
+  }
+
+ private:
+  const Arguments& a_;
+  const Job& job_;
+  AtomicFile file_;
+  Sum sum_;
+};
 
 /// A straight-line file of this size is still proved as a whole program where a proof in step can't be made: that takes
 /// memory (docs/verify.md).
@@ -272,10 +323,10 @@ constexpr std::uintmax_t replayed_bytes = 2'000'000;
 using Spool = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 /// The text of a spool goes to where the call wants it. False: it can't be written; that is said.
-bool write_spool(const Arguments& a, std::FILE* spool) {
+bool write_spool(const Arguments& a, std::FILE* spool, const Job& job) {
   const bool to_stdout = a.output.empty() || a.output == "-";
   std::string error = "the standard output could not be written";
-  AtomicFile file(a.output);
+  OutputFile file(a, job);
   bool good = to_stdout || file.open(&error);
   std::string buffer(1U << 18U, '\0');
   std::rewind(spool);
@@ -284,14 +335,18 @@ bool write_spool(const Arguments& a, std::FILE* spool) {
     if (piece.empty()) break;
     good = to_stdout ? write_all(stdout, piece) : file.write(piece, &error);
   }
-  good = good && std::ferror(spool) == 0 && (to_stdout ? stdout_arrived() : file.commit(&error));
-  if (!good) not_written(a, error);
-  return good;
+  good = good && std::ferror(spool) == 0 && (!to_stdout || stdout_arrived());
+  if (!good) {
+    not_written(a, error);
+    return false;
+  }
+  return to_stdout || file.commit();
 }
 
 /// The stream with its proof: what it writes is put aside until both texts have been replayed in step.
 std::optional<int> convert_stream_proved(const Arguments& a, const translator::TranslateOptions& options,
-                                         const std::string& input, Proofs& proofs) {
+                                         const Job& job, Proofs& proofs) {
+  const std::string& input = job.input();
   const Spool spool(std::tmpfile(), &std::fclose);
   if (!spool) return std::nullopt;
   ProgressLine progress(input);
@@ -306,7 +361,7 @@ std::optional<int> convert_stream_proved(const Arguments& a, const translator::T
   const bool small = fs::file_size(input, ignored) <= replayed_bytes;
   const bool proved = proof.proved == translator::StreamProved::yes;
   if (!proved && (small || proof.proved == translator::StreamProved::no)) return std::nullopt;
-  if (!write_spool(a, spool.get())) return refused;
+  if (!write_spool(a, spool.get(), job)) return refused;
   a.messages->add(result.diagnostics, result.files);
   if (!a.output.empty() && a.output != "-") wrote(a, a.output);
   if (proved) {
@@ -319,13 +374,14 @@ std::optional<int> convert_stream_proved(const Arguments& a, const translator::T
 }
 
 /// Tries the stream; nullopt: the whole-program path must do it.
-std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options,
-                                  const std::string& input, Proofs& proofs) {
+std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options, const Job& job,
+                                  Proofs& proofs) {
+  const std::string& input = job.input();
   if (options.annotate || options.names != nullptr || is_folder(a.output) || !a.report.empty()) return std::nullopt;
   if (options.verify && options.strict) return std::nullopt;
   std::error_code ignored;
   if (fs::equivalent(a.output, input, ignored)) return std::nullopt;
-  if (options.verify) return convert_stream_proved(a, options, input, proofs);
+  if (options.verify) return convert_stream_proved(a, options, job, proofs);
   ProgressLine progress(input);
   const auto tell = [&progress](double part) { progress(part); };
   const bool to_stdout = a.output.empty() || a.output == "-";
@@ -342,14 +398,11 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
       return refused;
     }
   } else {
-    AtomicFile file(a.output);
+    OutputFile file(a, job);
     if (!file.open(&error)) return std::nullopt;
-    result = translator::translate_stream(
-        input, options, [&file, &error](std::string_view t) { return file.write(t, &error); }, tell);
-    if (result.outcome == translator::StreamOutcome::done && !file.commit(&error)) {
-      not_written(a, error);
-      return refused;
-    }
+    const auto sink = [&](std::string_view t) { return file.write(t, &error); };
+    result = translator::translate_stream(input, options, sink, tell);
+    if (result.outcome == translator::StreamOutcome::done && !file.commit()) return refused;
   }
   if (result.outcome != translator::StreamOutcome::done) return std::nullopt;
   a.messages->add(result.diagnostics, result.files);
@@ -375,14 +428,15 @@ int convert(const Arguments& a) {
   if (!proved_options(a, options)) return usage;
   options.keep_traces = !a.report.empty();
   int status = ok;
-  Job job(a.inputs);
+  Job job(a);
   NamesFile names(a);
   if (!names.read()) return usage;
   if (!a.names.empty()) options.names = &names.map;
   Proofs proofs(a);
-  for (const auto& input : a.inputs) {
-    const auto streamed = convert_stream(a, options, input, proofs);
-    status = std::max(status, streamed ? *streamed : convert_whole(a, options, input, job, names.map, proofs));
+  for (std::size_t i = 0; i < a.inputs.size(); ++i) {
+    job.begin(i);
+    const auto streamed = convert_stream(a, options, job, proofs);
+    status = std::max(status, streamed ? *streamed : convert_whole(a, options, job, names.map, proofs));
   }
   if (!names.write()) status = std::max<int>(status, refused);
   proofs.say();

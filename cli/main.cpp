@@ -65,6 +65,7 @@ void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
       ->check(CLI::IsMember({"keep", "raise"}));
   app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");
+  app.add_flag("--force", a.force, "replace files that cnctrans did not write, or that were changed since");
   app.add_flag("--no-origin", a.no_origin, "no remark at the head that names the source");
   app.add_option("--encoding", a.encoding, "of the output; else as the input")
       ->check(CLI::IsMember({"utf-8", "windows-1252"}));
@@ -163,6 +164,7 @@ int main(int argc, char** argv) {
   run->add_option("--vars", a.vars, "write the final values of variables as JSON");
   run->add_option("--written", a.written, "folder for the programs that the program writes (OPEN, WRITE)")
       ->type_name("DIR");
+  run->add_flag("--force", a.force, "with --written: replace files that no run of this program has written");
   CLI::App* verify = app.add_subcommand("verify", "compare a program with a translation made by anyone");
   verify->add_option("--from", a.from, "dialect of the source")->required();
   verify->add_option("--to", a.to, "dialect of the translation")->required();

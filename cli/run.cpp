@@ -6,6 +6,7 @@
 #include "cli/common.h"
 #include "interpreter/run_codes.h"
 #include "interpreter/trace.h"
+#include "translator/written_files.h"
 
 namespace cnctrans::cli {
 
@@ -84,15 +85,23 @@ std::string vars_json(const interpreter::Result& result) {
   return text + "}\n";
 }
 
-/// What the program has written, each file in the folder of --written. No file that the run has read is written over.
+/// What the program has written, each file in the folder of --written. No file is written over that the run has read
+/// or that belongs to somebody else (translator/written_files.h).
 bool write_files(const Arguments& a, const translator::RunResult& result) {
+  const translator::WrittenFiles::Origin origin{a.inputs.front(), {}, a.force};
+  translator::WrittenFiles folder(a.written);
+  std::vector<translator::FileToWrite> files;
+  std::string error;
   for (const auto& [name, text] : result.written) {
     const std::string path = (std::filesystem::path(a.written) / name).string();
-    Target file(a);
-    if (file.open(path)) file.write(text);
-    if (!file.close(result.files)) return false;
+    if (was_read(path, result.files)) error = path + ": the run has read this file; it is not written over";
+    files.push_back({name, text});
   }
-  return true;
+  if (error.empty())
+    for (const auto& why : folder.conflicts(files, origin)) error = why + "; --force replaces it";
+  if (error.empty() && folder.write(files, origin, &error)) return true;
+  a.messages->say(Severity::error, "CNC-OUTPUT", "cnctrans: " + error);
+  return false;
 }
 
 int exit_of(interpreter::EndReason reason) {

@@ -1,8 +1,6 @@
 #include "translator/batch.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +10,9 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/sum.h"
 #include "base/text.h"
+#include "translator/batch_folder.h"
 #include "translator/batch_record.h"
 #include "translator/names_file.h"
 #include "translator/readable.h"
@@ -25,16 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-bool write_file(const fs::path& path, std::string_view bytes) {
-  std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
-  std::string error;
-  AtomicFile file(path.string());
-  return file.open(&error) && file.write(bytes, &error) && file.commit(&error);
-}
-
 /// Part programs below the folder, by the extensions of the dialect, sorted.
-std::vector<std::string> programs_below(const fs::path& folder, const fs::path& out, const Dialect& dialect) {
+std::vector<std::string> programs_below(const fs::path& folder, BatchFolder& out, const Dialect& dialect) {
   std::vector<std::string> found;
   std::error_code ignored;
   const auto is_program = [&dialect](const fs::path& path) {
@@ -49,11 +41,7 @@ std::vector<std::string> programs_below(const fs::path& folder, const fs::path& 
   };
   for (auto it = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ignored);
        it != fs::recursive_directory_iterator(); it.increment(ignored)) {
-    if (it->is_directory(ignored) && fs::equivalent(it->path(), out, ignored)) {
-      it.disable_recursion_pending();  // the results of a batch are no sources
-      continue;
-    }
-    if (it->is_regular_file(ignored) && is_program(it->path()))
+    if (it->is_regular_file(ignored) && is_program(it->path()) && !out.is_result(it->path()))
       found.push_back(it->path().lexically_relative(folder).generic_string());
   }
   std::sort(found.begin(), found.end());
@@ -117,7 +105,7 @@ std::string status_of(const TranslateResult& result, bool readable) {
 
 class Batch {
  public:
-  explicit Batch(const BatchOptions& options) : options_(options), job_(job_sum(options)) {}
+  explicit Batch(const BatchOptions& options) : options_(options), folder_(options), job_(job_sum(options)) {}
 
   BatchResult run(const std::function<void(const BatchProgress&)>& progress) {
     BatchResult result;
@@ -127,10 +115,13 @@ class Batch {
     std::error_code ignored;
     if (result.error.empty() && !fs::is_directory(options_.in, ignored))
       result.error = options_.in + " is not a folder";
+    for (const auto& [dialect, machine] :
+         {std::pair{from, &options_.translate.machine}, {to, &options_.translate.target_machine}})
+      if (result.error.empty()) (void)choose_profile(*dialect, *machine, nullptr, &result.error);
+    if (result.error.empty()) result.error = folder_.fault();
     if (!result.error.empty()) return result;
-    fs::create_directories(options_.out, ignored);
     readable_ = readable(*to);
-    const auto all = programs_below(options_.in, options_.out, *from);
+    const auto all = programs_below(options_.in, folder_, *from);
     result.all = all.size();
     if (!options_.collect_only) work(all, result, progress);
     collect(all, result);
@@ -144,15 +135,11 @@ class Batch {
     Clock::time_point start;
   };
 
-  [[nodiscard]] fs::path folder_of(const std::string& program) const { return fs::path(options_.out) / program; }
-  [[nodiscard]] std::string record_path(const std::string& program) const {
-    return (folder_of(program) / record_name).string();
-  }
-
   /// The result of an earlier run, when it is still that of these files and options.
   [[nodiscard]] bool done(const std::string& program) const {
-    const auto r = read_record(record_path(program));
-    if (!r || r->job != job_ || r->status == "crashed" || r->status == "timed out") return false;
+    const auto r = read_record(folder_.record_path(program));
+    if (!r || r->job != job_ || r->status == "crashed" || r->status == "timed out" || r->status == "left alone")
+      return false;
     return std::all_of(r->read.begin(), r->read.end(), [this](const auto& item) {
       const fs::path path(item.first);
       return sum_of_file((path.is_absolute() ? path : fs::path(options_.in) / path).string()) == item.second;
@@ -164,7 +151,9 @@ class Batch {
     std::vector<std::string> open;
     for (std::size_t i = options_.shard - 1; i < all.size(); i += options_.shards) {
       ++result.programs;
-      if (!options_.again && done(all[i]))
+      if (const auto why = folder_.left_alone(all[i]); !why.empty())
+        leave_alone(all[i], why);
+      else if (!options_.again && done(all[i]))
         ++result.reused;
       else
         open.push_back(all[i]);
@@ -190,15 +179,19 @@ class Batch {
     }
   }
 
-  Child begin(const std::string& program) {
+  /// The record says so where it can be written; else it stands in the summary of this run alone.
+  void leave_alone(const std::string& program, const std::string& why) {
+    BatchRecord r = failed(program, "left alone", one_line(why));
+    if (const auto before = read_record(folder_.record_path(program))) r.outputs = before->outputs;
     std::error_code ignored;
-    fs::remove_all(folder_of(program), ignored);  // outputs of an earlier run
+    if (!fs::exists(folder_.record_path(program), ignored) || !folder_.write_record(r))
+      unrecorded_.push_back(std::move(r));
+  }
+
+  Child begin(const std::string& program) {
     const pid_t id = fork();
-    if (id == 0) {
-      const bool written = write_file(record_path(program), to_json(translate_one(program)));
-      _exit(written ? 0 : 1);
-    }
-    if (id < 0) write_file(record_path(program), to_json(failed(program, "crashed", "no process could be started")));
+    if (id == 0) _exit(translate_one(program) ? 0 : 1);
+    if (id < 0) folder_.write(failed(program, "crashed", "no process could be started"), {});
     return {id, program, Clock::now()};
   }
 
@@ -210,14 +203,13 @@ class Batch {
       if (Clock::now() - c.start < std::chrono::seconds(options_.timeout)) return false;
       kill(c.id, SIGKILL);
       waitpid(c.id, &status, 0);
-      write_file(record_path(c.program),
-                 to_json(failed(c.program, "timed out", fmt::format("not done within {} s", options_.timeout))));
+      folder_.write(failed(c.program, "timed out", fmt::format("not done within {} s", options_.timeout)), {});
       return true;
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
     const std::string why = WIFSIGNALED(status) ? fmt::format("the translation ended with signal {}", WTERMSIG(status))
                                                 : "the translation ended without a result";
-    write_file(record_path(c.program), to_json(failed(c.program, "crashed", why)));
+    folder_.write(failed(c.program, "crashed", why), {});
     return true;
   }
 
@@ -230,7 +222,8 @@ class Batch {
     return r;
   }
 
-  BatchRecord translate_one(const std::string& program) const {
+  /// False: what became of it could not be written.
+  bool translate_one(const std::string& program) const {
     const fs::path in(options_.in);
     TranslateOptions t = options_.translate;
     t.strict = t.strict && readable_;
@@ -238,7 +231,7 @@ class Batch {
     try {
       result = translate((in / program).string(), t);
     } catch (const std::bad_alloc&) {
-      return failed(program, "crashed", "not enough memory for this program");
+      return folder_.write(failed(program, "crashed", "not enough memory for this program"), {});
     }
     BatchRecord r = failed(program, "", {});
     r.status = status_of(result, readable_);
@@ -258,11 +251,9 @@ class Batch {
     note_read((in / program).string(), r);
     for (const auto& machine : {t.machine, t.target_machine}) note_read(machine, r);
     const bool bad = result.held_back && r.status != "no motion";
-    for (const auto& out : result.outputs) {
-      const std::string name = bad ? out.name + ".unverified" : out.name;
-      if (write_file(folder_of(program) / name, out.bytes)) r.outputs.push_back(name);
-    }
-    return r;
+    std::vector<FileToWrite> files;
+    for (const auto& out : result.outputs) files.push_back({bad ? out.name + ".unverified" : out.name, out.bytes});
+    return folder_.write(std::move(r), files);
   }
 
   void note_read(const std::string& path, BatchRecord& r) const {
@@ -273,25 +264,29 @@ class Batch {
     if (!sum.empty()) r.read[inside ? below.generic_string() : fs::absolute(path, ignored).generic_string()] = sum;
   }
 
-  /// The last shard that comes here sees the results of all: the lock makes sure that its summary is the one that
-  /// stays.
+  /// The last shard that comes here sees the results of all: its summary is the one that stays.
   void collect(const std::vector<std::string>& all, BatchResult& result) const {
-    const int lock = open((options_.out + "/.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    if (lock >= 0) flock(lock, LOCK_EX);
-    for (const auto& program : all) {
-      if (auto r = read_record(record_path(program)); r && r->program == program)
-        result.records.push_back(std::move(*r));
-    }
-    const fs::path out(options_.out);
-    const bool written = write_file(out / "summary.csv", summary_csv(result.records, all.size())) &&
-                         write_file(out / "programs.csv", programs_csv(result.records)) &&
-                         write_file(out / "summary.html", summary_html(result.records, options_, all.size()));
-    if (!written) result.error = "the summary can't be written to " + options_.out;
-    if (lock >= 0) close(lock);
+    const auto read = [&] {
+      for (const auto& program : all) {
+        const auto said = std::find_if(unrecorded_.begin(), unrecorded_.end(),
+                                       [&](const BatchRecord& r) { return r.program == program; });
+        if (said != unrecorded_.end()) {
+          result.records.push_back(*said);
+        } else if (auto r = read_record(folder_.record_path(program)); r && r->program == program) {
+          result.records.push_back(std::move(*r));
+        }
+      }
+      return result.records;
+    };
+    std::string error;
+    if (!folder_.write_summary(read, all.size(), &error))
+      result.error = "the summary can't be written to " + options_.out + ": " + error;
   }
 
   const BatchOptions& options_;
+  BatchFolder folder_;
   std::string job_;
+  std::vector<BatchRecord> unrecorded_;
   bool readable_ = true;  ///< the target: what is written can be replayed
 };
 

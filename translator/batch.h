@@ -19,6 +19,7 @@ struct BatchOptions {
   unsigned shard = 1, shards = 1;  ///< this run takes every `shards`-th program, from number `shard` on (1..shards)
   unsigned timeout = 300;          ///< seconds for one program
   bool again = false;              ///< results that are there already are not taken over
+  bool force = false;              ///< outputs that were changed by hand are replaced
   bool collect_only = false;       ///< nothing is translated; the summary of what is there is written
 };
 
@@ -38,7 +39,7 @@ struct BatchRecord {
 
 /// The statuses in the order of the summary: "verified", "within tolerance", "written" (without a proof: none was asked
 /// for, or the target can't be read back), "no motion", "not replayable", "differs", "refused", "unreadable",
-/// "crashed", "timed out".
+/// "crashed", "timed out", "left alone" (somebody has changed an output, or it would take the place of another file).
 const std::vector<std::string>& batch_statuses();
 
 struct BatchProgress {

@@ -1,26 +1,9 @@
 #include "translator/batch_record.h"
 
-#include <fmt/format.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace cnctrans::translator {
-
-std::string sum_of(std::string_view bytes) {  // FNV-1a, 64 bits
-  std::uint64_t h = 14695981039346656037ULL;
-  for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", h);
-}
-
-std::string sum_of_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return {};
-  std::stringstream text;
-  text << in.rdbuf();
-  return sum_of(text.str());
-}
 
 std::string to_json(const BatchRecord& r) {
   const nlohmann::ordered_json j{

@@ -13,9 +13,6 @@ namespace cnctrans::translator {
 /// Name of the file with a program's result, in the folder of its outputs.
 inline constexpr std::string_view record_name = "result.json";
 
-std::string sum_of(std::string_view bytes);
-/// Of a file's bytes; empty when it can't be read.
-std::string sum_of_file(const std::string& path);
 std::string to_json(const BatchRecord& r);
 std::optional<BatchRecord> read_record(const std::string& path);
 

@@ -11,6 +11,7 @@ namespace cnctrans::translator {
 
 /// `text` has LF line ends and either valid UTF-8 or, where comments were copied from a Windows-1252 source, single
 /// bytes of it. Characters that the encoding lacks become '?' with a warning TRN-091.
+/// `bom`: a mark of UTF-8 before the text, for a file that stays in its language and had one; no control wants it.
 std::string encode_output(std::string_view text, Encoding encoding, Eol eol, bool bom, Diagnostics& diagnostics);
 
 }  // namespace cnctrans::translator

@@ -98,11 +98,25 @@ LatheEvidence lathe_evidence(std::string_view text, const Dialect& dialect) {
   return evidence;
 }
 
+/// A machine that somebody names. One of another control reads other words: nothing it does could be trusted.
+std::optional<machine::Profile> named_machine(const Dialect& dialect, const std::string& machine, std::string* error) {
+  auto profile = machine::load(machine, error);
+  if (!profile || profile->dialect == dialect.name) return profile;
+  const Dialect* other = find_dialect(profile->dialect);
+  *error = machine + " is a machine of " + (other != nullptr ? std::string(other->title) : profile->dialect) +
+           "; one of " + std::string(dialect.title) + " is needed here";
+  return std::nullopt;
+}
+
+std::string default_machine(const Dialect& dialect, bool lathe) {
+  return std::string(dialect.name) + (lathe ? "-lathe" : "-mill");
+}
+
 }  // namespace
 
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
                                                const SourceText* source, std::string* error) {
-  if (!machine.empty()) return machine::load(machine, error);
+  if (!machine.empty()) return named_machine(dialect, machine, error);
   bool lathe = false, y_axis = false;
   if (source != nullptr) {
     const std::string extension = source->extension();
@@ -114,7 +128,7 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
       y_axis = lathe && e.diameter_axis && e.y_word;
     }
   }
-  auto profile = machine::load(std::string(dialect.name) + (lathe ? "-lathe" : "-mill"), error);
+  auto profile = machine::load(default_machine(dialect, lathe), error);
   if (profile && y_axis && profile->axis(ir::axis::y) == nullptr) {  // a lathe with driven tools
     machine::AxisSpec y;
     y.id = ir::axis::y;
@@ -122,6 +136,16 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
     profile->axes.insert(profile->axes.begin() + 1, y);
   }
   if (profile && source != nullptr) add_axes_of_program(dialect, *source, *profile);
+  return profile;
+}
+
+std::optional<machine::Profile> choose_target(const Dialect& dialect, const std::string& machine,
+                                              const machine::Profile& source, std::string* error) {
+  if (!machine.empty()) return named_machine(dialect, machine, error);
+  auto profile = machine::load(default_machine(dialect, source.kind == machine::Kind::lathe), error);
+  if (!profile) return profile;
+  add_axes(*profile, added_axes(source));
+  if (profile->tools.empty()) profile->tools = source.tools;
   return profile;
 }
 

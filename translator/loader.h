@@ -22,6 +22,10 @@ namespace cnctrans::translator {
 /// machine that nobody named gets the axes that the program moves (program_axes.h).
 std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std::string& machine,
                                                const SourceText* source, std::string* error);
+/// The profile of a translation's target: `machine` when given; else the built-in one of the same kind as the source's,
+/// with the axes that were added to that and with its tools, for the job moves with its tools.
+std::optional<machine::Profile> choose_target(const Dialect& dialect, const std::string& machine,
+                                              const machine::Profile& source, std::string* error);
 /// True for a regular file: it can be opened and read as often as one likes. What has been read from a pipe is gone.
 bool can_reopen(const std::string& path);
 

@@ -77,12 +77,4 @@ bool add_skips(interpreter::Options& run, std::string_view list, const Dialect* 
   return true;
 }
 
-std::string foreign_machine(const std::string& machine, std::string_view dialect) {
-  std::string ignored;
-  const auto profile = machine.empty() ? std::nullopt : machine::load(machine, &ignored);
-  if (!profile || profile->dialect == dialect) return {};
-  const Dialect* other = find_dialect(profile->dialect);
-  return other != nullptr ? std::string(other->title) : profile->dialect;
-}
-
 }  // namespace cnctrans::translator

@@ -22,10 +22,6 @@ bool add_skips(interpreter::Options& run, std::string_view list, const Dialect* 
 void add_skip(interpreter::Options& run, unsigned level, const Dialect* dialect);
 inline constexpr unsigned last_skip_level = 15;
 
-/// Title of the language that the machine (name of a built-in one, or a profile's file) is a machine of, when that is
-/// not `dialect`; else empty.
-std::string foreign_machine(const std::string& machine, std::string_view dialect);
-
 /// A verification keeps both traces in memory: about 0.5 kB an event.
 inline constexpr std::uint64_t kept_events = 2'000'000;
 

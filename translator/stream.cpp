@@ -62,7 +62,6 @@ class StreamTranslation {
     writer_ = to_.backend->stream(write);
     if (!reader_ || !writer_ || !watch_.possible()) return void(give_up());
     out_.reserve(window_bytes + window_bytes / 4);
-    if (windows.bom && !options_.encoding) out_ += "\xEF\xBB\xBF";
     if (!take_windows(windows, progress)) return;
     if (!watch_.head_done()) return void(give_up());  // no motion at all: let the whole-program path look at it
     if (reader_->end(result_.lines, reading_) != frontends::StreamEnd::complete) return void(give_up());

@@ -33,15 +33,9 @@ std::optional<StreamEnds> stream_ends(const std::string& path, const TranslateOp
   auto source = choose_profile(*ends.from, options.machine, head.get(), error);
   if (!source) return std::nullopt;
   ends.source = *std::move(source);
-  const std::string default_target =
-      std::string(ends.to->name) + (ends.source.kind == machine::Kind::lathe ? "-lathe" : "-mill");
-  auto target = machine::load(options.target_machine.empty() ? default_target : options.target_machine, error);
+  auto target = choose_target(*ends.to, options.target_machine, ends.source, error);
   if (!target) return std::nullopt;
   ends.target = *std::move(target);
-  if (options.target_machine.empty()) {
-    add_axes(ends.target, added_axes(ends.source));
-    if (ends.target.tools.empty()) ends.target.tools = ends.source.tools;  // as in the whole-program path
-  }
   return ends;
 }
 

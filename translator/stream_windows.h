@@ -20,13 +20,11 @@ struct Windows {
   std::string_view first;
   Encoding encoding = Encoding::utf8;
   Eol eol = Eol::lf;
-  bool bom = false;
 
   bool open(const std::string& path, std::string* error) {
     if (!reader.open(path, error)) return false;
     first = reader.next();
-    bom = first.substr(0, 3) == "\xEF\xBB\xBF";
-    if (bom) first.remove_prefix(3);
+    if (first.starts_with("\xEF\xBB\xBF")) first.remove_prefix(3);
     encoding = valid_utf8(first) ? Encoding::utf8 : Encoding::windows1252;
     std::string_view look = first;
     SourceLine line;

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <set>
 
-#include "backends/common/labels.h"
 #include "base/saturate.h"
 #include "base/text.h"
 #include "ir/cycle_ends.h"
+#include "ir/dataflow.h"
 #include "ir/passes/given_data.h"
 #include "ir/passes/number_programs.h"
 #include "translator/attempt.h"
@@ -15,7 +15,6 @@
 #include "translator/encode.h"
 #include "translator/origin.h"
 #include "translator/pipeline.h"
-#include "translator/program_axes.h"
 #include "translator/proof.h"
 #include "translator/readable.h"
 #include "translator/reading.h"
@@ -48,24 +47,29 @@ std::string shared_name(const ir::Program& program) {
   return {};
 }
 
-/// Behind the last end of the program stand only blocks that nothing jumps to: the profile of a cycle, say.
-bool ends_before_its_text(const ir::Program& program, std::size_t routine) {
-  const ir::Body& body = program.routines[routine].body;
-  const auto end = std::find_if(body.rbegin(), body.rend(),
-                                [](const ir::Statement& s) { return std::holds_alternative<ir::End>(s.node); });
-  if (end == body.rend()) return false;
-  const backends::LabelUse use(program);
-  if (!use.certain()) return false;
-  return std::all_of(end.base(), body.end(), [&](const ir::Statement& s) {
-    const auto& l = s.line;
-    return std::holds_alternative<ir::Block>(s.node) && !use.is_target(routine, l.number) &&
-           std::none_of(l.labels.begin(), l.labels.end(),
-                        [&](std::string_view name) { return use.is_target_name(routine, name); });
-  });
+/// The program can come to the end of its text. A range behind its end that a repeat runs goes back to there.
+bool runs_to_its_end(const ir::Program& program, const ir::Routine& routine) {
+  const ir::ControlFlow flow = ir::control_flow(program, routine);
+  std::vector<bool> seen(flow.successors.size());
+  std::vector<std::uint32_t> open{routine.body.front().id};
+  while (!open.empty()) {
+    const std::uint32_t id = open.back();
+    open.pop_back();
+    if (seen[id]) continue;
+    seen[id] = true;
+    const bool ends = std::holds_alternative<ir::End>(flow.statements[id]->node) ||
+                      std::holds_alternative<ir::Return>(flow.statements[id]->node);
+    for (const auto next : flow.successors[id]) {
+      if (next == 0 && !ends) return true;
+      if (next != 0) open.push_back(next);
+    }
+  }
+  return false;
 }
 
 /// A program that simply ends with its text gets the end word.
 void end_main(ir::Program& program, Diagnostics& diagnostics) {
+  ir::number_statements(program);
   for (auto& r : program.routines) {
     if (r.kind != ir::RoutineKind::main) continue;
     const auto only_text = [](const ir::Statement& s) {
@@ -77,7 +81,7 @@ void end_main(ir::Program& program, Diagnostics& diagnostics) {
     const auto* jump = last != nullptr ? std::get_if<ir::Jump>(&last->node) : nullptr;
     if (last == nullptr || std::holds_alternative<ir::End>(last->node) ||
         std::holds_alternative<ir::Return>(last->node) || (jump != nullptr && !jump->condition) ||
-        ends_before_its_text(program, static_cast<std::size_t>(&r - program.routines.data()))) {
+        !runs_to_its_end(program, r)) {
       return;
     }
     ir::Statement end;
@@ -154,14 +158,8 @@ bool Translation::open(const Input& input) {
   if (!reading_.open(input, options_.from, options_, &result_.error)) return false;
   const machine::Profile& source_profile = reading_.profile();
   result_.lathe = source_profile.kind == machine::Kind::lathe;
-  const std::string default_target = std::string(to_->name) + (result_.lathe ? "-lathe" : "-mill");
-  target_profile_ =
-      machine::load(options_.target_machine.empty() ? default_target : options_.target_machine, &result_.error);
+  target_profile_ = choose_target(*to_, options_.target_machine, source_profile, &result_.error);
   if (!target_profile_) return false;
-  if (options_.target_machine.empty()) {
-    add_axes(*target_profile_, added_axes(source_profile));
-    if (target_profile_->tools.empty()) target_profile_->tools = source_profile.tools;  // the job moves with its tools
-  }
   result_.source_machine = source_profile.name;
   result_.target_machine = target_profile_->name;
   return true;
@@ -253,7 +251,7 @@ bool Translation::write() {
     OutputText out{f.name, f.program, {}, std::move(f.map), f.main};
     out.bytes =
         encode_output(f.text, options_.encoding.value_or(source.encoding()), options_.eol.value_or(source.main_eol()),
-                      source.has_bom() && !options_.encoding, result_.diagnostics);
+                      source.has_bom() && same_language() && !options_.encoding, result_.diagnostics);
     result_.outputs.push_back(std::move(out));
   }
   std::stable_partition(result_.outputs.begin(), result_.outputs.end(), [](const OutputText& o) { return o.main; });

@@ -15,6 +15,12 @@ cmake --install "$build" --prefix "$work/installed" >install.log || { cat instal
 cmake -S "$root/examples/library" -B use -DCMAKE_PREFIX_PATH="$work/installed" -DCMAKE_BUILD_TYPE=Debug >use.log 2>&1 &&
   cmake --build use >>use.log 2>&1 || { cat use.log; exit 1; }
 
+if [ -e "$build/lib/archive.mri" ]; then # a static library that is not there is no library that is not wanted
+  sed 's|/lib/libcnctrans\.a|/lib/not-built.a|g' "$build/cmake_install.cmake" >without.cmake
+  if cmake -DCMAKE_INSTALL_PREFIX="$work/without" -P without.cmake >without.log 2>&1; then fail "installed without the library"; fi
+  grep -q 'is not built' without.log || fail "an install without the library says: $(cat without.log)"
+fi
+
 source=$root/examples/fagor/flange.pim
 "$cnctrans" --no-origin --from fagor --to sinumerik "$source" --verify >expected.mpf 2>/dev/null
 use/post "$source" sinumerik >post.mpf 2>post.err || { cat post.err; fail "post does not translate"; }

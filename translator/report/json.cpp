@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/uri.h"
 #include "translator/report/data.h"
 #include "translator/version.h"
 
@@ -43,7 +44,8 @@ std::string dump(const Json& j, int indent) {
 }
 
 Json sarif_place(const std::string& file, std::uint32_t line) {
-  return {{"physicalLocation", {{"artifactLocation", {{"uri", to_utf8(file)}}}, {"region", {{"startLine", line}}}}}};
+  return {
+      {"physicalLocation", {{"artifactLocation", {{"uri", uri_of_path(file)}}}, {"region", {{"startLine", line}}}}}};
 }
 
 /// With columns where bytes and characters are the same count.
