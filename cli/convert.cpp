@@ -275,11 +275,11 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
     refuse(a, input);
     return refused;
   }
-  const int status = write_outputs(a, result, job);
-  if (status == ok) job.take_names(result);
-  if (status == ok && !result.held_back) translator::add_names(names, result.names);
+  if (const int status = write_outputs(a, result, job); status != ok) return status;
+  job.take_names(result);
+  if (!result.held_back) translator::add_names(names, result.names);
   proofs.add(input, options, result);
-  return result.held_back ? std::max(status, exit_of(result.verdict)) : status;
+  return result.held_back ? exit_of(result.verdict) : ok;
 }
 
 /// The file of -o, written piece by piece: like every output it stands in the list, and only where it may.

@@ -62,7 +62,7 @@ WrittenFiles::Entries WrittenFiles::read(const std::string& text) {
     if (line.starts_with('#') || !(words >> sums >> name >> program >> origins)) continue;
     const auto plain = percent_decoded(name);
     const auto number = parts(program), from = parts(origins);
-    if (!plain) continue;
+    if (!plain || plain->find('/') != std::string::npos) continue;  // of this folder alone
     entries[*plain] = {parts(sums), {from.begin(), from.end()}, number.empty() ? std::string() : number.front()};
   }
   return entries;
@@ -227,8 +227,8 @@ std::set<std::string> WrittenFiles::taken(const Origin& origin) const {
   std::set<std::string> names;
   std::error_code ignored;
   for (const auto& [name, e] : entries_) {
-    const bool other =
-        std::any_of(e.origins.begin(), e.origins.end(), [&](const auto& o) { return !mine.contains(o); });
+    const bool other = e.origins.empty() || std::any_of(e.origins.begin(), e.origins.end(),
+                                                        [&](const auto& o) { return !mine.contains(o); });
     if (origin.force || !other || !fs::exists(path(name), ignored)) continue;
     names.insert(to_upper_ascii(name));
     if (!e.program.empty()) names.insert(to_upper_ascii(e.program));

@@ -18,7 +18,7 @@ cmake -S "$root/examples/library" -B use -DCMAKE_PREFIX_PATH="$work/installed" -
 if [ -e "$build/lib/archive.mri" ]; then # a static library that is not there is no library that is not wanted
   sed 's|/lib/libcnctrans\.a|/lib/not-built.a|g' "$build/cmake_install.cmake" >without.cmake
   if cmake -DCMAKE_INSTALL_PREFIX="$work/without" -P without.cmake >without.log 2>&1; then fail "installed without the library"; fi
-  grep -q 'is not built' without.log || fail "an install without the library says: $(cat without.log)"
+  tr '\n' ' ' <without.log | grep -q 'is  *not  *built' || fail "an install without the library says: $(cat without.log)"
 fi
 
 source=$root/examples/fagor/flange.pim
