@@ -1,7 +1,6 @@
 #include "translator/stream_run.h"
 
 #include "translator/definitions.h"
-#include "translator/program_axes.h"
 #include "translator/readable.h"
 
 namespace cnctrans::translator {
