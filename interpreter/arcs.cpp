@@ -186,9 +186,11 @@ bool BlockMachine::arc_turns(const ir::Motion& m, Move& move) {
   }
   if (!m.extra) return !failure_.set;
   if (m.extra->has_turns) {
-    const double n = std::round(value(m.extra->turns));
+    const double given = value(m.extra->turns), n = std::round(given);
     if (!(n >= 0) || n > 1e6)
       return failure_.fail(code::bad_count, "the number of turns of the helix is not between 0 and 1000000");
+    if (std::abs(given - n) > 1e-6)
+      return failure_.fail(code::bad_count, "the number of turns of the helix is not whole: " + shortest(given));
     move.turns = static_cast<std::int32_t>(n);
   } else if (m.extra->has_pitch) {
     const double pitch = std::abs(value(m.extra->pitch)) * unit();

@@ -156,8 +156,8 @@ double Evaluator::compare_text(const Node& n) {
     return 0;
   }
   const ExprId right = n.b;
-  const auto a = text_operand(n.a);
-  const auto b = text_operand(right);
+  const auto a = ir::ended_text(text_operand(n.a));
+  const auto b = ir::ended_text(text_operand(right));
   return (a == b) == (op == ir::BinaryOp::eq) ? 1 : 0;
 }
 
@@ -230,7 +230,7 @@ std::string Evaluator::text(ExprId id) {
     }
     case Kind::binary: {
       auto left = text_operand(n.a);
-      return left + text_operand(n.b);
+      return ir::joined_text(std::move(left), text_operand(n.b));
     }
     case Kind::function: return text_result(n);
     default: break;

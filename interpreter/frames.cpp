@@ -81,6 +81,7 @@ bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
 void BlockMachine::restore_modal(const ir::ModalState& state) {
   const bool other_offset = state.work_offset != modal_.work_offset;
   const ir::Surface surface = modal_.surface;
+  set_comp(state.comp);
   modal_ = state;
   modal_.surface = surface;
   set_units();

@@ -172,9 +172,10 @@ void BlockMachine::keep_place(std::uint64_t first, std::string_view family, doub
   low = frame_.apply(low);
   high = frame_.apply(high);
   run.surface = low[plane.w];
-  run.out = (high[plane.w] - low[plane.w]) * hole_->up;
+  const double rise = high[plane.w] - low[plane.w];  // a scale makes it longer, a mirror negative
+  run.out = rise < 0 ? -hole_->up : hole_->up;
   const auto stays = [&](ir::AxisId axis) { return std::abs(high[axis] - low[axis]) < 1e-9; };
-  run.comparable = std::abs(std::abs(run.out) - 1) < 1e-9 && stays(plane.u) && stays(plane.v) && plane.w == hole_axis_;
+  run.comparable = std::abs(rise) > 1e-9 && stays(plane.u) && stays(plane.v) && plane.w == hole_axis_;
   cycle_runs_->push_back(std::move(run));
 }
 

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "interpreter/json_text.h"
 #include "interpreter/run_codes.h"
+#include "ir/texts.h"
 
 namespace cnctrans::interpreter {
 
@@ -178,7 +179,7 @@ void Variables::assign(const Place& p, double value) {
 }
 
 void Variables::assign(const Place& p, std::string value) {
-  p.named->text[p.index] = std::move(value);
+  p.named->text[p.index] = ir::ended_text(std::move(value));
   p.named->set[p.index] = 1;
 }
 

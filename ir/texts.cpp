@@ -1,5 +1,6 @@
 #include "ir/texts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/saturate.h"
@@ -22,6 +23,8 @@ std::optional<double> number_in(std::string_view text) {
 }
 
 std::optional<double> number_of_text(Function f, std::string_view text, std::string_view second) {
+  text = text.substr(0, text.find('\0'));
+  second = second.substr(0, second.find('\0'));
   const auto place = [](std::size_t at) { return at == std::string_view::npos ? -1 : static_cast<double>(at); };
   switch (f) {
     case Function::string_length: return static_cast<double>(text.size());
@@ -48,7 +51,16 @@ std::string lower_case_text(std::string text) {
 
 std::optional<std::string> character_text(double code) {
   if (!(code >= 0 && code <= 255)) return std::nullopt;
-  return code > 0 ? std::string(1, static_cast<char>(code)) : std::string{};
+  return std::string(1, static_cast<char>(saturate<unsigned char>(code)));
+}
+
+std::string ended_text(std::string text) {
+  text.resize(std::min(text.find('\0'), text.size()));
+  return text;
+}
+
+std::string joined_text(std::string left, std::string_view right) {
+  return ended_text(std::move(left += right));
 }
 
 namespace {
@@ -90,7 +102,7 @@ std::optional<std::string> constant_text(const ExprPtr& e) {
     auto left = constant_text(b->left);
     const auto right = left ? constant_text(b->right) : std::nullopt;
     if (!right) return std::nullopt;
-    return *left + *right;
+    return joined_text(std::move(*left), *right);
   }
   if (const auto* c = std::get_if<Call>(&e->node); c != nullptr && e->type == Type::string)
     return constant_text_call(*c);
@@ -117,7 +129,7 @@ std::optional<double> constant_of_texts(const ExprPtr& e) {
   if (b->left->type != Type::string && b->right->type != Type::string) return std::nullopt;
   const auto left = constant_text(b->left), right = constant_text(b->right);
   if (!left || !right) return std::nullopt;
-  return (*left == *right) == (b->op == BinaryOp::eq) ? 1 : 0;
+  return (ended_text(*left) == ended_text(*right)) == (b->op == BinaryOp::eq) ? 1 : 0;
 }
 
 }  // namespace cnctrans::ir

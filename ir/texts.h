@@ -19,7 +19,10 @@ std::optional<double> number_of_text(Function f, std::string_view text, std::str
 /// From character `start` (0: the first) on, `length` of them at most; neither is negative.
 std::string part_of_text(std::string_view text, double start, double length);
 std::string lower_case_text(std::string text);
-/// The text of one character; empty for code 0. nullopt: no code of a character.
+/// Up to the first character 0, which ends a text wherever it stands.
+std::string ended_text(std::string text);
+std::string joined_text(std::string left, std::string_view right);
+/// The text of one character: for code 0 the mark that ends a text. nullopt: no code of a character.
 std::optional<std::string> character_text(double code);
 
 /// The text of a tree that has only literals; a number in it is shown. nullopt: it depends on more.

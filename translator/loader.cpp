@@ -190,7 +190,8 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   const FileId id = files_.add(source);
   if (source->encoding() != Encoding::utf8) note_encoding(source->text(), 1, id, diagnostics);
   if (mains_.empty()) note_added_axes(profile_, id, diagnostics);
-  const frontends::ReadOptions options{reader_, &profile_, &definitions()};
+  frontends::ReadOptions options{reader_, &profile_, &definitions()};
+  options.has_program = [this](std::string_view name) { return has_file(name); };
   const std::size_t said = diagnostics.all().size();
   mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));
   ir::Program& program = *mains_.back();
@@ -253,6 +254,12 @@ void Loader::list_candidates() {
   }
 }
 
+bool Loader::has_file(std::string_view capitals) {
+  list_candidates();
+  return std::any_of(candidates_.begin(), candidates_.end(),
+                     [capitals](const Candidate& c) { return c.stem == capitals; });
+}
+
 bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
   if (c.unreadable) return false;
   if (!c.source) {
@@ -277,7 +284,8 @@ ir::Program* Loader::load(Candidate& c) {
     const bool alone = !by_callers_ && dialect_.frontend->reads_by_callers();  // it is read once more
     if (!c.id) c.id = files_.add(c.source);
     const FileId id = *c.id;
-    const frontends::ReadOptions options{reader_, &profile_, &definitions(), {}, &callers_};
+    frontends::ReadOptions options{reader_, &profile_, &definitions(), {}, &callers_};
+    options.has_program = [this](std::string_view name) { return has_file(name); };
     if (c.source->encoding() != Encoding::utf8) note_encoding(c.source->text(), 1, id, c.diagnostics);
     c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, c.diagnostics, nullptr));
     c.program->texts->hold(c.source);

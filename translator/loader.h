@@ -75,6 +75,8 @@ class Loader {
     std::optional<FileId> id = {};
   };
   void list_candidates();
+  /// There is a file of this name in the folders.
+  bool has_file(std::string_view capitals);
   ir::Program* load(Candidate& c);
   /// The file that has the routine; null: none.
   Candidate* locate(const ir::RoutineName& name);

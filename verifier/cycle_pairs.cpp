@@ -80,9 +80,9 @@ const CycleRun* CyclePairs::next_run(std::size_t k, bool source) const {
   return nullptr;
 }
 
-bool CyclePairs::goes_on(const CyclePasses& target, const PairPlace& at) const {
+CyclePairs::Next CyclePairs::next_cycle(const CyclePasses& target, const PairPlace& at) const {
   const bool tap = target.run->family == "tap";
-  if (target.run->family != "pocket" && !tap) return false;
+  if (target.run->family != "pocket" && !tap) return Next::elsewhere;
   const auto axes = ir::plane_axes(target.run->plane);
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   bool any = false;
@@ -115,7 +115,8 @@ bool CyclePairs::goes_on(const CyclePasses& target, const PairPlace& at) const {
     const double by = tap ? options_.tolerances.length : target.run->radius;
     return u > u0 - by && u < u1 + by && v > v0 - by && v < v1 + by;
   };
-  return here(at.j, false) && !here(at.i, true);
+  if (!here(at.j, false)) return Next::elsewhere;
+  return here(at.i, true) ? Next::here_of_both : Next::here;
 }
 
 std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& start, double& max_length,
@@ -139,7 +140,11 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
     take(b_[at.j], target, at.from_b, at.j);
   const double by = options_.tolerances.length;
   std::uint64_t last_of_target = target.run->last;
-  while (goes_on(target, at)) {  // roughing and finishing, or the pecks of a tap, are cycles of their own
+  // Roughing and finishing, or the pecks of a tap, are cycles of their own. Where the source machines the place once
+  // more, the translation has its next cycle as soon as this one is complete.
+  for (Next next = next_cycle(target, at); next != Next::elsewhere; next = next_cycle(target, at)) {
+    double length = max_length;
+    if (next == Next::here_of_both && similar_difference(source, target, options_.tolerances, length).empty()) break;
     while (run_at(at.j, false) == nullptr) take(b_[at.j], target, at.from_b, at.j);
     const auto* second = run_at(at.j, false);
     while (at.j < b_.size() && number(b_[at.j], false) < second->last) take(b_[at.j], target, at.from_b, at.j);

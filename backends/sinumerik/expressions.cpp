@@ -9,6 +9,7 @@
 #include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
+#include "ir/whole_numbers.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {
@@ -221,8 +222,17 @@ std::string Expressions::string(const ir::ExprPtr& /*e*/, const ir::String& s) {
   return '"' + text + '"';
 }
 
+/// An operand of B_AND and its like, where the control rounds a REAL: what shall be cut is cut before.
+std::string Expressions::bits(const ir::ExprPtr& e, int level, bool left) {
+  if (const ir::Call* c = as_call(e, ir::Function::to_integer)) return operand(c->args[0], level, left);
+  return ir::is_whole(e) ? operand(e, level, left) : "TRUNC(" + print(e) + ')';
+}
+
 std::optional<Printed> Expressions::special(const ir::ExprPtr& e) {
   if (const auto* b = std::get_if<ir::Binary>(&e->node)) return special_binary(e, *b);
+  const auto* u = std::get_if<ir::Unary>(&e->node);
+  if (u != nullptr && u->op == ir::UnaryOp::bit_not)
+    return Printed{"B_NOT " + bits(u->operand, prefix_level, false), prefix_level, false};
   if (const auto* c = std::get_if<ir::Call>(&e->node)) return special_call(e, *c);
   const auto* n = std::get_if<ir::Number>(&e->node);
   if (n != nullptr && e->type == ir::Type::boolean && n->text.empty()) {
@@ -253,6 +263,12 @@ std::optional<Printed> Expressions::active_code(const ir::ExprPtr& e) {
 }
 
 std::optional<Printed> Expressions::special_binary(const ir::ExprPtr& e, const ir::Binary& b) {
+  if (const auto* row = ir::works_on_bits(b.op) ? dialect::binary_operator(b.op) : nullptr) {
+    const int level = level_of(row->priority);
+    const std::string left = bits(b.left, level, true);
+    const bool sign = !left.empty() && left.front() == '-';
+    return Printed{left + ' ' + std::string(row->text) + ' ' + bits(b.right, level + 1, true), level, sign};
+  }
   if (own_ && (b.op == ir::BinaryOp::add || b.op == ir::BinaryOp::multiply)) {
     if (auto text = active_code(e)) return text;
   }
@@ -346,9 +362,9 @@ std::string Expressions::character_assignment(const ir::Assign::Item& item) {
     return fits ? c : nullptr;
   };
   const auto* whole = binary(item.value, ir::BinaryOp::concat);
-  const auto* front = whole != nullptr ? binary(whole->left, ir::BinaryOp::concat) : nullptr;
-  const auto* before = front != nullptr ? part(front->left, 3) : nullptr;
-  const auto* after = before != nullptr ? part(whole->right, 2) : nullptr;
+  const auto* rest = whole != nullptr ? binary(whole->right, ir::BinaryOp::concat) : nullptr;
+  const auto* before = rest != nullptr ? part(whole->left, 3) : nullptr;
+  const auto* after = before != nullptr ? part(rest->right, 2) : nullptr;
   const auto* next = after != nullptr ? binary(after->args[1], ir::BinaryOp::add) : nullptr;
   if (next == nullptr || literal(before->args[1]) != 0.0 || literal(next->right) != 1.0 ||
       !ir::equal(before->args[2], next->left)) {
@@ -357,7 +373,7 @@ std::string Expressions::character_assignment(const ir::Assign::Item& item) {
   std::string text = name(item.target);
   const bool indexed = !item.target.indices.empty();
   if (indexed) text.pop_back();
-  return text + (indexed ? "," : "[") + index(next->left) + "]=" + assigned(front->right, ir::Type::string);
+  return text + (indexed ? "," : "[") + index(next->left) + "]=" + assigned(rest->left, ir::Type::string);
 }
 
 std::optional<Printed> Expressions::frame_call(const ir::Call& c) {

@@ -33,6 +33,7 @@ class Expressions final : public ExpressionPrinter {
   std::optional<Printed> special(const ir::ExprPtr& e) override;
 
  private:
+  std::string bits(const ir::ExprPtr& e, int level, bool left);
   std::optional<Printed> special_binary(const ir::ExprPtr& e, const ir::Binary& b);
   std::optional<Printed> active_code(const ir::ExprPtr& e);
   std::optional<Printed> frame_call(const ir::Call& c);

@@ -32,6 +32,8 @@ struct ReadOptions {
   TextLook look = {};  ///< of a stream; empty: there is nothing to look through
   /// The other programs of the run, the main one first, where a file is read for those that call it; may be null.
   const std::vector<const ir::Program*>* callers = {};
+  /// A program of this name (capitals) is there to be called; empty: nobody knows.
+  std::function<bool(std::string_view name)> has_program = {};
 };
 
 /// Counts for `check` and the corpus table.

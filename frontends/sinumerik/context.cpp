@@ -74,6 +74,38 @@ ir::Value FileContext::lower_limit(LastingWord& own, LastingWord& other, const i
   return value;
 }
 
+ir::Value FileContext::millimetres(const ir::Value& mm, std::string_view what, std::string_view word, WordPos pos) {
+  if (mm.is(0)) return mm;
+  if (units_by_text && units_called) {  // what the called program leaves in force decides
+    ir::SystemRef inch;
+    inch.datum = ir::Datum::active_modal;
+    inch.text = "$P_GG";
+    inch.args = {ir::number(700), ir::number(static_cast<double>(ir::Setting::units)),
+                 ir::number(static_cast<double>(ir::Units::inch))};
+    auto in_force = std::make_shared<ir::Expr>();
+    in_force->node = std::move(inch);
+    const ir::Value less = ir::scale(mm, 1 / 25.4 - 1);
+    return ir::Value(ir::binary(ir::BinaryOp::add, ir::as_expr(mm),
+                                ir::binary(ir::BinaryOp::multiply, ir::as_expr(less), std::move(in_force))));
+  }
+  if (units_by_text) return ir::scale(mm, *units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
+  warning("SIN-080", pos,
+          std::string(what) + ", and this subprogram does not say its units: it is taken to be called in millimetres",
+          "write " + std::string(word) + ", or G71 (G710) or G70 (G700) before the cycle");
+  return mm;
+}
+
+const CycleRow* FileContext::cycle_called(std::string_view capitals, WordPos pos) {
+  const CycleRow* row = sinumerik::cycle(capitals);
+  if (row == nullptr || !has_program || !has_program(capitals)) return row;
+  if (first_time("cycle " + std::string(capitals)))
+    warning("SIN-143", pos,
+            "a program " + std::string(capitals) +
+                " is there: it is called, not the control's cycle of this name, which is searched last",
+            "give the program another name if the cycle is meant");
+  return nullptr;
+}
+
 std::string_view FileContext::slice(WordPos pos) const {
   if (pos.column == 0 || pos.column > text.size()) return {};
   return text.substr(pos.column - 1, pos.length);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/geometry.h"
 #include "dialects/sinumerik/variables.h"
 #include "ir/program.h"
@@ -210,6 +212,12 @@ struct FileContext {
   std::map<std::string, std::string, std::less<>> macros{};  ///< DEFINE: name in capitals -> text, of this routine
   /// Definition files of the machine: global user data and macros. May be null.
   const std::vector<const ir::Program*>* definitions = nullptr;
+  std::function<bool(std::string_view name)> has_program{};  ///< see ReadOptions
+  /// A cycle of the control, and no program of its name takes its place; nullptr: it is none.
+  const CycleRow* cycle_called(std::string_view capitals, WordPos pos);
+  /// A length in millimetres in the unit in force; where the text does not tell it, `what` and the word to write
+  /// instead are said.
+  ir::Value millimetres(const ir::Value& mm, std::string_view what, std::string_view word, WordPos pos);
   /// Puts what they define among the names of the routine that begins.
   void take_definitions();
 

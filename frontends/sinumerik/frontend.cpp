@@ -116,6 +116,7 @@ class FileReading {
         reader_(options.reader),
         stats_(stats) {
     context_.definitions = options.definitions;
+    context_.has_program = options.has_program;
   }
 
   ir::Program run() {

@@ -111,7 +111,7 @@ ir::ExprPtr StatementLowering::zero_of(ir::Type type) {
   return make_expr(ir::Number{0, "0", true}, ir::Type::integer, WordPos{});
 }
 
-/// `NAME[5]="X"`: the text with another character at this place.
+/// `NAME[5]="X"`: the text with another character at this place; code 0 ends the text there (5).
 bool StatementLowering::assign_character(const Expr& target, const Expr& value, WordPos pos, ir::Assign& out) {
   const Symbol* symbol = c_.symbol(target.text);
   ir::VarRef ref;
@@ -124,13 +124,15 @@ bool StatementLowering::assign_character(const Expr& target, const Expr& value, 
   const ir::ExprPtr at = exprs_.lower_as(target.args.back(), ir::Type::integer);
   ir::ExprPtr character = exprs_.lower_character(value);
   if (!at || !character) return false;
+  if (std::holds_alternative<ir::VarRef>(character->node))  // whose code may be 0
+    character = ir::call(ir::Function::character, {ir::call(ir::Function::character_code, {std::move(character)})});
   const ir::ExprPtr whole = ir::variable(ref, ir::Type::string);
   const ir::ExprPtr before = ir::call(ir::Function::substring, {whole, ir::number(0), at});
   const ir::ExprPtr after =
       ir::call(ir::Function::substring, {whole, ir::binary(ir::BinaryOp::add, at, ir::number(1))});
   ir::Assign::Item item;
   item.target = std::move(ref);
-  item.value = ir::binary(ir::BinaryOp::concat, ir::binary(ir::BinaryOp::concat, before, std::move(character)), after);
+  item.value = ir::binary(ir::BinaryOp::concat, before, ir::binary(ir::BinaryOp::concat, std::move(character), after));
   item.pos = pos;
   out.items.push_back(std::move(item));
   return true;

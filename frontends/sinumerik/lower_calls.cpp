@@ -363,12 +363,12 @@ bool StatementLowering::modal_call(const Statement& s, ir::LineInfo& info) {
     emit(info, std::move(out));
     return true;
   }
-  if (sinumerik::cycle(s.text) != nullptr) {
-    if (sinumerik::cycle(s.text)->family == CycleFamily::pattern) {
+  if (const CycleRow* row = c_.cycle_called(s.text, s.pos); row != nullptr) {
+    if (row->family == CycleFamily::pattern) {
       c_.error("SIN-021", s.pos, s.text + " is no cycle that MCALL can run: it gives the positions for one");
       return false;
     }
-    if (sinumerik::cycle(s.text)->family == CycleFamily::milling) {
+    if (row->family == CycleFamily::milling) {
       refuse("cycle.milling", s.pos, s.text + " as a modal call is not carried yet: it has a place of its own");
       return false;
     }

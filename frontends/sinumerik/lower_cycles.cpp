@@ -80,24 +80,7 @@ bool dwells(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos
 
 /// The way back that breaks the chip: VRT, without it 1 mm, whatever the units of the program (18.1.1).
 ir::Value chip_lift(const Arguments& a, FileContext& c, WordPos pos) {
-  if (a.says("VRT")) return a.get("VRT");
-  if (c.units_by_text && c.units_called) {  // what the called program leaves in force decides
-    ir::SystemRef inch;
-    inch.datum = ir::Datum::active_modal;
-    inch.text = "$P_GG";
-    inch.args = {ir::number(700), ir::number(static_cast<double>(ir::Setting::units)),
-                 ir::number(static_cast<double>(ir::Units::inch))};
-    auto in_force = std::make_shared<ir::Expr>();
-    in_force->node = std::move(inch);
-    return ir::Value(ir::binary(ir::BinaryOp::add, ir::number(1),
-                                ir::binary(ir::BinaryOp::multiply, ir::number(1 / 25.4 - 1), std::move(in_force))));
-  }
-  if (c.units_by_text) return ir::Value(*c.units_by_text == ir::Units::inch ? 1 / 25.4 : 1);
-  c.warning("SIN-080", pos,
-            "the way back without VRT is 1 mm, and this subprogram does not say its units: it is taken to be called in "
-            "millimetres",
-            "write VRT, or G71 (G710) or G70 (G700) before the cycle");
-  return ir::Value(1);
+  return a.says("VRT") ? a.get("VRT") : c.millimetres(ir::Value(1), "the way back without VRT is 1 mm", "VRT", pos);
 }
 
 /// The first depth lies between the reference plane and the final depth.
@@ -198,13 +181,15 @@ bool sense_after(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPo
   return true;
 }
 
-/// The pitch from PIT, or from the size of a metric thread (MPIT); its sign is the hand.
+/// The pitch from PIT, or in mm from the size of a metric thread (MPIT); its sign is the hand.
 bool pitch(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos) {
   if (a.says("PITA") && !a.get("PITA").is(1)) {
     c.error("SIN-021", pos, "a pitch in threads per inch, inches or modules (PITA) is not carried yet");
     return false;
   }
   hole.pitch = a.get("PIT");
+  if (a.says("PITA") && a.says("PIT"))
+    hole.pitch = c.millimetres(hole.pitch, "PIT with PITA 1 is in millimetres", "PITA 0", pos);
   if (!a.says("MPIT")) return true;
   if (a.says("PIT")) {
     c.error("SIN-021", pos, "MPIT and PIT are both given");
@@ -216,7 +201,8 @@ bool pitch(const Arguments& a, ir::HoleCycle& hole, FileContext& c, WordPos pos)
     c.error("SIN-021", pos, "MPIT must be the size of a metric thread, 3 to 48, as a number");
     return false;
   }
-  hole.pitch = ir::Value(size.number < 0 ? -coarse : coarse);
+  hole.pitch = c.millimetres(ir::Value(size.number < 0 ? -coarse : coarse),
+                             "a pitch by its size (MPIT) is in millimetres", "PIT", pos);
   return true;
 }
 

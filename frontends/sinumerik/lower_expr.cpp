@@ -10,6 +10,7 @@
 #include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/limits.h"
 #include "dialects/sinumerik/operators.h"
+#include "ir/whole_numbers.h"
 
 namespace cnctrans::sinumerik {
 
@@ -301,6 +302,11 @@ ir::ExprPtr ExprLowering::named(const Expr& e) {
 
 // --- operators --------------------------------------------------------------------------------------------------
 
+/// An operand of B_AND and its like: a REAL becomes an INT first, and that rounds (4.3, 4.4).
+ir::ExprPtr ExprLowering::whole_bits(ir::ExprPtr e, WordPos pos) {
+  return ir::is_whole(e) ? std::move(e) : convert(std::move(e), ir::Type::integer, pos);
+}
+
 ir::ExprPtr ExprLowering::unary(const Expr& e) {
   if (e.text == "<<") return as_string(lower(e.args[0]));
   ir::ExprPtr operand = lower(e.args[0]);
@@ -314,6 +320,8 @@ ir::ExprPtr ExprLowering::unary(const Expr& e) {
     return make_expr(ir::Unary{ir::UnaryOp::logical_not, std::move(operand)}, ir::Type::boolean, e.pos);
   }
   if (e.text == "B_NOT") {
+    operand = whole_bits(std::move(operand), e.args[0].pos);
+    if (!operand) return nullptr;
     return make_expr(ir::Unary{ir::UnaryOp::bit_not, std::move(operand)}, ir::Type::integer, e.pos);
   }
   const ir::Type type = operand->type == ir::Type::boolean ? ir::Type::integer : operand->type;
@@ -415,6 +423,11 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
       left = as(left, right->type);
     else
       right = as(right, left->type);
+  }
+  if (ir::works_on_bits(row->op)) {
+    left = whole_bits(std::move(left), e.args[0].pos);
+    right = whole_bits(std::move(right), e.args[1].pos);
+    if (!left || !right) return nullptr;
   }
   const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
   const ir::Compare compare = relation && reals ? ir::Compare::relative_1e12 : ir::Compare::exact;

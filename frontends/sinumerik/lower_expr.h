@@ -102,6 +102,7 @@ class ExprLowering {
   ir::ExprPtr unary(const syntax::Expr& e);
   ir::ExprPtr binary(const syntax::Expr& e);
   ir::ExprPtr call(const syntax::Expr& e);
+  ir::ExprPtr whole_bits(ir::ExprPtr e, WordPos pos);
   ir::ExprPtr concat(const syntax::Expr& e);
   ir::ExprPtr as_string(ir::ExprPtr e);
   ir::ExprPtr system_operand(const syntax::Expr& e);

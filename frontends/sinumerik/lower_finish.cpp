@@ -1,5 +1,6 @@
 // Word blocks: named addresses, and what closes a block once all its words are known.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -71,6 +72,11 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       extra_.opening_angle = std::move(value);
       return;
     case NamedWord::turns:
+      if (value.literal() && (value.number < 0 || value.number != std::trunc(value.number))) {
+        failed_ = true;
+        return c_.error("SIN-017", w.pos, "TURN= counts whole turns beside the arc: 0, 1, 2 ...",
+                        "a part of a turn is the arc itself");
+      }
       extra().has_turns = true;
       extra_.turns = std::move(value);
       return;

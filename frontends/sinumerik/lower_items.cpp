@@ -369,13 +369,15 @@ bool StatementLowering::call_arguments(const std::string& name, const std::vecto
 
 bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   if (const Procedure use = procedure(name); use != Procedure::none) return predefined(use, name, args, pos, parts);
+  const CycleRow* row = c_.cycle_called(name, pos);
+  const bool own_program = row == nullptr && sinumerik::cycle(name) != nullptr;
   // Without arguments, or with the data record "0", it ends the swivelled plane (18.5).
   const bool bare = std::all_of(args.begin(), args.end(), [](const Expr& e) { return e.kind == ExprKind::missing; });
   const bool ends = bare || (args.size() > 1 && args[1].kind == ExprKind::string && args[1].text == "0");
-  if (name == "CYCLE800") return ends ? swivel_end(pos, parts) : swivel(args, pos, parts);
-  if (moves_nothing(name, args, pos)) return without_effect(name, pos, parts);
+  if (row != nullptr && name == "CYCLE800") return ends ? swivel_end(pos, parts) : swivel(args, pos, parts);
+  if (!own_program && moves_nothing(name, args, pos)) return without_effect(name, pos, parts);
   if (name == "PO") return denominator(args, pos, parts);
-  if (sinumerik::cycle(name) != nullptr) {
+  if (row != nullptr) {
     ir::CyclePtr made = cycle(name, args, pos);
     if (!made) return false;
     ir::Action a;
@@ -385,7 +387,7 @@ bool StatementLowering::sort_call(std::string name, const std::vector<Expr>& arg
     parts.actions.push_back(std::move(a));
     return true;
   }
-  if (c_.symbol(name) != nullptr || is_reserved(name)) {
+  if (c_.symbol(name) != nullptr || (!own_program && is_reserved(name))) {
     return refuse("language.statement", pos, name + " can't be called, or is not carried yet");
   }
   if (call_in_real_time(pos)) return false;

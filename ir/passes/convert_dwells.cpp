@@ -13,6 +13,8 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+constexpr double most_dwells = 100;  ///< blocks that one dwell may become
+
 class DwellPass {
  public:
   DwellPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
@@ -174,6 +176,13 @@ class DwellPass {
           "TRN-156", word_span(s.line.span, a.pos),
           "a dwell of " + shortest(seconds) + " s is raised to the target's shortest, " + shortest(t.dwell_min) + " s");
       seconds = t.dwell_min;
+    }
+    if (std::ceil(seconds / t.dwell_max) > most_dwells) {
+      context_.diagnostics.error("TRN-742", word_span(s.line.span, a.pos),
+                                 "a dwell of " + shortest(seconds) + " s would be more than " + shortest(most_dwells) +
+                                     " blocks of the target's longest, " + shortest(t.dwell_max) + " s",
+                                 "write a loop around a shorter dwell, or a stop of the program (M0)");
+      return true;
     }
     seconds = spread(s, seconds, pieces);
     const bool same = scale == t.dwell_unit && !d.revolutions && seconds == value.number * scale;

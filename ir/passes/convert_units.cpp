@@ -1,5 +1,5 @@
-// Inch and metric (equivalences 5.1). Where the target has the switch it stays; a switch that leaves F alone becomes
-// one that holds for F too, with F converted, and the other way round.
+// Inch and metric (equivalences 5.1). Where the target has the switch it stays; a switch that leaves F and the cutting
+// speed alone becomes one that holds for them too, with both converted, and the other way round.
 #include "base/text.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/facts.h"
@@ -27,31 +27,44 @@ class UnitPass {
       m->feed_too = !m->feed_too;
       a.text = {};
     }
-    if (state != nullptr && (!feed_too || !legal(*feed_too))) feeds(s, b, feed_too);
+    if (state != nullptr && (!feed_too || !legal(*feed_too))) technology(s, b, feed_too);
   }
 
  private:
   [[nodiscard]] bool legal(bool feed_too) const {
     return feed_too ? context_.target.units_with_feed : context_.target.units_geometry_only;
   }
-  void feeds(Statement& s, Block& b, std::optional<bool> feed_too) {
+  /// F and the cutting speed: in mm and m/min where the switch leaves them alone, else in inches and feet.
+  void technology(Statement& s, Block& b, std::optional<bool> feed_too) {
     const auto units = setting_in<Units>(b, facts_.before(s), Setting::units);
     if (units == Units::metric) return;
     for (auto& a : b.actions) {
       auto* f = std::get_if<SetFeed>(&a.data);
-      if (f == nullptr) continue;
-      if (!units || !feed_too) {
+      auto* speed = std::get_if<SetSpindle>(&a.data);
+      if (speed != nullptr && speed_mode(s, b) == SpindleMode::rpm) speed = nullptr;
+      if (f == nullptr && speed == nullptr) continue;
+      const bool known_mode = speed == nullptr || speed_mode(s, b);
+      if (!units || !feed_too || !known_mode) {
         context_.diagnostics.error(
             "TRN-171", word_span(s.line.span, a.pos),
-            "the unit in force is not known here, and the unit of F differs between the controls",
-            "write the unit (inch or metric) before this block on every path");
+            std::string(known_mode ? "the unit in force is" : "whether S is a cutting speed is") +
+                " not known here, and the unit of " + (f != nullptr ? "F" : "a cutting speed") +
+                " differs between the controls",
+            known_mode ? "write the unit (inch or metric) before this block on every path"
+                       : "write G96 or G97 before this block on every path");
         return;
       }
-      const auto mode = setting_in<FeedMode>(b, facts_.before(s), Setting::feed_mode);
-      if (mode == FeedMode::inverse_time) continue;
-      f->value = ir::scale(f->value, *feed_too ? 25.4 : 1 / 25.4);  // F in mm where the switch leaves it alone
+      if (f != nullptr) {
+        if (setting_in<FeedMode>(b, facts_.before(s), Setting::feed_mode) == FeedMode::inverse_time) continue;
+        f->value = ir::scale(f->value, *feed_too ? 25.4 : 1 / 25.4);
+      } else {
+        speed->value = ir::scale(speed->value, *feed_too ? 0.3048 : 1 / 0.3048);
+      }
       a.text = {};
     }
+  }
+  [[nodiscard]] std::optional<SpindleMode> speed_mode(const Statement& s, const Block& b) const {
+    return setting_in<SpindleMode>(b, facts_.before(s), Setting::spindle_mode);
   }
 
   const LegaliseContext& context_;

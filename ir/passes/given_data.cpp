@@ -88,7 +88,10 @@ std::string name_of_datum(const SystemRef& ref, const Program& program) {
 }
 
 bool has_name(const SystemRef& ref, const LegaliseContext& context) {
-  return ref.given || (context.target.system_data && context.target.system_data(ref));
+  const auto& target = context.target;
+  if (ref.given || (target.system_data && target.system_data(ref))) return true;
+  const auto own = target.data_form ? target.data_form(ref) : std::nullopt;  // it is written with that name later on
+  return own && own->writable;
 }
 
 std::optional<std::string> name_given_to(const SystemRef& ref, const Program& program, const NameMap& names) {

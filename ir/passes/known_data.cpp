@@ -120,23 +120,6 @@ class KnownData {
                                  "change it on the machine, or replace it by a variable");
       return;
     }
-    if (sayable(i.system) || !context_.target.data_form) return;
-    const auto own = context_.target.data_form(i.system);
-    if (!own || !own->writable) return;
-    i.system.text = own->text;
-    if (own->units == 1) return;
-    const auto value = constant_value(i.value);
-    if (!value) {
-      i.value = call(Function::round, {binary(BinaryOp::multiply, i.value, number(own->units))});
-      return;
-    }
-    const double whole = std::nearbyint(*value * own->units);
-    if (std::fabs(whole - *value * own->units) > 1e-6) {
-      context_.diagnostics.warning("TRN-133", s.line.span,
-                                   own->text + " counts in steps of " + shortest(1 / own->units) + ": the value " +
-                                       shortest(*value) + " is rounded");
-    }
-    i.value = number(whole);
   }
 
   /// The value when every path agrees on it.

@@ -64,6 +64,7 @@ constexpr std::array pipeline{
     Pass{"written_offsets", passes::select_written_offsets, false},
     Pass{"tap_speeds", passes::write_tap_speeds, false},
     Pass{"cycles", passes::lower_cycles, false},
+    Pass{"data_forms", passes::write_data_forms, false},
     Pass{"cycle_spindles", passes::name_cycle_spindles, false},
     Pass{"reference_moves", passes::convert_reference_moves, true},
     Pass{"preset_steps", passes::settle_preset_steps, false},

@@ -21,6 +21,8 @@ void write_out_corners(Program& program, const LegaliseContext& context);   ///<
 void write_out_tangents(Program& program, const LegaliseContext& context);  ///< entries, exits, tangent arcs
 void convert_arcs(Program& program, const LegaliseContext& context);        ///< centre forms, radius, helix
 void convert_distance(Program& program, const LegaliseContext& context);    ///< absolute and incremental words
+/// Machine data that the program writes, under the target's name and in its unit.
+void write_data_forms(Program& program, const LegaliseContext& context);
 void convert_units(Program& program, const LegaliseContext& context);
 /// The coordinates of the face and the cylinder of work with the C axis, as the target says them.
 void convert_surfaces(Program& program, const LegaliseContext& context);
