@@ -18,8 +18,9 @@ const T* first_of(const ir::Block& b) {
   return nullptr;
 }
 
-bool commands_spindle(const ir::Block& b, int number) {
-  return std::any_of(b.actions.begin(), b.actions.end(), [number](const ir::Action& a) {
+bool commands_spindle(const ir::Block& b, int number, bool after) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [number, after](const ir::Action& a) {
+    if ((a.order == ir::Order::after) != after) return false;
     if (const auto* r = std::get_if<ir::SpindleRun>(&a.data)) return r->number == number;
     if (const auto* o = std::get_if<ir::SpindleOrient>(&a.data)) return o->number == number;
     return false;
@@ -47,7 +48,7 @@ struct ActionRunner {
   bool operator()(const ir::ModalSet& a) const {
     if (a.setting == ir::Setting::comp) m.set_comp(static_cast<ir::CompSide>(a.value));
     if (after && a.setting != ir::Setting::comp) m.set_modal(a, b);
-    if (a.setting == ir::Setting::spindle_mode) m.emit_if_running(b, m.master_);
+    if (a.setting == ir::Setting::spindle_mode) m.emit_if_running(b, m.master_, after);
     return true;
   }
   bool operator()(const ir::SetFeed& a) const {
@@ -56,12 +57,12 @@ struct ActionRunner {
   }
   bool operator()(const ir::SetSpindle& a) const {
     if (after) m.set_spindle_value(a);
-    m.emit_if_running(b, a.number);
+    m.emit_if_running(b, a.number, after);
     return true;
   }
   bool operator()(const ir::SpindleLimit& a) const {
     if (after) m.set_spindle_limit(a);
-    m.emit_if_running(b, a.number);
+    m.emit_if_running(b, a.number, after);
     return true;
   }
   bool operator()(const ir::SpindleRun& a) const {
@@ -312,10 +313,11 @@ void BlockMachine::emit_spindle(int number) {
   emitter_.emit(e);
 }
 
-/// A change of speed, mode or limit shows while the spindle turns, once, and not beside a command of the same block.
-void BlockMachine::emit_if_running(const ir::Block& b, int number) {
+/// A change of speed, mode or limit shows while the spindle turns, once, and not beside a command of the same block
+/// that is carried out at the same time.
+void BlockMachine::emit_if_running(const ir::Block& b, int number, bool after) {
   auto* s = spindle(number);
-  if (s == nullptr || s->state == ir::SpindleState::off || commands_spindle(b, number)) return;
+  if (s == nullptr || s->state == ir::SpindleState::off || commands_spindle(b, number, after)) return;
   const bool changed = s->mode != s->shown_mode || s->value[static_cast<std::size_t>(s->mode)] != s->shown_value ||
                        (s->has_limit ? s->limit : 0) != s->shown_limit;
   if (changed) emit_spindle(number);

@@ -115,6 +115,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     const auto* f = std::get_if<ir::SetFeed>(&a.data);
     return f != nullptr && f->block_only;
   });
+  if (open_pattern_ == &b) return go_on_with_pattern(b);
   machining_ = nullptr;
   feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
   block_corner_.reset();
@@ -134,6 +135,10 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   if (machining_ != nullptr && with_cycle && !run_machining(*machining_)) return false;
   if (pattern_here_ && with_cycle) {
     if (!run_pattern()) return false;
+    if (single_points && block_moves_) {  // what acts behind it waits for its last point
+      open_pattern_ = &b;
+      return !failure_.set;
+    }
   } else if (hole_ && with_cycle) {
     const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
     if (runs && !run_cycle()) return false;

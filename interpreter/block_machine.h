@@ -132,8 +132,8 @@ class BlockMachine final : public SystemData {
   std::string_view last_label;  ///< number of the numbered statement carried out last; empty: none yet
   bool block_again = false;     ///< a further pass of a repeated block: the cycle it defines is in force already
   bool single_points = false;   ///< a pattern stops at each point: a modal subprogram runs there
-  /// A pattern in work has further points.
-  [[nodiscard]] bool points_left() const { return pattern_here_ && next_point_ < points_.size(); }
+  /// The block goes on behind the modal subprogram: with the next point, or with what acts behind the last one.
+  [[nodiscard]] bool points_left() const { return open_pattern_ != nullptr; }
 
  private:
   struct AxisState {
@@ -213,7 +213,7 @@ class BlockMachine final : public SystemData {
   void run_spindle(int number, ir::SpindleState state);
   void emit_spindle(int number);
   void turn_at(const ir::cycles::TurnMove& m);
-  void emit_if_running(const ir::Block& b, int number);
+  void emit_if_running(const ir::Block& b, int number, bool after);
   void emit_tool(bool change);
   void emit_coolant(std::string_view state);
   void emit_dwell(double amount, bool revolutions);
@@ -330,6 +330,7 @@ class BlockMachine final : public SystemData {
   // patterns (patterns.cpp)
   bool start_pattern(const ir::NamedCycle& c);
   bool run_pattern();
+  bool go_on_with_pattern(const ir::Block& b);
   bool to_point(const ir::cycles::PatternPoint& to);
 
   // cycles (cycles.cpp)
@@ -450,6 +451,7 @@ class BlockMachine final : public SystemData {
   const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
   const ir::NamedCycle* pattern_ = nullptr;    ///< the pattern in work
   bool pattern_here_ = false;                  ///< it stands in the block at hand
+  const ir::Block* open_pattern_ = nullptr;    ///< a modal subprogram runs between its points, or behind the last one
   std::vector<ir::cycles::PatternPoint> points_;
   std::size_t next_point_ = 0;
 

@@ -8,7 +8,8 @@
 namespace cnctrans::interpreter {
 
 bool BlockMachine::start_pattern(const ir::NamedCycle& c) {
-  if (pattern_ == &c && next_point_ < points_.size()) return true;  // goes on behind a modal subprogram
+  if (open_pattern_ != nullptr)
+    return failure_.fail(code::not_carried, "a pattern in a modal subprogram that runs at the points of a pattern");
   pattern_ = &c;
   points_.clear();
   next_point_ = 0;
@@ -48,6 +49,13 @@ bool BlockMachine::run_pattern() {
     if (single_points) break;
   }
   return true;
+}
+
+/// Behind a run of the modal subprogram: to the next point, or what the block does behind its last one.
+bool BlockMachine::go_on_with_pattern(const ir::Block& b) {
+  if (next_point_ < points_.size()) return run_pattern();
+  open_pattern_ = nullptr;
+  return actions(b, true) && !failure_.set;
 }
 
 bool BlockMachine::to_point(const ir::cycles::PatternPoint& to) {

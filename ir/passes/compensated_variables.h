@@ -1,4 +1,5 @@
-// Variables that a program uses while radius compensation is on: some controls don't take all of theirs there.
+// Variables that a program uses while radius compensation is on or in words of a contour (angles of lines, corners):
+// some controls don't take all of theirs there.
 #pragma once
 
 #include <set>
@@ -12,7 +13,8 @@ namespace cnctrans::ir::passes {
 /// By space and name; a numbered one by its number.
 using VariableNames = std::set<std::pair<SpaceId, std::string>>;
 
-/// Variables that stand in a statement while radius compensation is on, or may be.
+/// Variables that stand in a statement while radius compensation is on, or may be, or in a block that describes a
+/// contour by an angle or a corner.
 VariableNames compensated_variables(Program& program, const LegaliseContext& context);
 
 }  // namespace cnctrans::ir::passes

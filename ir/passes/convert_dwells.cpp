@@ -7,6 +7,7 @@
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
+#include "ir/passes/head_constants.h"
 #include "ir/passes/passes.h"
 
 namespace cnctrans::ir::passes {
@@ -17,33 +18,44 @@ constexpr double most_dwells = 100;  ///< blocks that one dwell may become
 
 class DwellPass {
  public:
-  DwellPass(const LegaliseContext& context, const FactsOf& facts) : context_(context), facts_(facts) {}
+  DwellPass(const Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context),
+        facts_(facts),
+        constants_(program),
+        longest_told_(program.dialect == context.target.dialect) {}
 
   void block(Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     drop_settings(s, b);
     tell_optional_stops(s, b);
-    Body pieces;
+    Body pieces, further;
     std::size_t at = 0;
     for (std::size_t i = 0; i < b.actions.size(); ++i) {
       if (auto* d = std::get_if<Dwell>(&b.actions[i].data)) {
-        if (!dwell(s, b.actions[i], *d, pieces)) {
+        if (!dwell(editor.routine, s, b.actions[i], *d, further)) {
           b.actions.erase(b.actions.begin() + static_cast<std::ptrdiff_t>(i));
           --i;
         }
       }
     }
-    at = pieces.size();
     const bool stop = exact_stop(s, b, pieces);
     if (stop) at = pieces.size();
+    if (!further.empty()) std::get<Block>(further.back().node).actions = join(further.back(), take_after(b));
     pieces.push_back(std::move(s));
-    if (stop) pieces.push_back(path_mode(pieces.back().line, PathMode::continuous));
+    for (auto& more : further) pieces.push_back(std::move(more));
+    if (stop) pieces.push_back(path_mode(pieces[at].line, PathMode::continuous));
     editor.put_group(out, std::move(pieces), at);
   }
 
  private:
   static Statement path_mode(const LineInfo& like, PathMode mode) {
     return make_block(like, action(ModalSet{Setting::path_mode, static_cast<std::uint8_t>(mode), true, {}}));
+  }
+
+  static std::vector<Action> join(Statement& dwell, std::vector<Action> late) {
+    auto actions = std::move(std::get<Block>(dwell.node).actions);
+    std::move(late.begin(), late.end(), std::back_inserter(actions));
+    return actions;
   }
 
   /// Whether the operator asks for it only the machine knows, and on one of the two the spindle stands behind it.
@@ -150,7 +162,7 @@ class DwellPass {
   }
 
   /// False: the action goes away.
-  bool dwell(const Statement& s, Action& a, Dwell& d, Body& pieces) {
+  bool dwell(const Routine& routine, const Statement& s, Action& a, Dwell& d, Body& further) {
     const auto& t = context_.target;
     if (d.revolutions && t.dwell_revolutions) return true;
     Value value = d.value;
@@ -159,6 +171,12 @@ class DwellPass {
       const auto seconds = seconds_of_revolutions(s, a, d, scale);
       if (!seconds) return true;
       value = *seconds;
+    }
+    if (!value.literal()) {
+      const Value folded = constants_.fold(value, routine, s);
+      const auto known = folded.literal() ? std::optional(folded.number) : constant_value(folded.expr);
+      if (known && *known * scale > t.dwell_max) value = Value{*known};
+      if (!known) tell_longest(s, a);
     }
     if (!value.literal()) {
       d.value = ir::scale(value, scale / t.dwell_unit);
@@ -184,7 +202,7 @@ class DwellPass {
                                  "write a loop around a shorter dwell, or a stop of the program (M0)");
       return true;
     }
-    seconds = spread(s, seconds, pieces);
+    seconds = spread(s, seconds, further);
     const bool same = scale == t.dwell_unit && !d.revolutions && seconds == value.number * scale;
     if (!same) {
       d.value = Value{in_units(s, a, seconds)};
@@ -207,13 +225,24 @@ class DwellPass {
     return whole;
   }
 
-  /// A dwell beyond the largest word becomes several equal ones: all but the last go to `pieces`.
-  double spread(const Statement& s, double seconds, Body& pieces) {
+  /// The source may wait longer than the target's word says.
+  void tell_longest(const Statement& s, const Action& a) {
+    constexpr double usual = 999;
+    if (longest_told_ || context_.target.dwell_max >= usual) return;
+    longest_told_ = true;
+    context_.diagnostics.warning("TRN-693", word_span(s.line.span, a.pos),
+                                 "this dwell is computed, and the target waits " + shortest(context_.target.dwell_max) +
+                                     " s at most in one block (said once a program)",
+                                 "make sure that it is never longer");
+  }
+
+  /// A dwell beyond the largest word becomes several equal ones: all but the first go to `further`.
+  double spread(const Statement& s, double seconds, Body& further) {
     if (seconds <= context_.target.dwell_max) return seconds;
     const double n = std::ceil(seconds / context_.target.dwell_max);
     const double each = seconds / n;
     for (double i = 1; i < n; ++i) {
-      pieces.push_back(make_block(
+      further.push_back(make_block(
           s.line, action(Dwell{Value{each / context_.target.dwell_unit}, context_.target.dwell_unit, false})));
     }
     return each;
@@ -221,14 +250,16 @@ class DwellPass {
 
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  const HeadConstants constants_;
   std::set<Setting> noted_;
+  bool longest_told_;
 };
 
 }  // namespace
 
 void convert_dwells(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
-  DwellPass pass(context, facts);
+  DwellPass pass(program, context, facts);
   edit_blocks(program, context, [&pass](Editor& e, Statement&& s, Body& out) { pass.block(e, std::move(s), out); });
 }
 

@@ -333,6 +333,7 @@ class CornerPass {
     element.motion.kind = straight ? MotionKind::linear : f.ccw ? MotionKind::arc_ccw : MotionKind::arc_cw;
     element.motion.explicit_code = true;
     element.motion.keeps_modal = false;
+    element.actions = take_after(b);
     points_.set_end(b.motion, here->plane, f.from);
     if (here->e.arc) PathPoints::set_centre(b.motion, here->plane, here->e.a, here->e.c);
     points_.set_end(element.motion, here->plane, f.to);

@@ -126,6 +126,12 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
   return out;
 }
 
+/// Where a way straight down over the retract plane comes to next: the reference plane, or the bottom.
+static double lowest(const HoleCycle& h) {
+  const bool known = h.reference.given && h.reference.base == LevelBase::absolute && h.reference.value.literal();
+  return std::max(h.bottom.value.number, known ? h.reference.value.number : h.bottom.value.number);
+}
+
 std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const Facts& facts,
                                     const LegaliseContext& context, std::optional<double> initial,
                                     std::optional<SpindleState> sense, TapNeeds* needs) {
@@ -159,38 +165,28 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
   const auto height = initial ? initial : w ? facts.position[*w] : std::nullopt;
   const bool straight = literal && height && std::fabs(*height - h.retract.value.number) < 1e-9;
   const bool downward = literal && height && h.bottom.value.literal() && h.bottom.base == LevelBase::absolute &&
-                        *height >= h.retract.value.number && h.retract.value.number >= h.bottom.value.number;
-  if ((straight || downward) && !h.approach_by_retract) {  // over the retract level is the same way here
-    h.approach_by_retract = true;
-    if (auto form = accepted(h)) return form;
-    h.approach_by_retract = false;
-  }
-  if (auto form = accepted(h)) return form;
-  if (straight || downward) {
-    h.approach_by_retract = !h.approach_by_retract;
-    if (auto form = accepted(h)) return form;
-    h.approach_by_retract = !h.approach_by_retract;
-  }
+                        *height >= h.retract.value.number && h.retract.value.number >= lowest(h);
+  // Over the retract level is the same way then; said so first.
+  const auto either_way = [&](HoleCycle c) -> std::optional<CyclePtr> {
+    const bool own = c.approach_by_retract;
+    c.approach_by_retract = own || straight || downward;
+    auto form = accepted(c);
+    if (form || !(straight || downward)) return form;
+    c.approach_by_retract = false;
+    return accepted(c);
+  };
+  if (auto form = either_way(h)) return form;
   if (h.axis != axis::none && w) {  // the normal of the plane in force: needs no name
     const auto plane = setting_in<Plane>(b, facts, Setting::plane);
     if (plane && plane_axes(*plane).w == h.axis) {
       h.axis = axis::none;
-      if (auto form = accepted(h)) return form;
-      if (straight || downward) {
-        h.approach_by_retract = !h.approach_by_retract;
-        if (auto form = accepted(h)) return form;
-        h.approach_by_retract = !h.approach_by_retract;
-      }
+      if (auto form = either_way(h)) return form;
     }
   }
   // Surface and distance given apart: the reference plane alone says the same.
   if (h.surface.given && h.reference.given && h.reference.base == LevelBase::absolute && h.pecks.law == PeckLaw::none) {
     h.surface = Level{};
-    if (auto form = accepted(h)) return form;
-    if (straight || downward) {
-      h.approach_by_retract = !h.approach_by_retract;
-      if (auto form = accepted(h)) return form;
-    }
+    if (auto form = either_way(h)) return form;
   }
   return without_dwell(*hole, b, facts, context, initial, sense, needs);
 }

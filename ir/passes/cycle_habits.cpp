@@ -34,7 +34,7 @@ bool position_only(const Block& b) {
 bool runs_old(const Block& b, bool point_here, bool here) {
   Block words;
   words.actions = b.actions;
-  const bool moves = b.has_motion && b.motion.moves() && !(here && point_here);
+  const bool moves = b.has_motion && !(b.motion.moves() && here && point_here);  // a bare motion code runs it as well
   return moves || disturbs_call(words);
 }
 

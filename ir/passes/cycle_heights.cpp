@@ -14,19 +14,6 @@ bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, cons
   return setting_in<RetractPlane>(b, facts, Setting::retract_plane) == RetractPlane::reference;
 }
 
-std::optional<Block> code_before_cycle(Block& b, const Facts& facts, const LegaliseContext& context) {
-  const bool own_code = b.has_motion && b.motion.kind == MotionKind::rapid && b.motion.explicit_code &&
-                        b.motion.keeps_modal && facts.motion != MotionKind::rapid;
-  const bool target_rapid = context.target_machine.option("cycle.positioning") == "rapid";
-  if (!own_code || !target_rapid || context.target.retract_plane_switch) return std::nullopt;
-  Block code;
-  code.has_motion = true;
-  code.motion.kind = MotionKind::rapid;
-  code.motion.explicit_code = true;
-  by_itself(b);
-  return code;
-}
-
 bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto* hole = std::get_if<HoleCycle>(&active_->native->node);
   const auto w = tool_axis(active_->source, b, facts);
@@ -103,8 +90,6 @@ void CyclePass::rise_and_define(Statement&& s, const Active& a, bool modal, Body
   const LineInfo like = s.line;
   if (old_may_run(facts)) pieces.push_back(off_statement(like, false));
   position_rapid(b, context_);
-  const auto late = take_after(b);
-  late_.insert(late_.end(), late.begin(), late.end());
   Block up;
   up.has_motion = true;
   up.motion.kind = MotionKind::rapid;

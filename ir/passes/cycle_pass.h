@@ -137,11 +137,15 @@ class CyclePass {
   /// Points of a cycle by call that depend on the way are right as long as the target has every cycle.
   void report_unsure() const;
 
-  /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle.
+  /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle, or the block that
+  /// has switched it off.
   void join(const Statement& s) {
-    if (!active_ || by_call_ || !active_->deferred || !active_->on_target) return;
+    if (!active_ || by_call_) return;
+    const bool off = active_->native && active_->was_on_target && !active_->on_target;
+    if (!off && !(active_->deferred && active_->on_target)) return;
     const auto names = labels_on(s.line);
-    if (std::none_of(names.begin(), names.end(), [this](const auto& l) { return uses_.is_target(l) && !behind(l); }))
+    if (std::none_of(names.begin(), names.end(),
+                     [&](const auto& l) { return uses_.is_target(l) && (off || !behind(l)); }))
       return;
     active_->on_target = false;
     active_->maybe_on_target = true;
@@ -157,12 +161,15 @@ class CyclePass {
     join(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     if (height_.enter(s)) sense_.forget();
+    sense_.within(s);
     const bool harmless = ToolHeight::keeps(s);
     const std::size_t first = out.size();
     ran_.reset();
     const auto* source = std::get_if<Block>(&seen.node);
     branch_before_first_point(s);
     lower(std::move(s), out);
+    late_.clear();  // of a refused block
+    then_.clear();
     for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
     const auto* b = std::get_if<Block>(&seen.node);
     if (!ran_ && active_ && b != nullptr && !position_only(*b) && triggers(*b, facts_.before(seen))) ran_ = active_;
@@ -189,20 +196,12 @@ class CyclePass {
     pieces.push_back(std::move(s));
     put_group(out, std::move(pieces), main);
   }
-  void put_group(Body& out, Body&& pieces, std::size_t main) {
-    if (!late_.empty()) {
-      Block behind;
-      behind.actions = std::exchange(late_, {});
-      pieces.push_back(made(pieces[main].line, std::move(behind)));
-    }
-    editor_.put_group(out, std::move(pieces), main);
-  }
+  /// What was held back goes behind all pieces: into the last one where that is the block itself, and the target
+  /// carries it out behind the hole.
+  void put_group(Body& out, Body&& pieces, std::size_t main);
   /// What acts after the motion acts after the hole: behind all its pieces.
-  void hold_back(Block& b, bool native) {
-    const bool stays = native && (!by_call_ || std::none_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-                         return a.order == Order::after && makes_event(a);
-                       }));
-    if (!stays) late_ = take_after(b);
+  void hold_back(Block& b) {
+    for (auto& a : take_after(b)) late_.push_back(std::move(a));
   }
 
   // --- definitions ----------------------------------------------------------------------------------------------
@@ -477,6 +476,7 @@ class CyclePass {
   std::vector<Span> unsure_;             ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
+  std::vector<Action> then_;   ///< made by the pass: in a block of its own behind the hole
   bool tap_feed_ = false;      ///< the F in force on the target is that of a tap
   std::optional<Active> ran_;  ///< what the block at hand runs by its definition
   std::pair<const Statement*, const Statement*> rest_{nullptr, nullptr};  ///< behind the statement at hand

@@ -54,7 +54,7 @@ void CyclePass::position(Statement&& s, Body& out) {
   }
   Body pieces;
   const LineInfo like = s.line;
-  const bool on = active_ && active_->on_target;
+  const bool on = active_ && (active_->on_target || active_->maybe_on_target);
   if (active_) follow_retract_plane(b, facts);
   if (on) pieces.push_back(off_statement(like, by_call_));
   const std::size_t main = pieces.size();
@@ -62,7 +62,7 @@ void CyclePass::position(Statement&& s, Body& out) {
   if (on && by_call_ && active_->native)
     pieces.push_back(on_statement(like, active_->native));
   else if (on)
-    active_->on_target = false;  // the next point defines it again
+    active_->on_target = active_->maybe_on_target = false;  // the next point defines it again
   put_group(out, std::move(pieces), main);
 }
 

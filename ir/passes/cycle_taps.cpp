@@ -221,21 +221,36 @@ void SpindleSense::forget() {
   known_.reset();
 }
 
+void SpindleSense::within(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr) return;
+  for (const auto& a : b->actions) {
+    if (a.order != Order::after) carry_out(a, true);
+  }
+}
+
 void SpindleSense::follow(const Statement& s, bool straight) {
   if (!straight) forget();
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr) return;
-  for (const auto& a : b->actions) {
-    const auto* run = std::get_if<SpindleRun>(&a.data);
-    if (run != nullptr && run->number == 1) stands_ = run->state == SpindleState::off && s.line.skip_mask == 0;
-    if (run != nullptr && run->number == 1)
-      state_ = run->state == SpindleState::ccw ? SpindleState::ccw : SpindleState::cw;
-    if (run != nullptr && s.line.skip_mask != 0) state_.reset();
-    const bool stops = std::holds_alternative<SpindleOrient>(a.data);
-    if ((run != nullptr && run->number == 1) || stops)
-      known_ = s.line.skip_mask != 0 ? std::nullopt : std::optional(stops ? SpindleState::off : run->state);
-    if (std::holds_alternative<MasterSpindle>(a.data)) known_.reset();
+  for (const auto& a : b->actions) carry_out(a, s.line.skip_mask == 0);
+}
+
+void SpindleSense::carry_out(const Action& a, bool surely) {
+  if (std::holds_alternative<MasterSpindle>(a.data)) known_.reset();
+  const auto* run = std::get_if<SpindleRun>(&a.data);
+  if (run != nullptr && run->number != 1) run = nullptr;
+  if (run != nullptr) {
+    stands_ = run->state == SpindleState::off && surely;
+    state_ = run->state == SpindleState::ccw ? SpindleState::ccw : SpindleState::cw;
+    known_ = run->state;
   }
+  const auto* orient = std::get_if<SpindleOrient>(&a.data);
+  if (orient != nullptr) known_ = SpindleState::off;
+  if (orient != nullptr && orient->number == 1) stands_ = surely;
+  if (surely || (run == nullptr && orient == nullptr)) return;
+  if (run != nullptr) state_.reset();
+  known_.reset();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -40,6 +40,10 @@ void write_floating_taps(Program& program, const LegaliseContext& context);
 void say_axial_taps(Program& program, const LegaliseContext& context);
 /// Taps that turn the spindle by themselves, for targets whose taps take the spindle as it runs.
 void write_tap_speeds(Program& program, const LegaliseContext& context);
+/// A computed count of a block as a branch: with 0 the block moves and runs nothing.
+void branch_block_counts(Program& program, const LegaliseContext& context);
+/// What stands beside a pattern of points in its block gets blocks of its own before and behind it.
+void separate_pattern_words(Program& program, const LegaliseContext& context);
 /// A feed of one block as a feed and the one of before behind it.
 void write_block_feeds(Program& program, const LegaliseContext& context);
 /// Axes that move by themselves as straight moves.

@@ -24,6 +24,12 @@ bool unread(const Statement& s) {
   const auto* o = std::get_if<Opaque>(&s.node);
   return o != nullptr && !o->harmless;
 }
+/// A corner is cut at the feed in force, whatever the motion functions before and behind it.
+bool corner_at_feed(const Action& a) {
+  const auto* c = std::get_if<Corner>(&a.data);
+  return (c != nullptr && !c->modal && c->feed == nullptr && !c->value.is(0)) ||
+         std::holds_alternative<TangentialEnd>(a.data);
+}
 
 bool feeds_itself(const Cycle& c) {
   const auto* hole = std::get_if<HoleCycle>(&c.node);
@@ -177,7 +183,7 @@ bool FeedDomain::cuts(const Block& b, const Facts& facts) {
   if (cycle) return true;
   if (!b.has_motion || !b.motion.moves()) return false;
   const auto kind = motion_in(b, facts);
-  return !kind || needs_feed(*kind);
+  return !kind || needs_feed(*kind) || std::any_of(b.actions.begin(), b.actions.end(), corner_at_feed);
 }
 
 void FeedDomain::transfer(const Statement& s, FeedState& state) const {
@@ -218,7 +224,9 @@ bool cuts_with_power_on_feed(const Program& program, const LegaliseContext& cont
       const auto* before = b != nullptr ? states.before(s) : nullptr;
       if (before == nullptr) return;
       const Facts& f = facts.before(s);
-      if (!FeedDomain::cuts(*b, f)) return;
+      const auto point = domain.point(*b, f);  // behind a call every move may be one of a modal subprogram
+      const bool runs = point == FeedPoint::point || (point == FeedPoint::perhaps && f.modal_call == 0);
+      if (!FeedDomain::cuts(*b, f) && !runs) return;
       FeedState now = *before;
       domain.settle(*b, f, now);
       const auto mode = setting_in<std::uint8_t>(*b, f, Setting::feed_mode);

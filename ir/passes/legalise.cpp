@@ -54,6 +54,8 @@ constexpr std::array pipeline{
     Pass{"machine_data", passes::convert_machine_data, false},
     Pass{"known_data", passes::write_known_data, false},
     Pass{"given_data", passes::name_given_data, false},
+    Pass{"pattern_words", passes::separate_pattern_words, false},
+    Pass{"block_counts", passes::branch_block_counts, false},
     Pass{"modal_calls", passes::lower_modal_calls, false},
     Pass{"calls", passes::lower_calls, false},
     Pass{"variables", passes::map_variables, false},

@@ -56,7 +56,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     const bool apart = active_->native && comes_in_two_moves(active_->native, context_);
     if (!hole_here || apart) pieces.push_back(off_statement(like, false));
   }
-  if (hole_here) hold_back(b, active_->native != nullptr);
+  if (hole_here) hold_back(b);
   if (((changed && was_on && by_call_) || wrap || (hole_here && !active_->native)) && refuse_stale(s, out)) return;
   if (!active_->native) {
     if (hole_here)
@@ -140,7 +140,6 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (as_is && apart) {
     position_rapid(b, context_);
-    late_ = take_after(b);
     const std::size_t main = pieces.size();
     pieces.push_back(std::move(s));
     pieces.push_back(under_absolute(like, active_->native, true));
@@ -152,6 +151,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (as_is) {
     if (comes_in_two_moves(active_->native, context_)) position_rapid(b, context_);
+    if (auto code = code_before_cycle(b, facts, context_)) pieces.push_back(made(like, *std::move(code)));
     feed_for_tap(b, *active_);
     b.actions.push_back(action(CycleDefine{active_->native, true, true, CycleTrigger::plane_axis_word}));
     active_->on_target = active_->was_on_target = true;
@@ -165,7 +165,6 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
-  late_ = take_after(b);
   const std::size_t main = pieces.size();
   pieces.push_back(std::move(s));
   pieces.push_back(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native));
@@ -276,12 +275,12 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     out.push_back(std::move(s));
     return;
   }
+  hold_back(b);
   const auto old_on = active_ && active_->on_target;
   const bool old_may = old_may_run(facts);
   const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
   if (named != nullptr && !d.modal && d.here && cycles::find_machining(named->name) != nullptr && !active_ &&
       !native_form(d.cycle, b, facts, context_)) {
-    hold_back(b, false);
     const NamedCycle cycle = *named;
     return write_out_machining(std::move(s), cycle, std::move(pieces), out);
   }
@@ -297,7 +296,6 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   if (d.here) ran_ = a;
   const auto w = tool_axis(d.cycle, b, facts);
   const bool point_here = w && has_plane_word(b, *w);
-  if (d.here) hold_back(b, a.native != nullptr);
   if (!a.native) {
     if (old_may) pieces.push_back(off_statement(s.line, by_call_));
     written_out_ = true;
@@ -362,11 +360,11 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     feed_for_tap(b, a);
     if (!d.modal && !(b.has_motion && b.motion.moves()) && levels_by_mode(a.native, b, facts)) {
       b.actions.push_back(distance_set(Distance::absolute));
-      late_.push_back(distance_set(Distance::incremental));
+      then_.push_back(distance_set(Distance::incremental));
     }
     b.actions.push_back(action(native));
     if (const auto feed = feed_after_tap(a, facts); feed && !d.modal) {
-      late_.push_back(*feed);
+      then_.push_back(*feed);
       tap_feed_ = false;
     }
     if (leave) {
@@ -396,7 +394,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   }
   const bool on = old_on || !(facts.cycle_active_known && !facts.cycle_active);
   // The words of this block must not run the old cycle once more.
-  if (on && d.modal && (disturbs_call(b) || !b.actions.empty()) && runs_old(b, point_here, d.here))
+  if (on && d.modal && runs_old(b, point_here, d.here))
     pieces.push_back(off_statement(s.line, true));
   else if (on && old_may && d.modal && d.here && !point_here)  // the run of its own would run it at each move
     pieces.push_back(off_statement(s.line, true));
@@ -421,10 +419,13 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
   }
   a.on_target = true;
   const LineInfo like = s.line;
-  if (!b.actions.empty()) {  // F and S first: the call takes them
+  const bool bare_code = b.has_motion && !b.motion.moves();
+  if (!b.actions.empty() || bare_code) {  // F, S and a motion code first: the call takes them
     Block first;
     first.actions = std::move(b.actions);
     b.actions.clear();
+    if (bare_code) std::swap(first.motion, b.motion);
+    if (bare_code) std::swap(first.has_motion, b.has_motion);
     pieces.push_back(made(like, std::move(first)));
   }
   if (!d.here && b.has_motion && b.motion.moves()) {  // to a plane first; the next point runs the cycle
@@ -436,7 +437,7 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
     return;
   }
   if (d.here && !point_here) {
-    if (b.has_motion && b.motion.moves()) {
+    if (b.has_motion) {
       Statement mover = made(like, Block{});
       std::get<Block>(mover.node).has_motion = true;
       std::get<Block>(mover.node).motion = std::move(b.motion);

@@ -42,6 +42,8 @@ std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const 
 class SpindleSense {
  public:
   explicit SpindleSense(const Program& program);
+  /// Where the block moves: behind what acts before that.
+  void within(const Statement& s);
   /// Behind the statement. `straight`: control comes to the next statement only from here.
   void follow(const Statement& s, bool straight);
   void forget();
@@ -54,6 +56,7 @@ class SpindleSense {
   [[nodiscard]] std::optional<SpindleState> surely() const { return known_ ? known_ : always_; }
 
  private:
+  void carry_out(const Action& a, bool surely);
   bool only_cw_ = true;
   std::optional<SpindleState> state_ = SpindleState::cw;
   bool stands_ = false;

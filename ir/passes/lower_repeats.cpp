@@ -16,8 +16,12 @@ namespace {
 
 class RepeatPass {
  public:
-  RepeatPass(Editor& editor, const HeadConstants& constants)
-      : editor_(editor), target_(editor.target()), constants_(constants) {}
+  RepeatPass(Editor& editor, const HeadConstants& constants, bool& limit_told)
+      : editor_(editor),
+        target_(editor.target()),
+        constants_(constants),
+        cycles_(uses_cycles(editor.program)),
+        limit_told_(limit_told) {}
 
   void run() {
     order_ranges();
@@ -94,10 +98,15 @@ class RepeatPass {
   template <class Node>
   void put_counted(Statement&& s, Body& out) {
     auto& node = std::get<Node>(s.node);
-    const auto n = constant_value(node.count);
+    auto n = constant_value(node.count);
     const auto most = static_cast<double>(target_.repeat_max);
     constexpr double most_statements = 10;
-    if (node.count && !n && !at_least_one(node.count, s)) return put_guarded<Node>(std::move(s), out);
+    if (node.count && !n) {
+      const auto known = known_count(node.count, s);
+      if (!known) tell_limit(s);
+      if (!known || *known < 1) return put_guarded<Node>(std::move(s), out);
+      if (*known > most) n = known;
+    }
     if (!node.count || !n || *n <= most || *n > most_statements * most || s.line.joined) {
       check_count(s, node.count);
       return out.push_back(std::move(s));
@@ -114,13 +123,23 @@ class RepeatPass {
     editor_.put_group(out, std::move(pieces), 0);
   }
 
-  /// It follows from what the head of the program sets.
-  bool at_least_one(const ExprPtr& count, const Statement& s) const {
+  /// A computed count that follows from what the head of the program sets.
+  std::optional<double> known_count(const ExprPtr& count, const Statement& s) const {
     const auto* rounded = std::get_if<Call>(&count->node);
     const bool whole = rounded != nullptr && rounded->function == Function::to_integer && !rounded->args.empty();
     const Value v = constants_.fold(Value(whole ? rounded->args.front() : count), editor_.routine, s);
-    const auto n = v.literal() ? std::optional(v.number) : constant_value(v.expr);
-    return n && *n >= 1;
+    return v.literal() ? std::optional(v.number) : constant_value(v.expr);
+  }
+
+  /// The source may count further than the target.
+  void tell_limit(const Statement& s) {
+    constexpr std::int64_t usual = 9999;
+    if (limit_told_ || target_.repeat_max >= usual || editor_.program.dialect == target_.dialect) return;
+    limit_told_ = true;
+    editor_.context.diagnostics.warning("TRN-692", s.line.span,
+                                        "how often this is carried out is computed, and the target counts to " +
+                                            std::to_string(target_.repeat_max) + " only (said once a program)",
+                                        "make sure that it is never more, or write a loop");
   }
 
   /// A count that only the run knows may be 0: the targets' counts begin with 1.
@@ -247,6 +266,26 @@ class RepeatPass {
     editor_.put_group(out, std::move(pieces), 2);
   }
 
+  /// t = n; again: block; t = t - 1; IF t is 1 or more GOTO again
+  void looped(Statement&& s, const ExprPtr& count, Body& out) {
+    const auto t = editor_.take(s.line);  // stays taken: the loop runs over it
+    if (!t) {
+      out.push_back(std::move(s));
+      return;
+    }
+    const LineInfo like = s.line;
+    const LabelRef again = editor_.fresh_label();
+    Body pieces;
+    pieces.push_back(make_assign(like, *t, count));
+    move_head(s.line, pieces.front().line);
+    s.line.joined = false;
+    set_label(s.line, again, editor_.program);
+    pieces.push_back(std::move(s));
+    pieces.push_back(make_assign(like, *t, binary(BinaryOp::subtract, variable(*t), number(1))));
+    pieces.push_back(make_jump(like, again, binary(BinaryOp::ge, variable(*t), number(0.5))));
+    editor_.put_group(out, std::move(pieces), 0);
+  }
+
   static bool defines_cycle(const Block& b) {
     return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
       const auto* d = std::get_if<CycleDefine>(&a.data);
@@ -256,7 +295,7 @@ class RepeatPass {
 
   void block(Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
-    if (b.repeat.is(0) && uses_cycles(editor_.program)) return out.push_back(std::move(s));  // the cycles pass sees it
+    if (b.repeat.is(0) && cycles_) return out.push_back(std::move(s));  // the cycles pass sees it
     const Value repeat = b.repeat;
     b.repeat_given = 0;
     b.repeat = Value{};
@@ -271,7 +310,7 @@ class RepeatPass {
       if (!further.repeat.is(0)) block(made(place, std::move(further)), out);
       return;
     }
-    if (!repeat.literal()) return counted(std::move(s), repeat.expr, out);
+    if (!repeat.literal()) return looped(std::move(s), repeat.expr, out);  // not 0: see branch_block_counts
     const double n = repeat.number;
     if (n == 0) {  // the move without the cycle that it would run
       refused(s, "TRN-199", "a block that only positions and leaves the active cycle out: the target has none",
@@ -282,7 +321,7 @@ class RepeatPass {
     // Each point about a pole follows from the one before: in a loop it would be no number.
     const bool polar = b.motion.extra && (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
     const double most_copies = polar ? 72 : 5;
-    if (n > most_copies) return counted(std::move(s), number(n), out);
+    if (n > most_copies) return looped(std::move(s), number(n), out);
     const LineInfo like = s.line;
     const Block copy = b;
     Body pieces;
@@ -294,15 +333,18 @@ class RepeatPass {
   Editor& editor_;
   const Capabilities& target_;
   const HeadConstants& constants_;
+  const bool cycles_;  ///< the program has canned cycles: the cycles pass sees to their blocks
+  bool& limit_told_;
 };
 
 }  // namespace
 
 void lower_repeats(Program& program, const LegaliseContext& context) {
   const HeadConstants constants(program);
+  bool limit_told = false;
   for (auto& r : program.routines) {
     Editor editor(program, r, context);
-    RepeatPass(editor, constants).run();
+    RepeatPass(editor, constants, limit_told).run();
   }
 }
 

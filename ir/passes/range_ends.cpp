@@ -156,7 +156,7 @@ class EndMarks {
     const auto* branch = std::get_if<If>(&s.node);
     const bool one = std::holds_alternative<Block>(s.node) || std::holds_alternative<Assign>(s.node) ||
                      std::holds_alternative<CallRoutine>(s.node) || (branch != nullptr && branch->one_line);
-    if (!one || s.line.joined || s.line.skip_mask != 0) return false;
+    if (!one || s.line.joined || s.line.skip_mask != 0 || ends_a_hole(s)) return false;
     const auto have = labels_on(s.line);
     if (have.empty()) {
       set_label(s.line, mark, program_);
@@ -181,6 +181,15 @@ class EndMarks {
       });
     }
     return true;
+  }
+  /// One run of a hole cycle: a line behind it ends the cycle, where the target's is modal by itself.
+  [[nodiscard]] bool ends_a_hole(const Statement& s) const {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr || target_.modal_cycle_by_call) return false;
+    return std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+      const auto* d = std::get_if<CycleDefine>(&a.data);
+      return d != nullptr && !d->modal && d->cycle && std::holds_alternative<HoleCycle>(d->cycle->node);
+    });
   }
   [[nodiscard]] bool carried_once(const LabelRef& label) const {
     int count = 0;

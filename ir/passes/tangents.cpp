@@ -171,6 +171,7 @@ class TangentPass {
       points_.set_end(std::get<Block>(next->node).motion, arc.plane, after->e.b);
     context_.diagnostics.note("TRN-336", word_span(s.line.span, tangential_pos_),
                               "the tangential entry or exit is written as an arc of its own");
+    block.actions = take_after(std::get<Block>(s.node));
     last_ = arc;
     return made(s.line, std::move(block));
   }
