@@ -148,6 +148,9 @@ bool BlockMachine::through_arc(const ir::Motion& m, Move& move) {
       return failure_.fail(code::not_carried, "an arc in space is not carried out yet");
     }
   }
+  const bool rises = std::abs(move.to[plane.w] - move.from[plane.w]) > same_point;
+  if (rises && profile_.option("arc.through_point") == "in_space")
+    return failure_.fail(code::not_carried, "an arc in space is not carried out yet");
   if (failure_.set) return false;
   if (centre_by_three_points(at(move.from, plane), middle, at(move.to, plane), move.centre, move.ccw)) return true;
   return failure_.fail(code::arc_undefined, "the three points of the arc lie on a line");

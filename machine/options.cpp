@@ -105,6 +105,8 @@ constexpr std::array specs{
     OptionSpec{
         "frame.preset", "own|with_work_offset", "own",
         "a preset of the zero point stands by itself, or belongs to the work offset and is out of force with it"},
+    OptionSpec{"arc.through_point", "in_plane|in_space", "in_plane",
+               "an arc through a point that also moves along the third axis: a helix, or a circle in space"},
     OptionSpec{"frame.preset_outlasts", "no|yes", "no",
                "a preset of the zero point is written into the datum table: it holds on behind the end of the program"},
     OptionSpec{"frame.rotation_centre", "as_written|scaled_and_mirrored", "as_written",

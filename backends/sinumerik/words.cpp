@@ -444,8 +444,11 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   for (const ir::CenterWord& w : e.through) {
     if (w.axis > ir::axis::z) return refuse("TRN-202", w.pos, "this point of an arc has no counterpart here");
     const std::string address = std::string(geometry().letter(w.axis)) + '1';
-    const bool absolute = w.mode == ir::CenterMode::absolute;
-    add(absolute ? attribute_word(address, "AC", w.value, w.pos) : word(address, w.value, w.pos), Rank::center, w.pos);
+    const std::string_view own = w.mode == ir::CenterMode::absolute     ? "AC"
+                                 : w.mode == ir::CenterMode::from_start ? "IC"
+                                                                        : "";
+    add(own.empty() ? word(address, w.value, w.pos) : attribute_word(address, own, w.value, w.pos), Rank::center,
+        w.pos);
   }
   if (e.has_polar_radius) polar_word(e.polar_mode, "RP", e.polar_radius);
   if (e.has_polar_angle) polar_word(e.polar_angle_mode, "AP", e.polar_angle);

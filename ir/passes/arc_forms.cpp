@@ -86,31 +86,47 @@ bool ArcPass::through_point(Arc& arc) {
   return true;
 }
 
+bool ArcPass::leaves_plane(const Arc& arc, const machine::Profile& machine) const {
+  if (machine.option("arc.through_point") != "in_space" || program_.dialect == context_.target.dialect) return false;
+  const Motion& m = arc.b.motion;
+  if (m.extra && (m.extra->has_turns || m.extra->has_pitch)) return true;
+  const bool named =
+      std::any_of(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
+  return named && !(arc.start[2] && arc.end[2] && std::fabs(*arc.start[2] - *arc.end[2]) < same_point);
+}
+
 bool ArcPass::through_in_plane(Arc& arc) {
   Motion& m = arc.b.motion;
   if (program_.dialect == context_.target.dialect || !plane_known_ || !m.extra) return true;
-  const auto outside = [&arc](const CenterWord& w) { return w.axis != arc.axes.u && w.axis != arc.axes.v; };
-  const auto same = [&](const CenterWord& w) {
-    const bool steps = w.mode == CenterMode::from_start ||
-                       (w.mode == CenterMode::follows_distance && arc.distance == Distance::incremental);
-    if (w.axis != arc.axes.w || !w.value.literal()) return false;
-    return steps ? w.value.number == 0 : arc.start[2] && std::fabs(*arc.start[2] - w.value.number) < same_point;
+  const auto steps = [&arc](const CenterWord& w) {
+    return w.mode == CenterMode::from_start ||
+           (w.mode == CenterMode::follows_distance && arc.distance == Distance::incremental);
   };
-  const auto word =
-      std::find_if(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
-  const bool level =
-      word == m.coords.end() || (arc.start[2] && arc.end[2] && std::fabs(*arc.start[2] - *arc.end[2]) < same_point);
-  const auto& through = m.extra->through;
-  if (!std::all_of(through.begin(), through.end(), [&](const CenterWord& w) { return !outside(w) || same(w); }) ||
-      (!level && std::any_of(through.begin(), through.end(), outside))) {
-    fail(arc, "TRN-653", "the point on this arc lies, or may lie, outside of the plane: an arc in space",
+  const auto outside = [&arc](const CenterWord& w) { return w.axis != arc.axes.u && w.axis != arc.axes.v; };
+  const auto elsewhere = [&](const CenterWord& w) {
+    if (!outside(w)) return false;
+    if (w.axis != arc.axes.w || !w.value.literal()) return true;
+    return steps(w) ? w.value.number != 0 : !arc.start[2] || std::fabs(*arc.start[2] - w.value.number) >= same_point;
+  };
+  MotionExtra extra = *m.extra;
+  auto& through = extra.through;
+  if (std::any_of(through.begin(), through.end(), elsewhere) || leaves_plane(arc, context_.source_machine)) {
+    fail(arc, "TRN-653", "the point on this arc or its end lies, or may lie, outside of the plane: an arc in space",
          "give the height before the arc as a number, or select the plane in which the arc lies");
     return false;
   }
-  if (std::none_of(through.begin(), through.end(), outside)) return true;
-  auto extra = std::make_shared<MotionExtra>(*m.extra);
-  std::erase_if(extra->through, outside);
-  m.extra = std::move(extra);
+  std::erase_if(through, outside);
+  for (auto& w : through) {  // a mode of its own, said as that of the block
+    const auto& from = arc.start[w.axis == arc.axes.u ? 0 : 1];
+    if (w.mode == CenterMode::follows_distance || context_.target.distance_per_word || !w.value.literal() || !from ||
+        !arc.distance)
+      continue;
+    if (is_diameter_axis(context_.source_machine, w.axis)) continue;
+    const bool now = *arc.distance == Distance::incremental;
+    if (steps(w) != now) w.value = Value{w.value.number + (now ? -*from : *from)};
+    w.mode = CenterMode::follows_distance;
+  }
+  m.extra = std::make_shared<const MotionExtra>(std::move(extra));
   return true;
 }
 

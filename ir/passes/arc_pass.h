@@ -141,7 +141,8 @@ class ArcPass {
       return fail(arc, "TRN-301", "a tangent arc: the target has none", "program the arc by its centre or radius");
     }
     if (kind == MotionKind::arc_through_point) {
-      if (!through_in_plane(arc) || context_.target.arc_through_point) return;
+      if (!through_in_plane(arc)) return;
+      if (context_.target.arc_through_point && !leaves_plane(arc, context_.target_machine)) return;
       if (!through_point(arc)) return;
     }
     if (m.extra && !extras(arc)) return;
@@ -209,6 +210,8 @@ class ArcPass {
   /// A word of the point on the arc that lies outside of the plane: it is left out where it says nothing. False:
   /// refused.
   bool through_in_plane(Arc& arc);
+  /// The arc also moves along the normal of its plane, or may, on a machine where three points are a circle in space.
+  [[nodiscard]] bool leaves_plane(const Arc& arc, const machine::Profile& machine) const;
 
   static void drop_empty_extra(Motion& m) {
     const MotionExtra& e = *m.extra;

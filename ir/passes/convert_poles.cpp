@@ -89,6 +89,12 @@ class PolePass {
     radius_.reset();
     angle_.reset();
   }
+  /// The pole is another one: where the source takes the radius programmed last, that is no distance from it.
+  void forget_radius() {
+    if (!radius_stays_) radius_.reset();
+    other_pole_ = true;
+    angle_.reset();
+  }
   void forget_way() { forget_point(), way_.reset(); }
   void walk(Body& body) {
     for (auto& s : body) {
@@ -128,8 +134,7 @@ class PolePass {
     for (auto& a : b.actions) {
       if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane) {
         if (source_resets_ || plane_ != static_cast<Plane>(m->value)) {  // radius and angle are about another pole now
-          if (!radius_stays_) radius_.reset();
-          angle_.reset();
+          forget_radius();
         }
         plane_ = static_cast<Plane>(m->value);
         actions.push_back(std::move(a));
@@ -141,8 +146,7 @@ class PolePass {
       if (zero_counts() && moves_zero(a) && pole_ && pole_->set) pole_->stale = true;
       if (const auto* p = std::get_if<PoleSet>(&a.data)) {
         place = a.pos;
-        radius_.reset();
-        angle_.reset();
+        forget_radius();
         if (!pole_set(*p, a, b, facts)) problem = "the point that this pole is given from";
         if (!context_.target.polar) {  // the words that count from it become coordinates
           problem = {};
@@ -164,7 +168,7 @@ class PolePass {
       problem = "the start or the centre of this arc by polar words";
     if (is_polar_line(b, facts)) {
       const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
-      say_radius_ = step != nullptr && !step->same;
+      say_radius_ = (step != nullptr && !step->same) || (radius_stays_ && other_pole_);
       const bool takes_over = radius_stays_ && !b.motion.extra->has_polar_radius && !radius_;
       if (takes_over && problem.empty()) problem = "the radius that these polar words take over";
       const bool done = polar_words(b, facts);
@@ -293,7 +297,7 @@ class PolePass {
     const bool absolute = polar_absolute(x.polar_angle_mode, distance);
     if (!m.centers.empty() || x.has_polar_radius || !absolute || distance != Distance::absolute || !plane_)
       return false;
-    std::optional<Value> r = radius_;
+    std::optional<Value> r = radius_stays_ && other_pole_ ? std::nullopt : radius_;
     const auto start = here(facts);
     if (!r && pole_ && start) r = Value{clean(std::hypot(start->u - pole_->u, start->v - pole_->v))};
     const auto f = factors(b, facts, Distance::absolute);
@@ -301,9 +305,10 @@ class PolePass {
     if (r->literal() && x.polar_angle.literal() && !stays_polar(b)) return false;  // numbers: by to_cartesian
     r->text = {};
     const Value q = x.polar_angle;
+    const auto programmed = radius_;
     forget_point();
     if (r->literal() && q.literal()) led_to(around(*pole_, r->number, q.number));
-    radius_ = r;
+    radius_ = radius_stays_ ? programmed : r;
     angle_ = q;
     angle_->text = {};
     if (stays_polar(b)) {
@@ -358,6 +363,7 @@ class PolePass {
     if (!f || (r.literal() && r.number < 0)) return false;
     radius_ = r;
     angle_ = q;
+    other_pole_ = false;
     Value u, v;
     std::optional<Point2> to;
     if (r.literal() && q.literal()) {
@@ -467,6 +473,7 @@ class PolePass {
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   const FlowStates<RadiusDomain>* radii_ = nullptr;
+  bool other_pole_ = false;  ///< since the last polar words of a line
   bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
   bool polar_arc_done_ = false, modal_ = false, quiet_ = false;  ///< quiet: only following
   std::optional<Plane> plane_;

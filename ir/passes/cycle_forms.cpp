@@ -147,12 +147,14 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     }
     return std::nullopt;
   };
-  for (auto& form : tap_forms(*hole, b, facts, needs != nullptr ? sense : std::nullopt)) {
+  const FeedScale scale = needs != nullptr ? needs->scale : FeedScale{};
+  for (auto& form : tap_forms(*hole, b, facts, needs != nullptr ? sense : std::nullopt, scale)) {
     auto said = std::make_shared<Cycle>();
     said->node = std::move(form.cycle);
     auto found = native_form(said, b, facts, context, initial);
     if (!found) continue;
     *needs = form.needs;
+    needs->scale = scale;
     return found;
   }
   HoleCycle h = with_absolute_levels(*hole, b, facts, initial);

@@ -49,7 +49,8 @@ class CyclePass {
         turning_(program, routine, context, feeds),
         milling_(program, routine, context, feeds),
         height_(uses_),
-        sense_(program) {
+        sense_(program),
+        feed_scale_(feed_scale(program, context.source_machine)) {
     if (routine.kind != RoutineKind::main) sense_.forget();
     by_call_ = context.target.modal_cycle_by_call;
     look_for_definitions();
@@ -208,6 +209,7 @@ class CyclePass {
 
   Active define(const CyclePtr& cycle, CycleTrigger trigger, const Block& b, const Facts& facts) const {
     Active a;
+    a.needs.scale = feed_scale_;
     a.units = setting_in<Units>(b, facts, Setting::units);
     a.source = with_fixed_bases(cycle, setting_in<Distance>(b, facts, Setting::distance));
     a.trigger = trigger;
@@ -465,6 +467,7 @@ class CyclePass {
   std::uint32_t last_id_ = 0;
   ToolHeight height_;
   SpindleSense sense_;
+  FeedScale feed_scale_;
   bool by_call_ = false;
   bool surely_active_ = false;  ///< a copy for one cycle that does not touch it
   bool written_out_ = false;

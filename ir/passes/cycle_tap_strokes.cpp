@@ -117,6 +117,7 @@ std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statem
   like.skip_mask = s.line.skip_mask;
   Explosion out;
   TapNeeds needs;
+  needs.scale = feed_scale_;
   double z = n->reference;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     z -= n->up * sizes[i];

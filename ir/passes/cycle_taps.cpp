@@ -22,8 +22,14 @@ std::optional<double> speed_of(const Block& b, const Facts& facts) {
   return speed;
 }
 
-/// Pitch that feed and speed in force give, in program units; nullopt: not known.
-std::optional<double> pitch_by_feed(const Block& b, const Facts& facts) {
+/// Units of F in one unit of length at the block.
+std::optional<double> feed_units(const Block& b, const Facts& facts, const FeedScale& scale) {
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  return units == Units::metric ? scale.metric : units == Units::inch ? scale.inch : std::nullopt;
+}
+
+/// Pitch that feed and speed in force give, in program units; nullopt: not known. `unit`: see feed_units().
+std::optional<double> pitch_by_feed(const Block& b, const Facts& facts, std::optional<double> unit) {
   std::optional<double> feed = facts.feed;
   const auto speed = speed_of(b, facts);
   for (const auto& a : b.actions) {
@@ -31,12 +37,10 @@ std::optional<double> pitch_by_feed(const Block& b, const Facts& facts) {
       feed = f->value.literal() ? std::optional(f->value.number) : std::nullopt;
   }
   const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
-  // In inches a feed may still be metric.
-  if (setting_in<Units>(b, facts, Setting::units) != Units::metric) return std::nullopt;
-  if (!mode || !feed || *feed <= 0) return std::nullopt;
-  if (*mode == FeedMode::per_rev) return feed;
+  if (!unit || !mode || !feed || *feed <= 0) return std::nullopt;
+  if (*mode == FeedMode::per_rev) return *feed / *unit;
   if (*mode != FeedMode::per_minute || !speed || *speed <= 0) return std::nullopt;
-  return *feed / *speed;
+  return *feed / *speed / *unit;
 }
 
 SpindleStep step_of(SpindleState s) {
@@ -44,29 +48,31 @@ SpindleStep step_of(SpindleState s) {
 }
 
 /// The pitch as F over S, with the F that takes. False: it can't be said.
-bool pitch_as_feed(TapForm& f, const Block& b, const Facts& facts) {
+bool pitch_as_feed(TapForm& f, const Block& b, const Facts& facts, std::optional<double> unit) {
   const Value pitch = std::exchange(f.cycle.pitch, Value{});
   if (pitch.is(0)) return true;
   const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
-  if (!facts.feed || !mode || setting_in<Units>(b, facts, Setting::units) != Units::metric) return false;
+  if (!facts.feed || !mode || !unit) return false;
   const Value size = pitch.literal() ? Value(std::fabs(pitch.number)) : Value(call(Function::abs, {pitch.expr}));
-  const auto by_feed = pitch_by_feed(b, facts), speed = speed_of(b, facts);
+  const auto by_feed = pitch_by_feed(b, facts, unit), speed = speed_of(b, facts);
   f.needs.bound = true;
   if (by_feed && size.literal() && std::fabs(size.number - *by_feed) <= 1e-9) return true;
   if (*mode == FeedMode::per_rev)
-    f.needs.feed = size;
+    f.needs.feed = *unit == 1 ? size : scale(size, *unit);
   else if (*mode == FeedMode::per_minute && speed && *speed > 0)
-    f.needs.feed = size.literal() ? Value(std::round(size.number * *speed * 1e6) / 1e6) : scale(size, *speed);
+    f.needs.feed =
+        size.literal() ? Value(std::round(size.number * *unit * *speed * 1e6) / 1e6) : scale(size, *unit * *speed);
   return f.needs.feed.has_value();
 }
 
 }  // namespace
 
 std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
-                               std::optional<SpindleState> sense) {
+                               std::optional<SpindleState> sense, const FeedScale& feeds) {
   std::vector<TapForm> forms;
+  const auto unit = feed_units(b, facts, feeds);
   if (!is_tap(c) || c.pecks.law != PeckLaw::none || !sense) return forms;
-  const auto by_feed = pitch_by_feed(b, facts);
+  const auto by_feed = pitch_by_feed(b, facts, unit);
   if (c.spindle_after == SpindleStep::usual) {
     // The sense in numbers. A spindle that follows the axis is oriented first there.
     TapForm f{c, {}};
@@ -93,7 +99,7 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
       same.cycle.pitch = Value{*by_feed};
       same.needs.bound = true;
       forms.push_back(std::move(same));
-    } else if (pitch_as_feed(same, b, facts)) {
+    } else if (pitch_as_feed(same, b, facts, unit)) {
       forms.push_back(std::move(same));
     }
     return forms;
@@ -120,9 +126,33 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
     if (c.pitch.literal()) forms.back().cycle.pitch = Value{std::fabs(c.pitch.number)};
     if (c.has_speed) forms.back().needs.bound = true;
   }
-  if (!pitch_as_feed(f, b, facts)) return forms;
+  if (!pitch_as_feed(f, b, facts, unit)) return forms;
   forms.push_back(std::move(f));
   return forms;
+}
+
+FeedScale feed_scale(const Program& program, const machine::Profile& source) {
+  // Whether F becomes inches with the lengths, the lengths become inches alone, and millimetres alone.
+  bool with = false, inch_alone = false, metric_alone = false;
+  const auto note = [&](Units units, bool feed_too) {
+    with = with || (units == Units::inch && feed_too);
+    inch_alone = inch_alone || (units == Units::inch && !feed_too);
+    metric_alone = metric_alone || (units == Units::metric && !feed_too);
+  };
+  note(source.power_on.units, source.power_on.units_feed_too);
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        const auto* m = std::get_if<ModalSet>(&b->actions[i].data);
+        if (m != nullptr && m->setting == Setting::units) note(static_cast<Units>(m->value), m->feed_too);
+      }
+    });
+  }
+  FeedScale scale;
+  if (with && metric_alone) scale.metric.reset();
+  if (!with || !inch_alone) scale.inch = with ? 1 : 25.4;
+  return scale;
 }
 
 std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const Facts& facts,

@@ -53,6 +53,7 @@ bool CyclePass::follow_units(Statement& s, const Block& b, const Facts& facts, B
   const bool was_on = active_->on_target || active_->maybe_on_target;
   active_->native = nullptr;
   active_->needs = {};
+  active_->needs.scale = feed_scale_;
   if (auto native = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts),
                                 sense_.now(), &active_->needs))
     active_->native = *native;

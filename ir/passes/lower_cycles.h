@@ -17,9 +17,15 @@ std::optional<AxisId> cycle_axis(const HoleCycle& c, const Block& b, const Facts
 HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& facts,
                                std::optional<double> initial = std::nullopt);
 /// The form of the cycle that the target writes natively; nullopt: none.
+/// Units of F in one unit of length: 25.4 in inches where F stays metric; nullopt: that differs by the place.
+struct FeedScale {
+  std::optional<double> metric = 1, inch;
+};
+FeedScale feed_scale(const Program& program, const machine::Profile& source);
 /// What a tap in other words asks of the blocks around it.
 struct TapNeeds {
   std::optional<Value> feed;  ///< F while the cycle is in force, program units: it gives the pitch
+  FeedScale scale;            ///< given by the pass
   bool bound = false;         ///< a new F or S under the cycle would change the pitch on one of the two controls
   std::string differs;        ///< for people: what the target's tap does not do; empty: nothing
 };
@@ -33,7 +39,7 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
                                     std::optional<SpindleState> sense = std::nullopt, TapNeeds* needs = nullptr);
 /// The words of a tap that the target lacks, said in another way: see cycle_taps.cpp. Best first.
 std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
-                               std::optional<SpindleState> sense);
+                               std::optional<SpindleState> sense, const FeedScale& scale);
 /// native_form() of a tap without the dwell in its hole, where the target's has none.
 std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const Facts& facts,
                                       const LegaliseContext& context, std::optional<double> initial,
