@@ -25,12 +25,12 @@ bool turns_nothing(const FrameChange& c) {
 
 class FramePass {
  public:
-  FramePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
+  FramePass(Program& program, const LegaliseContext& context, const FactsOf& facts, bool no_presets = false)
       : program_(program),
         context_(context),
         facts_(facts),
         states_(program, facts, context),
-        target_(program, context, presets_as_shifts(program, context, facts, states_)),
+        target_(program, context, no_presets || presets_taken_back(program, context, facts, states_)),
         without_length_(program, context, facts),
         preset_ends_(program, context) {}
 
@@ -469,6 +469,19 @@ void convert_frames(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   FramePass pass(program, context, facts);
   for (auto& r : program.routines) pass.routine(r);
+}
+
+void shift_lasting_presets(Program& program, const LegaliseContext& context) {
+  if (!presets_outlast(program, context)) return;
+  Diagnostics heard;
+  const LegaliseContext quiet{context.target, context.source_machine, context.target_machine, context.options, heard,
+                              nullptr,        context.source_numbers, context.names};
+  Program tried = program;
+  const FactsOf facts(tried, quiet);
+  FramePass pass(tried, quiet, facts, true);
+  for (auto& r : tried.routines) pass.routine(r);
+  if (heard.error_count() == 0) program = std::move(tried);
+  PresetEnds(program, context).tell_kept(program);
 }
 
 }  // namespace cnctrans::ir::passes

@@ -80,6 +80,7 @@ constexpr std::array pipeline{
     Pass{"corners", passes::write_out_corners, false},
     Pass{"tangents", passes::write_out_tangents, false},
     Pass{"arcs", passes::convert_arcs, true},
+    Pass{"lasting_presets", passes::shift_lasting_presets, false},
     Pass{"distance", passes::convert_distance, true},
     Pass{"units", passes::convert_units, true},
     Pass{"diameters", passes::convert_diameters, true},

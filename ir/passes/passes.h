@@ -9,13 +9,16 @@ namespace cnctrans::ir::passes {
 void move_headings(Program& program, const LegaliseContext& context);  ///< comments above the header of a routine
 void normalise_returns(Program& program,
                        const LegaliseContext& context);  ///< early returns, program end in subprograms
-void lower_modal_calls(Program& program, const LegaliseContext& context);   ///< calls after every block with motion
-void lower_calls(Program& program, const LegaliseContext& context);         ///< local levels, arguments, results
-void map_variables(Program& program, const LegaliseContext& context);       ///< spaces, numbers and names of the target
-void lower_repeats(Program& program, const LegaliseContext& context);       ///< ranges in place, block repeats, counts
-void lower_control(Program& program, const LegaliseContext& context);       ///< structured statements, switches
-void lower_cycles(Program& program, const LegaliseContext& context);        ///< native or exploded, how they are modal
-void convert_frames(Program& program, const LegaliseContext& context);      ///< work offsets, programmable frame
+void lower_modal_calls(Program& program, const LegaliseContext& context);  ///< calls after every block with motion
+void lower_calls(Program& program, const LegaliseContext& context);        ///< local levels, arguments, results
+void map_variables(Program& program, const LegaliseContext& context);      ///< spaces, numbers and names of the target
+void lower_repeats(Program& program, const LegaliseContext& context);      ///< ranges in place, block repeats, counts
+void lower_control(Program& program, const LegaliseContext& context);      ///< structured statements, switches
+void lower_cycles(Program& program, const LegaliseContext& context);       ///< native or exploded, how they are modal
+void convert_frames(Program& program, const LegaliseContext& context);     ///< work offsets, programmable frame
+/// Presets that the target would keep behind the end of the program become shifts; behind all that counts from the
+/// place that a preset says.
+void shift_lasting_presets(Program& program, const LegaliseContext& context);
 void convert_poles(Program& program, const LegaliseContext& context);       ///< poles, arcs by polar words
 void write_out_corners(Program& program, const LegaliseContext& context);   ///< chords, lasting corners, their feeds
 void write_out_tangents(Program& program, const LegaliseContext& context);  ///< entries, exits, tangent arcs

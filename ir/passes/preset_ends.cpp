@@ -1,6 +1,6 @@
 #include "ir/passes/preset_ends.h"
 
-#include <algorithm>
+#include "ir/search.h"
 
 namespace cnctrans::ir::passes {
 
@@ -14,10 +14,12 @@ bool is_preset(const Action& a) {
   return f != nullptr && f->change && f->change->combine == FrameCombine::preset;
 }
 
-/// A preset is in force somewhere where it is taken back.
-bool taken_back(const Program& program, const LegaliseContext& context, const FactsOf& facts,
-                const FrameStates& states) {
+}  // namespace
+
+bool presets_taken_back(const Program& program, const LegaliseContext& context, const FactsOf& facts,
+                        const FrameStates& states) {
   bool found = false;
+  if (program.dialect == context.target.dialect) return false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
@@ -40,34 +42,9 @@ bool taken_back(const Program& program, const LegaliseContext& context, const Fa
   return found;
 }
 
-/// Every preset is a shift by numbers.
-bool are_numbers(const Program& program, const LegaliseContext& context, const FactsOf& facts,
-                 const FrameStates& states) {
-  bool all = true;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr || !all || std::none_of(b->actions.begin(), b->actions.end(), is_preset)) return;
-      FrameState state = states.before(s);
-      for (const auto& a : b->actions) {
-        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
-          state.apply(*f->change, facts.before(s), *b, context.source_machine);
-      }
-      const PlanarFrame whole = state.whole(context.source_machine, true);
-      all = whole.known() && !whole.foreign;
-    });
-  }
-  return all;
-}
-
-}  // namespace
-
-bool presets_as_shifts(const Program& program, const LegaliseContext& context, const FactsOf& facts,
-                       const FrameStates& states) {
-  if (program.dialect == context.target.dialect) return false;
-  return taken_back(program, context, facts, states) ||
-         (outlasts(context.target_machine) && !outlasts(context.source_machine) &&
-          are_numbers(program, context, facts, states));
+bool presets_outlast(const Program& program, const LegaliseContext& context) {
+  return program.dialect != context.target.dialect && outlasts(context.target_machine) &&
+         !outlasts(context.source_machine) && any_action(program, is_preset);
 }
 
 PresetEnds::PresetEnds(const Program& program, const LegaliseContext& context) : context_(context) {
@@ -77,9 +54,22 @@ PresetEnds::PresetEnds(const Program& program, const LegaliseContext& context) :
 }
 
 void PresetEnds::tell(const Statement& s, const Action& a, bool as_it_is) const {
-  const bool stays = as_it_is && target_keeps_ && !source_keeps_;
   const bool goes = source_keeps_ && !(as_it_is && target_keeps_);
-  if (!is_preset(a) || (!stays && !goes)) return;
+  if (is_preset(a) && goes) say(s, a, false);
+}
+
+void PresetEnds::tell_kept(const Program& program) const {
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [this](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        if (is_preset(b->actions[i])) say(s, b->actions[i], true);
+      }
+    });
+  }
+}
+
+void PresetEnds::say(const Statement& s, const Action& a, bool stays) const {
   context_.diagnostics.warning(
       "TRN-672", word_span(s.line.span, a.pos),
       stays ? "this preset moves the zero point of the target for good, in its datum table: it holds on behind the end "

@@ -6,9 +6,11 @@
 
 namespace cnctrans::ir::passes {
 
-/// The target writes presets as shifts: they are taken back in the program, or would hold on there behind its end.
-bool presets_as_shifts(const Program& program, const LegaliseContext& context, const FactsOf& facts,
-                       const FrameStates& states);
+/// A preset is in force somewhere where the program takes it back: a target that can't take it back writes a shift.
+bool presets_taken_back(const Program& program, const LegaliseContext& context, const FactsOf& facts,
+                        const FrameStates& states);
+/// The program has presets, and the target alone keeps them behind its end.
+bool presets_outlast(const Program& program, const LegaliseContext& context);
 
 /// Says where a preset holds on behind the end of the program on one control only.
 class PresetEnds {
@@ -16,8 +18,11 @@ class PresetEnds {
   PresetEnds(const Program& program, const LegaliseContext& context);
   /// The action of the source, if it is a preset. `as_it_is`: the target presets as well.
   void tell(const Statement& s, const Action& a, bool as_it_is) const;
+  /// The presets that are left for a target that keeps them.
+  void tell_kept(const Program& program) const;
 
  private:
+  void say(const Statement& s, const Action& a, bool stays) const;
   const LegaliseContext& context_;
   bool source_keeps_ = false, target_keeps_ = false;
 };
