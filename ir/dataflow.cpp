@@ -9,6 +9,7 @@
 #include "ir/fact_set.h"
 #include "ir/labels.h"
 #include "ir/nesting.h"
+#include "ir/skip_stretches.h"
 
 namespace cnctrans::ir {
 namespace {
@@ -70,6 +71,7 @@ class Analysis {
   // --- tables -----------------------------------------------------------------------------------------------------
 
   void prepare() {
+    const NamedLabels named = named_labels(program_);
     for (std::size_t i = 0; i < program_.routines.size(); ++i) {
       const Routine& r = program_.routines[i];
       RoutineState& state = routines_.emplace_back();
@@ -82,6 +84,7 @@ class Analysis {
         successors_[id] = std::move(flow.successors[id]);
         routine_of_[id] = i;
       }
+      stretches_.push_back(skip_stretches(r, named));
       mark_skipped(r.body);
     }
     for (const auto* s : statements_) {
@@ -123,7 +126,7 @@ class Analysis {
 
   void mark_skipped(const Body& body) {
     for (std::size_t i = 0; i < body.size(); ++i) {
-      skipped_[body[i].id] = detail::skippable(body, i);
+      skipped_[body[i].id] = detail::skippable(body, i) && stretches_.back().inside.count(body[i].id) == 0;
       for (const Body* inner : detail::bodies_of(body[i])) {
         if (inner != nullptr) mark_skipped(*inner);
       }
@@ -278,7 +281,21 @@ class Analysis {
     for (const auto caller : r.callers) mark(caller);
   }
 
+  /// A stretch under one switch is left out as a whole.
+  void leave_out(std::uint32_t id) {
+    const auto& stretches = stretches_[routine_of_[id]].last_of;
+    const auto last = stretches.find(id);
+    if (last == stretches.end()) return;
+    for (const auto to : successors_[last->second]) {
+      if (to != 0)
+        flow_to(to, facts_[id]);
+      else
+        leave(routine_of_[id], facts_[id]);
+    }
+  }
+
   void process(std::uint32_t id) {
+    leave_out(id);
     const Statement& s = *statements_[id];
     Facts out = facts_[id];
     if (!carry_out(s, out)) out.reachable = false;
@@ -441,7 +458,8 @@ class Analysis {
   std::vector<std::size_t> routine_of_;
   std::vector<Facts> facts_;
   std::vector<bool> dirty_;
-  std::vector<bool> skipped_;
+  std::vector<bool> skipped_;             ///< it is left out by itself
+  std::vector<SkipStretches> stretches_;  ///< of each routine
   std::size_t first_dirty_ = 0;
   std::size_t current_ = 0;
   std::unordered_map<std::size_t, LabelTable> labels_;

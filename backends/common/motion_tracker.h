@@ -41,6 +41,12 @@ class MotionTracker {
     ir_.reset();
     if (one_shots_) in_step_ = false;
   }
+  /// Two ways meet: this one and another. Only what holds on both is known.
+  void merge(const MotionTracker& other) {
+    in_step_ = in_step_ && other.in_step_;
+    if (ir_ != other.ir_) ir_.reset();
+    if (text_ != other.text_) text_.reset();
+  }
   void start_routine() {
     text_.reset();
     ir_.reset();

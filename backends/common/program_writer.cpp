@@ -124,11 +124,17 @@ void ProgramWriter::raw_line(std::string_view text, const Span& span) {
   emit(text, span);
 }
 
+void ProgramWriter::raw_line_in_branch(std::string_view text, const Span& span) {
+  finish_line();
+  emit(skip_marks(branch_) + std::string(text), span);
+}
+
 void ProgramWriter::start_routine(std::size_t index) {
   finish_line();
   routine_ = index;
   depth_ = 0;
   tracker_.start_routine();
+  branch_ = 0;
   settings_.fill(std::nullopt);
 }
 
@@ -159,19 +165,35 @@ std::string ProgramWriter::label_text(const ir::LineInfo& /*info*/) {
   return {};
 }
 
-/// Skip mark, block number, indentation and labels of the first target line of a source line.
-std::string ProgramWriter::line_head(bool numbered) {
-  std::string head;
-  const std::uint16_t mask = info_->skip_mask;
+std::string ProgramWriter::skip_marks(std::uint16_t mask) {
+  std::string marks;
   for (std::size_t level = 0; level < 16; ++level) {
     if ((mask >> level & 1U) == 0) continue;
     if (level >= style_.skip_marks.size()) {
       refuse("TRN-201", {}, "block skip level " + std::to_string(level) + " does not exist on the target control");
       continue;
     }
-    head += style_.skip_marks[level];
+    marks += style_.skip_marks[level];
   }
-  if (!head.empty() && head.back() != '/') head += ' ';
+  if (!marks.empty() && marks.back() != '/') marks += ' ';
+  return marks;
+}
+
+/// Lines under one skip mark right behind each other are a branch: behind them only what holds with them and without
+/// them is known.
+void ProgramWriter::follow_branch(const ir::LineInfo& line) {
+  if (line.skip_mask == branch_) return;
+  if (branch_ != 0) {
+    tracker_.merge(before_branch_);
+    settings_.fill(std::nullopt);
+  }
+  branch_ = line.skip_mask;
+  before_branch_ = tracker_;
+}
+
+/// Skip mark, block number, indentation and labels of the first target line of a source line.
+std::string ProgramWriter::line_head(bool numbered) {
+  std::string head = skip_marks(info_->skip_mask);
   const bool renumber = options_.numbering == Numbering::renumber && labels_.renumberable();
   if (renumber && numbered) {
     next_number_ += options_.number_step;
@@ -242,7 +264,8 @@ void ProgramWriter::finish_line() {
   std::string text = line_head(target || (!words.empty() && words != style_.blank_line));
   if (refused()) return emit_refusal();
   const bool only_head = words.empty() && remarks.empty();
-  if (only_head && trim(text).empty()) {
+  const bool bare_mark = only_head && !same_dialect_ && text == skip_marks(info_->skip_mask);
+  if (bare_mark || (only_head && trim(text).empty())) {
     if (blank_line_ && first_of_source_line_ && style_.blank_lines) emit(style_.blank_line, info_->span);
     return;
   }
@@ -297,7 +320,10 @@ void ProgramWriter::nested_body(const ir::Body& statements) {
 }
 
 void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* before, const ir::Statement* after) {
-  if (!s.line.joined) before_statement(s);
+  if (!s.line.joined) {
+    before_statement(s);
+    follow_branch(s.line);
+  }
   current_ = &s;
   if (s.line.joined && before != nullptr && line_open_ && !refused()) {
     if (!joins(*before, s)) next_line();

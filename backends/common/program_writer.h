@@ -119,6 +119,11 @@ class ProgramWriter {
   void note_taken(const std::string& name, const std::string& instead);
   /// A line of text made here, without number or comment.
   void raw_line(std::string_view text, const Span& span = {});
+  /// The same under the skip mark of the line before.
+  void raw_line_in_branch(std::string_view text, const Span& span);
+  [[nodiscard]] bool in_branch() const { return branch_ != 0; }
+  /// The line of a statement has another skip mark than the one before: a branch on a switch begins or ends here.
+  [[nodiscard]] bool changes_branch(const ir::Statement& next) const { return next.line.skip_mask != branch_; }
   void start_routine(std::size_t index);
   void body(const ir::Body& statements);
   void nested_body(const ir::Body& statements);  ///< one level deeper
@@ -203,6 +208,8 @@ class ProgramWriter {
   [[nodiscard]] bool is_blank_line() const;
   [[nodiscard]] bool is_join(const ir::LineInfo& info) const;
   void resolve_numbers();
+  void follow_branch(const ir::LineInfo& line);
+  [[nodiscard]] std::string skip_marks(std::uint16_t mask);
   void note_rounding(double change, int decimals);
 
   ir::Program numbered_;  ///< a copy with statement ids, when the analysis is needed and the program has none
@@ -232,6 +239,8 @@ class ProgramWriter {
   std::size_t routine_ = 0;
   const ir::Statement* current_ = nullptr;
   MotionTracker tracker_;
+  std::uint16_t branch_ = 0;     ///< the skip mark of the lines being written
+  MotionTracker before_branch_;  ///< where the first of them begins
   std::array<std::optional<std::uint8_t>, ir::setting_count> settings_{};
   std::optional<ir::FactTable> facts_;
   std::set<std::int32_t> noted_functions_;

@@ -31,7 +31,7 @@ const ir::Statement* last_statement(const ir::Body& body) {
 }
 
 bool leaves(const ir::Statement* s) {
-  if (s == nullptr) return false;
+  if (s == nullptr || s->line.skip_mask != 0) return false;
   const auto* j = std::get_if<ir::Jump>(&s->node);
   return std::holds_alternative<ir::End>(s->node) || (j != nullptr && !j->condition);
 }
@@ -153,10 +153,16 @@ void Writer::write_routine(std::size_t index) {
   }
   finish_line();
   const ir::Statement* last = last_statement(r.body);
-  if (last == nullptr || !std::holds_alternative<ir::Return>(last->node)) raw_line("(RET)");
+  const bool returns = last != nullptr && std::holds_alternative<ir::Return>(last->node);
+  if (!returns || last->line.skip_mask != 0) raw_line("(RET)");
 }
 
 // ---- statements ----------------------------------------------------------------------------------------------------
+
+/// What the block before has done holds only when a branch on a switch neither begins nor ends behind it.
+void Writer::before_statement(const ir::Statement& next) {
+  if (changes_branch(next)) after_offset_ = false;
+}
 
 /// Words share a line with words only; ( ) statements stand alone.
 bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {

@@ -84,6 +84,7 @@ class Writer : public ProgramWriter {
   void motion_extra(const ir::Motion& m, const ir::MotionExtra& e) override;
   [[nodiscard]] bool stands_still(const ir::CoordWord& w);
 
+  void before_statement(const ir::Statement& next) override;
   bool joins(const ir::Statement& before, const ir::Statement& next) override;
   bool own_line(const ir::Action& a, const ir::Block& b) override;
   [[nodiscard]] ir::Order target_order(const ir::Action& a) const override;

@@ -55,7 +55,8 @@ bool Writer::begins_css() const {
 void Writer::freezes_speed(const ir::Action& a, const ir::ModalSet& m) {
   if (m.setting != ir::Setting::spindle_mode) return;
   const bool ends = m.value == code_value(ir::SpindleMode::rpm) && css_;
-  css_ = m.value == code_value(ir::SpindleMode::css);
+  const bool perhaps = css_ && current().line.skip_mask != 0;
+  css_ = perhaps || m.value == code_value(ir::SpindleMode::css);
   const auto* b = std::get_if<ir::Block>(&current().node);
   if (same_dialect() || b == nullptr || !ends) return;
   const bool speed = std::any_of(b->actions.begin(), b->actions.end(),

@@ -91,16 +91,20 @@ void Writer::before_statement(const ir::Statement& next) {
                      std::holds_alternative<ir::Message>(next.node) || std::holds_alternative<ir::Label>(next.node) ||
                      std::holds_alternative<ir::Declare>(next.node) || std::holds_alternative<ir::End>(next.node) ||
                      (text != nullptr && text->harmless);
-  if (offset_pending_ && (entered || !stays)) offset_line(line.span);
+  const bool branches = changes_branch(next);
+  if (offset_pending_ && (entered || !stays || branches)) offset_line(line.span);
   if (entered || !stays) {
     straight_ = false;
     offset_uncertain();
   }
+  if (!branches) return;
+  offset_by_branch_ = offset_by_branch_ || (in_branch() && offset_word_ != offset_before_branch_);
+  offset_before_branch_ = offset_word_;
 }
 
 void Writer::offset_line(const Span& span) {
   offset_pending_ = false;
-  if (offset_in_force()) raw_line(offset_word_, span);
+  if (offset_in_force()) raw_line_in_branch(offset_word_, span);
 }
 
 /// The offset before the move in machine coordinates as `offset_word_`. False: none was in force, or refused.
@@ -108,7 +112,7 @@ bool Writer::offset_in_force() {
   const bool in_main = program().main() == &program().routines[routine_index()];
   if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return false;  // none since the start
   const char* select = "select the offset in the source after such a move";
-  bool guess = several_offsets_ && !offset_certain_;
+  bool guess = offset_by_branch_ || (several_offsets_ && !offset_certain_);
   if (offset_word_.empty() && several_offsets_) {
     refuse("TRN-218", {}, "the tool offset in force before the move in machine coordinates is not known here", select);
     return false;
@@ -204,6 +208,7 @@ void Writer::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
   if (!t.number.is(0)) {
     offset_word_ = text;
     offset_certain_ = true;
+    offset_by_branch_ = false;
   }
   add(std::move(text), Rank::offset, a.pos);
 }

@@ -149,6 +149,8 @@ void Writer::write_program() {
 void Writer::routine_text(std::size_t index, const std::string& name) {
   start_routine(index);
   offset_word_.clear();
+  offset_before_branch_.clear();
+  offset_by_branch_ = false;
   offset_pending_ = offset_certain_ = tool_selected_ = false;
   straight_ = true;
   const ir::Routine& r = routine();
@@ -168,7 +170,8 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
   finish_line();
   // A subprogram of another control may end with its text; here it needs its word.
   const auto returns = [](const ir::Statement& s) {
-    return std::holds_alternative<ir::Return>(s.node) || std::holds_alternative<ir::End>(s.node);
+    return s.line.skip_mask == 0 &&
+           (std::holds_alternative<ir::Return>(s.node) || std::holds_alternative<ir::End>(s.node));
   };
   const auto remark = [](const ir::Statement& s) {
     const auto* block = std::get_if<ir::Block>(&s.node);

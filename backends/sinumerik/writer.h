@@ -141,6 +141,8 @@ class Writer final : public ProgramWriter {
   bool several_offsets_ = false;          ///< the program selects more than one
   bool selects_tools_ = false;            ///< the program selects tools
   std::optional<ir::Value> only_offset_;  ///< the one offset other than 0 that the program selects
+  std::string offset_before_branch_;      ///< where the lines under the present skip mark begin
+  bool offset_by_branch_ = false;         ///< it was selected under a skip mark
   bool offset_pending_ = false;           ///< D0 was written for a move in machine coordinates
   bool straight_ = true;                  ///< no jump, call or label since the start of the routine
   bool tool_selected_ = false;            ///< the routine has selected a tool

@@ -130,6 +130,8 @@ class CyclePass {
   void leave_while_off(const Statement& s) const;
   /// Where the hole goes back to by G98 or G99, which differ by the way: refused. True: done.
   [[nodiscard]] bool refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& out) const;
+  /// The point is reached in rapid under the cycle and by the function in force without it: refused. True: done.
+  [[nodiscard]] bool refuse_two_ways(Statement& s, Body& out) const;
   void callee_sets_plane(const CallRoutine& call, const Statement& s) const;
   [[nodiscard]] bool off_between() const {
     return active_ && active_->native && !by_call_ && active_->was_on_target && !active_->on_target &&
@@ -138,13 +140,15 @@ class CyclePass {
   /// Points of a cycle by call that depend on the way are right as long as the target has every cycle.
   void report_unsure() const;
 
+  void join_while_on(const std::vector<LabelRef>& names);
   /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle, or the block that
   /// has switched it off.
   void join(const Statement& s) {
+    const auto names = labels_on(s.line);
+    join_while_on(names);
     if (!active_ || by_call_) return;
     const bool off = active_->native && active_->was_on_target && !active_->on_target;
     if (!off && !(active_->deferred && active_->on_target)) return;
-    const auto names = labels_on(s.line);
     if (std::none_of(names.begin(), names.end(),
                      [&](const auto& l) { return uses_.is_target(l) && (off || !behind(l)); }))
       return;
@@ -158,8 +162,11 @@ class CyclePass {
     return !uses_.computed && it != first_use_.end() && it->second > active_->defined_in;
   }
 
+  void leave_while_on(Statement& s);
+
   void one(Statement&& s, Body& out) {
     join(s);
+    leave_while_on(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     if (height_.enter(s)) sense_.forget();
     sense_.within(s);
@@ -462,8 +469,9 @@ class CyclePass {
   MillCycles milling_;
   std::vector<ProfileUse> uses_of_profiles_;
   std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
-  std::map<std::pair<bool, std::string>, std::uint32_t> last_use_;   ///< label: the last statement that leads to it
-  std::vector<std::pair<std::uint32_t, VarRef>> writes_;             ///< by the statements of this routine
+  std::set<std::pair<bool, std::string>> left_on_;  ///< labels of jumps made while the target's cycle is in force
+  std::map<std::pair<bool, std::string>, std::uint32_t> last_use_;  ///< label: the last statement that leads to it
+  std::vector<std::pair<std::uint32_t, VarRef>> writes_;            ///< by the statements of this routine
   std::uint32_t last_id_ = 0;
   ToolHeight height_;
   SpindleSense sense_;

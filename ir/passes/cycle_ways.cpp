@@ -50,6 +50,37 @@ bool CyclePass::refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& 
   return true;
 }
 
+/// A jump while the target's own cycle is in force takes it along to its label.
+void CyclePass::leave_while_on(Statement& s) {
+  if (!active_ || by_call_ || !(active_->on_target || active_->maybe_on_target)) return;
+  each_label_ref(s, [this](const LabelRef& l, bool is_end) {
+    if (!is_end && !l.computed) left_on_.emplace(l.is_number, l.text);
+  });
+}
+void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
+  if (!active_ || by_call_ || active_->on_target) return;
+  const bool on = std::any_of(names.begin(), names.end(), [this](const LabelRef& l) {
+    return left_on_.count({l.is_number, l.text}) != 0;
+  });
+  active_->maybe_on_target = active_->maybe_on_target || on;
+}
+
+bool CyclePass::refuse_two_ways(Statement& s, Body& out) const {
+  const auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
+  if (!facts.reachable || facts.cycle_active_known || surely_active_ || !b.has_motion ||
+      b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
+      context_.source_machine.option("cycle.positioning") != "rapid")
+    return false;
+  refuse(
+      s, program_, context_, "TRN-331",
+      "whether a cycle is active here depends on the path that leads here: with it the tool moves in rapid, without it "
+      "by the function in force",
+      "write G0 before this block, or cancel the cycle on every path");
+  out.push_back(std::move(s));
+  return true;
+}
+
 void CyclePass::check_tap(const Statement& s) const {
   const auto* b = std::get_if<Block>(&s.node);
   if (!active_ || !active_->native || b == nullptr) return;

@@ -13,6 +13,7 @@
 #include "ir/passes/mixed_feeds.h"
 #include "ir/passes/motion_codes.h"
 #include "ir/passes/passes.h"
+#include "ir/passes/skip_groups.h"
 #include "ir/passes/skip_levels.h"
 #include "ir/passes/spindle_limits.h"
 #include "ir/passes/stream_watch.h"
@@ -43,6 +44,7 @@ constexpr std::array pipeline{
     Pass{"contours", passes::solve_contours, false},
     Pass{"curves", passes::write_out_curves, false},
     Pass{"said_tangents", passes::say_tangent_arcs, false},
+    Pass{"skip_groups", passes::open_skip_groups, false},
     Pass{"thread_angles", passes::write_thread_angles, false},
     Pass{"floating_taps", passes::write_floating_taps, false},
     Pass{"axial_taps", passes::say_axial_taps, false},
@@ -96,6 +98,7 @@ constexpr std::array pipeline{
     Pass{"compensation", passes::check_compensation, true},
     Pass{"feed", passes::convert_feed, false},
     Pass{"order", passes::split_blocks, true},
+    Pass{"skip_lines", passes::close_skip_groups, false},
     Pass{"skip_levels", passes::split_skip_levels, false},
     Pass{"skips", passes::check_skips, true},
     Pass{"end_marks", passes::fold_range_ends, false},

@@ -33,6 +33,7 @@ class ControlPass {
   };
 
   void one(Statement&& s, Body& out) {
+    if (!own() && skipped_loop(s)) return refused_loop(std::move(s), out);
     if (std::holds_alternative<If>(s.node)) return if_else(std::move(s), out);
     if (std::holds_alternative<While>(s.node)) return while_loop(std::move(s), out);
     if (std::holds_alternative<Until>(s.node)) return until_loop(std::move(s), out);
@@ -40,6 +41,18 @@ class ControlPass {
     if (std::holds_alternative<Loop>(s.node)) return endless(std::move(s), out);
     if (std::holds_alternative<Switch>(s.node)) return switch_jump(std::move(s), out);
     if (std::holds_alternative<Exit>(s.node)) return exit_loop(std::move(s), out);
+    out.push_back(std::move(s));
+  }
+
+  /// A mark at the head of a loop: what its closing line does without it is stated nowhere.
+  static bool skipped_loop(const Statement& s) {
+    return s.line.skip_mask != 0 && (std::holds_alternative<While>(s.node) || std::holds_alternative<For>(s.node) ||
+                                     std::holds_alternative<Loop>(s.node) || std::holds_alternative<Until>(s.node));
+  }
+  void refused_loop(Statement&& s, Body& out) {
+    refuse(s, editor_.program, editor_.context, "TRN-163",
+           "the head of a loop can be skipped: what its closing line does then is stated nowhere",
+           "put a jump with the skip mark before the loop");
     out.push_back(std::move(s));
   }
 
@@ -192,7 +205,8 @@ class ControlPass {
     const bool has_else = !node.else_body.empty();
     const LabelRef end = editor_.fresh_label();
     const LabelRef other = has_else ? editor_.fresh_label() : end;
-    const LineInfo like = s.line;
+    LineInfo like = s.line;
+    like.skip_mask = 0;  // only the line of the condition is left out: what stands behind it is carried out up to ELSE
     out.push_back(in_place(s, to(other, negated_condition(node.condition))));
     for (auto& t : node.then_body) one(std::move(t), out);
     if (has_else) {

@@ -37,6 +37,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     out.push_back(std::move(s));
     return;
   }
+  if (hole_here && by_call_ && active_->native && refuse_two_ways(s, out)) return;
   const bool wrap = by_call_ && active_->native && !hole_here && was_on && disturbs_call(b);
   if ((hole_here || changed || wrap) && !sure(facts)) {
     if (!follows || changed || wrap) {

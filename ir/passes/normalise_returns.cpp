@@ -183,6 +183,7 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
   if (count == 0 || (count == 1 && last_is_return && body.back().line.skip_mask == 0)) return;
   Editor editor(program, routine, context);
   if (!last_is_return || body.back().line.skip_mask != 0) {
+    ++count;
     Statement s;
     s.node = Return{};
     body.push_back(std::move(s));
@@ -191,7 +192,7 @@ void single_return(Program& program, Routine& routine, const LegaliseContext& co
   const auto have = labels_on(body.back().line);
   const LabelRef end = have.empty() ? editor.fresh_label() : have.front();
   if (have.empty()) set_label(body.back().line, end, program);
-  std::size_t left = count + (last_is_return ? 0 : 1);
+  std::size_t left = count;
   for_each_statement(body, [&](Statement& s) {
     const auto* r = std::get_if<Return>(&s.node);
     if (r == nullptr || --left == 0 || !r->values.empty()) return;  // one that goes on elsewhere is refused by writers

@@ -129,6 +129,7 @@ class SafeStart {
         if (uses.is_target(l)) return false;  // comes here again with another function
       }
       if (b == nullptr || !b->has_motion) continue;
+      if (s.line.skip_mask != 0) return false;  // the move behind it may be the first one
       if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
       if (b->motion.kind != MotionKind::modal || !b->motion.moves() || !b->motion.centers.empty()) continue;
       // A hole that is reached in rapid whatever function is in force says nothing of it.
