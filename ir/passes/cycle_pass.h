@@ -123,6 +123,7 @@ class CyclePass {
   [[nodiscard]] bool old_may_run(const Facts& facts) const;
   /// By the text none is active, and on some way to the block one of this routine is.
   [[nodiscard]] bool cycle_by_another_way(const Block& b, const Facts& facts) const;
+  [[nodiscard]] bool refuses_axis_word(const Block& b, const Facts& facts) const;
   /// The block is a point in the words of the target too, whichever of its own cycles is in force.
   [[nodiscard]] bool bare_point(const Block& b, const Facts& facts) const;
   void refuse_other_ways(Statement& s) const;

@@ -167,8 +167,18 @@ bool CyclePass::sure(const Facts& facts) const {
 bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
   const bool moves = b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
   if (!facts.reachable || (!moves && !(by_call_ && disturbs_call(b)))) return false;
-  if (facts.cycle_from == Facts::several_cycles) return !enters_unsure_ && !definitions_.empty();
-  return facts.cycle_active && definitions_.count(facts.cycle_from) != 0;
+  if (facts.cycle_from == Facts::several_cycles)
+    return (!enters_unsure_ && !definitions_.empty()) || (!by_call_ && refuses_axis_word(b, facts));
+  // One that a called routine has left in force: a modal call would run at words and moves that are no points.
+  const bool left = by_call_ && definitions_.count(facts.cycle_from) == 0;
+  return facts.cycle_active && (left || definitions_.count(facts.cycle_from) != 0);
+}
+
+/// A move along the tool axis, which the target takes for a word of the cycle.
+bool CyclePass::refuses_axis_word(const Block& b, const Facts& facts) const {
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  return context_.target_machine.option("cycle.axis_word") == "refused" &&
+         (!plane || moves_along(b, plane_axes(*plane).w));
 }
 
 bool CyclePass::bare_point(const Block& b, const Facts& facts) const {
@@ -227,16 +237,18 @@ void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) c
       turns = turns || (!ended && m != nullptr && m->setting == Setting::plane &&
                         (!before || static_cast<std::uint8_t>(*before) != m->value));
     }
-    beside = beside || (!ended && b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal &&
-                        !triggers(*b, facts));
+    const bool moves = b->has_motion && b->motion.moves();
+    const bool no_point = moves ? b->motion.frame == FrameUse::normal && !triggers(*b, facts) : disturbs_call(*b);
+    beside = beside || (!ended && no_point);
   });
   if (beside || turns) {
-    context_.diagnostics.error("TRN-331", s.line.span,
-                               beside ? "the subprogram has a move along the tool axis that is no point of the active "
-                                        "cycle; the target's modal cycle runs at every move"
-                                      : "the subprogram changes the plane, which ends the active cycle; the target's "
-                                        "modal cycle goes on",
-                               "cancel the cycle before the call");
+    context_.diagnostics.error(
+        "TRN-331", s.line.span,
+        beside ? "the subprogram has a move along the tool axis, or F, S or a motion code alone, that is "
+                 "no point of the active cycle; the target's modal cycle runs there"
+               : "the subprogram changes the plane, which ends the active cycle; the target's "
+                 "modal cycle goes on",
+        "cancel the cycle before the call");
     return;
   }
   if (hole->retract.given) return;

@@ -24,24 +24,6 @@ bool words_run(const machine::Profile& machine) {
   return machine.option("call.modal_words") == "yes";
 }
 
-/// A domain of FlowStates: the statement that switched the modal call in force on.
-struct InForce {
-  using State = std::uint32_t;                                 ///< its id; 0: none is in force
-  static constexpr std::uint32_t several = ~std::uint32_t{0};  ///< the ways that lead here bring different ones
-
-  [[nodiscard]] static State start(const Routine& /*unused*/, bool /*unused*/) { return 0; }
-  static void transfer(const Statement& s, State& state) {
-    if (const auto* m = std::get_if<ModalCall>(&s.node)) state = m->off || m->cycle ? 0 : s.id;
-  }
-  [[nodiscard]] static bool touches(const Routine& r) { return has_modal_call(r); }
-  static void unknown(State& /*state*/) {}  // what is not at hand is taken to leave the caller's modal call alone
-  static bool join(State& a, const State& b) {
-    if (a == b || a == several) return false;
-    a = several;
-    return true;
-  }
-};
-
 class ModalCalls {
  public:
   ModalCalls(Program& program, const LegaliseContext& context, const CallGraph& calls, const FactsOf& facts)
@@ -49,7 +31,7 @@ class ModalCalls {
         context_(context),
         calls_(calls),
         facts_(facts),
-        in_force_(program, InForce{}),
+        in_force_(program, ModalCallInForce{}),
         reads_first_(program, calls, false),
         writes_(program) {
     for (const auto& r : program.routines) {
@@ -162,6 +144,8 @@ class ModalCalls {
     if (b->repeat_given != 0 && in_source) goes_on_with_locals(s, active_ ? *active_ : on_target_->call);
     if (active_) return in_source ? written_out(std::move(s), out) : out.push_back(std::move(s));
     const bool in_target = runs(*b, facts_.before(s), words_run(context_.target_machine));
+    if (in_source && acts_behind_motion(*b) && program_.dialect != context_.target.dialect)
+      return by_itself_with_call(std::move(s), out);
     if (in_source || !in_target) {
       out.push_back(std::move(s));
       return;
@@ -246,6 +230,23 @@ class ModalCalls {
     pieces.front().line = like;
     editor_->put_group(out, std::move(pieces), 0);
     if (active_) return;
+    wrapped_in_ = &out;
+    wrapped_size_ = out.size();
+  }
+  /// The target's own call would run before what this block becomes behind its motion: the call stands in the text.
+  void by_itself_with_call(Statement&& s, Body& out) {
+    const LineInfo like = s.line;
+    if (!fixed_arguments(on_target_->call) || std::get<Block>(s.node).repeat_given != 0)
+      context_.diagnostics.error("TRN-188", like.span,
+                                 "the target would run the modal subprogram before what this block does behind its "
+                                 "motion, and its arguments are computed: it can't be called here by itself",
+                                 "write what comes behind the motion into a block of its own");
+    Body pieces;
+    if (!just_begun(s, out)) pieces.push_back(made(like, off_call()));
+    pieces.push_back(std::move(s));
+    pieces.push_back(made(like, on_target_->call));
+    pieces.push_back(made(like, *on_target_));
+    editor_->put_group(out, std::move(pieces), pieces.size() == 4 ? 1 : 0);
     wrapped_in_ = &out;
     wrapped_size_ = out.size();
   }
@@ -393,7 +394,8 @@ class ModalCalls {
       if (Writes::reads_machine(value)) return true;
       return std::any_of(writes_.all().begin(), writes_.all().end(), [&](const Writes::Write& w) {
         const auto under = under_.find(w.at);
-        const bool meanwhile = under != under_.end() && (under->second == s.id || under->second == InForce::several);
+        const bool meanwhile =
+            under != under_.end() && (under->second == s.id || under->second == ModalCallInForce::several);
         return (meanwhile || run.count(w.routine) != 0) && writes_.touches(w, value, routine_);
       });
     };
@@ -450,7 +452,7 @@ class ModalCalls {
   const LegaliseContext& context_;
   const CallGraph& calls_;
   const FactsOf& facts_;
-  const FlowStates<InForce> in_force_;
+  const FlowStates<ModalCallInForce> in_force_;
   ReadFirst reads_first_;
   const Writes writes_;
   std::map<std::uint32_t, std::uint32_t> under_;  ///< what is in force before a statement, by ids

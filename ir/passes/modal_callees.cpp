@@ -61,6 +61,15 @@ bool leaves_feed(const Program& program, const CallGraph& calls, const CallRouti
          });
 }
 
+bool acts_behind_motion(const Block& b) {
+  const bool parts = b.motion.extra && (b.motion.extra->has_turns || b.motion.extra->has_pitch);
+  return b.motion.frame != FrameUse::normal || parts ||
+         std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+           return a.order == Order::after || std::holds_alternative<Corner>(a.data) ||
+                  std::holds_alternative<TangentialEnd>(a.data) || std::holds_alternative<FrameOp>(a.data);
+         });
+}
+
 bool shares_level_too(const CallGraph& calls, const CallRoutine& call) {
   const auto callee = callee_of(calls, call);
   return callee && !call.arguments.empty() && calls.called_with(*callee, CallLevel::shared) &&
