@@ -68,8 +68,8 @@ void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
 bool CyclePass::refuse_two_ways(Statement& s, Body& out) const {
   const auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
-  if (!facts.reachable || facts.cycle_active_known || surely_active_ || !b.has_motion ||
-      b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
+  if (!by_call_ || !active_->native || !facts.reachable || facts.cycle_active_known || surely_active_ ||
+      !b.has_motion || b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
       context_.source_machine.option("cycle.positioning") != "rapid")
     return false;
   refuse(

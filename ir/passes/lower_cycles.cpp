@@ -25,7 +25,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool new_plane = follow_retract_plane(b, facts), changed = follow_height(b, facts) || new_plane;
   const bool hole_here = triggers(b, facts);
   if (hole_here && tap_feed_ && !active_->needs.feed) feed_comes_back(s, b, facts);  // a tap stood before this cycle
-  if (hole_here && refuse_unknown_plane(s, active_->source, out)) return;
+  if (hole_here && (refuse_unknown_plane(s, active_->source, out) || refuse_two_ways(s, out))) return;
   const LineInfo like = s.line;
   // A modal cycle of the target is in force on the same ways as the source's; one that each point gets is not.
   const bool follows =
@@ -37,7 +37,6 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     out.push_back(std::move(s));
     return;
   }
-  if (hole_here && by_call_ && active_->native && refuse_two_ways(s, out)) return;
   const bool wrap = by_call_ && active_->native && !hole_here && was_on && disturbs_call(b);
   if ((hole_here || changed || wrap) && !sure(facts)) {
     if (!follows || changed || wrap) {
@@ -59,13 +58,8 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (hole_here) hold_back(b);
   if (((changed && was_on && by_call_) || wrap || (hole_here && !active_->native)) && refuse_stale(s, out)) return;
-  if (!active_->native) {
-    if (hole_here)
-      write_out(std::move(s), std::move(pieces), out);
-    else
-      plain(std::move(s), std::move(pieces), out);
-    return;
-  }
+  if (!active_->native)
+    return hole_here ? write_out(std::move(s), std::move(pieces), out) : plain(std::move(s), std::move(pieces), out);
   if (by_call_) {
     if (hole_here) position_kind(b, context_);
     if (wrap) pieces.push_back(off_statement(like, true));

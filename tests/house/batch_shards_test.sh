@@ -20,10 +20,11 @@ batch() { # OUT ARGUMENTS...
 }
 fail() { echo "$*"; exit 1; }
 
+# The list of what was written keeps the sums of before too, and so tells shards from one run.
 batch "$folder/one" --jobs 2
 [ $? = 1 ] || fail "a batch with an unreadable program ends with status 1"
 parallel --will-cite -j 2 "$cnctrans" batch --from fagor --to sinumerik "$folder/in" "$folder/two" -q --shard {}/2 ::: 1 2
-diff -r "$folder/one" "$folder/two" || fail "two shards left another folder than one run"
+diff -r -x .cnctrans-written "$folder/one" "$folder/two" || fail "two shards left another folder than one run"
 [ "$(find "$folder/one" -name result.json | wc -l)" = "$(find "$folder/in" -type f | wc -l)" ] || fail "not every program has a result"
 grep -q '^status,verified,[1-9]' "$folder/one/summary.csv" || fail "nothing is verified"
 grep -q '^bad.pim,refused' "$folder/one/programs.csv" || fail "the bad program is not in the table"
@@ -31,7 +32,7 @@ grep -q '^bad.pim,refused' "$folder/one/programs.csv" || fail "the bad program i
 # Nothing is done again, until a file changes.
 "$cnctrans" batch --from fagor --to sinumerik "$folder/in" "$folder/one" >"$folder/said"
 grep -q "($(find "$folder/in" -type f | wc -l) done before)" "$folder/said" || fail "a second run did something: $(cat "$folder/said")"
-diff -r "$folder/one" "$folder/two" || fail "a second run changed something"
+diff -r -x .cnctrans-written "$folder/one" "$folder/two" || fail "a second run changed something"
 printf '%%000007,MX,\nG1 X1 F100\nM30\n' >"$folder/in/bad.pim"
 batch "$folder/one"
 grep -q '^bad.pim,verified' "$folder/one/programs.csv" || fail "a program that changed was not done again"

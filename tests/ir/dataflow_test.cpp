@@ -352,7 +352,7 @@ TEST(Dataflow, RandomProgramsReachAFixedPoint) {
   for (unsigned seed = 1; seed <= 150; ++seed) {
     const Program p = test::random_program(seed);
     const FactTable table = analyse(p, {});
-    const std::uint32_t framed = detail::framed_axes(p, {});
+    const detail::FrameReach framed = detail::frame_reach(p, {});
     for (const auto& r : p.routines) {
       const ControlFlow flow = control_flow(p, r);
       for_each_statement(r.body, [&](const Statement& s) {
