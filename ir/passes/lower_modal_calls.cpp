@@ -16,7 +16,6 @@
 #include "ir/search.h"
 
 namespace cnctrans::ir::passes {
-
 namespace {
 
 /// On this machine F, S and a bare motion code run a modal subprogram as well.
@@ -39,6 +38,7 @@ class ModalCalls {
         const auto* state = in_force_.before(s);
         if (state != nullptr && *state != 0) under_.emplace(s.id, *state);
         const auto* m = std::get_if<ModalCall>(&s.node);
+        if (m != nullptr && !m->off && !m->cycle) defined_.emplace(s.id, *m);
         by_calls_ = by_calls_ || (m != nullptr && m->cycle != nullptr);
         some_written_out_ = some_written_out_ || (m != nullptr && !m->off && !m->cycle && !stays_modal(*m));
       });
@@ -56,6 +56,7 @@ class ModalCalls {
     editor_ = &editor;
     uses_ = label_uses(program_, routine);
     routine_ = static_cast<std::size_t>(&routine - program_.routines.data());
+    on_target_ = brought();
     walk(routine.body);
   }
 
@@ -68,6 +69,16 @@ class ModalCalls {
       one(std::move(s), out);
     }
     body = std::move(out);
+  }
+  /// The target's own modal call that every caller of this routine has in force. Its own subprogram runs without it.
+  std::optional<ModalCall> brought() const {
+    const auto found = defined_.find(brought_);
+    if (found == defined_.end() || !stays_modal(found->second)) return std::nullopt;
+    ModalCall m = found->second;
+    const auto callee = calls_.index_of(m.call.routine);
+    if (m.call.computed || !callee || reached_from(calls_, *callee).count(routine_) != 0) return std::nullopt;
+    m.here = context_.target.modal_call_here;
+    return m;
   }
   bool is_target(const Statement& s) const {
     const auto labels = labels_on(s.line);
@@ -128,7 +139,7 @@ class ModalCalls {
     if (const auto* pattern = pattern_in(*b)) {
       return points(std::move(s), *pattern, out);
     }
-    if (on_target_ && replaced_by_cycle(*b)) {
+    if (on_target_ && cycle_beside(*b, true)) {
       refuse(s, program_, context_, "TRN-561",
              "a canned cycle beside a modal subprogram: the target has one of them at a time",
              "end the modal subprogram before the cycle");
@@ -143,7 +154,7 @@ class ModalCalls {
     const bool in_source = !only_moves && runs(*b, facts_.before(s), words_run(context_.source_machine));
     if (b->repeat_given != 0 && in_source) goes_on_with_locals(s, active_ ? *active_ : on_target_->call);
     if (active_) return in_source ? written_out(std::move(s), out) : out.push_back(std::move(s));
-    const bool in_target = runs(*b, facts_.before(s), words_run(context_.target_machine));
+    const bool in_target = runs(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
     if (in_source && acts_behind_motion(*b) && program_.dialect != context_.target.dialect)
       return by_itself_with_call(std::move(s), out);
     if (in_source || !in_target) {
@@ -170,15 +181,7 @@ class ModalCalls {
   }
   /// The moves of a called subprogram run the modal one as well, and nothing is written there.
   void inside(const CallRoutine& call, const Statement& s) const {
-    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
-    bool moves = !callee;
-    if (callee) {
-      for_each_statement(program_.routines[*callee].body, [&moves](const Statement& inner) {
-        const auto* b = std::get_if<Block>(&inner.node);
-        moves = moves || (b != nullptr && b->has_motion) || std::holds_alternative<CallRoutine>(inner.node);
-      });
-    }
-    if (!moves) return;
+    if (!may_move(program_, calls_, call)) return;
     context_.diagnostics.error("TRN-381", s.line.span,
                                "the moves of this subprogram would run the modal one too, which the target calls only "
                                "where it is written",
@@ -352,7 +355,7 @@ class ModalCalls {
     const bool modal = context_.target.modal_call && !never_modal(m.call);
     const LineInfo like = s.line;
     if (take_back_on(s, out)) on_target_.reset();
-    end_cycle(s, modal && (m.here || context_.target.modal_call_here == m.here), out);
+    end_cycle(s, modal && context_.target.modal_call_here == m.here, out);
     if (modal && context_.target.modal_call_here == m.here) {
       active_.reset();
       on_target_ = m;
@@ -431,10 +434,11 @@ class ModalCalls {
     move_head(s.line, off.line);
     out.push_back(std::move(off));
   }
-  /// A cycle of this block would take the place of the target's modal call.
-  bool replaced_by_cycle(const Block& b) const {
+  /// A cycle of this block: a modal one would take the place of the target's modal call, one of the block alone may
+  /// become moves, which would run the modal subprogram.
+  bool cycle_beside(const Block& b, bool modal) const {
     const auto* define = action_in<CycleDefine>(b);
-    return define != nullptr && define->modal && context_.target.modal_cycle_by_call &&
+    return define != nullptr && define->modal == modal && context_.target.modal_cycle_by_call &&
            program_.dialect != context_.target.dialect;
   }
   bool never_modal(const CallRoutine& call) const {
@@ -455,6 +459,7 @@ class ModalCalls {
   const FlowStates<ModalCallInForce> in_force_;
   ReadFirst reads_first_;
   const Writes writes_;
+  std::map<std::uint32_t, ModalCall> defined_;    ///< modal calls of subprograms, by ids
   std::map<std::uint32_t, std::uint32_t> under_;  ///< what is in force before a statement, by ids
   std::size_t routine_ = 0;                       ///< that is rewritten
   int kept_ = 0;

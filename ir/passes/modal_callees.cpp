@@ -52,6 +52,15 @@ bool defines_cycle(const Program& program, const CallGraph& calls, const CallRou
   });
 }
 
+bool may_move(const Program& program, const CallGraph& calls, const CallRoutine& call) {
+  return !callee_of(calls, call) || any_below(program, calls, call, [&calls](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    const auto* inner = std::get_if<CallRoutine>(&s.node);
+    return (b != nullptr && (b->has_motion || pattern_in(*b) != nullptr)) ||
+           (inner != nullptr && !callee_of(calls, *inner));
+  });
+}
+
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed) {
   return callee_of(calls, call) && !any_below(program, calls, call, [feed](const Statement& s) {
            return any_action_of(s, [feed](const Action& a) {

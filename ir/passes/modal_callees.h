@@ -12,6 +12,8 @@ bool has_modal_call(const Routine& r);
 bool changes_modal_calls(const Program& program, const CallGraph& calls, const CallRoutine& call);
 /// It, or one below it, defines a cycle.
 bool defines_cycle(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// It, or one below it, moves, goes to the points of a pattern, or calls what is not at hand.
+bool may_move(const Program& program, const CallGraph& calls, const CallRoutine& call);
 /// Behind it this feed is in force when it is before it.
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed);
 /// What the block does behind its motion, or in blocks of their own on another control, a modal call would come before.
