@@ -22,13 +22,17 @@ Value plain(Value v) {
 
 }  // namespace
 
-const PlanarFrame& FrameState::slot(FrameSlot s) const {
-  static const PlanarFrame nothing;
-  return s == FrameSlot::preset && preset_off_ ? nothing : slots_[static_cast<std::size_t>(s)];
+PlanarFrame FrameState::slot(FrameSlot s) const {
+  if (s == FrameSlot::preset && preset_off_) return {};
+  PlanarFrame f = slots_[static_cast<std::size_t>(s)];
+  if (s == FrameSlot::preset && preset_unsure_ && !f.neutral()) f.foreign = true;
+  return f;
 }
 
 void FrameState::select(const WorkOffset& w, const machine::Profile& machine) {
-  if (machine.option("frame.preset") == "with_work_offset") preset_off_ = w.off || w.index.is(0);
+  if (machine.option("frame.preset") != "with_work_offset") return;
+  preset_off_ = w.off || w.index.is(0);
+  preset_unsure_ = false;
 }
 
 PlanarFrame FrameState::whole(const machine::Profile& machine, bool preset) const {
@@ -83,8 +87,7 @@ void FrameState::forget(const VarRef& var) {
 
 void FrameState::join(const FrameState& other) {
   for (std::size_t i = 0; i < frame_slots; ++i) slots_[i].join(other.slots_[i]);
-  auto& preset = at(FrameSlot::preset);
-  if (preset_off_ != other.preset_off_ && !preset.neutral()) preset.foreign = true;
+  preset_unsure_ = preset_unsure_ || other.preset_unsure_ || preset_off_ != other.preset_off_;
   preset_off_ = preset_off_ && other.preset_off_;
 }
 
@@ -229,7 +232,7 @@ void FrameState::stretch(const FrameChange& c, const machine::Profile& machine) 
 void FrameState::preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine) {
   auto& f = at(FrameSlot::preset);
   const PlanarFrame inner = inner_of(FrameSlot::preset, machine);
-  if (inner.foreign || inner.turns() || inner.scales() || inner.mirrors()) f.foreign = true;
+  if (preset_unsure_ || inner.foreign || inner.turns() || inner.scales() || inner.mirrors()) f.foreign = true;
   for (const auto& w : c.words) {
     if (w.axis >= axes) continue;
     const auto& point = facts.position[w.axis];

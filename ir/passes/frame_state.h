@@ -22,7 +22,7 @@ using SlotUses = std::array<SlotUse, frame_slots>;
 
 class FrameState {
  public:
-  [[nodiscard]] const PlanarFrame& slot(FrameSlot s) const;
+  [[nodiscard]] PlanarFrame slot(FrameSlot s) const;
   /// All slots as the machine applies them, outermost first; `preset`: with the slot of the preset.
   [[nodiscard]] PlanarFrame whole(const machine::Profile& machine, bool preset = true) const;
   [[nodiscard]] bool neutral() const;
@@ -40,7 +40,9 @@ class FrameState {
   void put(FrameSlot s, const PlanarFrame& frame) { at(s) = frame; }
   void limit(const SlotUses& uses) { uses_ = uses; }
   void join(const FrameState& other);
-  bool operator==(const FrameState& other) const { return slots_ == other.slots_ && preset_off_ == other.preset_off_; }
+  bool operator==(const FrameState& other) const {
+    return slots_ == other.slots_ && preset_off_ == other.preset_off_ && preset_unsure_ == other.preset_unsure_;
+  }
 
  private:
   PlanarFrame& at(FrameSlot s) { return slots_[static_cast<std::size_t>(s)]; }
@@ -50,8 +52,9 @@ class FrameState {
   void preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
   [[nodiscard]] PlanarFrame inner_of(FrameSlot slot, const machine::Profile& machine) const;
   std::array<PlanarFrame, frame_slots> slots_;
-  bool preset_off_ = false;  ///< kept, and out of force
-  SlotUses uses_;            ///< no part of the state's value
+  bool preset_off_ = false;     ///< kept, and out of force
+  bool preset_unsure_ = false;  ///< kept, and out of force on some of the ways that lead here
+  SlotUses uses_;               ///< no part of the state's value
 };
 
 /// States before each statement of a program. Calls are followed: a subprogram starts with what all its callers agree

@@ -29,7 +29,7 @@ bool presets_taken_back(const Program& program, const LegaliseContext& context, 
         const FrameState before = state;
         if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
           state.select(*w, context.source_machine);
-          found = found || !(before.slot(FrameSlot::preset) == state.slot(FrameSlot::preset));
+          found = found || !before.slot(FrameSlot::preset).neutral() || !state.slot(FrameSlot::preset).neutral();
         }
         const auto* f = std::get_if<FrameOp>(&a.data);
         if (f == nullptr || !f->change) continue;

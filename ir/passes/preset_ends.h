@@ -6,7 +6,8 @@
 
 namespace cnctrans::ir::passes {
 
-/// A preset is in force somewhere where the program takes it back: a target that can't take it back writes a shift.
+/// A preset is in force somewhere where the program takes it back, or selects a work offset, which ends it on targets
+/// without a function of its own for that: a target that can't take it back writes a shift.
 bool presets_taken_back(const Program& program, const LegaliseContext& context, const FactsOf& facts,
                         const FrameStates& states);
 /// The program has presets, and the target alone keeps them behind its end.
