@@ -38,8 +38,11 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     return;
   }
   const bool wrap = by_call_ && active_->native && !hole_here && was_on && disturbs_call(b);
-  if ((hole_here || changed || wrap) && !sure(facts)) {
-    if (!follows || changed || wrap) {
+  // What is written again here would be in force on every way.
+  const bool again = wrap || (changed && was_on);
+  const bool perhaps = again && facts.reachable && !facts.cycle_active_known && !surely_active_;
+  if (perhaps || ((hole_here || changed || wrap) && !sure(facts))) {
+    if (perhaps || !follows || changed || wrap) {
       refuse_other_ways(s);
       out.push_back(std::move(s));
       return;
