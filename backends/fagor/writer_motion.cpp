@@ -9,6 +9,7 @@
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/patterns.h"
 #include "dialects/fagor/pockets.h"
+#include "ir/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {
@@ -112,8 +113,9 @@ void Writer::motion(const ir::Motion& m) {
     if (!text || is_straight(*text)) own().kind = ir::MotionKind::modal;
   }
   // So does every point under a cycle; the arc or the thread that was in force before it stays out of the text, and a
-  // G1 that a label makes doubtful is not said again.
-  const ir::Facts* f = has_cycles_ && m.kind == ir::MotionKind::modal && m.moves() ? facts() : nullptr;
+  // G1 that a label makes doubtful is not said again. A block that ends the cycle is no point of it.
+  const bool ends = block_ != nullptr && ir::action_in<ir::CycleCancel>(*block_) != nullptr;
+  const ir::Facts* f = has_cycles_ && !ends && m.kind == ir::MotionKind::modal && m.moves() ? facts() : nullptr;
   if (f != nullptr && f->cycle_active_known && f->cycle_active && f->motion != ir::MotionKind::rapid &&
       (!f->motion || !is_straight(*f->motion) || motion_tracker().text() != f->motion)) {
     own().kind = ir::MotionKind::rapid;

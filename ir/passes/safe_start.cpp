@@ -120,6 +120,7 @@ class SafeStart {
   /// The first move says its function. False: it stands behind a statement that may lead elsewhere.
   bool first_motion() {
     const LabelUses uses = label_uses(program_, main_);
+    bool hole = false;  // a cycle is defined here or before
     for (auto& s : main_.body) {
       auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Declare>(s.node) &&
@@ -128,13 +129,12 @@ class SafeStart {
       for (const auto& l : labels_on(s.line)) {
         if (uses.is_target(l)) return false;  // comes here again with another function
       }
+      hole = hole || (b != nullptr && action_in<CycleDefine>(*b) != nullptr);
       if (b == nullptr || !b->has_motion) continue;
       if (s.line.skip_mask != 0) return false;  // the move behind it may be the first one
       if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
       if (b->motion.kind != MotionKind::modal || !b->motion.moves() || !b->motion.centers.empty()) continue;
       // A hole that is reached in rapid whatever function is in force says nothing of it.
-      const bool hole = std::any_of(b->actions.begin(), b->actions.end(),
-                                    [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
       if (hole && context_.target_machine.option("cycle.positioning") == "rapid") return false;
       b->motion.kind = context_.source_machine.power_on.motion;
       b->motion.explicit_code = true;
