@@ -146,6 +146,8 @@ class CyclePass {
   /// has switched it off.
   void join(const Statement& s) {
     const auto names = labels_on(s.line);
+    if (active_ && active_->native && (active_->on_target || active_->maybe_on_target))
+      for (const auto& l : names) under_cycle_.emplace(l.is_number, l.text);
     join_while_on(names);
     if (!active_ || by_call_) return;
     const bool off = active_->native && active_->was_on_target && !active_->on_target;
@@ -188,16 +190,7 @@ class CyclePass {
     sense_.follow(seen, b != nullptr || harmless);
   }
   /// A modal call whose cycle the target defines at the first point, and a branch comes before that point.
-  void branch_before_first_point(const Statement& s) {
-    if (!active_ || by_call_ || active_->on_target || active_->maybe_on_target ||
-        active_->trigger != CycleTrigger::path_motion)
-      return;
-    bool branch = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
-                  std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node);
-    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && callee_of(*call)) branch = false;
-    for (const auto& l : labels_on(s.line)) branch = branch || uses_.is_target(l);
-    active_->single = active_->single || branch;
-  }
+  void branch_before_first_point(Statement& s);
   void lower(Statement&& s, Body& out);
 
   void put(Body& out, Body&& pieces, Statement&& s) {
@@ -478,7 +471,8 @@ class CyclePass {
   SpindleSense sense_;
   FeedScale feed_scale_;
   bool by_call_ = false;
-  bool surely_active_ = false;  ///< a copy for one cycle that does not touch it
+  std::set<std::pair<bool, std::string>> under_cycle_;  ///< labels before which the target has its own cycle in force
+  bool surely_active_ = false;                          ///< a copy for one cycle that does not touch it
   bool written_out_ = false;
   bool lacking_ = false;                 ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;  ///< statements of this routine

@@ -221,6 +221,24 @@ void CyclePass::leave_while_off(const Statement& s) const {
       "put what changes the cycle into the block of its next point");
 }
 
+void CyclePass::branch_before_first_point(Statement& s) {
+  if (!active_ || by_call_ || active_->on_target || active_->maybe_on_target ||
+      active_->trigger != CycleTrigger::path_motion)
+    return;
+  bool back = false;
+  each_label_ref(s, [&](const LabelRef& l, bool) { back = back || under_cycle_.count({l.is_number, l.text}) != 0; });
+  if (back && active_->native)
+    context_.diagnostics.error("TRN-331", s.line.span,
+                               "the cycle goes on at points further up, where the target's own is in force, and the "
+                               "target has defined it at no point yet",
+                               "write the modal call in front of these points");
+  bool branch = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
+                std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node);
+  if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && callee_of(*call)) branch = false;
+  for (const auto& l : labels_on(s.line)) branch = branch || uses_.is_target(l);
+  active_->single = active_->single || branch;
+}
+
 void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) const {
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   const auto callee = callee_of(call);
