@@ -33,10 +33,6 @@ std::string axis_label(std::size_t axis) {
   return fixed.empty() ? "axis " + std::to_string(axis) : std::string(fixed);
 }
 
-bool close_relative(double a, double b, double tolerance) {
-  return std::fabs(a - b) <= tolerance * std::max({1.0, std::fabs(a), std::fabs(b)});
-}
-
 /// Letters and digits in capitals: what must survive of a message on a control with a smaller character set.
 std::string message_core(std::string_view text) {
   std::string core;
@@ -476,6 +472,11 @@ Verdict compare(const std::vector<Event>& source, const std::vector<Event>& targ
     verdict.status = Status::within_tolerance;
   }
   return verdict;
+}
+
+bool close_relative(double a, double b, double tolerance) {
+  constexpr double half_place = 0.00051;  // of the third decimal
+  return std::fabs(a - b) <= std::max(half_place, tolerance * std::max(std::fabs(a), std::fabs(b)));
 }
 
 Position start_of(const machine::Profile& machine) {

@@ -34,6 +34,8 @@ struct Options {
   const std::vector<interpreter::CycleRun>* source_cycles = nullptr;
   const std::vector<interpreter::CycleRun>* target_cycles = nullptr;
 };
+/// Feeds, speeds and pitches. A small one may be off by the rounding of its word: F0.0254 is written F0.025.
+bool close_relative(double a, double b, double tolerance);
 /// The position of a machine before a program.
 interpreter::Position start_of(const machine::Profile& machine);
 

@@ -180,7 +180,7 @@ class Stock {
         if (!cuts(*m.event) || m.comp != finishing) continue;
         const bool known = std::any_of(there.begin(), there.end(), [&](const Move& o) {
           return cuts(*o.event) && o.comp == finishing && o.event->feed_mode == m.event->feed_mode &&
-                 std::fabs(o.event->feed - m.event->feed) <= t_.feed_relative * std::max(1.0, o.event->feed);
+                 close_relative(o.event->feed, m.event->feed, t_.feed_relative);
         });
         if (!known)
           return fmt::format("a pass of the translation's cycle has the feed {} ({}), none of the source's has",

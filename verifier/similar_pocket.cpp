@@ -205,7 +205,7 @@ class Pockets {
       if (dives && goes_down(m)) continue;  // at feed where the source goes down in rapid
       const bool known = std::any_of(a_.moves().begin(), a_.moves().end(), [&](const Move& o) {
         return cuts(*o.event) && o.event->feed_mode == m.event->feed_mode &&
-               std::fabs(o.event->feed - m.event->feed) <= t_.feed_relative * std::max(1.0, o.event->feed);
+               close_relative(o.event->feed, m.event->feed, t_.feed_relative);
       });
       if (!known)
         return fmt::format("a pass of the translation's cycle has the feed {} ({}), none of the source's has",

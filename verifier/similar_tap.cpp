@@ -32,7 +32,7 @@ std::optional<Hole> hole_of(const CyclePasses& side, const Tolerances& t, std::s
       if (!hole) hole = here;
       hole->depth = std::max(hole->depth, below);
       const bool same = std::fabs(hole->u - here.u) <= t.length && std::fabs(hole->v - here.v) <= t.length &&
-                        std::fabs(hole->pitch - here.pitch) <= t.feed_relative * hole->pitch;
+                        close_relative(hole->pitch, here.pitch, t.feed_relative);
       if (!same) return what = "the strokes of a tap have other places or pitches", std::nullopt;
     } else if (e->kind == EventKind::rapid && below > t.length) {
       return what = "a rapid move of a tap ends in its hole", std::nullopt;
@@ -60,7 +60,7 @@ std::string tap_difference(const CyclePasses& source, const CyclePasses& target,
   if (std::fabs(a.surface - b.surface) > tolerances.length) return "the taps begin at other heights";
   if (std::fabs(there->depth - here->depth) > tolerances.length)
     return fmt::format("the threads are {} and {} mm deep", rounded(there->depth, 4), rounded(here->depth, 4));
-  if (std::fabs(there->pitch - here->pitch) > tolerances.feed_relative * there->pitch)
+  if (!close_relative(there->pitch, here->pitch, tolerances.feed_relative))
     return fmt::format("thread pitch {} in the source, {} in the translation", shortest(there->pitch),
                        shortest(here->pitch));
   return {};

@@ -126,8 +126,7 @@ std::string thread_difference(const CyclePasses& source, const CyclePasses& targ
       return fmt::format("the last pass of the thread is {} mm apart from the source's", rounded(apart, 4));
     max_length = std::max(max_length, apart);
     const auto same_pitch = [&](const Event& u, const Event& v) {
-      return std::fabs(u.pitch - v.pitch) <= t.feed_relative * std::max(1.0, std::fabs(u.pitch)) &&
-             std::fabs(u.pitch_change - v.pitch_change) <= 1e-6;
+      return close_relative(u.pitch, v.pitch, t.feed_relative) && std::fabs(u.pitch_change - v.pitch_change) <= 1e-6;
     };
     double before = 0, infeed_there = 0, infeed_here = 0, top_there = 0;
     const auto depth = [&](const Pass& p) { return out * (p.to.p - on_line(a, p.to.q)); };

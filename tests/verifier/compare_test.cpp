@@ -82,6 +82,26 @@ TEST(Compare, OffsetsAreOnlyComparedWhereBothSidesSpeakOfThem) {
   EXPECT_EQ(compare({tool, rapid(10)}, {tool, offset(1), rapid(10)}).status, Status::verified);
 }
 
+Event fed(double feed) {
+  Event e = linear(10);
+  e.feed = feed;
+  e.feed_mode = ir::FeedMode::per_rev;
+  return e;
+}
+TEST(Compare, SmallFeedsAndPitchesAreComparedByWhatTheyAre) {
+  EXPECT_EQ(compare({fed(0.05)}, {fed(0.0509)}).status, Status::differs);
+  EXPECT_EQ(compare({fed(0.002)}, {fed(0.001)}).status, Status::differs);
+  EXPECT_EQ(compare({fed(0.0254)}, {fed(0.025)}).status, Status::verified);  // three decimals
+  EXPECT_EQ(compare({fed(1234.5)}, {fed(1235)}).status, Status::verified);
+  Event thread = move(EventKind::thread, 10, 0, 1), other = thread;
+  thread.pitch = 0.25;
+  other.pitch = 0.2509;
+  EXPECT_EQ(compare({thread}, {other}).status, Status::differs);
+  other.pitch = 0.2503;
+  EXPECT_EQ(compare({thread}, {other}).status, Status::verified);
+  EXPECT_EQ(compare({spindle(0.4), linear(10)}, {spindle(0.4008), linear(10)}).status, Status::differs);
+}
+
 TEST(Compare, AMoveSplitInPartsIsOneMove) {
   EXPECT_EQ(compare({linear(30)}, {linear(10), linear(20), linear(30)}).status, Status::verified);
   EXPECT_EQ(compare({linear(10), linear(30)}, {linear(20), linear(30)}).status, Status::verified);
