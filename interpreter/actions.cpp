@@ -91,17 +91,26 @@ struct ActionRunner {
     const bool changed_here = first_of<ir::ToolChange>(b) != nullptr;
     if (changed_here) return true;  // one event, at the change
     if (!m.select_tool(a)) return false;
+    const bool own = first_of<ir::ToolOffset>(b) != nullptr;
+    m.offset_of_selected(own);
+    if (a.changes) m.offset_of_change(own);
     m.emit_tool(a.changes);
     return true;
   }
   bool operator()(const ir::ToolChange& /*a*/) const {
     const auto* t = first_of<ir::ToolSelect>(b);
     if (t != nullptr && !m.select_tool(*t)) return false;
-    if (t != nullptr || !m.tool_came_with_t_) m.emit_tool(true);
+    const bool own = first_of<ir::ToolOffset>(b) != nullptr;
+    if (t != nullptr) m.offset_of_selected(own);
+    if (t != nullptr || !m.tool_came_with_t_) {
+      m.offset_of_change(own);
+      m.emit_tool(true);
+    }
     return true;
   }
   bool operator()(const ir::ToolOffset& a) const {
     if (!m.whole(m.value(a.number), "offset number", m.offset_)) return false;
+    m.select_offset();
     auto& e = m.plain(EventKind::offset);
     e.number = m.offset_;
     m.emitter_.emit(e);
@@ -210,6 +219,7 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
       break;
     default: break;
   }
+  length_said_ = length_said_ || m.setting == ir::Setting::length_comp;
   modal_.set(m.setting, m.value);
   set_units();
 }
@@ -401,7 +411,9 @@ bool BlockMachine::profile_function(const machine::MCode& m) {
       emit_spindle(1);
       break;
     case MMeaning::tool_change:
-      if (!tool_came_with_t_) emit_tool(true);
+      if (tool_came_with_t_) break;
+      offset_of_change(false);
+      emit_tool(true);
       break;
     case MMeaning::coolant_off: emit_coolant("off"); break;
     case MMeaning::coolant_flood: emit_coolant("flood"); break;

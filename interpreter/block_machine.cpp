@@ -39,6 +39,9 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   curve_tolerance_ = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
   policy_.plane_ends_cycle = is("cycle.plane_function", "ends");
   policy_.data_modal = is("machine_data.units", "modal");
+  policy_.table_offset = is("tool.bare_offset", "table");
+  policy_.edge_offset = is("tool.bare_offset", "edge");
+  policy_.mill = profile.kind == machine::Kind::mill;
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
     axis_[a.id].rotary = a.rotary;

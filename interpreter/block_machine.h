@@ -159,7 +159,9 @@ class BlockMachine final : public SystemData {
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
          pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
          offsets_at_once = false, preset_is_offset = false, straight_tangents = false, polar_radius_stays = false;
-    bool data_modal = false;  ///< machine data in the units of the program
+    bool data_modal = false;                         ///< machine data in the units of the program
+    bool table_offset = false, edge_offset = false;  ///< of a tool without a D
+    bool mill = false;
     bool plane_ends_cycle = false;
   };
   struct Pending {
@@ -201,6 +203,11 @@ class BlockMachine final : public SystemData {
   void set_spindle_limit(const ir::SpindleLimit& l);
   bool whole(double number, std::string_view what, std::int32_t& out);
   bool select_tool(const ir::ToolSelect& t);
+  // the offset of the tool (tool_offset.cpp)
+  void select_offset();
+  void offset_of_selected(bool own);
+  void offset_of_change(bool own);
+  void put_offset(Event& e, std::uint32_t moved) const;
   bool machine_function(const ir::MachineFunction& m);
   bool define_cycle(const ir::CycleDefine& c);
   void set_corner(const ir::Corner& c);
@@ -387,6 +394,11 @@ class BlockMachine final : public SystemData {
   std::array<Spindle, 32> spindles_{};
   std::uint8_t master_ = 1;  ///< of the spindles: the one that feeds, threads and cycles follow
   std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
+  /// The offset in force: whether it is one, is none (D0), or that the control's own rule leaves it open.
+  enum class OffsetUse : std::uint8_t { open, none, some };
+  OffsetUse offset_use_ = OffsetUse::open;
+  bool bare_tool_ = false;         ///< no D since its T
+  bool length_said_ = false;       ///< the program has switched length compensation
   bool tool_came_with_t_ = false;  ///< the tool selected last was changed by its T: M6 has nothing left to do
   std::string tool_name_;
   Vec pole_;

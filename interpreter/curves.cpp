@@ -242,14 +242,15 @@ bool BlockMachine::close_curve(const Move* next) {
     put_centre_side(e, b.comp, modal_.plane);
     for (const auto& p : steps) {
       const Axes from = e.to.value;
-      bool moves = false;
+      std::uint32_t moved = 0;
       for (std::size_t k = 0; k < p.size(); ++k) {
         const auto a = k < c.axes.size() ? c.axes[k] : c.beside[k - c.axes.size()];
         if (std::abs(p[k] - e.to.value[a]) <= no_move) continue;
         e.to.value[a] = p[k];
-        moves = true;
+        moved |= 1U << a;
       }
-      if (!moves) continue;
+      if (moved == 0) continue;
+      put_offset(e, moved);
       add_travel(from, e);
       emitter_.pass(e);
     }

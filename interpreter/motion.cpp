@@ -83,7 +83,8 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
 bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   auto& to = path_event_.to.value;
   const std::array<double, 3> from{p_[0], p_[1], p_[2]};
-  bool moves = false, linear = false;
+  std::uint32_t moved = 0;
+  bool linear = false;
   for (const auto& w : m.coords) {
     const auto a = w.axis;
     if (!check_axis(a)) return false;
@@ -104,14 +105,14 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
     p_[a] = x;
     x += frame_.t[a];
     if (std::abs(x - to[a]) > no_move) {
-      moves = true;
+      moved |= 1U << a;
       linear = linear || !axis.rotary;
     }
     travelled_[a] += std::abs(x - to[a]);
     to[a] = x;
   }
   if (failure_.set) return false;
-  if (!moves) return true;
+  if (moved == 0) return true;
   before_ = from;
   last_was_arc_ = false;
   has_path_ = true;
@@ -121,6 +122,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   path_event_.in_machine = false;
   path_event_.centre_side = modal_.comp;
   if (modal_.comp != ir::CompSide::off) path_event_.plane = modal_.plane;
+  put_offset(path_event_, moved);
   emitter_.emit(path_event_);
   return true;
 }

@@ -238,20 +238,22 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   }
   auto& e = path_event_;
   const Axes from = e.to.value;
-  bool moves = false, linear = move.kind == Move::Kind::arc || !move.feed_degrees;
+  std::uint32_t moved = 0;
+  bool linear = move.kind == Move::Kind::arc || !move.feed_degrees;
   for (const auto a : axes_) {
     if (std::abs(to[a] - e.to.value[a]) <= no_move) continue;
     e.to.value[a] = to[a];
-    moves = true;
+    moved |= 1U << a;
     linear = linear || !axis_[a].rotary;
   }
-  if (!moves && move.kind != Move::Kind::arc) return true;
+  if (moved == 0 && move.kind != Move::Kind::arc) return true;
   e.file = move.file;
   e.line = move.line;
   e.feed = linear ? move.feed : *move.feed_degrees;
   e.feed_mode = move.feed_mode;
   e.in_machine = move.in_machine;
   put_centre_side(e, move.comp, move.plane);
+  put_offset(e, moved);
   switch (move.kind) {
     case Move::Kind::rapid: e.kind = EventKind::rapid; break;
     case Move::Kind::linear: e.kind = EventKind::linear; break;

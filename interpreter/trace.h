@@ -36,6 +36,12 @@ struct Position {
   std::array<double, ir::axis::count_max> value{};
   std::uint32_t known = 0;
 };
+/// Which axes stand where the data of the tool bring them (its length; under radius compensation its radius): bit n of
+/// `with` holds for axis n where bit n of `known` says so.
+/// `power_on`: without length only because the program never says whether the length counts.
+struct OffsetAxes {
+  std::uint32_t with = 0, known = 0, power_on = 0;
+};
 enum class EndReason : std::uint8_t { program_end, error, event_limit, step_limit };
 
 /// One flat struct for all kinds: the fields a kind has are listed in docs/trace.md.
@@ -60,6 +66,7 @@ struct Event {
   double amount = 0;
   bool revolutions = false;
   bool in_machine = false;  ///< a move programmed in machine coordinates (not printed)
+  OffsetAxes offset;        ///< behind a move (not printed)
   // spindle, tool, offset, comp, coolant, m, stop
   std::int32_t number = 0;
   std::string state;  ///< cw ccw off oriented / off left right / coolant state

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "base/text.h"
-#include "base/transliterate.h"
 #include "verifier/cycle_pairs.h"
+#include "verifier/messages.h"
 #include "verifier/normalise.h"
 #include "verifier/tool_names.h"
 
@@ -33,33 +34,6 @@ std::string axis_label(std::size_t axis) {
   return fixed.empty() ? "axis " + std::to_string(axis) : std::string(fixed);
 }
 
-/// Letters and digits in capitals: what must survive of a message on a control with a smaller character set.
-std::string message_core(std::string_view text) {
-  std::string core;
-  for (const char c : to_upper_ascii(to_ascii(text, nullptr))) {
-    if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) core += c;
-  }
-  return core;
-}
-constexpr std::size_t message_core_kept = 24;
-
-/// A control that can't show values inside a message shows '?' for each: what stands between them must be there, in
-/// order.
-bool message_with_gaps(std::string_view source, std::string_view target) {
-  if (target.find('?') == std::string_view::npos || source.find('?') != std::string_view::npos) return false;
-  const std::string whole = message_core(source);
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t gap = target.find('?');
-    const std::string part = message_core(target.substr(0, gap));
-    const std::size_t found = whole.find(part, at);
-    if (found == std::string::npos || (at == 0 && found != 0)) return false;
-    at = found + part.size();
-    if (gap == std::string_view::npos) return true;
-    target.remove_prefix(gap + 1);
-  }
-}
-
 /// Walks two normalised traces side by side.
 class Comparison {
  public:
@@ -69,8 +43,6 @@ class Comparison {
         b_(normalise(target, options.offset_numbers, selections)),
         first_a_(source.data()),
         first_b_(target.data()),
-        offsets_a_(offset_states(source)),
-        offsets_b_(offset_states(target)),
         options_(options),
         verdict_(verdict),
         from_a_(options.source_start),
@@ -88,8 +60,8 @@ class Comparison {
     while (i_ < a_.size() && j_ < b_.size()) {
       if (!step()) return false;
     }
-    while (i_ < a_.size() && negligible(*a_[i_], from_a_)) take_a();
-    while (j_ < b_.size() && negligible(*b_[j_], from_b_)) take_b();
+    while (i_ < a_.size() && passed_over(*a_[i_], from_a_, from_b_)) take_a();
+    while (j_ < b_.size() && passed_over(*b_[j_], from_b_, from_a_)) take_b();
     if (i_ < a_.size()) {
       return differ(fmt::format("the translation ends too early: {} of the source has no counterpart",
                                 interpreter::name(a_[i_]->kind)),
@@ -113,8 +85,8 @@ class Comparison {
     const Event& b = *b_[j_];
     if (a.kind != b.kind) {
       // A move below the tolerance may exist on one side only (rounded away).
-      if (negligible(a, from_a_)) return take_a();
-      if (negligible(b, from_b_)) return take_b();
+      if (passed_over(a, from_a_, from_b_)) return take_a();
+      if (passed_over(b, from_b_, from_a_)) return take_b();
       return differ(fmt::format("{} there, {} here", interpreter::name(a.kind), interpreter::name(b.kind)), i_, j_);
     }
     if (is_motion(a.kind)) return step_motion(a, b);
@@ -161,20 +133,19 @@ class Comparison {
     const double apart = distance(a.to, b.to);
     if (!ends_agree(a.to, b.to)) {
       const bool straight = a.kind == EventKind::linear || a.kind == EventKind::rapid;
-      if (straight && same_feed(a, b)) {
+      if (straight && same_feed(a, b) && tool_difference(a, b).empty()) {
         // One side has split the move: the shorter part must lie on the longer one, ahead of the parts before it.
         if (part_of(a.to, from_a_, from_b_, b.to)) return take_part(true);
         if (part_of(b.to, from_b_, from_a_, a.to)) return take_part(false);
       }
-      if (negligible(a, from_a_)) return take_a();
-      if (negligible(b, from_b_)) return take_b();
+      if (passed_over(a, from_a_, from_b_)) return take_a();
+      if (passed_over(b, from_b_, from_a_)) return take_b();
       return differ(end_difference(a, b), i_, j_);
     }
     std::string what = motion_difference(a, b);
-    if (what.empty()) what = centre_difference(a, b);
-    if (what.empty()) what = offset_difference(a, b);
-    if (!what.empty() && a.kind == EventKind::arc && negligible(a, from_a_)) return take_a();
-    if (!what.empty() && a.kind == EventKind::arc && negligible(b, from_b_)) return take_b();
+    if (what.empty()) what = tool_difference(a, b);
+    if (!what.empty() && a.kind == EventKind::arc && passed_over(a, from_a_, from_b_)) return take_a();
+    if (!what.empty() && a.kind == EventKind::arc && passed_over(b, from_b_, from_a_)) return take_b();
     if (!what.empty()) return differ(what, i_, j_);
     verdict_.max_length = std::max(verdict_.max_length, apart);
     ++verdict_.events;
@@ -290,6 +261,12 @@ class Comparison {
     return on_segment(p, from, to) && on_segment(p, before, to);
   }
 
+  /// A move below the tolerance that one side makes alone: behind it both tools must stand together, so that a row of
+  /// such moves leads nowhere.
+  [[nodiscard]] bool passed_over(const Event& e, const Position& from, const Position& other) const {
+    return negligible(e, from) && ends_agree(e.to, other);
+  }
+
   [[nodiscard]] bool negligible(const Event& e, const Position& from) const {
     if (e.kind == EventKind::arc) return distance(from, e.to) <= options_.tolerances.length && short_arc(e, from);
     if (e.kind != EventKind::linear && e.kind != EventKind::rapid) return false;
@@ -340,15 +317,24 @@ class Comparison {
                        interpreter::name(a.kind), place(a), place(b));
   }
 
-  /// A move made with a tool offset on one side and with none on the other ends elsewhere on a real machine.
-  std::string offset_difference(const Event& a, const Event& b) const {
-    if (a.in_machine || b.in_machine) return {};
-    const auto there = offsets_a_[static_cast<std::size_t>(&a - first_a_)];
-    const auto here = offsets_b_[static_cast<std::size_t>(&b - first_b_)];
-    if (there == here || there == OffsetState::unknown || here == OffsetState::unknown) return {};
-    const auto text = [](OffsetState s) { return s == OffsetState::on ? "with a tool offset" : "without tool offset"; };
-    return fmt::format("the {} move is made {} in the source, {} in the translation", interpreter::name(a.kind),
-                       text(there), text(here));
+  /// Where the tool stands beside the programmed point. It holds for every part of a move.
+  static std::string tool_difference(const Event& a, const Event& b) {
+    const std::string centre = centre_difference(a, b);
+    return centre.empty() ? offset_difference(a, b) : centre;
+  }
+
+  /// An axis that stands with the offset of the tool on one side and without on the other stands elsewhere on a real
+  /// machine.
+  static std::string offset_difference(const Event& a, const Event& b) {
+    const std::uint32_t known = known_of_source(a) & b.offset.known & common(a.to, b.to);
+    const std::uint32_t other = (a.offset.with ^ b.offset.with) & known;
+    if (other == 0) return {};
+    const auto axis = static_cast<std::size_t>(std::countr_zero(other));
+    const auto text = [axis](const Event& e) {
+      return (e.offset.with >> axis & 1U) != 0 ? "with a tool offset" : "without tool offset";
+    };
+    return fmt::format("the {} move brings {} to its end {} in the source, {} in the translation",
+                       interpreter::name(a.kind), axis_label(axis), text(a), text(b));
   }
 
   std::string motion_difference(const Event& a, const Event& b) {
@@ -421,14 +407,10 @@ class Comparison {
                                   : "";
       case EventKind::m:
         return a.number != b.number ? fmt::format("M{} in the source, M{} in the translation", a.number, b.number) : "";
-      case EventKind::message: {
-        const std::string x = message_core(a.text);
-        const std::string y = message_core(b.text);
-        const std::size_t n = std::min(x.size(), y.size());
-        const bool same = x == y || (n >= message_core_kept && x.compare(0, n, y, 0, n) == 0);
-        if (!same && message_with_gaps(a.text, b.text)) return {};
-        return same ? "" : fmt::format("message \"{}\" in the source, \"{}\" in the translation", a.text, b.text);
-      }
+      case EventKind::message:
+        return same_message(a.text, b.text)
+                   ? ""
+                   : fmt::format("message \"{}\" in the source, \"{}\" in the translation", a.text, b.text);
       case EventKind::stop: return a.optional_stop != b.optional_stop ? "an optional stop on one side only" : "";
       case EventKind::end:
         return a.reason != b.reason ? fmt::format("the run ends by {} in the source, by {} in the translation",
@@ -440,7 +422,6 @@ class Comparison {
 
   std::vector<const Event*> a_, b_;
   const Event *first_a_, *first_b_;  ///< of the traces before normalisation
-  std::vector<OffsetState> offsets_a_, offsets_b_;
   const Options& options_;
   mutable ToolNames tools_;
   Verdict& verdict_;

@@ -42,6 +42,23 @@ std::string spindle_after(const std::vector<const Event*>& events) {
   return said;
 }
 
+/// Each axis stands with the tool offset, or without it, as it does at some move of the source's cycle.
+std::string offset_difference(const std::vector<const Event*>& source, const std::vector<const Event*>& target) {
+  std::uint32_t with = 0, without = 0;
+  for (const Event* e : source) {
+    if (!is_motion(e->kind)) continue;
+    with |= known_of_source(*e) & e->offset.with;
+    without |= known_of_source(*e) & ~e->offset.with;
+  }
+  for (const Event* e : target) {
+    if (!is_motion(e->kind)) continue;
+    const std::uint32_t known = e->offset.known & (with | without);
+    if ((known & ((e->offset.with & ~with) | (~e->offset.with & ~without))) != 0)
+      return "the tool offset is in force on one side only";
+  }
+  return {};
+}
+
 }  // namespace
 
 const CycleRun* CyclePairs::run_at(std::size_t at, bool source) const {
@@ -166,7 +183,8 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   while (run.family == "tap" && at.j < b_.size() && b_[at.j]->kind == EventKind::spindle &&
          spindle_after(source.events) != spindle_after(target.events))
     take(b_[at.j], target, at.from_b, at.j);
-  what = similar_difference(source, target, options_.tolerances, max_length);
+  what = offset_difference(source.events, target.events);
+  if (what.empty()) what = similar_difference(source, target, options_.tolerances, max_length);
   if (!what.empty()) return std::nullopt;
   if (!together(at.from_a, at.from_b, by)) {
     what = "the tool stands elsewhere behind the cycle";

@@ -154,25 +154,6 @@ bool has_selections(const std::vector<Event>& events) {
                      [](const Event& e) { return e.kind == EventKind::tool && !e.change; });
 }
 
-std::vector<OffsetState> offset_states(const std::vector<Event>& events) {
-  std::vector<OffsetState> states;
-  states.reserve(events.size());
-  OffsetState now = OffsetState::unknown;
-  bool for_next_tool = false;  // an offset was selected behind the T of the tool that comes
-  for (const auto& e : events) {
-    if (e.kind == EventKind::tool) {
-      if (e.change && !for_next_tool) now = OffsetState::unknown;
-      for_next_tool = false;
-    }
-    if (e.kind == EventKind::offset) {
-      now = e.number == 0 ? OffsetState::off : OffsetState::on;
-      for_next_tool = e.number != 0;
-    }
-    states.push_back(now);
-  }
-  return states;
-}
-
 std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections) {
   std::vector<const Event*> out;
   out.reserve(events.size());

@@ -19,11 +19,11 @@ namespace cnctrans::verifier {
 /// `keep_selections`: tools that are only made ready; a turret has no such event.
 std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets,
                                                  bool keep_selections);
-/// Whether a tool offset is in force at an event.
-enum class OffsetState : std::uint8_t { unknown, off, on };
-/// One entry an event: unknown until the program first speaks of an offset, and after each tool change until it does
-/// so again.
-std::vector<OffsetState> offset_states(const std::vector<interpreter::Event>& events);
+/// Axes of the source whose offset can be compared. Where its program never says whether the length counts, a setting
+/// of the machine does.
+[[nodiscard]] inline std::uint32_t known_of_source(const interpreter::Event& e) {
+  return e.offset.known & ~e.offset.power_on;
+}
 /// Some tool is made ready before its change.
 bool has_selections(const std::vector<interpreter::Event>& events);
 
