@@ -219,7 +219,6 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
       break;
     default: break;
   }
-  length_said_ = length_said_ || m.setting == ir::Setting::length_comp;
   modal_.set(m.setting, m.value);
   set_units();
 }

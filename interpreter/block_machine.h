@@ -398,7 +398,6 @@ class BlockMachine final : public SystemData {
   enum class OffsetUse : std::uint8_t { open, none, some };
   OffsetUse offset_use_ = OffsetUse::open;
   bool bare_tool_ = false;         ///< no D since its T
-  bool length_said_ = false;       ///< the program has switched length compensation
   bool tool_came_with_t_ = false;  ///< the tool selected last was changed by its T: M6 has nothing left to do
   std::string tool_name_;
   Vec pole_;

@@ -31,7 +31,7 @@ void BlockMachine::put_offset(Event& e, std::uint32_t moved) const {
   auto& o = e.offset;
   o.known &= ~moved;
   o.with &= ~moved;
-  o.power_on &= ~moved;
+  o.switched_off &= ~moved;
   if (e.in_machine) return;  // whether the length counts there differs from function to function
   std::uint32_t length = 7, radius = 0;
   if (policy_.mill) {
@@ -47,7 +47,7 @@ void BlockMachine::put_offset(Event& e, std::uint32_t moved) const {
   };
   const bool off = modal_.length_comp == ir::OnOff::off;
   put(length, off ? OffsetUse::none : offset_use_);
-  if (off && !length_said_) o.power_on |= length & moved;
+  if (off) o.switched_off |= length & moved;
   put(radius & ~length, offset_use_);
 }
 

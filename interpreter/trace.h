@@ -38,9 +38,9 @@ struct Position {
 };
 /// Which axes stand where the data of the tool bring them (its length; under radius compensation its radius): bit n of
 /// `with` holds for axis n where bit n of `known` says so.
-/// `power_on`: without length only because the program never says whether the length counts.
+/// `switched_off`: without length because the length compensation is off, not by D0.
 struct OffsetAxes {
-  std::uint32_t with = 0, known = 0, power_on = 0;
+  std::uint32_t with = 0, known = 0, switched_off = 0;
 };
 enum class EndReason : std::uint8_t { program_end, error, event_limit, step_limit };
 

@@ -19,10 +19,10 @@ namespace cnctrans::verifier {
 /// `keep_selections`: tools that are only made ready; a turret has no such event.
 std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets,
                                                  bool keep_selections);
-/// Axes of the source whose offset can be compared. Where its program never says whether the length counts, a setting
-/// of the machine does.
+/// Axes of the source whose offset can be compared. A length compensation that is off has no counterpart on a control
+/// without that switch: the translator tells it (TRN-142, TRN-143), and what the source means is left open.
 [[nodiscard]] inline std::uint32_t known_of_source(const interpreter::Event& e) {
-  return e.offset.known & ~e.offset.power_on;
+  return e.offset.known & ~e.offset.switched_off;
 }
 /// Some tool is made ready before its change.
 bool has_selections(const std::vector<interpreter::Event>& events);
