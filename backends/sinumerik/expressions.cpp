@@ -225,7 +225,9 @@ std::string Expressions::string(const ir::ExprPtr& /*e*/, const ir::String& s) {
 /// An operand of B_AND and its like, where the control rounds a REAL: what shall be cut is cut before.
 std::string Expressions::bits(const ir::ExprPtr& e, int level, bool left) {
   if (const ir::Call* c = as_call(e, ir::Function::to_integer)) return operand(c->args[0], level, left);
-  return ir::is_whole(e) ? operand(e, level, left) : "TRUNC(" + print(e) + ')';
+  const auto* datum = std::get_if<ir::SystemRef>(&e->node);
+  const bool own = datum != nullptr && datum->datum == ir::Datum::other;  // of this control, with a type of its own
+  return own || ir::is_whole(e) ? operand(e, level, left) : "TRUNC(" + print(e) + ')';
 }
 
 std::optional<Printed> Expressions::special(const ir::ExprPtr& e) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "frontends/common/block_start.h"
 #include "frontends/common/nesting.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/row_parts.h"
@@ -114,7 +115,9 @@ std::string_view StatementLowering::code_text(std::string_view line, const Block
 
 void StatementLowering::add_opaque(const Block& block, ir::LineInfo info, std::string_view feature, bool harmless) {
   ir::Opaque o;
-  o.text = code_text(c_.text, block);
+  const std::string_view code = code_text(c_.text, block);
+  const frontends::BlockStart start = frontends::block_start(code);  // of a block that can't be read
+  o.text = !info.labels.empty() && start.label == info.labels.back() ? start.rest : code;
   o.feature = feature.empty() ? std::string_view("language.statement") : feature;
   o.harmless = harmless;
   emit(info, std::move(o));
