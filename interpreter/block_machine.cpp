@@ -62,6 +62,17 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   base_pending_ = 0;
 }
 
+Standing BlockMachine::standing() const {
+  const Spindle& s = spindles_[master_];
+  return {modal_,
+          p_,
+          !contour_.empty(),
+          feed_now() / feed_unit(),
+          master_,
+          s.value[static_cast<std::size_t>(s.mode)],
+          hole_.has_value()};
+}
+
 double BlockMachine::expression(const ir::Value& v) {
   if (values_ != nullptr) return values_->number_of(v.expr);
   const auto constant = ir::constant_value(v.expr);

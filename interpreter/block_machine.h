@@ -18,6 +18,7 @@
 #include "interpreter/failure.h"
 #include "interpreter/frame.h"
 #include "interpreter/open_curve.h"
+#include "interpreter/standing.h"
 #include "ir/block.h"
 #include "ir/block_coordinate.h"
 #include "ir/contour.h"
@@ -82,6 +83,7 @@ class BlockMachine final : public SystemData {
   void end_event(EndReason reason, const Failure& failure, const Span& where);
 
   [[nodiscard]] const ir::ModalState& modal() const { return modal_; }
+  [[nodiscard]] Standing standing() const;
   void restore_modal(const ir::ModalState& state);
   /// The program and routine that the next block belongs to: cycles look up their profiles there.
   void belongs_to(const ir::Program* program, const ir::Routine* routine) {

@@ -10,6 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "interpreter/cycle_runs.h"
+#include "interpreter/standing.h"
 #include "interpreter/trace.h"
 #include "ir/program.h"
 #include "machine/profile.h"
@@ -33,6 +34,8 @@ struct Options {
   std::function<const Diagnostic*(FileId file, std::uint32_t first_line, std::uint32_t last_line)> fault;
   /// Gets the cycles of a lathe that are carried out, in order; null: nobody asks.
   std::vector<CycleRun>* cycles = nullptr;
+  /// Sees what holds before each statement; empty: nobody asks.
+  Witness witness;
 };
 
 /// A file of the control that the run has written.

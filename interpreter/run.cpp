@@ -241,6 +241,7 @@ void Runner::loop() {
       if (id != 0 && flow_->program == &program_) {
         if (id >= covered_.size()) covered_.resize(id + std::size_t{1} + covered_.size(), 0);
         covered_[id] = 1;
+        if (options_.witness && begins(in)) options_.witness(*in.statement, machine_.standing());
       }
     }
     const auto* statement = in.statement;
@@ -248,6 +249,14 @@ void Runner::loop() {
     if (statement != nullptr && !statement->line.number.empty()) machine_.last_label = statement->line.number;
     if (failure_.set) fail_state();
   }
+}
+
+/// A statement begins here: it is no further pass of a repeated block, and no block that goes on behind a modal
+/// subprogram.
+bool Runner::begins(const Instruction& in) const {
+  const bool again = !repeats_.empty() && repeats_.size() > calls_.back().repeats && repeats_.back().block &&
+                     repeats_.back().begin == at_;
+  return !again && !(in_modal_ == 0 && machine_.points_left()) && in.op != Op::go && in.op != Op::nothing;
 }
 
 bool Runner::over_limits() {

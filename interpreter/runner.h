@@ -69,6 +69,7 @@ class Runner {
   void loop();
   bool over_limits();
   void step(Instruction& in);
+  [[nodiscard]] bool begins(const Instruction& in) const;
   void go_to(std::uint32_t next);
   void arrived();
   void left_behind();

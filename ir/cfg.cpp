@@ -77,6 +77,12 @@ class Builder {
   struct Range {
     std::uint32_t repeat, first, end;
     bool again;  ///< more than once
+    /// A pass that jumps past its end ends at the next label of that name: these count as well.
+    Ids later_ends{};
+
+    [[nodiscard]] bool ends_at(std::uint32_t id) const {
+      return id == end || std::find(later_ends.begin(), later_ends.end(), id) != later_ends.end();
+    }
   };
 
   // Tables by id, groups of joined statements, Repeats.
@@ -106,23 +112,62 @@ class Builder {
     for (const Statement* s : repeats_) {
       const auto& r = std::get<Repeat>(s->node);
       if (r.has_program || r.first.computed || r.last.computed || r.last.text.empty()) continue;
+      if (r.curve_use == CurveUse::define || r.curve_use == CurveUse::remove)
+        continue;  // its lines run where they stand
       const auto range = labels().range(r, labels().order(s->id));
       if (!range) continue;
       const auto& [first, last] = *range;
-      const auto end = line_end_.find(last.statement);
-      ranges_.push_back(
-          {s->id, first.statement, end == line_end_.end() ? last.statement : end->second, !runs_once_at_most(r.count)});
+      Range range_of{s->id, first.statement, line_end(last.statement), !runs_once_at_most(r.count)};
+      if (r.search != Search::whole_first && jumps_past(range_of)) {
+        for (const auto& site : labels().all(r.last.text, r.last.is_number)) {
+          if (site.order > last.order && site.part == SitePart::statement)
+            range_of.later_ends.push_back(line_end(site.statement));
+        }
+      }
+      ranges_.push_back(std::move(range_of));
     }
+  }
+  /// The last of the statements that stand on one line with this one.
+  [[nodiscard]] std::uint32_t line_end(std::uint32_t id) const {
+    const auto end = line_end_.find(id);
+    return end == line_end_.end() ? id : end->second;
+  }
+  /// A jump within the range leaves it forward, or may.
+  bool jumps_past(const Range& range) {
+    const auto past = [&](const Jump& j, std::uint32_t from) {
+      if (j.search == Search::to_start) return false;
+      if (j.target.computed) return true;
+      const auto site = labels().find(j.target, j.search, labels().order(from));
+      return site && site->order > labels().order(range.end);
+    };
+    for (auto id = range.first; id <= range.end; ++id) {
+      if (flow_.statements[id] == nullptr) continue;
+      const auto& node = flow_.statements[id]->node;
+      if (const auto* j = std::get_if<Jump>(&node); j != nullptr && past(*j, id)) return true;
+      const auto* w = std::get_if<Switch>(&node);
+      if (w == nullptr) continue;
+      for (const auto& c : w->cases) {
+        if (past(c.second, id)) return true;
+      }
+      for (const auto& j : w->fallback) {
+        if (past(j, id)) return true;
+      }
+    }
+    return false;
   }
 
   bool grow_ranges() {
     bool grown = false;
     for (const auto& r : ranges_) {
-      Ids& more = after_range_[r.end];
-      const std::size_t before = more.size();
-      if (r.again) add_id(more, r.first);
-      add_ids(more, continuation_[r.repeat]);
-      grown |= more.size() != before;
+      Ids ends{r.end};
+      add_ids(ends, r.later_ends);
+      for (const auto end : ends) {
+        Ids& more = after_range_[end];
+        const std::size_t before = more.size();
+        if (r.again) add_id(more, r.first);
+        add_ids(more, continuation_[r.repeat]);
+        grown |= more.size() != before;
+      }
     }
     return grown;
   }
@@ -147,7 +192,7 @@ class Builder {
     while (!open.empty()) {
       const auto [k, id] = open.back();
       open.pop_back();
-      const bool ends = k != 0 && ranges_[k - 1].end == id;
+      const bool ends = k != 0 && ranges_[k - 1].ends_at(id);
       const auto called = range_of.find(id);
       if (called != range_of.end()) reach(called->second, ranges_[called->second - 1].first);
       if (ends && !jumps(id)) continue;
@@ -162,7 +207,7 @@ class Builder {
     for (const auto& [id, behind] : after_range_) {
       bool otherwise = seen[0][id] || jumps(id) || skipped_.count(id) != 0;
       for (std::size_t k = 1; k <= ranges_.size(); ++k)
-        otherwise = otherwise || (seen[k][id] && ranges_[k - 1].end != id);
+        otherwise = otherwise || (seen[k][id] && !ranges_[k - 1].ends_at(id));
       if (otherwise || range_of.count(id) != 0) continue;
       auto& ids = flow_.successors[id];
       std::erase_if(ids,

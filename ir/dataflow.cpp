@@ -18,7 +18,13 @@ using namespace detail;
 
 bool moves(const Statement& s) {
   const auto* b = std::get_if<Block>(&s.node);
-  return b != nullptr && b->has_motion && b->motion.moves();
+  return b != nullptr && ((b->has_motion && b->motion.moves()) || has_pattern(*b));
+}
+
+/// A block of F, S or a bare motion code: some machines run a modal subprogram there as well.
+bool may_run_modal_call(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  return b != nullptr && path_words(*b);
 }
 
 bool more_than_once(const ExprPtr& count) {
@@ -95,6 +101,7 @@ class Analysis {
       if (callee.known) modal_targets_.push_back(callee.routine);
       modal_unknown_ |= !callee.known;
     }
+    find_inside_modal();
     framed_ = frame_reach(program_, power_on_);
     probes_ = probes(cycles_);
     find_changes();
@@ -180,6 +187,25 @@ class Analysis {
     return c;
   }
 
+  /// Routines that a modal subprogram is or calls: within its run no further one is started.
+  void find_inside_modal() {
+    inside_modal_.assign(routines_.size(), false);
+    std::vector<std::size_t> open = modal_targets_;
+    while (!open.empty()) {
+      const std::size_t routine = open.back();
+      open.pop_back();
+      if (inside_modal_[routine]) continue;
+      inside_modal_[routine] = true;
+      for_each_statement(program_.routines[routine].body, [&](const Statement& s) {
+        std::size_t callee = nowhere;
+        if (const auto* c = std::get_if<CallRoutine>(&s.node)) callee = find_routine(c->routine);
+        if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program)
+          callee = find_routine(r->program);
+        if (callee != nowhere) open.push_back(callee);
+      });
+    }
+  }
+
   // --- what a routine can change ------------------------------------------------------------------------------------
 
   FactSet changed_through_calls(const Statement& s) {
@@ -191,7 +217,8 @@ class Analysis {
       return of(range_of(find_routine(r->program), *r));
     }
     FactSet set = changed_by(s, probes_, framed_);
-    if (moves(s)) {
+    if (std::holds_alternative<ModalCall>(s.node)) set[modal_call_bit] = true;
+    if (moves(s) || may_run_modal_call(s)) {
       for (const auto target : modal_targets_) set |= routines_[target].changes;
       if (modal_unknown_) set = all;
     }
@@ -327,8 +354,17 @@ class Analysis {
       return call(s.id, range_of(find_routine(r->program), *r), r->count, f);
     }
     if (const auto* m = std::get_if<ModalCall>(&s.node)) return modal_call(s, *m, f);
-    if (moves(s) && f.modal_call != 0) return block_with_modal_call(s, f);
-    apply(s, f, framed_);
+    if (!f.modal_call_runs() || !(moves(s) || may_run_modal_call(s))) {
+      apply(s, f, framed_);
+      return true;
+    }
+    if (moves(s) && !inside_modal_[routine_of_[s.id]]) return block_with_modal_call(s, f);
+    Facts without = f;
+    apply(s, without, framed_);
+    if (block_with_modal_call(s, f))
+      join(f, without);
+    else
+      f = without;
     return true;
   }
 
@@ -341,7 +377,7 @@ class Analysis {
       return true;
     }
     Facts entry = before;
-    if (entry.modal_call != 0) entry.modal_call = -1;  // whether it goes on in the callee is the machine's affair
+    if (entry.modal_call_runs()) entry.modal_call = -1;  // whether it goes on in the callee is the machine's affair
     const Facts at_exit = outcome(id, callee, entry);
     if (!at_exit.reachable) return false;
     if (more_than_once(count)) {
@@ -350,7 +386,7 @@ class Analysis {
         if (program_.routines[callee.routine].saves_modals) {  // each pass gives the modal state back
           again = before;
           take(again, at_exit, kept_changes(callee.routine, before, again));
-          if (again.modal_call != 0) again.modal_call = -1;
+          if (again.modal_call_runs()) again.modal_call = -1;
         }
         enter(callee.routine, again);
       } else {
@@ -395,7 +431,12 @@ class Analysis {
       if (set[position_bit + i]) f.position[i].reset();
       set[position_bit + i] = false;
     }
+    // The kind of feed, of speed or the unit comes back, and another F or S may stand with it.
+    const auto changed = [&](Setting x) { return set[static_cast<std::size_t>(x)]; };
+    if (changed(Setting::feed_mode) || changed(Setting::units)) f.feed.reset(), set[feed_bit] = false;
+    if (changed(Setting::spindle_mode)) f.spindle.reset(), set[spindle_bit] = false;
     for (std::size_t i = 0; i < setting_count; ++i) {
+      if (i == static_cast<std::size_t>(Setting::surface)) continue;  // stays as the routine leaves it
       if (set[i]) f.settings[i] = before.settings[i];
       set[i] = false;
     }
@@ -412,22 +453,27 @@ class Analysis {
 
   void enter_all(const Facts& f) {
     Facts entry = f;
-    if (entry.modal_call != 0) entry.modal_call = -1;
+    if (entry.modal_call_runs()) entry.modal_call = -1;
     for (std::size_t i = 0; i < routines_.size(); ++i) enter(i, entry);
   }
 
   bool modal_call(const Statement& s, const ModalCall& m, Facts& f) {
-    if (m.here && !m.cycle && !m.off) {
-      if (!call(s.id, called(m.call), nullptr, f)) return false;
-    } else if (m.here && !m.off) {
-      f.forget();  // a cycle that runs at once
-    }
     const Facts before = f;
+    if (m.here && m.cycle) f.forget();  // a cycle that runs at once
     apply(s, f, framed_);
     if (m.off || m.cycle) return true;
     take(f, before, ~FactSet(1ULL << cycle_bit | 1ULL << modal_call_bit));
     const Callee callee = called(m.call);
     f.modal_call = callee.known && callee.first == 0 ? static_cast<std::int32_t>(callee.routine) + 1 : -1;
+    return !m.here || run_modal(s.id, callee, f);
+  }
+
+  /// One run of the modal subprogram, which may end the modal call or make another one.
+  bool run_modal(std::uint32_t id, const Callee& callee, Facts& f) {
+    const std::int32_t active = std::exchange(f.modal_call, Facts::in_modal_run);
+    if (!call(id, callee, nullptr, f)) return false;
+    const bool may_change = !callee.known || routines_[callee.routine].changes[modal_call_bit];
+    if (f.modal_call == Facts::in_modal_run) f.modal_call = may_change ? -1 : active;
     return true;
   }
 
@@ -439,9 +485,8 @@ class Analysis {
       f.forget();
       return true;
     }
-    const bool back = call(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, nullptr, f);
     f.modal_call = active;
-    return back;
+    return run_modal(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, f);
   }
 
   struct RangeEnd {
@@ -465,6 +510,7 @@ class Analysis {
   std::unordered_map<std::size_t, LabelTable> labels_;
   std::unordered_map<std::uint32_t, RangeEnd> range_ends_;
   std::vector<std::size_t> modal_targets_;
+  std::vector<bool> inside_modal_;  ///< by routine
   CyclesUsed cycles_;
   std::array<Facts, 4> probes_;
   FrameReach framed_;

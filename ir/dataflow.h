@@ -33,6 +33,10 @@ struct Facts {
   static constexpr std::uint32_t several_cycles = ~std::uint32_t{0};
   /// Routine that a modal call in force runs after motions: its index + 1; 0: no modal call; -1: unknown.
   std::int32_t modal_call = 0;
+  /// modal_call within a run of the modal subprogram: no further one is started, and the one in force stays so.
+  static constexpr std::int32_t in_modal_run = -2;
+  /// A motion may run a modal subprogram here.
+  [[nodiscard]] bool modal_call_runs() const { return modal_call != 0 && modal_call != in_modal_run; }
 
   /// Nothing is known any more (reachable stays, and spindle 1 where none was chosen).
   void forget();

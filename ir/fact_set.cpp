@@ -1,6 +1,30 @@
 #include "ir/fact_set.h"
 
+#include <algorithm>
+
+#include "ir/cycles/pattern.h"
+
 namespace cnctrans::ir::detail {
+
+bool path_words(const Block& b) {
+  if (b.has_motion && b.motion.explicit_code) return true;
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+  });
+}
+
+bool has_pattern(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* c = std::get_if<CycleDefine>(&a.data);
+    const auto* named = c != nullptr && c->cycle ? std::get_if<NamedCycle>(&c->cycle->node) : nullptr;
+    return named != nullptr && !c->modal && c->here && cycles::find_pattern(named->name) != nullptr;
+  });
+}
+
+bool is_tool_datum(Datum d) {
+  return d == Datum::tool_length || d == Datum::tool_radius || d == Datum::tool_wear || d == Datum::tool_nose ||
+         d == Datum::tool_nose_width || d == Datum::part_count || d == Datum::cycle_time;
+}
 
 FactSet differing(const Facts& a, const Facts& b) {
   FactSet set;
@@ -76,6 +100,29 @@ std::optional<std::uint32_t> turned_by(const FrameChange& c) {
   return space & ~(1U << c.rotation_axis);
 }
 
+/// Something may write the offsets while the program runs: the program itself, or a routine that is not at hand.
+bool rows_change(const Program& program) {
+  bool found = false;
+  const auto unknown = [&](const CallRoutine& c) { return c.computed || program.find(c.routine) == nullptr; };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* c = std::get_if<CallRoutine>(&s.node)) found = found || unknown(*c);
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) found = found || (!m->off && !m->cycle && unknown(m->call));
+      if (const auto* p = std::get_if<Repeat>(&s.node)) found = found || (p->has_program && !program.find(p->program));
+      if (const auto* a = std::get_if<Assign>(&s.node)) {
+        for (const auto& item : a->items) found = found || (item.to_system && !is_tool_datum(item.system.datum));
+      }
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& action : b->actions) {
+        const auto* f = std::get_if<FrameOp>(&action.data);
+        found = found || (f != nullptr && (!f->change || f->change->combine == FrameCombine::preset));
+      }
+    });
+  }
+  return found;
+}
+
 }  // namespace
 
 FrameReach frame_reach(const Program& program, const ModalState& power_on) {
@@ -102,6 +149,11 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
   planes |= in_plane(power_on.plane);
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* assign = std::get_if<Assign>(&s.node)) {
+        for (const auto& item : assign->items) {
+          if (item.to_system && item.value && item.value->type == Type::frame) axes = all;
+        }
+      }
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) return;
       for (const auto& a : b->actions) {
@@ -111,7 +163,7 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
       }
     });
   }
-  return {turns ? axes | planes : axes, power_on.work_offset != 0};
+  return {turns ? axes | planes : axes, power_on.work_offset != 0, rows_change(program)};
 }
 
 }  // namespace cnctrans::ir::detail

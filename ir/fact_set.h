@@ -31,10 +31,21 @@ struct FrameReach {
   /// A preset is part of the work offset, which this machine has in force from the beginning: while the offsets are
   /// off, it says nothing of where the tool is.
   bool presets_by_offset = false;
+  /// A row of the work offset table, or what is added to it, may change while the program runs: selecting the row that
+  /// is in force already moves the coordinates.
+  bool rows_change = true;
 };
 FrameReach frame_reach(const Program& program, const ModalState& power_on);
 /// ir::apply() in a program where frame statements reach these axes only.
 void apply(const Statement& statement, Facts& facts, const FrameReach& framed);
+
+/// F, S or a bare motion code: such a block runs a cycle called at each motion, and on some machines a modal
+/// subprogram.
+bool path_words(const Block& b);
+/// The block is carried out at the points of a pattern, and ends at one of them.
+bool has_pattern(const Block& b);
+/// Data of a tool: programmed positions are those of its tip, whatever they are.
+bool is_tool_datum(Datum d);
 
 /// Which facts differ.
 FactSet differing(const Facts& a, const Facts& b);

@@ -25,6 +25,16 @@ MotionKind left_in_force(MotionKind k) {
   return once ? MotionKind::linear : k;
 }
 
+/// A cycle with speeds of its own leaves the last of them in force, once it has run.
+void speeds(const HoleCycle& hole, Facts& f, bool runs_now) {
+  for (const auto& [given, value] :
+       {std::pair(hole.has_speed, &hole.speed), std::pair(hole.has_speed_out, &hole.speed_out)}) {
+    if (!given) continue;
+    const auto speed = known(*value);
+    f.spindle = runs_now || f.spindle == speed ? speed : std::nullopt;
+  }
+}
+
 class Transfer {
  public:
   explicit Transfer(Facts& facts, const detail::FrameReach& framed = {}, std::uint32_t id = 0)
@@ -35,7 +45,8 @@ class Transfer {
       if (a.order != Order::after && !leaves_path_alone(a)) std::visit(*this, a.data);
     }
     if (b.has_motion) motion(b);
-    if (runs_here_ || (b.has_motion && b.motion.moves())) cycle_moves();
+    if (runs_here_ || (b.has_motion && b.motion.moves()) || detail::path_words(b)) cycle_moves();
+    if (detail::has_pattern(b)) forget_positions();
     for (const auto& a : b.actions) {
       // A word kept as text that acts behind the block says something of the tool, not of the path.
       if (a.order == Order::after && !std::holds_alternative<OpaqueWord>(a.data)) std::visit(*this, a.data);
@@ -95,7 +106,7 @@ class Transfer {
     const auto row = x.off ? std::optional(0.0) : known(x.index);
     std::optional<std::int32_t> offset;
     if (row && std::fabs(*row) < 1e6) offset = saturate<std::int32_t>(std::round(*row));
-    if (!offset || offset != f_.work_offset) forget_positions();
+    if (!offset || offset != f_.work_offset || framed_.rows_change) forget_positions();
     f_.work_offset = offset;
   }
   /// Presetting says where the tool is; any other frame change moves the coordinates under it.
@@ -114,6 +125,7 @@ class Transfer {
   void operator()(const CycleDefine& x) {
     const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
     const bool plain_hole = hole != nullptr && cycles::ends_over_its_place(*hole, x.here && !x.modal);
+    if (hole != nullptr) speeds(*hole, f_, x.here);
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
     if (x.here && plain_hole) hole_here_ = hole;  // its retract plane may stand behind it in the block
@@ -227,6 +239,7 @@ class Transfer {
     if (!plain && m.coords.empty() && kind != std::nullopt && !ends_at_words(kind)) return forget_positions();
     const auto before = f_.position;
     for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);
+    if (m.extra && !m.extra->computed.empty()) forget_positions();  // the axis is known to the run only
     if (m.extra) extra(*m.extra, m);
     if (m.extra && m.extra->has_line_angle && plain && b.repeat_given == 0) by_angle(*m.extra, m, before);
     if (m.extra && m.extra->has_angle && plain && b.repeat_given == 0) by_opening(*m.extra, m, kind, before);
@@ -374,17 +387,11 @@ class Transfer {
   bool pocket_ = false;
 };
 
-/// Data of a tool: programmed positions are those of its tip, whatever they are.
-bool is_tool_datum(Datum d) {
-  return d == Datum::tool_length || d == Datum::tool_radius || d == Datum::tool_wear || d == Datum::tool_nose ||
-         d == Datum::tool_nose_width || d == Datum::part_count || d == Datum::cycle_time;
-}
-
 void assign(const Assign& a, Facts& f) {
   for (const auto& it : a.items) {
     if (!it.to_system || it.system.datum == Datum::axis_feed) continue;
     // A machine datum may be an offset or a frame: what depends on them is no longer known. F and S are words only.
-    if (!is_tool_datum(it.system.datum)) Transfer(f).forget_positions();
+    if (!detail::is_tool_datum(it.system.datum)) Transfer(f).forget_positions();
     if (it.system.datum == Datum::other) f.work_offset.reset();
     if (it.system.datum == Datum::diameter_on) {
       const auto value = constant_value(it.value);
@@ -414,7 +421,7 @@ void apply(const Statement& statement, Facts& facts) {
 void detail::apply(const Statement& statement, Facts& facts, const FrameReach& framed) {
   if (const auto* b = std::get_if<Block>(&statement.node)) {
     Transfer(facts, framed, statement.id).block(*b);
-    if (facts.modal_call != 0 && b->has_motion && b->motion.moves()) facts.forget();
+    if (facts.modal_call_runs() && b->has_motion && b->motion.moves()) facts.forget();
   } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
     assign(*a, facts);
   } else if (const auto* o = std::get_if<Opaque>(&statement.node)) {
@@ -426,6 +433,8 @@ void detail::apply(const Statement& statement, Facts& facts, const FrameReach& f
   } else if (const auto* r = std::get_if<Repeat>(&statement.node)) {
     if (r->has_program || r->first.computed || r->last.computed) facts.forget();
   } else if (const auto* m = std::get_if<ModalCall>(&statement.node)) {
+    const auto* turned = m->cycle ? std::get_if<HoleCycle>(&m->cycle->node) : nullptr;
+    if (turned != nullptr) speeds(*turned, facts, m->here);
     if (m->off && m->here) {  // a modal cycle stays in force
       facts.modal_call = 0;
       return;
@@ -479,8 +488,12 @@ bool join(Facts& facts, const Facts& other) {
   changed |= narrow(facts.spindle, other.spindle);
   changed |= narrow(facts.master, other.master);
   changed |= narrow_cycle(facts, other);
-  if (facts.modal_call != other.modal_call && facts.modal_call != -1) {
-    facts.modal_call = -1;
+  const bool none_runs = !facts.modal_call_runs() && !other.modal_call_runs();
+  const std::int32_t joined = facts.modal_call == other.modal_call ? facts.modal_call
+                              : none_runs                          ? Facts::in_modal_run
+                                                                   : -1;
+  if (facts.modal_call != joined && facts.modal_call != -1) {
+    facts.modal_call = joined;
     changed = true;
   }
   return changed;
