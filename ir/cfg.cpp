@@ -23,17 +23,6 @@ void add_ids(Ids& ids, const Ids& more) {
   for (const auto id : more) add_id(ids, id);
 }
 
-bool runs_at_least_once(const ExprPtr& count) {
-  if (!count) return true;
-  const auto value = constant_value(count);
-  return value && *value >= 1;
-}
-bool runs_once_at_most(const ExprPtr& count) {
-  if (!count) return true;
-  const auto value = constant_value(count);
-  return value && *value <= 1;
-}
-
 /// Blocks of the routine are run from another one, or nobody knows which: its ranges have other ends too.
 bool run_in_part_elsewhere(const Program& program, const Routine& routine) {
   bool found = false;
@@ -117,7 +106,7 @@ class Builder {
       const auto range = labels().range(r, labels().order(s->id));
       if (!range) continue;
       const auto& [first, last] = *range;
-      Range range_of{s->id, first.statement, line_end(last.statement), !runs_once_at_most(r.count)};
+      Range range_of{s->id, first.statement, line_end(last.statement), !detail::runs_once_at_most(r.count)};
       if (r.search != Search::whole_first && jumps_past(range_of)) {
         for (const auto& site : labels().all(r.last.text, r.last.is_number)) {
           if (site.order > last.order && site.part == SitePart::statement)
@@ -348,7 +337,7 @@ class Builder {
     }
     // Up to this statement: the range comes back here by itself, and goes on after the last time.
     const bool comes_back_here = known_range && r.last.text.empty();
-    if (r.has_program || !known_range || comes_back_here || !runs_at_least_once(r.count)) add_ids(out, next);
+    if (r.has_program || !known_range || comes_back_here || !detail::runs_at_least_once(r.count)) add_ids(out, next);
   }
 
   /// Where a jump to a label continues.

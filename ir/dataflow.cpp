@@ -8,6 +8,7 @@
 #include "ir/cycles/hole.h"
 #include "ir/fact_set.h"
 #include "ir/labels.h"
+#include "ir/modal_runs.h"
 #include "ir/nesting.h"
 #include "ir/skip_stretches.h"
 
@@ -15,28 +16,6 @@ namespace cnctrans::ir {
 namespace {
 
 using namespace detail;
-
-bool moves(const Statement& s) {
-  const auto* b = std::get_if<Block>(&s.node);
-  return b != nullptr && ((b->has_motion && b->motion.moves()) || has_pattern(*b));
-}
-
-/// A block of F, S or a bare motion code: some machines run a modal subprogram there as well.
-bool may_run_modal_call(const Statement& s) {
-  const auto* b = std::get_if<Block>(&s.node);
-  return b != nullptr && path_words(*b);
-}
-
-bool more_than_once(const ExprPtr& count) {
-  if (!count) return false;
-  const auto n = constant_value(count);
-  return !n || *n > 1;
-}
-bool maybe_never(const ExprPtr& count) {
-  if (!count) return false;
-  const auto n = constant_value(count);
-  return !n || *n < 1;
-}
 
 class Analysis {
  public:
@@ -101,7 +80,7 @@ class Analysis {
       if (callee.known) modal_targets_.push_back(callee.routine);
       modal_unknown_ |= !callee.known;
     }
-    find_inside_modal();
+    inside_modal_ = run_modally(program_, modal_targets_);
     framed_ = frame_reach(program_, power_on_);
     probes_ = probes(cycles_);
     find_changes();
@@ -185,25 +164,6 @@ class Analysis {
     }
     c.known = c.routine != nowhere;
     return c;
-  }
-
-  /// Routines that a modal subprogram is or calls: within its run no further one is started.
-  void find_inside_modal() {
-    inside_modal_.assign(routines_.size(), false);
-    std::vector<std::size_t> open = modal_targets_;
-    while (!open.empty()) {
-      const std::size_t routine = open.back();
-      open.pop_back();
-      if (inside_modal_[routine]) continue;
-      inside_modal_[routine] = true;
-      for_each_statement(program_.routines[routine].body, [&](const Statement& s) {
-        std::size_t callee = nowhere;
-        if (const auto* c = std::get_if<CallRoutine>(&s.node)) callee = find_routine(c->routine);
-        if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program)
-          callee = find_routine(r->program);
-        if (callee != nowhere) open.push_back(callee);
-      });
-    }
   }
 
   // --- what a routine can change ------------------------------------------------------------------------------------
@@ -380,7 +340,7 @@ class Analysis {
     if (entry.modal_call_runs()) entry.modal_call = -1;  // whether it goes on in the callee is the machine's affair
     const Facts at_exit = outcome(id, callee, entry);
     if (!at_exit.reachable) return false;
-    if (more_than_once(count)) {
+    if (!runs_once_at_most(count)) {
       Facts again = at_exit;
       if (callee.first == 0) {
         if (program_.routines[callee.routine].saves_modals) {  // each pass gives the modal state back
@@ -394,7 +354,7 @@ class Analysis {
       }
     }
     take(f, at_exit, kept_changes(callee.routine, before, f));
-    if (maybe_never(count)) join(f, before);
+    if (!runs_at_least_once(count)) join(f, before);
     return true;
   }
 
@@ -510,7 +470,7 @@ class Analysis {
   std::unordered_map<std::size_t, LabelTable> labels_;
   std::unordered_map<std::uint32_t, RangeEnd> range_ends_;
   std::vector<std::size_t> modal_targets_;
-  std::vector<bool> inside_modal_;  ///< by routine
+  std::vector<bool> inside_modal_;  ///< by routine: within its run no modal subprogram is started
   CyclesUsed cycles_;
   std::array<Facts, 4> probes_;
   FrameReach framed_;

@@ -26,6 +26,15 @@ bool is_tool_datum(Datum d) {
          d == Datum::tool_nose_width || d == Datum::part_count || d == Datum::cycle_time;
 }
 
+void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now) {
+  for (const auto& [given, value] :
+       {std::pair(hole.has_speed, &hole.speed), std::pair(hole.has_speed_out, &hole.speed_out)}) {
+    if (!given) continue;
+    const auto speed = value->literal() ? std::optional(value->number) : constant_value(value->expr);
+    f.spindle = runs_now || f.spindle == speed ? speed : std::nullopt;
+  }
+}
+
 FactSet differing(const Facts& a, const Facts& b) {
   FactSet set;
   for (std::size_t i = 0; i < setting_count; ++i) set[i] = a.settings[i] != b.settings[i];

@@ -47,6 +47,9 @@ bool has_pattern(const Block& b);
 /// Data of a tool: programmed positions are those of its tip, whatever they are.
 bool is_tool_datum(Datum d);
 
+/// A cycle with speeds of its own leaves the last of them in force, once it has run.
+void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now);
+
 /// Which facts differ.
 FactSet differing(const Facts& a, const Facts& b);
 /// The facts of `from` that are in `set` replace those of `facts`.

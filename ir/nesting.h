@@ -39,4 +39,16 @@ inline std::size_t line_end(const Body& b, std::size_t i) {
   return i;
 }
 
+/// By the count of a call or a repeat; none: once.
+inline bool runs_at_least_once(const ExprPtr& count) {
+  if (!count) return true;
+  const auto value = constant_value(count);
+  return value && *value >= 1;
+}
+inline bool runs_once_at_most(const ExprPtr& count) {
+  if (!count) return true;
+  const auto value = constant_value(count);
+  return value && *value <= 1;
+}
+
 }  // namespace cnctrans::ir::detail

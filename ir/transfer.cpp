@@ -25,16 +25,6 @@ MotionKind left_in_force(MotionKind k) {
   return once ? MotionKind::linear : k;
 }
 
-/// A cycle with speeds of its own leaves the last of them in force, once it has run.
-void speeds(const HoleCycle& hole, Facts& f, bool runs_now) {
-  for (const auto& [given, value] :
-       {std::pair(hole.has_speed, &hole.speed), std::pair(hole.has_speed_out, &hole.speed_out)}) {
-    if (!given) continue;
-    const auto speed = known(*value);
-    f.spindle = runs_now || f.spindle == speed ? speed : std::nullopt;
-  }
-}
-
 class Transfer {
  public:
   explicit Transfer(Facts& facts, const detail::FrameReach& framed = {}, std::uint32_t id = 0)
@@ -125,7 +115,7 @@ class Transfer {
   void operator()(const CycleDefine& x) {
     const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
     const bool plain_hole = hole != nullptr && cycles::ends_over_its_place(*hole, x.here && !x.modal);
-    if (hole != nullptr) speeds(*hole, f_, x.here);
+    if (hole != nullptr) detail::take_speeds(*hole, f_, x.here);
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
     if (x.here && plain_hole) hole_here_ = hole;  // its retract plane may stand behind it in the block
@@ -434,7 +424,7 @@ void detail::apply(const Statement& statement, Facts& facts, const FrameReach& f
     if (r->has_program || r->first.computed || r->last.computed) facts.forget();
   } else if (const auto* m = std::get_if<ModalCall>(&statement.node)) {
     const auto* turned = m->cycle ? std::get_if<HoleCycle>(&m->cycle->node) : nullptr;
-    if (turned != nullptr) speeds(*turned, facts, m->here);
+    if (turned != nullptr) detail::take_speeds(*turned, facts, m->here);
     if (m->off && m->here) {  // a modal cycle stays in force
       facts.modal_call = 0;
       return;
