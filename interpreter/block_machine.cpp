@@ -19,6 +19,8 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   const auto is = [&profile](std::string_view option, std::string_view value) {
     return profile.option(option) == value;
   };
+  const std::string change = profile.option(profile.dialect + ".tool_change");
+  tool_came_with_t_ = !change.empty() && change != "m6";
   policy_.cycle_rapid = is("cycle.positioning", "rapid");
   policy_.modal_words = is("call.modal_words", "yes");
   policy_.rotary_triggers = is("cycle.rotary_triggers", "yes");
@@ -118,7 +120,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   };
   marks_ = b.actions.empty() ? ir::contour::Marks{} : ir::contour::marks_of(b);
   if (b.actions.empty()) {
-    pattern_here_ = false;
+    pattern_here_ = cycle_defined_here_ = false;
     if (axis_word() || (b.has_motion && !motion(b, with_cycle))) return false;
     if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;

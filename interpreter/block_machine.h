@@ -400,7 +400,7 @@ class BlockMachine final : public SystemData {
   enum class OffsetUse : std::uint8_t { open, none, some };
   OffsetUse offset_use_ = OffsetUse::open;
   bool bare_tool_ = false;         ///< no D since its T
-  bool tool_came_with_t_ = false;  ///< the tool selected last was changed by its T: M6 has nothing left to do
+  bool tool_came_with_t_ = false;  ///< T changes the tool: M6 has nothing left to do
   std::string tool_name_;
   Vec pole_;
   bool pole_set_ = false;               ///< by the program, not the zero point of the plane

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "interpreter/run_codes.h"
 #include "ir/passes/given_data.h"
 #include "machine/data_at_rest.h"
 #include "translator/coverage.h"
@@ -70,11 +71,14 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
   }
   const bool source_stopped = !source_ended && stops_at(source, d.source_file, d.source_line);
   const bool target_refused = !target_ended && target.events.size() < 2;
-  const bool stopped = verdict.status == verifier::Status::differs && (source_stopped || target_refused);
+  // A datum of the machine that nobody gives, under the target's name.
+  const bool lacks_datum = source_ended && target.result.error_code == interpreter::code::no_datum &&
+                           stops_at(target, d.target_file, d.target_line);
+  const bool stopped = verdict.status == verifier::Status::differs && (source_stopped || target_refused || lacks_datum);
   if ((verdict.good() || stopped) && (!source_ended || !target_ended)) {
     verdict.status = verifier::Status::not_replayable;
     const auto& bad = source_ended ? target.result : source.result;
-    verdict.target_stopped = source_ended && target.events.size() > 1;
+    verdict.target_stopped = source_ended && target.events.size() > 1 && !lacks_datum;
     verdict.reason = std::string(source_ended ? "the translation" : "the source") + " stopped before its end (" +
                      std::string(interpreter::name(bad.reason)) +
                      (bad.error_text.empty() ? "" : ": " + bad.error_text) + ")";

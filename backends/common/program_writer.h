@@ -18,6 +18,7 @@
 #include "backends/common/style.h"
 #include "ir/dataflow.h"
 #include "ir/file_line.h"
+#include "ir/hole_points.h"
 
 namespace cnctrans::backends {
 
@@ -159,6 +160,8 @@ class ProgramWriter {
   // ---- what is known --------------------------------------------------------------------------------------------
   /// Facts before the statement being written (an analysis of the whole program, made when first asked).
   [[nodiscard]] const ir::Facts* facts();
+  /// The present block where the target goes to holes in rapid by itself.
+  [[nodiscard]] ir::HolePoint point_in_rapid();
   /// A modal setting before the motion of the statement being written, when it is known.
   [[nodiscard]] std::optional<std::uint8_t> setting(ir::Setting s);
   void note_setting(ir::Setting s, std::uint8_t value);

@@ -131,22 +131,14 @@ bool unknown_fall(const Style& style, const ir::Motion& m) {
          !m.extra->lead_change.literal();
 }
 
-/// A point of a hole cycle. A control that goes there in rapid, whichever motion function is in force, needs none: not
-/// the one, either, that comes back behind a code that was written for a single move.
-template <class Before>
-bool is_hole(const ir::Statement& s, const ir::Motion& m, const Before& before) {
-  const auto* block = std::get_if<ir::Block>(&s.node);
-  const auto* define = block != nullptr ? ir::action_in<ir::CycleDefine>(*block) : nullptr;
-  if (define != nullptr)
-    return define->here && define->cycle && std::holds_alternative<ir::HoleCycle>(define->cycle->node);
-  const ir::Facts* f = before();
-  if (f == nullptr || !f->cycle_active_known || !f->cycle_active || !f->cycle_is_hole) return false;
-  const auto plane = f->settings[static_cast<std::size_t>(ir::Setting::plane)];
-  const ir::AxisId along = plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::none;
-  return plane && std::none_of(m.coords.begin(), m.coords.end(), [along](const auto& c) { return c.axis == along; });
-}
-
 }  // namespace
+
+ir::HolePoint ProgramWriter::point_in_rapid() {
+  const auto* block = current_ != nullptr ? std::get_if<ir::Block>(&current_->node) : nullptr;
+  if (block == nullptr || profile().option("cycle.positioning") != "rapid") return ir::HolePoint::no;
+  const ir::Facts* f = facts();
+  return f != nullptr ? ir::hole_point(*block, *f) : ir::HolePoint::no;
+}
 
 void ProgramWriter::motion(const ir::Motion& m) {
   if (const std::string_view what = own_motion(m); !same_dialect_ && !what.empty()) {
@@ -177,8 +169,10 @@ void ProgramWriter::motion(const ir::Motion& m) {
   } else if (m.moves()) {
     const MotionTracker seen = tracker_;
     auto kind = tracker_.needed(std::nullopt);
-    if (kind && !same_dialect_ && current_ != nullptr && profile().option("cycle.positioning") == "rapid" &&
-        is_hole(*current_, m, [this] { return facts(); })) {
+    // A control that goes to its holes in rapid needs no code there: not the one, either, that comes back behind a code
+    // that was written for a single move.
+    const auto point = kind && !same_dialect_ ? point_in_rapid() : ir::HolePoint::no;
+    if (point == ir::HolePoint::yes) {
       tracker_ = seen;
       kind.reset();
     }
@@ -192,6 +186,13 @@ void ProgramWriter::motion(const ir::Motion& m) {
     if (kind == ir::MotionKind::modal) {
       return refuse("TRN-216", {}, "the motion code in force here is not known, and the target needs one",
                     "write G0, G1, G2 or G3 in this block");
+    }
+    if (point == ir::HolePoint::perhaps && kind && kind != ir::MotionKind::rapid) {
+      return refuse(
+          "TRN-216", {},
+          "the target needs the motion code again here, which no hole of a cycle takes, and whether a cycle is "
+          "active depends on the path that leads here",
+          "write G0 or G1 in this block, or cancel the cycle on every path");
     }
     if (kind) add(std::string(motion_code(style_, *kind)), Rank::motion_code);
   }

@@ -149,25 +149,17 @@ void words(ir::Capabilities& c, bool lathe) {  // ch. 3..8, 10, 11
   c.gear_needed = false;
 }
 
-bool at_origin(const ir::FrameChange& at) {
-  for (const auto& w : at.words) {
-    if (w.pos.column != 0 || !w.value.is(0)) return false;
-  }
-  return !at.words.empty();
-}
-
 }  // namespace
 
 bool stands_alone(const ir::Action& a) {
   if (std::holds_alternative<ir::WorkOffset>(a.data) || std::holds_alternative<ir::SpindleLimit>(a.data) ||
-      std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::Dwell>(a.data)) {
+      std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::Dwell>(a.data) ||
+      std::holds_alternative<ir::PoleSet>(a.data)) {
     return true;
   }
   if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data)) {
     return s->surface != ir::Surface::none;
   }
-  // A pole at the origin beside a plane is said by the plane itself.
-  if (const auto* p = std::get_if<ir::PoleSet>(&a.data)) return !p->at || !at_origin(*p->at);
   const auto* f = std::get_if<ir::FrameOp>(&a.data);
   return f != nullptr && f->change && f->change->slot != FrameSlot::mirror;
 }

@@ -186,7 +186,6 @@ bool Writer::implied(const ir::Action& a) {
     return sets(a, ir::Setting::comp) || sets(a, ir::Setting::distance);  // ch. 9: how the cycle leaves
   if (const auto* s = std::get_if<ir::SurfaceSet>(&a.data); s != nullptr && s->surface == ir::Surface::none)
     return same_dialect();  // by the plane or the spindle function
-  if (holds<ir::PoleSet>(a)) return plane && !stands_alone(a);
   const bool home =
       block_->has_motion &&
       (block_->motion.kind == ir::MotionKind::reference_point || block_->motion.kind == ir::MotionKind::probe_toward ||

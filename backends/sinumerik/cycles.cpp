@@ -302,6 +302,14 @@ std::string_view mill(const HoleCycle& c, Arguments& args) {
   return {};
 }
 
+/// The plane to go back to lies beyond the reference plane: the cycle takes RTP for the side of the tool.
+bool retracts_into_hole(const HoleCycle& c) {
+  const auto number = [](const Level& l) { return l.given && l.base == LevelBase::absolute && l.value.literal(); };
+  if (!number(c.retract) || !number(c.reference) || !number(c.bottom)) return false;
+  const double out = c.reference.value.number - c.bottom.value.number;
+  return (c.retract.value.number - c.reference.value.number) * out < 0;
+}
+
 /// Name of the standard cycle and its arguments; empty: it can't be said exactly.
 std::string_view arguments(const HoleCycle& c, Arguments& args) {
   const bool taps = c.kind == HoleKind::tap || c.kind == HoleKind::tap_floating;
@@ -313,6 +321,7 @@ std::string_view arguments(const HoleCycle& c, Arguments& args) {
   if (c.axis != ir::axis::none && (!named || c.axis > ir::axis::z)) return {};
   if (c.axis != ir::axis::none && c.kind != HoleKind::mill) args["AXN"] = Value(c.axis + 1);  // milling: by its DMODE
   if (!c.retract.given || c.retract.base != LevelBase::absolute) return {};
+  if (retracts_into_hole(c)) return {};
   args["RTP"] = c.retract.value;
   if (!planes(c, args) || !bottom(c, args)) return {};
   if (taps) return tap(c, args);

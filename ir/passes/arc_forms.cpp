@@ -54,12 +54,14 @@ bool ArcPass::through_point(Arc& arc) {
   if (m.extra) {
     for (const auto& w : m.extra->through) {
       for (std::size_t i = 0; i < 2; ++i) {
-        if (w.axis != arc.axis[i] || !w.value.literal()) continue;
+        if (w.axis != arc.axis[i]) continue;
         const bool relative = w.mode == CenterMode::from_start ||
                               (w.mode == CenterMode::follows_distance && arc.distance != Distance::absolute);
         const auto f = to_radius(w.axis, w.scale, relative ? Distance::incremental : Distance::absolute, arc.b,
                                  arc.facts, context_.source_machine);
-        mid[i] = f ? std::optional(w.value.number * *f + (relative && arc.start[i] ? *arc.start[i] : 0)) : std::nullopt;
+        mid[i] = f && w.value.literal()
+                     ? std::optional(w.value.number * *f + (relative && arc.start[i] ? *arc.start[i] : 0))
+                     : std::nullopt;
       }
     }
   }

@@ -36,7 +36,9 @@ class FeedPass {
       same = same && now.slots[i].same;
       none = none || now.slots[i].maybe_none;
       given = given || now.slots[i].maybe_given;
-      differs = differs || (!now.slots[i].same && !now.slots[i].maybe_none);
+      // A hole is drilled on the ways that have an F, whatever the others have.
+      const bool none_here = now.slots[i].maybe_none && (cuts || !now.slots[i].maybe_given);
+      differs = differs || (!now.slots[i].same && !none_here);
       value = mode ? now.slots[i].value : std::nullopt;
     }
     if (!cuts && !differs) return;
@@ -46,7 +48,7 @@ class FeedPass {
       b->actions.insert(b->actions.begin(), action(SetFeed{Value{*value}, false}));
       return;
     }
-    if (point == FeedPoint::perhaps) return;
+    if (point == FeedPoint::perhaps && facts.modal_call != 0) return;  // of a subprogram that is not at hand
     context_.diagnostics.error(
         "TRN-158", s.line.span,
         mode == static_cast<std::uint8_t>(FeedMode::inverse_time)

@@ -122,7 +122,11 @@ class FramePass {
         first.reset();
         const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
         const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
-        auto same = pending_ || begun ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
+        // A preset that the source keeps out of force with its work offsets would act at once on the target.
+        const bool kept_off = f->change->slot == FrameSlot::preset && state.preset_waits() &&
+                              context_.target_machine.option("frame.preset") != "with_work_offset";
+        auto same =
+            pending_ || begun || kept_off ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
         // Where nothing is turned yet, a turn on top of it is the turn.
         if (same && same->slot == FrameSlot::rotation && same->combine == FrameCombine::replace &&
             same->words.empty() && !same->angle.is(0) && !target_.part(before).turns() &&

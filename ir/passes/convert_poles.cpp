@@ -29,36 +29,36 @@ class PolePass {
   }
 
   // A domain of FlowStates: the pole before each statement.
-  struct Pole : Point2 {
-    bool set = false;    ///< by the program: on some controls it stays in its place when the zero point moves
-    bool stale = false;  ///< the zero point has moved since
-    bool operator==(const Pole&) const = default;
+  struct State {
+    std::optional<Point2> at;
+    bool set = false;    ///< by the program, on some way: some controls leave it in its place when the zero point moves
+    bool stale = false;  ///< the zero point has moved since, on some way
+    bool operator==(const State&) const = default;
   };
-  using State = std::optional<Pole>;
   [[nodiscard]] static State start(const Routine& r, bool called) {
-    return r.kind == RoutineKind::main && !called ? State(Pole{}) : std::nullopt;
+    return r.kind == RoutineKind::main && !called ? State{Point2{}} : State{};
   }
   void transfer(const Statement& s, State& state) const {
     const auto* b = std::get_if<Block>(&s.node);
     if (!changes(s)) return;
-    if (b == nullptr) return state.reset();
+    if (b == nullptr) return unknown(state);
     PolePass dry = *this;
     dry.quiet_ = true;
-    dry.pole_ = state;
+    dry.before(state);
     Statement copy = s;
     dry.block(copy, std::get<Block>(copy.node));
-    state = dry.pole_;
+    state = {dry.pole_, dry.set_, dry.stale_};
   }
   [[nodiscard]] bool touches(const Routine& r) const {
     bool found = false;
     for_each_statement(r.body, [&](const Statement& s) { found = found || changes(s); });
     return found;
   }
-  static void unknown(State& state) { state.reset(); }
+  static void unknown(State& state) { state.at.reset(); }
   static bool join(State& a, const State& b) {
-    if (!a || a == b) return false;
-    a.reset();
-    return true;
+    const State before = a;
+    a = {a.at == b.at ? a.at : std::nullopt, a.set || b.set, a.stale || b.stale};
+    return !(a == before);
   }
 
   void routine(Routine& r, const FlowStates<PolePass>& states, const FlowStates<RadiusDomain>& radii) {
@@ -83,6 +83,7 @@ class PolePass {
                     (m != nullptr && (m->setting == Setting::plane || m->setting == Setting::units));
            });
   }
+  void before(const State& state) { pole_ = state.at, set_ = state.set, stale_ = state.stale; }
   bool zero_counts() const { return stays_ != target_stays_; }
   void forget_point() {
     led_ = {};
@@ -102,7 +103,8 @@ class PolePass {
         if (uses_.is_target(l) || uses_.computed) forget_way();
       }
       const State* before = states_->before(s);
-      pole_ = before == nullptr ? std::nullopt : *before ? *before : way_;
+      this->before(before != nullptr ? *before : State{});
+      if (before != nullptr && !pole_) pole_ = way_;
       if (auto* b = std::get_if<Block>(&s.node)) {
         block(s, *b);
         way_ = s.line.skip_mask == 0 && !modal_ ? pole_ : std::nullopt;
@@ -143,7 +145,7 @@ class PolePass {
       }
       if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::units)
         in_other_units(setting<Units>(facts, Setting::units), static_cast<Units>(m->value));
-      if (zero_counts() && moves_zero(a) && pole_ && pole_->set) pole_->stale = true;
+      if (zero_counts() && moves_zero(a) && set_) stale_ = true;
       if (const auto* p = std::get_if<PoleSet>(&a.data)) {
         place = a.pos;
         forget_radius();
@@ -159,10 +161,10 @@ class PolePass {
     polar_arc_done_ = is_polar_arc(b, facts);
     const bool about = is_polar_line(b, facts) || (polar_arc_done_ && b.motion.centers.empty());
     const auto whole = factors(b, facts, Distance::absolute);
-    if (about && pole_ && pole_->stale && !stays_ && whole) {  // the target's stayed behind
+    if (about && pole_ && stale_ && !stays_ && whole) {  // the target's stayed behind
       if (context_.target.polar) b.actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, whole->u, whole->v)}));
-      pole_->stale = false;
-    } else if (about && pole_ && pole_->stale)
+      stale_ = false;
+    } else if (about && stale_)
       problem = "the pole, which stays in its place when the zero point moves,";
     if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts))
       problem = "the start or the centre of this arc by polar words";
@@ -219,7 +221,7 @@ class PolePass {
   /// After a plane function: the pole of the source, said again. False: not known.
   bool plane_code(std::vector<Action>& actions) {
     const bool at_zero = pole_ && pole_->u == 0 && pole_->v == 0;
-    if (source_resets_) pole_ = Pole{};
+    if (source_resets_) before(State{Point2{}});
     if (!context_.target.polar) return true;
     if (source_resets_ == target_resets_ || at_zero) return true;
     if (!pole_) return false;
@@ -231,9 +233,9 @@ class PolePass {
   bool pole_set(const PoleSet& p, Action& a, const Block& b, const Facts& facts) {
     const bool relative = p.at && (p.at->combine == FrameCombine::add || p.at->combine == FrameCombine::compose);
     const bool from_last = relative && p.at->combine == FrameCombine::add;
-    const auto base = from_last ? std::optional<Point2>(pole_) : here(facts);
+    const auto base = from_last ? pole_ : here(facts);
     const auto at = plane_ ? place_of(p, *plane_, base, pole_, b, facts, context_.source_machine) : std::nullopt;
-    pole_ = at ? State(Pole{*at, true}) : std::nullopt;
+    before(State{at, true});
     if (!relative) return true;
     bool zero = true;
     for (const auto& w : p.at->words) zero = zero && w.value.is(0);
@@ -468,12 +470,13 @@ class PolePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   LabelUses uses_;
-  State pole_, way_;                     ///< way_: behind the block before, where the dataflow does not know it
+  std::optional<Point2> pole_, way_;     ///< way_: behind the block before, where the dataflow does not know it
   LedPoint led_;                         ///< where polar words have led
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   const FlowStates<RadiusDomain>* radii_ = nullptr;
-  bool other_pole_ = false;  ///< since the last polar words of a line
+  bool set_ = false, stale_ = false;  ///< of State
+  bool other_pole_ = false;           ///< since the last polar words of a line
   bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
   bool polar_arc_done_ = false, modal_ = false, quiet_ = false;  ///< quiet: only following
   std::optional<Plane> plane_;

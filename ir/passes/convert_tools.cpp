@@ -31,7 +31,9 @@ bool sets(const Action& a, Setting s) {
 class ToolChanges {
  public:
   explicit ToolChanges(const LegaliseContext& context)
-      : context_(context), at_once_(changes_on_select(context.target_machine)) {}
+      : context_(context),
+        at_once_(changes_on_select(context.target_machine)),
+        came_with_t_(changes_on_select(context.source_machine)) {}
 
   void block(Statement& s) {
     auto& b = std::get<Block>(s.node);
@@ -102,7 +104,7 @@ class ToolChanges {
   const LegaliseContext& context_;
   bool at_once_;
   bool selected_ = false;
-  bool came_with_t_ = false;
+  bool came_with_t_;  ///< the T before M6 has changed the tool: any T does on a machine that changes at T
   std::optional<Action> pending_;
 };
 

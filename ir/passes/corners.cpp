@@ -7,6 +7,7 @@
 
 #include "ir/geometry.h"
 #include "ir/passes/blocks.h"
+#include "ir/passes/corner_successors.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/path_points.h"
@@ -21,7 +22,11 @@ namespace {
 class CornerPass {
  public:
   CornerPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts), points_(context, facts) {}
+      : program_(program),
+        context_(context),
+        facts_(facts),
+        points_(context, facts),
+        ends_(corner_ends(program, context, facts)) {}
 
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
@@ -154,7 +159,7 @@ class CornerPass {
     auto& b = std::get<Block>(s.node);
     auto& c = std::get<Corner>(b.actions[action].data);
     const WordPos pos = b.actions[action].pos;
-    if (option("corner.without_successor") == "left_out" && stands_alone(body, at)) {
+    if (option("corner.without_successor") == "left_out" && stands_alone(s)) {
       context_.diagnostics.warning(
           "TRN-462", word_span(s.line.span, pos),
           std::string(stays(s, false) ? "this block does not move in the plane and has no corner"
@@ -163,6 +168,7 @@ class CornerPass {
           "take the word out of the source");
       return take_out(s, action);
     }
+    if (option("corner.without_successor") == "left_out") tell_alone(s, pos);
     const auto angle = angle_at(body, at);
     if (option("corner.straight_on") != "refused") {
       if (angle && straight_on(*angle)) {
@@ -172,7 +178,7 @@ class CornerPass {
                                     "none is written");
         return take_out(s, action);
       }
-      if (!angle) tell_unknown(s, pos);
+      if (!angle) tell_unknown(s, pos, following(body, at));
     }
     if (!c.value.literal()) tell_zero(s, pos);
     if (c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0) {
@@ -200,13 +206,17 @@ class CornerPass {
     return std::nullopt;
   }
   /// Whether there is a corner follows from numbers that are not known here, and the target stops where there is none.
-  void tell_unknown(const Statement& s, WordPos pos) {
-    if (told_ || context_.target_machine.option("corner.straight_on") != "refused") return;
-    told_ = true;
-    context_.diagnostics.warning("TRN-651", word_span(s.line.span, pos),
+  /// It does so at the element behind the corner.
+  void tell_unknown(const Statement& s, WordPos pos, const Statement* next) {
+    if (context_.target_machine.option("corner.straight_on") != "refused") return;
+    Span where = word_span(s.line.span, pos);
+    if (next != nullptr && next->line.span.file == where.file && next->line.span.line > where.line) {
+      where.end_line = next->line.span.line;
+      where.end_column = next->line.span.end_column;
+    }
+    context_.diagnostics.warning("TRN-651", where,
                                  "the directions before and behind this corner are not known here: where the path goes "
-                                 "on tangentially, the source's control leaves the corner out and the target stops "
-                                 "(said once a program)",
+                                 "on tangentially, the source's control leaves the corner out and the target stops",
                                  "take the word out where there is no corner");
   }
   /// A computed size: 0 is no corner for the source, and a fault for the target.
@@ -242,17 +252,25 @@ class CornerPass {
 
   [[nodiscard]] std::string option(std::string_view name) const { return context_.source_machine.option(name); }
 
-  /// The corner has no second element: a move outside of the plane, a cycle or the end of the program comes first.
-  bool stands_alone(const Body& body, std::size_t at) const {
-    if (!plane_words(body[at]) || stays(body[at], false)) return true;
-    for (std::size_t j = at + 1; j < body.size(); ++j) {
-      if (std::holds_alternative<End>(body[j].node)) return true;
-      const auto* b = std::get_if<Block>(&body[j].node);
-      if ((b == nullptr && !passes_by(body[j])) || body[j].line.skip_mask != 0) return false;
-      if (b == nullptr || !b->has_motion || !b->motion.moves() || stays(body[j], true)) continue;
-      return !plane_words(body[j]) || stays(body[j], false);
-    }
-    return false;
+  /// The corner has no second element: a move outside of the plane or the end of the program comes first on every way.
+  bool stands_alone(const Statement& s) const {
+    if (!plane_words(s) || stays(s, false)) return true;
+    const auto ends = ends_.find(s.id);
+    return ends != ends_.end() && !ends->second.alone.empty() && !ends->second.followed;
+  }
+  /// On some way it has none.
+  void tell_alone(const Statement& s, WordPos pos) {
+    const auto ends = ends_.find(s.id);
+    if (ends == ends_.end() || context_.target_machine.option("corner.without_successor") == "left_out") return;
+    const auto tell = [this](const Span& where, std::string_view what) {
+      context_.diagnostics.warning(
+          "TRN-656", where,
+          std::string(what) + ": the source's control leaves the corner out then, and the target stops",
+          "let a move in the plane follow the corner on every way");
+    };
+    if (!ends->second.alone.empty())
+      tell(word_span(s.line.span, pos), "on some way no move in the plane follows this corner");
+    for (const auto& where : ends->second.alone) tell(where, "a corner may still wait for a move in the plane here");
   }
   /// The block moves in its plane, or may.
   bool plane_words(const Statement& s) const {
@@ -399,9 +417,10 @@ class CornerPass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   PathPoints points_;
+  std::map<std::uint32_t, CornerEnds> ends_;
   LabelUses uses_;
-  std::optional<Corner> lasting_;          ///< in force
-  bool told_ = false, zero_told_ = false;  ///< tell_unknown(), tell_zero() have spoken
+  std::optional<Corner> lasting_;  ///< in force
+  bool zero_told_ = false;         ///< tell_zero() has spoken
 };
 
 /// Whether there is a corner that the target can't write as it stands.

@@ -19,13 +19,32 @@ bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto w = tool_axis(active_->source, b, facts);
   const bool moves_tool = w && moves_along(b, *w);
   const auto height = in_units(moves_tool ? height_after(b, facts, *w) : active_->height, b, facts);
-  if (hole == nullptr || !height || !hole->retract.given) return false;
+  if (hole == nullptr || !hole->retract.given) return false;
   const auto fixed = [](const Level& l) { return l.base == LevelBase::absolute && l.value.literal(); };
   if (!fixed(hole->retract) || !fixed(hole->reference) || !stands_by_itself(*hole)) return false;
   const double retract = hole->retract.value.number, reference = hole->reference.value.number;
   const double to = fixed(hole->bottom) ? hole->bottom.value.number : reference;
   const double up = retract > to ? 1 : -1;
-  return (retract - *height) * up > 1e-9 && (retract - reference) * up > 1e-9;
+  // It has gone to a height that only the run knows, and the target may come over its retract plane.
+  if (!height && (moves_tool || active_->left_height))
+    return hole->approach_by_retract && (retract - reference) * up > 1e-9;
+  return height && (retract - *height) * up > 1e-9 && (retract - reference) * up > 1e-9;
+}
+
+bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
+  const bool sets = sets_retract_plane(b);
+  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
+  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now(),
+                          &active_->needs);
+  const bool was_native = active_->native != nullptr;
+  const auto w = cycle_axis(*hole, b, facts);
+  const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
+  if (form && !by_call_ && !stands_right(std::get<HoleCycle>((*form)->node), height)) form.reset();
+  if (!back_is_known(*hole, active_->defined_at, b, facts)) form.reset();
+  active_->native = form ? *form : nullptr;
+  lacking_ = lacking_ || !active_->native;
+  return was_native;
 }
 
 bool CyclePass::follow_height(const Block& b, const Facts& facts) {

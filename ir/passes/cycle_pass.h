@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ir/passes/blocks.h"
+#include "ir/passes/cycle_callees.h"
 #include "ir/passes/cycle_words.h"
 #include "ir/passes/lower_cycles.h"
 #include "ir/passes/machining_moves.h"
@@ -15,24 +16,6 @@
 #include "ir/search.h"
 
 namespace cnctrans::ir::passes {
-
-/// Every call has variables of its own there.
-bool local_variable(const Program& program, const VarRef& v);
-
-/// Routines that are called while a cycle is active whose points lie in them: a copy for each cycle.
-struct CycleCallees {
-  struct Copy {
-    std::size_t original = 0;
-    CyclePtr source, native;
-    bool on_target = false, single = false;  ///< before the call
-    Routine routine;
-    bool finished = false;
-    std::optional<double> height_after;
-    bool on_target_after = false, ended_after = false;
-  };
-  std::vector<std::unique_ptr<Copy>> copies;
-  int made = 0;
-};
 
 class CyclePass {
  public:
@@ -119,6 +102,7 @@ class CyclePass {
   void look_for_definitions();
   /// The active cycle of the text is in force on every way to the statement.
   [[nodiscard]] bool sure(const Facts& facts) const;
+  [[nodiscard]] bool surely_on(const Facts& facts) const { return surely_active_ || facts.cycle_active_known; }
   /// A cycle of the target may be in force before a statement with these facts.
   [[nodiscard]] bool old_may_run(const Facts& facts) const;
   /// By the text none is active, and on some way to the block one of this routine is.
@@ -129,6 +113,11 @@ class CyclePass {
   void refuse_other_ways(Statement& s) const;
   [[nodiscard]] bool gives_back(bool reachable) const;  ///< a subprogram, a modal call that it leaves in force
   void leave_while_off(const Statement& s) const;
+  void leave_off() const;  ///< an end of the routine, perhaps with a cycle in force that the target has not
+  /// A block or a call under a cycle that another routine defines, perhaps.
+  void note_foreign(const Statement& s, const Facts& facts) const;
+  /// It changes the plane that a hole of such a cycle goes back to, and the target's cycle names it. True: refused.
+  [[nodiscard]] bool refuse_foreign_plane(Statement& s, Body& out) const;
   /// Where the hole goes back to by G98 or G99, which differ by the way: refused. True: done.
   [[nodiscard]] bool refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& out) const;
   /// The point is reached in rapid under the cycle and by the function in force without it: refused. True: done.
@@ -338,10 +327,12 @@ class CyclePass {
       define_in_block(std::move(s), *definition, std::move(pieces), out);
       return;
     }
+    if (!cancelled) note_foreign(s, facts_.before(s));
     if (active_) {
       point(std::move(s), std::move(pieces), out);
       return;
     }
+    if (!cancelled && (refuse_two_ways(s, out) || refuse_foreign_plane(s, out))) return;
     if (!cancelled && cycle_by_another_way(b, facts_.before(s))) {
       if (bare_point(b, facts_.before(s))) {
         unsure_.push_back(s.line.span);

@@ -47,14 +47,14 @@ void CyclePass::position(Statement&& s, Body& out) {
     out.push_back(std::move(s));
     return;
   }
-  if (active_ && !sure(facts)) {
+  const bool on = active_ && (active_->on_target || active_->maybe_on_target);
+  if (active_ && (!sure(facts) || (on && facts.reachable && !surely_on(facts)))) {
     refuse_other_ways(s);
     out.push_back(std::move(s));
     return;
   }
   Body pieces;
   const LineInfo like = s.line;
-  const bool on = active_ && (active_->on_target || active_->maybe_on_target);
   if (active_) follow_retract_plane(b, facts);
   if (on) pieces.push_back(off_statement(like, by_call_));
   const std::size_t main = pieces.size();

@@ -2,6 +2,7 @@
 // the text does not say which one a point runs.
 #include <algorithm>
 
+#include "ir/hole_points.h"
 #include "ir/passes/cycle_pass.h"
 
 namespace cnctrans::ir::passes {
@@ -52,13 +53,13 @@ bool CyclePass::refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& 
 
 /// A jump while the target's own cycle is in force takes it along to its label.
 void CyclePass::leave_while_on(Statement& s) {
-  if (!active_ || by_call_ || !(active_->on_target || active_->maybe_on_target)) return;
+  if (!active_ || !(active_->on_target || active_->maybe_on_target)) return;
   each_label_ref(s, [this](const LabelRef& l, bool is_end) {
     if (!is_end && !l.computed) left_on_.emplace(l.is_number, l.text);
   });
 }
 void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
-  if (!active_ || by_call_ || active_->on_target) return;
+  if (!active_ || active_->on_target) return;
   const bool on = std::any_of(names.begin(), names.end(), [this](const LabelRef& l) {
     return left_on_.count({l.is_number, l.text}) != 0;
   });
@@ -68,8 +69,10 @@ void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
 bool CyclePass::refuse_two_ways(Statement& s, Body& out) const {
   const auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
-  if (!by_call_ || !active_->native || !facts.reachable || facts.cycle_active_known || surely_active_ ||
-      !b.has_motion || b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
+  const bool either = active_ ? active_->native && !facts.cycle_active_known
+                              : facts.cycle_from == Facts::several_cycles && hole_point(b, facts) == HolePoint::perhaps;
+  if (!by_call_ || !either || !facts.reachable || surely_active_ || !b.has_motion || !b.motion.moves() ||
+      b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
       context_.source_machine.option("cycle.positioning") != "rapid")
     return false;
   refuse(
@@ -106,7 +109,9 @@ void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& p
   // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
   const Facts& facts = facts_.before(s);
   const bool none = by_call_ && facts.cycle_active_known && !facts.cycle_active;
-  const bool on = active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !written_out_ && !none;
+  const bool own = facts.cycle_from == 0 || definitions_.count(facts.cycle_from) != 0;
+  const bool on =
+      active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !(written_out_ && own) && !none;
   tap_feed_ = tap_feed_ || (on && !by_call_ && active_ && active_->needs.feed);
   active_.reset();
   if (defines_again) return;
@@ -209,9 +214,77 @@ static void refuse_given_back(const Span& where, const LegaliseContext& context)
                             "cancel it before the return, or write the modal call where its points are");
 }
 
+void CyclePass::leave_off() const {
+  if (active_ && !active_->on_target && definitions_.count(active_->from) != 0) callees_.left_off.insert(active_->from);
+}
+
+void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& context) {
+  const auto among = [](const std::set<std::uint32_t>& all, std::uint32_t from) {
+    return from == Facts::several_cycles ? !all.empty() : all.count(from) != 0;
+  };
+  for (const auto& [where, from] : callees.points) {
+    if (among(callees.left_off, from))
+      context.diagnostics.error("TRN-331", where,
+                                "the cycle that is active here is written out as its moves in the subprogram that "
+                                "defines it, and goes on behind it: the target has none in force here",
+                                "define the cycle again before this block");
+  }
+  for (const auto& [where, from] : callees.feeds) {
+    if (among(callees.bound_taps, from))
+      context.diagnostics.error("TRN-330", where,
+                                "a new feed or speed while a tap of another program part is active: its pitch would "
+                                "follow on one control only",
+                                "end the cycle before the change and define it again");
+  }
+  for (const auto& [routine, where] : callees.disturbed) {
+    if (callees.entered.count(routine) != 0)
+      context.diagnostics.error("TRN-331", where,
+                                "the subprogram is called while a cycle may still be in force, and this block is no "
+                                "point of it: the target's modal cycle runs here",
+                                "cancel the cycle before the call");
+  }
+}
+
+void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
+  if (!facts.reachable || surely_active_) return;
+  const auto* modal = std::get_if<ModalCall>(&s.node);
+  const auto* called = modal != nullptr && !modal->cycle ? &modal->call : std::get_if<CallRoutine>(&s.node);
+  const auto callee = called != nullptr ? callee_of(*called) : std::nullopt;
+  // The second pass of a counted call begins under what the first one has left.
+  const bool again = modal != nullptr || (called != nullptr && called->count != nullptr);
+  if (callee && (again || (facts.cycle_from != 0 && (!active_ || !sure(facts))))) callees_.entered.insert(*callee);
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || facts.cycle_from == 0 || definitions_.count(facts.cycle_from) != 0) return;
+  const bool moves = b->has_motion && b->motion.moves();
+  const bool point = moves && hole_point(*b, facts) != HolePoint::no;
+  if (point) callees_.points.emplace_back(s.line.span, facts.cycle_from);
+  const bool feed = std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+    return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+  });
+  if (feed) callees_.feeds.emplace_back(s.line.span, facts.cycle_from);
+  if (!by_call_ || active_ || point || !disturbs_call(*b)) return;
+  for (std::size_t i = 0; i < program_.routines.size(); ++i) {
+    if (&program_.routines[i] == &editor_.routine) callees_.disturbed.emplace_back(i, s.line.span);
+  }
+}
+
+bool CyclePass::refuse_foreign_plane(Statement& s, Body& out) const {
+  const Facts& facts = facts_.before(s);
+  if (!facts.reachable || context_.target.retract_plane_switch || !sets_retract_plane(std::get<Block>(s.node)) ||
+      facts.cycle_from == 0 || definitions_.count(facts.cycle_from) != 0)
+    return false;
+  refuse(s, program_, context_, "TRN-331",
+         "this block changes the plane to which the active cycle retracts, another program part has defined the cycle, "
+         "and the target's cycle names that plane",
+         "define the cycle again before this block, or cancel it");
+  out.push_back(std::move(s));
+  return true;
+}
+
 void CyclePass::leave_while_off(const Statement& s) const {
   const bool returns = std::holds_alternative<Return>(s.node) || std::holds_alternative<End>(s.node);
   if (returns && gives_back(facts_.before(s).reachable)) refuse_given_back(s.line.span, context_);
+  if (returns && facts_.before(s).reachable) leave_off();
   const bool leaves = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
                       std::holds_alternative<Repeat>(s.node) || std::holds_alternative<CallRoutine>(s.node);
   if (!leaves || !off_between()) return;
@@ -286,6 +359,7 @@ void CyclePass::report_unsure() const {
   const bool falls = !editor_.routine.body.empty() &&
                      !std::holds_alternative<Return>(editor_.routine.body.back().node) &&
                      !std::holds_alternative<End>(editor_.routine.body.back().node);
+  if (falls) leave_off();
   if (falls && gives_back(true)) refuse_given_back(editor_.routine.body.back().line.span, context_);
   if (!lacking_) return;
   for (const Span& where : unsure_) {

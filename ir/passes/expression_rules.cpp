@@ -256,7 +256,7 @@ ExprPtr ExpressionLowering::full_angle(const Call& c, const ExprPtr& e) {
   return variable(*v);
 }
 
-/// The angle by quadrants with the plain arc tangent. Exact for all but both zero.
+/// The angle by quadrants with the plain arc tangent; 0 where both are zero.
 ExprPtr ExpressionLowering::quadrants(const ExprPtr& y_in, const ExprPtr& x_in, bool positive) {
   const ExprPtr x = primary(x_in), y = primary(y_in);
   const auto v = temporary();
@@ -298,9 +298,11 @@ ExprPtr ExpressionLowering::quadrants(const ExprPtr& y_in, const ExprPtr& x_in, 
   }
   label_here(on_axis);
   const auto up = constant_value(y);
-  if (!up || *up >= 0) assign(*v, number(90));
-  if (!up) pre.push_back(make_jump(like_, end, rel(BinaryOp::ge, y, 0)));
+  if (!up || *up > 0) assign(*v, number(90));
+  if (!up) pre.push_back(make_jump(like_, end, rel(BinaryOp::gt, y, 0)));
   if (!up || *up < 0) assign(*v, number(positive ? 270 : -90));
+  if (!up) pre.push_back(make_jump(like_, end, rel(BinaryOp::lt, y, 0)));
+  if (!up || *up == 0) assign(*v, number(0));
   label_here(end);
   return variable(*v);
 }

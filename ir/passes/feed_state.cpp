@@ -71,6 +71,8 @@ FeedPoint FeedDomain::point(const Block& b, const Facts& facts) const {
 
 FeedState FeedDomain::start(const Routine& r, bool called) const {
   FeedState s;
+  const auto mode = static_cast<std::size_t>(context_.source_machine.power_on.feed_mode);
+  if (called) s.slots[mode].maybe_power_on = context_.source_machine.power_on_feed > 0;
   if (r.kind != RoutineKind::main || called) return s;  // the caller sees to it
   const double own = context_.source_machine.power_on_feed, other = context_.target_machine.power_on_feed;
   for (auto& slot : s.slots) {
@@ -78,7 +80,7 @@ FeedState FeedDomain::start(const Routine& r, bool called) const {
     slot.same = own <= 0 && other <= 0;
   }
   if (own > 0) {
-    auto& slot = s.slots[static_cast<std::size_t>(context_.source_machine.power_on.feed_mode)];
+    auto& slot = s.slots[mode];
     slot.value = own;
     slot.maybe_power_on = true;
     slot.same = own == other || head_feed_;

@@ -56,6 +56,12 @@ class FlowStates {
     const auto it = states_.find(s.id);
     return it == states_.end() ? nullptr : &it->second;
   }
+  /// Behind the last statement and the returns of a routine; nullptr: control never comes there.
+  [[nodiscard]] const State* behind(std::size_t routine) const {
+    const auto& exit = routines_[routine].exit;
+    return exit ? &*exit : nullptr;
+  }
+  [[nodiscard]] bool called(std::size_t routine) const { return calls_.called(routine); }
 
  private:
   struct OfRoutine {

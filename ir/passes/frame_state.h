@@ -29,6 +29,8 @@ class FrameState {
   void apply(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
   /// A settable offset is selected or off: on some machines the preset goes with it.
   void select(const WorkOffset& w, const machine::Profile& machine);
+  /// The work offsets are off, on some way, and the preset with them.
+  [[nodiscard]] bool preset_waits() const { return preset_off_ || preset_unsure_; }
   /// The words of the shifts are in another unit, or their X words count otherwise, after this block.
   void follow_units(const Block& b, const Facts& facts, const machine::Profile& machine);
   /// Nothing is known any more of what the program ever changes.

@@ -143,12 +143,10 @@ class HeldOffsets {
   void body(Editor& editor, Body& list) {
     for (auto& s : list) each_body(s, [&](Body& inner) { body(editor, inner); });
     for (std::size_t i = 0; i < list.size(); ++i) {
-      if (held_.count(list[i].id) == 0) continue;
+      if (held_.erase(list[i].id) == 0) continue;
       const auto to = selection(list, i);
-      if (to)
-        hold(editor, list, i, *to);
-      else
-        refused(list[i]);
+      if (to && hold(editor, list, i, *to)) --i;  // the next one stands here now
+      if (!to) refused(list[i]);
     }
   }
 
@@ -156,6 +154,9 @@ class HeldOffsets {
   /// there; none: there is no such.
   std::optional<std::size_t> selection(const Body& list, std::size_t from) const {
     const std::uint16_t skip = list[from].line.skip_mask;
+    for (const auto& l : labels_on(list[from].line)) {
+      if (uses_.is_end(l)) return std::nullopt;
+    }
     for (std::size_t i = from + 1; i < list.size(); ++i) {
       const Statement& s = list[i];
       for (const auto& l : labels_on(s.line)) {
@@ -181,7 +182,8 @@ class HeldOffsets {
     return reads;
   }
 
-  void hold(Editor& editor, Body& list, std::size_t from, std::size_t to) {
+  /// True: nothing is left where it stood.
+  bool hold(Editor& editor, Body& list, std::size_t from, std::size_t to) {
     Statement& s = list[from];
     Assign late;
     auto& items = std::get<Assign>(s.node).items;
@@ -197,7 +199,7 @@ class HeldOffsets {
         continue;
       }
       const auto kept = editor.take(s.line);  // stays taken: it is read further down
-      if (!kept) return;
+      if (!kept) return false;
       items[k].to_system = false;
       items[k].system = {};
       items[k].target = *kept;
@@ -210,14 +212,15 @@ class HeldOffsets {
     list[to].line.joined = false;
     move_head(list[to].line, written.line);
     list.insert(list.begin() + static_cast<std::ptrdiff_t>(to), std::move(written));
-    drop_empty(list, from);
+    return drop_empty(list, from);
   }
-  static void drop_empty(Body& list, std::size_t at) {
+  static bool drop_empty(Body& list, std::size_t at) {
     const LineInfo& line = list[at].line;
     if (!std::holds_alternative<Label>(list[at].node) || !line.number.empty() || !line.labels.empty() ||
         !line.comments.empty() || (at + 1 < list.size() && list[at + 1].line.joined))
-      return;
+      return false;
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(at));
+    return true;
   }
 
   void refused(const Statement& s) const {

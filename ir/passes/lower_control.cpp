@@ -44,14 +44,17 @@ class ControlPass {
     out.push_back(std::move(s));
   }
 
-  /// A mark at the head of a loop: what its closing line does without it is stated nowhere.
+  /// A mark at the head of a loop, or at the condition behind it: what the other line does without it is stated
+  /// nowhere.
   static bool skipped_loop(const Statement& s) {
+    const auto* until = std::get_if<Until>(&s.node);  // its closing line asks
+    if (until != nullptr && until->end_line.skip_mask != 0) return true;
     return s.line.skip_mask != 0 && (std::holds_alternative<While>(s.node) || std::holds_alternative<For>(s.node) ||
                                      std::holds_alternative<Loop>(s.node) || std::holds_alternative<Until>(s.node));
   }
   void refused_loop(Statement&& s, Body& out) {
     refuse(s, editor_.program, editor_.context, "TRN-163",
-           "the head of a loop can be skipped: what its closing line does then is stated nowhere",
+           "a line of a loop can be skipped: what the loop does then is stated nowhere",
            "put a jump with the skip mark before the loop");
     out.push_back(std::move(s));
   }
@@ -141,8 +144,11 @@ class ControlPass {
   // --- IF -------------------------------------------------------------------------------------------------------
 
   static bool single_assign(const Body& b) {
-    return b.size() == 1 && std::holds_alternative<Assign>(b[0].node) && b[0].line.comments.empty() &&
-           b[0].line.number.empty() && b[0].line.labels.empty();
+    return b.size() == 1 && std::holds_alternative<Assign>(b[0].node) && plain_line(b[0].line);
+  }
+  /// Nothing of the line is lost when another line takes its words.
+  static bool plain_line(const LineInfo& line) {
+    return line.comments.empty() && line.number.empty() && line.labels.empty() && line.skip_mask == 0;
   }
   static const Jump* single_jump(const Body& b) {
     if (b.size() != 1 || !b[0].line.number.empty() || !b[0].line.labels.empty()) return nullptr;
@@ -182,8 +188,10 @@ class ControlPass {
     const bool one_action = single_assign(node.then_body) &&
                             (node.else_body.empty() || single_assign(node.else_body)) &&
                             std::get<Assign>(node.then_body[0].node).items.size() == 1;
-    if (target_.one_line_if_action && plain_condition(node.condition) && one_action && node.end_line.comments.empty() &&
-        all_fit(node)) {
+    // A skip mark leaves the condition out only.
+    const bool one_line =
+        one_action && s.line.skip_mask == 0 && plain_line(node.else_line) && plain_line(node.end_line);
+    if (target_.one_line_if_action && plain_condition(node.condition) && one_line && all_fit(node)) {
       node.one_line = true;
       s.node = std::move(node);
       out.push_back(std::move(s));
@@ -210,8 +218,14 @@ class ControlPass {
     out.push_back(in_place(s, to(other, negated_condition(node.condition))));
     for (auto& t : node.then_body) one(std::move(t), out);
     if (has_else) {
+      LineInfo middle = node.else_line;
+      if (!middle.number.empty() || !middle.labels.empty()) {  // a jump to it leaves the branch
+        closing(out, middle, std::nullopt);
+        middle = LineInfo{};
+        middle.span = node.else_line.span;
+      }
       out.push_back(make_jump(like, end));
-      closing(out, node.else_line, other);
+      closing(out, middle, other);
       for (auto& e : node.else_body) one(std::move(e), out);
     }
     LineInfo last = node.end_line;

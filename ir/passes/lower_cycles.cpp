@@ -115,13 +115,13 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   if (as_is && active_->on_target) {
     // A code that does not stay is said: without it the writer would put the one that stays in force.
     if (target_rapid && (b.motion.keeps_modal || facts.motion == MotionKind::rapid)) by_itself(b);
-    if (comes_in_two_moves(active_->native, context_) && b.motion.kind == MotionKind::modal) {
+    if (surely_on(facts) && comes_in_two_moves(active_->native, context_) && b.motion.kind == MotionKind::modal) {
       position_rapid(b, context_);
       b.motion.explicit_code = false;  // the move to the retract plane has said it
     }
     return put(out, std::move(pieces), std::move(s));
   }
-  if (!sure(facts)) {  // each of the cycles would have to be written here
+  if (!sure(facts) || (facts.reachable && !surely_on(facts))) {  // each way would have to be written here
     refuse_other_ways(s);
     out.push_back(std::move(s));
     return;
@@ -170,22 +170,6 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   put_group(out, std::move(pieces), main);
 }
 
-bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
-  const bool sets = sets_retract_plane(b);
-  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-  if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
-  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now(),
-                          &active_->needs);
-  const bool was_native = active_->native != nullptr;
-  const auto w = cycle_axis(*hole, b, facts);
-  const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
-  if (form && !by_call_ && !stands_right(std::get<HoleCycle>((*form)->node), height)) form.reset();
-  if (!back_is_known(*hole, active_->defined_at, b, facts)) form.reset();
-  active_->native = form ? *form : nullptr;
-  lacking_ = lacking_ || !active_->native;
-  return was_native;
-}
-
 void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
@@ -195,6 +179,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;
   const auto w = hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+  if (w && moves_along(b, *w)) height = height_after(b, facts, *w);
   // Over the holes the tool stands elsewhere than at the definition, whose height nobody knows.
   if (w && !height) height = height_mm(b, facts, *w);
   const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
@@ -287,6 +272,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   if (!a.native && !d.modal && d.here) feed_as_a_word(a, b, facts);
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
+  if (a.needs.bound) callees_.bound_taps.insert(s.id);
   if (!a.native || !a.needs.feed) feed_comes_back(s, b, facts);
   a.from = s.id;
   a.said_by.push_back(s.id);
@@ -475,6 +461,7 @@ static void carry_out_noting(Program& program, const LegaliseContext& context, S
     profiles.merge(pass.profiles());
     uses.insert(uses.end(), pass.uses_of_profiles().begin(), pass.uses_of_profiles().end());
   }
+  refuse_foreign_cycles(callees, context);
   add_callees(program, callees);
   keep_used(program, uses, profiles);
   retire_profiles(program, profiles, uses, facts);

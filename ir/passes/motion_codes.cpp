@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ir/hole_points.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/flow_states.h"
@@ -22,12 +23,6 @@ enum class Step : std::uint8_t {
   inside,  ///< another one may stand in the text since this routine began: the writer follows that itself
   apart    ///< another one may stand in the text
 };
-
-bool is_point_of_hole(const Block& b, const Facts& facts) {
-  const auto* define = action_in<CycleDefine>(b);
-  if (define != nullptr) return define->here && define->cycle && std::holds_alternative<HoleCycle>(define->cycle->node);
-  return !facts.cycle_active_known || facts.cycle_active;
-}
 
 /// A domain of FlowStates.
 class Steps {
@@ -68,10 +63,10 @@ class Steps {
     if (b == nullptr) return;
     if (heads_.count(s.id) != 0) state = Step::apart;
     const Facts& facts = facts_.before(s);
-    const bool point = is_point_of_hole(*b, facts);
-    const bool in_cycle = point && (action_in<CycleDefine>(*b) != nullptr || facts.cycle_active_known);
-    if (in_cycle && rapid_points_ && !rapid_at_holes_ && b->has_motion && b->motion.kind == MotionKind::rapid &&
-        !b->motion.keeps_modal)
+    const HolePoint hole = hole_point(*b, facts);
+    const bool point = hole != HolePoint::no;
+    if (hole == HolePoint::yes && rapid_points_ && !rapid_at_holes_ && b->has_motion &&
+        b->motion.kind == MotionKind::rapid && !b->motion.keeps_modal)
       return;  // reached without a code
     if (b->has_motion && b->motion.kind != MotionKind::modal)
       state = b->motion.keeps_modal || facts.motion == b->motion.kind ? Step::same : Step::apart;
@@ -92,7 +87,11 @@ class Steps {
   }
   [[nodiscard]] bool needs_code(const Block& b, const Facts& facts) const {
     return b.has_motion && b.motion.kind == MotionKind::modal && b.motion.moves() && facts.reachable &&
-           !(rapid_points_ && is_point_of_hole(b, facts));
+           !(rapid_points_ && hole_point(b, facts) == HolePoint::yes);
+  }
+  /// On one way it is a hole, which takes no code but G0, and on another one it needs its code.
+  [[nodiscard]] bool both_ways(const Block& b, const Facts& facts) const {
+    return rapid_points_ && facts.motion != MotionKind::rapid && hole_point(b, facts) == HolePoint::perhaps;
   }
   void say_before(std::size_t callee) { said_before_.insert(callee); }
   [[nodiscard]] bool said_before(std::size_t callee) const { return said_before_.count(callee) != 0; }
@@ -177,8 +176,16 @@ class MotionCodes {
       if (!apart || (b == nullptr ? !says_before(s) : !steps_.needs_code(*b, facts)))
         return out.push_back(std::move(s));
       const bool sayable = facts.motion && context_.target.motions.count(*facts.motion) != 0;
-      if (!sayable || (b == nullptr && facts.modal_call != 0)) {
-        refuse(s, program_, context_, "TRN-216", "the motion code in force here is not known, and the target needs one",
+      const bool both = b != nullptr && steps_.both_ways(*b, facts);
+      // A code alone runs what is called at every block.
+      const bool runs = b == nullptr && (facts.modal_call != 0 || (context_.target.modal_cycle_by_call &&
+                                                                   (facts.cycle_active || !facts.cycle_active_known)));
+      if (!sayable || both || runs) {
+        refuse(s, program_, context_, "TRN-216",
+               both && facts.motion
+                   ? "the target needs the motion code again here, which no hole of a cycle takes, and "
+                     "whether a cycle is active depends on the path that leads here"
+                   : "the motion code in force here is not known, and the target needs one",
                "write G0, G1, G2 or G3 in this block, or before the call");
         return out.push_back(std::move(s));
       }

@@ -96,7 +96,7 @@ class SafeStart {
     return list;
   }
 
-  /// Settings that stand before the first motion, call or branch.
+  /// Settings that stand before the first motion, cycle, frame with values, call or branch.
   void look() {
     for (const auto& s : main_.body) {
       if (std::holds_alternative<Assign>(s.node) || std::holds_alternative<Declare>(s.node) ||
@@ -106,14 +106,17 @@ class SafeStart {
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) break;
       const bool moves = b->has_motion && b->motion.moves();
+      bool uses = moves;
       for (const auto& a : b->actions) {
         if (s.line.skip_mask != 0 || (moves && a.order == Order::after)) continue;
         if (const auto* m = std::get_if<ModalSet>(&a.data)) said_[static_cast<std::size_t>(m->setting)] = true;
         if (std::holds_alternative<WorkOffset>(a.data)) offset_said_ = true;
         const auto* f = std::get_if<FrameOp>(&a.data);
         if (f != nullptr && f->change && f->change->combine == FrameCombine::clear) shift_cleared_ = true;
+        uses = uses || std::holds_alternative<CycleDefine>(a.data) ||
+               (f != nullptr && f->change && f->change->combine != FrameCombine::clear && !f->change->words.empty());
       }
-      if (moves) return;
+      if (uses) return;
     }
   }
 

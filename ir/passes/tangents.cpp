@@ -86,7 +86,10 @@ class TangentPass {
       m.code_text = {};
       return;
     }
-    if (context_.target.arc_tangent) return;
+    if (context_.target.arc_tangent) {
+      if (!points || !before) tell_unknown(s);
+      return;
+    }
     if (!before || !points || before->plane != points->plane) {
       return refuse(s, program_, context_, "TRN-301",
                     "a tangent arc, which the target lacks; the element before it is not known here as numbers",
@@ -114,6 +117,16 @@ class TangentPass {
     bool ccw = false;
     const Vec direction = before->e.end_direction(), way = points->e.b - points->e.a;
     return !centre_by_tangent(points->e.a, direction, points->e.b, centre, ccw) && dot(way, direction) > 0;
+  }
+
+  /// Whether it does is not known here.
+  void tell_unknown(const Statement& s) const {
+    constexpr std::string_view option = "arc.tangent_straight";
+    if (context_.source_machine.option(option) != "line" || context_.target_machine.option(option) == "line") return;
+    context_.diagnostics.warning("TRN-657", s.line.span,
+                                 "the direction before this tangent arc, or its ends, are not known here: where its "
+                                 "end lies straight ahead, the source goes there on a line and the target stops",
+                                 "write a straight line there");
   }
 
   /// Takes the entry or exit out of the block; false: it has none, or the target writes it itself.

@@ -1,14 +1,9 @@
 // Splices valid programs of the repository and holds every translation against its source. README.md says how to use
 // it.
-#include <sys/time.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -16,8 +11,7 @@
 #include "tests/splice/mutate.h"
 #include "tests/splice/prove.h"
 #include "tests/splice/reduce.h"
-
-extern "C" void __sanitizer_set_death_callback(void (*)()) __attribute__((weak));
+#include "tests/splice/watch.h"
 
 namespace cnctrans::splice {
 
@@ -26,30 +20,6 @@ namespace {
 constexpr std::array<const char*, 3> dialects = {"fagor", "num", "sinumerik"};
 constexpr std::size_t most_attempts = 40;     ///< until a splice is a valid program
 constexpr std::size_t most_questions = 1500;  ///< while a program is cut down
-constexpr int most_seconds = 30;              ///< for one program: more is a hang
-
-// What runs now, for the message of a crash or a hang.
-char now[1 << 16];
-
-void say_now() {
-  const auto ignored = write(STDERR_FILENO, now, std::strlen(now));
-  (void)ignored;
-}
-void die(int signal) {
-  say_now();
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
-void watch_for_crashes() {
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGPROF}) std::signal(signal, die);
-  if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(say_now);
-}
-void begins(const std::string& what, const Program& p) {
-  std::snprintf(now, sizeof now, "\nsplice: crashed, or took more than %d s: %s\n%s", most_seconds, what.c_str(),
-                p.text().c_str());
-  const itimerval timer{{0, 0}, {most_seconds, 0}};  // of the processor: a busy machine is no hang
-  setitimer(ITIMER_PROF, &timer, nullptr);
-}
 
 struct Options {
   std::uint64_t seed = 1, seeds = 1;
@@ -112,7 +82,7 @@ class Splices {
     for (; attempts < most_attempts && !good; ++attempts) {
       Chance chance(((seed * 100 + attempts) << 32U) + index * 3 + static_cast<std::uint64_t>(from.size() % 3));
       p = spliced(programs, chance);
-      begins("reading and running, " + from + " " + name, p);
+      begins("reading and running, " + from + " " + name, p.text());
       good = valid(p);
     }
     for (const std::string to : dialects) {
@@ -126,7 +96,7 @@ class Splices {
 
   void direction(const Program& p, const std::string& to, const std::string& name, Figures& f) {
     ++f.valid;
-    begins(name, p);
+    begins(name, p.text());
     const Outcome found = prove(p, to);
     if (found.fate == Fate::refused) return;
     ++f.written;
@@ -147,13 +117,13 @@ class Splices {
     const Program small = reduced(
         p,
         [&](const Program& q) {
-          begins("cutting down " + name, q);
+          begins("cutting down " + name, q.text());
           if (!valid(q)) return false;
           const Outcome o = prove(q, to);
           return o.fate == found.fate && o.kind == found.kind;
         },
         most_questions);
-    begins(name, small);
+    begins(name, small.text());
     const Outcome last = prove(small, to);
     std::string text = name + ", the smallest program that shows it:\n" + small.text() + "--- shown by\n" +
                        command(small, to) + "\n--- which says\n" + last.said + "\n";
@@ -208,7 +178,7 @@ int main(int argc, char** argv) {
   app.add_option("--root", o.root, "the folder of the repository");
   app.add_flag("--strict", o.strict, "a difference that a warning foretells is a failure too");
   CLI11_PARSE(app, argc, argv);
-  cnctrans::splice::watch_for_crashes();
+  cnctrans::splice::watch_for_crashes("splice");
   const bool given = !o.program.empty();
   cnctrans::splice::Splices splices(std::move(o));
   return given ? splices.given() : splices.run();

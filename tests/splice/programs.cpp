@@ -41,30 +41,6 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// The snippet of a pair in the frame of a program.
-Program framed(const std::string& dialect, bool lathe, const std::string& snippet) {
-  Program p{dialect, lathe, {}, {}};
-  const auto split = snippet.find("---\n");
-  auto main = lines_of(snippet.substr(0, split));
-  const auto rest = split == std::string::npos ? std::vector<std::string>{} : lines_of(snippet.substr(split + 4));
-  const auto defined =
-      std::find_if_not(main.begin(), main.end(), [](const auto& l) { return l.rfind("DEF ", 0) == 0; });
-  const bool archive = dialect == "sinumerik" && !rest.empty();
-  if (dialect == "fagor") p.lines = {"%PAIR ,MX,"};
-  if (dialect == "num") p.lines = {"%100 (PAIR)"};
-  if (archive) p.lines = {"%_N_MAIN_MPF"};
-  p.lines.insert(p.lines.end(), main.begin(), defined);
-  if (dialect == "fagor")
-    p.lines.emplace_back(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97 M41" : "G17 G40 G05 G71 G90 G94 M41");
-  if (dialect == "num") p.lines.emplace_back(lathe ? "G18 G40 G71 G90 G95 G97 M41" : "G17 G40 G71 G80 G90 G94 M41");
-  if (dialect == "sinumerik")
-    p.lines.emplace_back(lathe ? "G18 G40 G64 G710 G90 G95 DIAMON M41" : "G17 G40 G64 G710 G90 G94 M41");
-  p.lines.insert(p.lines.end(), defined, main.end());
-  p.lines.emplace_back(dialect == "num" ? "M02" : "M30");
-  p.lines.insert(p.lines.end(), rest.begin(), rest.end());
-  return p;
-}
-
 void add_pairs(const std::string& root, const std::string& dialect, std::vector<Program>& out) {
   for (const auto& path : testing::files_below(root + "/tests/pairs", {".md"})) {
     bool lathe = false;
@@ -116,6 +92,29 @@ void add_files(const std::string& root, const std::string& folder, const std::st
 }
 
 }  // namespace
+
+Program framed(const std::string& dialect, bool lathe, const std::string& snippet) {
+  Program p{dialect, lathe, {}, {}};
+  const auto split = snippet.find("---\n");
+  auto main = lines_of(snippet.substr(0, split));
+  const auto rest = split == std::string::npos ? std::vector<std::string>{} : lines_of(snippet.substr(split + 4));
+  const auto defined =
+      std::find_if_not(main.begin(), main.end(), [](const auto& l) { return l.rfind("DEF ", 0) == 0; });
+  const bool archive = dialect == "sinumerik" && !rest.empty();
+  if (dialect == "fagor") p.lines = {"%PAIR ,MX,"};
+  if (dialect == "num") p.lines = {"%100 (PAIR)"};
+  if (archive) p.lines = {"%_N_MAIN_MPF"};
+  p.lines.insert(p.lines.end(), main.begin(), defined);
+  if (dialect == "fagor")
+    p.lines.emplace_back(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97 M41" : "G17 G40 G05 G71 G90 G94 M41");
+  if (dialect == "num") p.lines.emplace_back(lathe ? "G18 G40 G71 G90 G95 G97 M41" : "G17 G40 G71 G80 G90 G94 M41");
+  if (dialect == "sinumerik")
+    p.lines.emplace_back(lathe ? "G18 G40 G64 G710 G90 G95 DIAMON M41" : "G17 G40 G64 G710 G90 G94 M41");
+  p.lines.insert(p.lines.end(), defined, main.end());
+  p.lines.emplace_back(dialect == "num" ? "M02" : "M30");
+  p.lines.insert(p.lines.end(), rest.begin(), rest.end());
+  return p;
+}
 
 std::string Program::text() const {
   std::string out;

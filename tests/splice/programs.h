@@ -27,6 +27,9 @@ const Program& pick(const std::vector<Program>& programs, std::uint64_t draw);
 /// Every program of a language in tests/pairs, tests/identity, tests/golden, tests/catalogue and examples below `root`.
 std::vector<Program> programs_of(const std::string& root, const std::string& dialect);
 
+/// The snippet of a pair in the frame of a program.
+Program framed(const std::string& dialect, bool lathe, const std::string& snippet);
+
 /// Lines that frame a program or a part of it: headers, ends, definitions. They stay as they are.
 bool frames(std::string_view line);
 

@@ -1,0 +1,377 @@
+#include "tests/mutation/documented.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/text.h"
+
+namespace cnctrans::mutation {
+
+using interpreter::CycleRun;
+using interpreter::Event;
+using interpreter::EventKind;
+using interpreter::Position;
+
+namespace {
+
+enum Aspect : std::uint32_t {
+  state_order = 1U << 0U,
+  offset_numbers = 1U << 1U,
+  selections = 1U << 2U,
+  path_mode = 1U << 3U,
+  small_moves = 1U << 4U,
+  tolerances = 1U << 5U,
+  texts = 1U << 6U,
+  taps = 1U << 7U,
+  unfed = 1U << 8U,
+  cycles = 1U << 9U,
+  open_offset = 1U << 10U,
+};
+struct Row {
+  Aspect aspect;
+  const char* name;
+  const char* sentence;  ///< of docs/verify.md
+};
+constexpr std::array<Row, 11> table = {{
+    {state_order, "order of commands", "the order of spindle, coolant, tool and machine functions among each other"},
+    {offset_numbers, "offset numbers", "offset numbers"},
+    {selections, "tools made ready", "a tool that is only made ready when one of the two machines changes at T"},
+    {path_mode, "path mode", "exact-stop and look-ahead modes"},
+    {small_moves, "small moves", "a move below the tolerance, on one side only"},
+    {tolerances, "tolerance", "Tolerances: 0.0011 mm and degrees on end points"},
+    {texts, "signs of messages", "messages (letters and digits, so that a smaller character set is no difference)"},
+    {taps, "sense in a tap", "there the sense of the spindle follows from the path"},
+    {unfed, "feed before any F", "The feed the target's power-on state gives such a move"},
+    {cycles, "passes of a cycle", "The infeeds, the number of passes and the ways between them are not compared"},
+    {open_offset, "offset before the first D", "the offset before the first D or change of the program"},
+}};
+constexpr std::uint32_t everything = (1U << table.size()) - 1;
+
+bool moves(EventKind k) {
+  return k == EventKind::rapid || k == EventKind::linear || k == EventKind::arc || k == EventKind::thread ||
+         k == EventKind::probe;
+}
+bool stands_between(EventKind k) {
+  return moves(k) || k == EventKind::dwell || k == EventKind::stop || k == EventKind::end || k == EventKind::message;
+}
+
+struct Spindle {
+  std::string state = "off";
+  bool css = false;
+  double value = 0, limit = 0, angle = 0;
+  bool operator==(const Spindle&) const = default;
+};
+/// A move, a dwell, a stop, a message or the end, with the state in which the machine comes to it.
+struct Item {
+  Event e;
+  std::map<std::int32_t, Spindle> spindles;
+  std::string coolant = "off";
+  bool comp = false;
+  std::vector<std::string> commands;  ///< since the last one
+  // Of a cycle as a whole
+  const CycleRun* run = nullptr;
+  Position low, high;                         ///< of its moves
+  std::vector<std::pair<int, double>> feeds;  ///< that it uses: by what, and how fast
+  double infeed = 0;  ///< the longest way at feed along one axis, of a pocket or tap into the part
+};
+
+struct Tolerance {
+  double length = 1e-9, center = 1e-9, relative = 1e-9, seconds = 1e-9, small = 1e-9;
+};
+
+bool close(double a, double b, const Tolerance& t) {
+  return std::fabs(a - b) <= std::max(t.small, t.relative * std::max(std::fabs(a), std::fabs(b)));
+}
+
+std::string core(const std::string& text) {
+  std::string out;
+  for (const char c : to_upper_ascii(text)) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) out += c;
+  }
+  return out;
+}
+
+/// The trace without what the aspects leave out.
+class Reduced {
+ public:
+  Reduced(const Trace& trace, std::uint32_t without, std::size_t unfed_moves)
+      : trace_(trace), without_(without), unfed_(unfed_moves) {
+    for (std::size_t k = 0; k < trace.events.size(); ++k) one(trace.events[k], k);
+  }
+  std::vector<Item> items;
+
+ private:
+  [[nodiscard]] bool has(Aspect a) const { return (without_ & a) != 0; }
+
+  [[nodiscard]] const CycleRun* run_at(std::size_t k) const {
+    if (!has(cycles)) return nullptr;
+    for (const auto& run : trace_.cycles) {
+      if (run.first <= k && k < run.last) return &run;
+    }
+    return nullptr;
+  }
+
+  static bool is_state(EventKind k) {
+    return k == EventKind::comp || k == EventKind::coolant || k == EventKind::spindle;
+  }
+  template <class State>
+  static bool update(State& known, const State& now) {
+    return std::exchange(known, now) != now;
+  }
+  /// A command that leaves the machine as it is says nothing.
+  bool changes(const Event& e) {
+    if (e.kind == EventKind::comp) return update(now_.comp, e.state != "off");
+    if (e.kind == EventKind::coolant) return update(now_.coolant, e.state);
+    const bool off = e.state == "off";
+    const Spindle now{e.state, !off && e.css, off ? 0 : e.value, off || !e.has_limit ? 0 : e.limit,
+                      e.state == "oriented" ? e.angle : 0};
+    return update(now_.spindles[e.number], now);
+  }
+
+  void command(const Event& e) {
+    if (e.kind == EventKind::offset && has(offset_numbers)) return;
+    if (e.kind == EventKind::feed_stop && has(path_mode)) return;
+    if (e.kind == EventKind::tool && !e.change && has(selections)) return;
+    if (is_state(e.kind) && (!changes(e) || has(state_order))) return;
+    now_.commands.push_back(std::string(interpreter::name(e.kind)) + " " + std::to_string(e.number) + " " + e.state +
+                            " " + e.text + " " + (e.change ? "change" : "") + " " +
+                            shortest(is_state(e.kind) ? e.value : 0));
+  }
+
+  void one(const Event& e, std::size_t k) {
+    const CycleRun* run = run_at(k);
+    if (run != nullptr && !items.empty() && items.back().run == run) {
+      if (!stands_between(e.kind)) return command(e);
+      return widen(items.back(), e);
+    }
+    if (!stands_between(e.kind)) return command(e);
+    if (e.kind == EventKind::dwell && !items.empty() && items.back().e.kind == EventKind::dwell &&
+        now_.commands.empty() && items.back().e.revolutions == e.revolutions) {
+      items.back().e.amount += e.amount;
+      return;
+    }
+    Item item = now_;
+    item.e = e;
+    if (has(unfed) && (e.kind == EventKind::linear || e.kind == EventKind::arc) && unfed_ > 0) {
+      --unfed_;
+      item.e.feed = 0;
+    }
+    if (has(state_order)) std::sort(item.commands.begin(), item.commands.end());
+    item.run = run;
+    if (has(taps)) sense(item);
+    now_.commands.clear();
+    if (run != nullptr) {
+      item.low = item.high = e.to;
+      widen(item, e);
+    } else if (moves(e.kind)) {
+      if (joins(item)) return;
+    }
+    items.push_back(std::move(item));
+  }
+
+  static void widen(Item& item, const Event& e) {
+    if (!moves(e.kind)) return;
+    for (std::size_t k = 0; k < e.to.value.size(); ++k) {
+      item.low.value[k] = std::min(item.low.value[k], e.to.value[k]);
+      item.high.value[k] = std::max(item.high.value[k], e.to.value[k]);
+    }
+    // Along the tool, or in the plane.
+    const auto axes = ir::plane_axes(item.run->plane);
+    const double down = item.e.to.value[axes.w] - e.to.value[axes.w];
+    const bool plane = item.e.to.value[axes.u] != e.to.value[axes.u] || item.e.to.value[axes.v] != e.to.value[axes.v];
+    const bool cuts = e.kind == EventKind::linear || e.kind == EventKind::arc;
+    if (item.run->family == "pocket" && cuts) item.infeed = std::max(item.infeed, down);
+    item.e.to = e.to;
+    const double feed = e.kind == EventKind::rapid ? 0 : (e.kind == EventKind::thread ? e.pitch : e.feed);
+    const std::pair<int, double> used{item.run->family == "pocket" && cuts ? (plane ? 2 : 1) : 0, feed};
+    const auto same = [&used](const auto& f) {
+      return f.first == used.first && std::fabs(f.second - used.second) < 1e-9;
+    };
+    if (std::none_of(item.feeds.begin(), item.feeds.end(), same)) item.feeds.push_back(used);
+    std::sort(item.feeds.begin(), item.feeds.end());
+  }
+
+  void sense(Item& item) {
+    const auto kind = item.e.kind;
+    const bool thread = kind == EventKind::thread || (item.run != nullptr && item.run->family == "tap");
+    if (thread && !in_tap_) {  // started before it, with nothing but rapid moves between
+      for (auto before = items.rbegin(); before != items.rend() && before->e.kind == EventKind::rapid; ++before)
+        before->spindles.clear();
+    }
+    in_tap_ = thread || (in_tap_ && (kind == EventKind::rapid || kind == EventKind::dwell));
+    if (!in_tap_) return;
+    for (auto& [n, s] : item.spindles) {
+      if (s.state == "cw" || s.state == "ccw") s.state = "turning";
+    }
+  }
+
+  /// The move goes on along the last one, or goes nowhere.
+  bool joins(const Item& item) {
+    if (items.empty() || !moves(items.back().e.kind) || items.back().run != nullptr) return false;
+    Item& last = items.back();
+    const bool straight = item.e.kind == EventKind::rapid || item.e.kind == EventKind::linear;
+    if (!straight || last.e.to.known != item.e.to.known || !item.commands.empty()) return false;
+    if (has(small_moves) && distance(last.e.to, item.e.to) <= 0.0011) return true;
+    if (last.e.kind != item.e.kind || last.e.feed != item.e.feed || last.e.feed_mode != item.e.feed_mode ||
+        last.e.centre_side != item.e.centre_side || last.e.offset.with != item.e.offset.with)
+      return false;
+    const Position* before = &trace_.start;
+    for (std::size_t k = items.size() - 1; k-- > 0 && before == &trace_.start;) {
+      if (moves(items[k].e.kind)) before = &items[k].e.to;
+    }
+    double dot = 0, a = 0, b = 0;
+    for (std::size_t k = 0; k < item.e.to.value.size(); ++k) {
+      if ((item.e.to.known >> k & 1U) == 0) continue;
+      const double p = last.e.to.value[k] - before->value[k], q = item.e.to.value[k] - last.e.to.value[k];
+      dot += p * q;
+      a += p * p;
+      b += q * q;
+    }
+    if (dot <= 0 || dot * dot < a * b * (1 - 1e-6)) return false;
+    last.e.to = item.e.to;
+    return true;
+  }
+
+  static double distance(const Position& a, const Position& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.value.size(); ++k) {
+      if ((a.known & b.known) >> k & 1U) sum += (a.value[k] - b.value[k]) * (a.value[k] - b.value[k]);
+    }
+    return std::sqrt(sum);
+  }
+
+  const Trace& trace_;
+  std::uint32_t without_;
+  std::size_t unfed_;
+  bool in_tap_ = false;
+  Item now_;
+};
+
+std::string positions(const Position& a, const Position& b, const Tolerance& t) {
+  for (std::size_t k = 0; k < a.value.size(); ++k) {
+    if (((a.known & b.known) >> k & 1U) != 0 && std::fabs(a.value[k] - b.value[k]) > t.length) return "end point";
+  }
+  return {};
+}
+
+std::string difference(const Item& a, const Item& b, const Tolerance& t, std::uint32_t without) {
+  const std::string kind(interpreter::name(a.e.kind));
+  if (a.e.kind != b.e.kind) return kind + " against " + std::string(interpreter::name(b.e.kind));
+  if (a.commands != b.commands) return "commands before " + kind;
+  if (a.coolant != b.coolant) return "coolant at " + kind;
+  if (a.comp != b.comp) return "compensation at " + kind;
+  const auto spindle_of = [](const Item& i, std::int32_t n) {
+    const auto it = i.spindles.find(n);
+    return it == i.spindles.end() ? Spindle{} : it->second;
+  };
+  for (const auto* side : {&a, &b}) {
+    for (const auto& [n, ignored] : side->spindles) {
+      const Spindle x = spindle_of(a, n), y = spindle_of(b, n);
+      if (x.state != y.state || x.css != y.css || !close(x.value, y.value, t) || !close(x.limit, y.limit, t) ||
+          std::fabs(x.angle - y.angle) > t.length)
+        return "spindle at " + kind;
+    }
+  }
+  if ((a.run == nullptr) != (b.run == nullptr)) return "a cycle on one side";
+  if (a.run != nullptr) {
+    const Tolerance wide{0.004, 0.004, t.relative, t.seconds, t.small};
+    if (!positions(a.low, b.low, wide).empty() || !positions(a.high, b.high, wide).empty()) return "extent of a cycle";
+    if (!positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
+    if (a.feeds.size() != b.feeds.size() ||
+        !std::equal(a.feeds.begin(), a.feeds.end(), b.feeds.begin(),
+                    [&](const auto& x, const auto& y) { return x.first == y.first && close(x.second, y.second, t); }))
+      return "feeds of a cycle";
+    if (b.infeed > a.infeed * 1.1 + 0.01) return "infeed of a cycle";
+    return {};
+  }
+  switch (a.e.kind) {
+    case EventKind::dwell:
+      return a.e.revolutions != b.e.revolutions || std::fabs(a.e.amount - b.e.amount) > t.seconds ? "dwell" : "";
+    case EventKind::message:
+      return ((without & texts) != 0 ? core(a.e.text) != core(b.e.text) : a.e.text != b.e.text) ? "message" : "";
+    case EventKind::stop: return a.e.optional_stop != b.e.optional_stop ? "kind of stop" : "";
+    case EventKind::end: return a.e.reason != b.e.reason ? "end" : "";
+    default: break;
+  }
+  if (const auto what = positions(a.e.to, b.e.to, t); !what.empty()) return what + " of " + kind;
+  if (a.e.centre_side != b.e.centre_side) return "side at " + kind;
+  if (a.e.centre_side != ir::CompSide::off && a.e.plane != b.e.plane) return "plane of compensation at " + kind;
+  const std::uint32_t known = a.e.offset.known & b.e.offset.known;
+  if (((a.e.offset.with ^ b.e.offset.with) & known) != 0) return "tool offset at " + kind;
+  if ((without & open_offset) == 0 && a.e.offset.known != b.e.offset.known) return "tool offset not known at " + kind;
+  if (a.e.kind == EventKind::rapid) return {};
+  if (a.e.kind == EventKind::thread) {
+    return !close(a.e.pitch, b.e.pitch, t) || std::fabs(a.e.pitch_change - b.e.pitch_change) > 1e-6 ||
+                   std::fabs(a.e.start_angle - b.e.start_angle) > t.length
+               ? "thread"
+               : "";
+  }
+  if (a.e.feed_mode != b.e.feed_mode) return "feed mode at " + kind;
+  if (!close(a.e.feed, b.e.feed, t)) return "feed at " + kind;
+  if (a.e.kind == EventKind::probe && a.e.change != b.e.change) return "sense of probe";
+  if (a.e.kind != EventKind::arc) return {};
+  if (a.e.plane != b.e.plane || a.e.cw != b.e.cw || a.e.turns != b.e.turns) return "sense of arc";
+  if (std::hypot(a.e.center_u - b.e.center_u, a.e.center_v - b.e.center_v) > t.center) return "centre of arc";
+  return {};
+}
+
+std::string difference(const Trace& a, const Trace& b, std::uint32_t without, std::size_t unfed_moves) {
+  const Tolerance t = (without & tolerances) != 0 ? Tolerance{0.0011, 0.002, 1e-3, 0.0051, 0.00051} : Tolerance{};
+  const Reduced x(a, without, unfed_moves), y(b, without, unfed_moves);
+  for (std::size_t k = 0; k < std::min(x.items.size(), y.items.size()); ++k) {
+    if (auto what = difference(x.items[k], y.items[k], t, without); !what.empty()) return what;
+  }
+  return x.items.size() == y.items.size() ? "" : "a part on one side only";
+}
+
+}  // namespace
+
+Documented documented(const Translated& t, const Trace& with_fault) {
+  std::size_t unfed_moves = 0;
+  for (const auto& e : t.source_trace.events) {
+    if (e.kind != EventKind::linear && e.kind != EventKind::arc) continue;
+    if (e.feed != 0) break;
+    ++unfed_moves;
+  }
+  std::uint32_t without = everything;
+  const auto is_selection = [](const Event& e) { return e.kind == EventKind::tool && !e.change; };
+  if (std::any_of(t.source_trace.events.begin(), t.source_trace.events.end(), is_selection) &&
+      std::any_of(t.trace.events.begin(), t.trace.events.end(), is_selection))
+    without &= ~std::uint32_t{selections};
+  const auto left = [&](std::uint32_t aspects) { return difference(t.trace, with_fault, aspects, unfed_moves); };
+  Documented found;
+  found.equal = left(0).empty();
+  if (found.equal) return found;
+  found.what = left(without);
+  if (!found.what.empty()) return found;
+  for (const auto& row : table) {
+    if ((without & row.aspect) == 0 || !left(without & ~std::uint32_t{row.aspect}).empty()) continue;
+    without &= ~std::uint32_t{row.aspect};
+  }
+  for (const auto& row : table) {
+    if ((without & row.aspect) != 0) found.aspects.emplace_back(row.name);
+  }
+  return found;
+}
+
+std::vector<std::string> missing_sentences(const std::string& page) {
+  const auto words = [](const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+      const char d = c == '\n' ? ' ' : c;
+      if (d != ' ' || out.empty() || out.back() != ' ') out += d;
+    }
+    return out;
+  };
+  std::vector<std::string> missing;
+  for (const auto& row : table) {
+    if (words(page).find(row.sentence) == std::string::npos) missing.emplace_back(row.sentence);
+  }
+  return missing;
+}
+
+}  // namespace cnctrans::mutation
