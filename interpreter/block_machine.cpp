@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "interpreter/run_codes.h"
+#include "machine/tool_data.h"
 
 namespace cnctrans::interpreter {
 
@@ -19,8 +20,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   const auto is = [&profile](std::string_view option, std::string_view value) {
     return profile.option(option) == value;
   };
-  const std::string change = profile.option(profile.dialect + ".tool_change");
-  tool_came_with_t_ = !change.empty() && change != "m6";
+  tool_came_with_t_ = machine::changes_on_select(profile);
   policy_.cycle_rapid = is("cycle.positioning", "rapid");
   policy_.modal_words = is("call.modal_words", "yes");
   policy_.rotary_triggers = is("cycle.rotary_triggers", "yes");

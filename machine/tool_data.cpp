@@ -26,4 +26,9 @@ std::vector<std::string> tool_data_names(const Profile& profile, std::string_vie
   return out;
 }
 
+bool changes_on_select(const Profile& machine) {
+  const std::string how = machine.option(machine.dialect + ".tool_change");
+  return !how.empty() && how != "m6";
+}
+
 }  // namespace cnctrans::machine

@@ -83,11 +83,6 @@ bool own_block(const Action& action, const Capabilities& target) {
   return target.own_block && target.own_block(action);
 }
 
-bool changes_on_select(const machine::Profile& machine) {
-  const std::string how = machine.option(machine.dialect + ".tool_change");
-  return !how.empty() && how != "m6";
-}
-
 bool has_motion(const Block& block) {
   if (block.has_motion && block.motion.moves()) return true;
   for (const auto& a : block.actions) {

@@ -13,8 +13,6 @@ bool makes_event(const Action& action);
 std::vector<Action> take_after(Block& block);
 /// Actions whose place among the others of a block without motion counts.
 bool own_block(const Action& action, const Capabilities& target);
-/// T carries out the tool change (turret, or a control set up so).
-bool changes_on_select(const machine::Profile& machine);
 /// True when the block moves or runs a cycle.
 bool has_motion(const Block& block);
 

@@ -6,6 +6,7 @@
 #include "ir/passes/facts.h"
 #include "ir/passes/passes.h"
 #include "ir/search.h"
+#include "machine/tool_data.h"
 
 namespace cnctrans::ir::passes {
 
@@ -32,8 +33,8 @@ class ToolChanges {
  public:
   explicit ToolChanges(const LegaliseContext& context)
       : context_(context),
-        at_once_(changes_on_select(context.target_machine)),
-        came_with_t_(changes_on_select(context.source_machine)) {}
+        at_once_(machine::changes_on_select(context.target_machine)),
+        came_with_t_(machine::changes_on_select(context.source_machine)) {}
 
   void block(Statement& s) {
     auto& b = std::get<Block>(s.node);
@@ -61,7 +62,7 @@ class ToolChanges {
     auto& t = std::get<ToolSelect>(a.data);
     const bool did = t.changes;
     selected_ = true;
-    came_with_t_ = did && changes_on_select(context_.source_machine);
+    came_with_t_ = did && machine::changes_on_select(context_.source_machine);
     if (did == at_once_) {
       out.push_back(std::move(a));
       return;
@@ -232,8 +233,9 @@ class LengthCompensation {
 }  // namespace
 
 void convert_tools(Program& program, const LegaliseContext& context) {
-  const bool as_written = program.dialect == context.target.dialect &&
-                          changes_on_select(context.source_machine) == changes_on_select(context.target_machine);
+  const bool as_written =
+      program.dialect == context.target.dialect &&
+      machine::changes_on_select(context.source_machine) == machine::changes_on_select(context.target_machine);
   for (auto& r : program.routines) {
     if (as_written) break;
     ToolChanges changes(context);

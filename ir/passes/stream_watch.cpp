@@ -1,4 +1,5 @@
 #include "ir/passes/stream_watch.h"
+#include "machine/tool_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ StreamWatch::StreamWatch(const Capabilities& target, const machine::Profile& sou
       target_machine_(target_machine),
       state_(source.power_on),
       places_(std::max(0, std::min(target.word_decimals, target.word_decimals_inch))),
-      at_once_(passes::changes_on_select(target_machine)),
+      at_once_(machine::changes_on_select(target_machine)),
       keeps_differ_(source.option("frame.change_keeps") != target_machine.option("frame.change_keeps")),
       stop_differs_(source.option("stop.spindle") != target_machine.option("stop.spindle")),
       rapid_differs_(source.option("comp.rapid") != target_machine.option("comp.rapid")),
@@ -148,7 +149,7 @@ bool StreamWatch::action_needs_whole(const Block& block, const Action& a) const 
   if (const auto* t = std::get_if<ToolSelect>(&a.data); t != nullptr && !t->name.empty()) return true;  // gets a number
   if (const auto* t = std::get_if<ToolSelect>(&a.data)) return at_once_ && !t->changes && !has<ToolChange>(block);
   if (std::holds_alternative<ToolChange>(a.data)) {
-    return (at_once_ || passes::changes_on_select(source_)) && !has<ToolSelect>(block);
+    return (at_once_ || machine::changes_on_select(source_)) && !has<ToolSelect>(block);
   }
   return false;
 }
