@@ -62,15 +62,18 @@ class Side {
   [[nodiscard]] std::array<double, directions> reach(bool floor, double room) const {
     std::array<double, directions> out{};
     out.fill(-std::numeric_limits<double>::infinity());
+    std::array<Point, directions> toward;
+    for (std::size_t d = 0; d < directions; ++d) {
+      const double angle = full * static_cast<double>(d) / directions;
+      toward[d] = {std::cos(angle), std::sin(angle), 0};
+    }
     for (const auto& m : moves_) {
       if (!cuts(*m.event)) continue;
       for (std::size_t k = 1; k < m.points.size(); ++k) {
         for (const Point& p : {m.points[k - 1], m.points[k]}) {
           if (floor ? p.w > lowest_ + room : p.w > surface() - room) continue;
-          for (std::size_t d = 0; d < directions; ++d) {
-            const double angle = full * static_cast<double>(d) / directions;
-            out[d] = std::max(out[d], p.u * std::cos(angle) + p.v * std::sin(angle) + radius());
-          }
+          for (std::size_t d = 0; d < directions; ++d)
+            out[d] = std::max(out[d], p.u * toward[d].u + p.v * toward[d].v + radius());
         }
       }
     }
@@ -136,7 +139,8 @@ class Grid {
            i <= in; ++i) {
         const double pu = u_ + size_ * static_cast<double>(i) - a.u, pv = v_ + size_ * static_cast<double>(j) - a.v;
         const double k = whole > 0 ? std::clamp((pu * du + pv * dv) / whole, 0.0, 1.0) : 0;
-        if (std::hypot(pu - k * du, pv - k * dv) <= r)
+        const double away_u = pu - k * du, away_v = pv - k * dv;
+        if (away_u * away_u + away_v * away_v <= r * r)
           f(height_[static_cast<std::size_t>(j) * nu_ + static_cast<std::size_t>(i)]);
       }
     }
