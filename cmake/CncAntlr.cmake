@@ -48,6 +48,7 @@ function(cnc_grammar dialect)
     DEPENDS ${parser} ${out}/${lexer_name}.tokens VERBATIM)
   add_library(cnc_grammar_${dialect} STATIC ${lexer_out} ${parser_out})
   set_target_properties(cnc_grammar_${dialect} PROPERTIES CXX_STANDARD 17)
+  cnc_unity(cnc_grammar_${dialect})
   target_compile_options(cnc_grammar_${dialect} PRIVATE -w)
   # In a debug build the parser is still optimised: it is not ours to debug.
   target_compile_options(cnc_grammar_${dialect} PRIVATE $<$<CONFIG:Debug>:-O1>)

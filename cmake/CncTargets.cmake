@@ -1,13 +1,24 @@
 # Targets of the house: every folder globs its own sources, so that adding a file needs no edit here.
 
 set(CNC_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
-                 -Wimplicit-fallthrough -Werror)
+                 -Wimplicit-fallthrough)
+if(CNCTRANS_WERROR)
+  list(APPEND CNC_WARNINGS -Werror)
+endif()
 
 # GCC 12 finds faults in the standard library's own inlined code that are none (bugs 105329, 105562, 105651); they depend on
 # the optimiser, so an error would hit whoever builds with other options.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND CNC_WARNINGS -Wno-restrict -Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow
        -Wno-error=stringop-overread -Wno-error=free-nonheap-object -Wno-error=dangling-pointer -Wno-error=nonnull)
+endif()
+
+# In a group a file sees the helpers of the files before it; a local variable may be called as one of them.
+if(CNCTRANS_UNITY)
+  list(APPEND CNC_WARNINGS -Wno-shadow)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND CNC_WARNINGS -Wshadow=local -Wno-subobject-linkage)
+  endif()
 endif()
 
 add_library(cnc_options INTERFACE)
@@ -21,6 +32,14 @@ if(CNCTRANS_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+# cnc_unity(target): its sources in groups of eight, each compiled as one. Helpers of two files in an unnamed namespace must
+# not share a name for that (tools/check-names).
+function(cnc_unity target)
+  if(CNCTRANS_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
+
 # cnc_library(folder [EXCLUDE regex] LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
 function(cnc_library folder)
   cmake_parse_arguments(ARG "" "EXCLUDE" "LINK" ${ARGN})
@@ -31,6 +50,7 @@ function(cnc_library folder)
   endif()
   if(sources)
     add_library(cnc_${name} STATIC ${sources})
+    cnc_unity(cnc_${name})
   else()
     add_library(cnc_${name} INTERFACE)
   endif()
@@ -52,6 +72,7 @@ function(cnc_executable folder name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
   if(sources)
     add_executable(${name} ${sources})
+    cnc_unity(${name})
     target_link_libraries(${name} PRIVATE cnc_options ${ARG_LINK})
   endif()
 endfunction()

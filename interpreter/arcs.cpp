@@ -5,15 +5,10 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/block_machine.h"
+#include "interpreter/plane_points.h"
 #include "interpreter/run_codes.h"
 
 namespace cnctrans::interpreter {
-
-namespace {
-Vec at(const Axes& p, const ir::PlaneAxes& plane) {
-  return {p[plane.u], p[plane.v]};
-}
-}  // namespace
 
 bool BlockMachine::arc(const ir::Motion& m, ir::MotionKind kind, Move& move) {
   const auto plane = ir::plane_axes(move.plane);

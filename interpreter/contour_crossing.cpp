@@ -28,12 +28,13 @@ double dot(Point a, Point b) {
   return a.u * b.u + a.v * b.v;
 }
 
-struct Element {
+struct CrossedElement {
   Point start, end, centre;
   bool arc = false, clockwise = false;
   double radius = 0;
 
-  explicit Element(std::span<const double, element_values> v) : start{v[1], v[2]}, end{v[3], v[4]}, centre{v[5], v[6]} {
+  explicit CrossedElement(std::span<const double, element_values> v)
+      : start{v[1], v[2]}, end{v[3], v[4]}, centre{v[5], v[6]} {
     constexpr double tens = 10;
     const double code = std::fmod(std::abs(std::round(v[0])), tens);
     arc = code == 2 || code == 3;
@@ -58,7 +59,7 @@ struct Element {
 
 using Points = std::vector<Point>;
 
-Points line_line(const Element& a, const Element& b) {
+Points line_line(const CrossedElement& a, const CrossedElement& b) {
   const Point p = a.end - a.start, q = b.end - b.start;
   const double turn = cross(p, q);
   if (std::abs(turn) > near * length(p) * length(q)) {
@@ -69,7 +70,7 @@ Points line_line(const Element& a, const Element& b) {
   return {a.start, a.end, b.start, b.end};
 }
 
-Points line_circle(const Element& line, const Element& circle) {
+Points line_circle(const CrossedElement& line, const CrossedElement& circle) {
   const Point d = line.end - line.start;
   const double l = length(d);
   const double along = dot(circle.centre - line.start, d) / l;
@@ -82,7 +83,7 @@ Points line_circle(const Element& line, const Element& circle) {
   return {at(along - half), at(along + half)};
 }
 
-Points circle_circle(const Element& a, const Element& b) {
+Points circle_circle(const CrossedElement& a, const CrossedElement& b) {
   const Point d = b.centre - a.centre;
   const double l = length(d);
   if (l < near) {
@@ -104,7 +105,7 @@ Points circle_circle(const Element& a, const Element& b) {
 
 std::vector<std::pair<double, double>> crossings(std::span<const double, element_values> a,
                                                  std::span<const double, element_values> b) {
-  const Element first(a), second(b);
+  const CrossedElement first(a), second(b);
   std::vector<std::pair<double, double>> out;
   if (first.empty() || second.empty()) return out;
   const Points found = !first.arc && !second.arc ? line_line(first, second)

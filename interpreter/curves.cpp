@@ -6,13 +6,13 @@
 #include "base/diagnostics.h"
 #include "base/text.h"
 #include "interpreter/block_machine.h"
+#include "interpreter/plane_points.h"
 #include "interpreter/run_codes.h"
 
 namespace cnctrans::interpreter {
 
 namespace {
 
-constexpr double no_move = 1e-9;
 constexpr std::size_t most_points = 2'000'000;
 
 ir::curves::Point chosen(const Axes& p, const std::vector<ir::AxisId>& axes) {

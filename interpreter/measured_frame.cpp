@@ -9,27 +9,27 @@ namespace cnctrans::interpreter {
 
 namespace {
 
-using Point = std::array<double, 3>;
-using Points = std::array<Point, 3>;
+using SpacePoint = std::array<double, 3>;
+using ThreePoints = std::array<SpacePoint, 3>;
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
-Point minus(const Point& a, const Point& b) {
+SpacePoint minus(const SpacePoint& a, const SpacePoint& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-double length(const Point& a) {
+double length(const SpacePoint& a) {
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-bool on_a_line(const Points& p) {
-  const Point a = minus(p[1], p[0]), b = minus(p[2], p[0]);
-  const Point cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+bool on_a_line(const ThreePoints& p) {
+  const SpacePoint a = minus(p[1], p[0]), b = minus(p[2], p[0]);
+  const SpacePoint cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   constexpr double nearly = 1e-6;
   const double longest = std::max({length(a), length(b), length(minus(p[2], p[1]))});
   return length(cross) <= nearly * longest * longest;
 }
 
-Point middle(const Points& p) {
-  Point out{};
+SpacePoint middle(const ThreePoints& p) {
+  SpacePoint out{};
   for (const auto& x : p) {
     for (std::size_t k = 0; k < 3; ++k) out[k] += x[k] / 3;
   }
@@ -74,7 +74,7 @@ std::array<double, 4> largest_eigenvector(Matrix4 a) {
 }  // namespace
 
 MeasuredFrame measured_frame(std::span<const double, 18> points) {
-  Points ideal{}, measured{};
+  ThreePoints ideal{}, measured{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       ideal[i][k] = points[3 * i + k];
@@ -90,10 +90,10 @@ MeasuredFrame measured_frame(std::span<const double, 18> points) {
     out.quality = -2;
     return out;
   }
-  const Point from = middle(ideal), to = middle(measured);
+  const SpacePoint from = middle(ideal), to = middle(measured);
   std::array<std::array<double, 3>, 3> s{};  // sums of products of the coordinates about the middles
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point a = minus(ideal[i], from), b = minus(measured[i], to);
+    const SpacePoint a = minus(ideal[i], from), b = minus(measured[i], to);
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t l = 0; l < 3; ++l) s[k][l] += a[k] * b[l];
     }

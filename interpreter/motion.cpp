@@ -4,18 +4,14 @@
 #include <numbers>
 
 #include "interpreter/block_machine.h"
+#include "interpreter/plane_points.h"
 #include "interpreter/run_codes.h"
+#include "ir/motion_kinds.h"
 #include "machine/data_at_rest.h"
 
 namespace cnctrans::interpreter {
 
 namespace {
-constexpr double no_move = 1e-9;  ///< mm or degrees: less is no motion
-
-bool is_arc(ir::MotionKind k) {
-  return k == ir::MotionKind::arc_cw || k == ir::MotionKind::arc_ccw || k == ir::MotionKind::arc_through_point ||
-         k == ir::MotionKind::arc_tangent;
-}
 
 /// Probing moves and moves to a stop leave the straight line in force.
 ir::MotionKind left_in_force(ir::MotionKind k) {
@@ -195,7 +191,7 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
       move.toward = kind == ir::MotionKind::probe_toward;
       break;
     default:
-      if (is_arc(kind) && !arc(m, kind, move)) return false;
+      if (ir::is_any_arc(kind) && !arc(m, kind, move)) return false;
   }
   if (m.extra && m.extra->has_probe_edge) {
     if (move.kind != Move::Kind::linear && move.kind != Move::Kind::rapid)

@@ -3,16 +3,13 @@
 #include <cmath>
 
 #include "interpreter/block_machine.h"
+#include "interpreter/plane_points.h"
 #include "interpreter/run_codes.h"
 
 namespace cnctrans::interpreter {
 
 namespace {
-constexpr double no_move = 1e-9;
 
-Vec at(const Axes& p, const ir::PlaneAxes& plane) {
-  return {p[plane.u], p[plane.v]};
-}
 void put(Axes& p, const ir::PlaneAxes& plane, Vec v) {
   p[plane.u] = v.u;
   p[plane.v] = v.v;

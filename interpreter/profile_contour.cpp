@@ -10,7 +10,7 @@ namespace cnctrans::interpreter {
 namespace {
 
 constexpr std::uint64_t most_elements = 100'000;
-constexpr double nowhere = 1e9;  ///< mm: a coordinate that no block has given yet
+constexpr double no_place = 1e9;  ///< mm: a coordinate that no block has given yet
 
 /// Moves become elements.
 class ElementSink final : public TraceSink {
@@ -21,7 +21,7 @@ class ElementSink final : public TraceSink {
       return;
     }
     const ir::cycles::TurnPoint to{e.to.value[ir::axis::x], e.to.value[ir::axis::z]};
-    open = open || to.x > nowhere / 2 || to.z > nowhere / 2;
+    open = open || to.x > no_place / 2 || to.z > no_place / 2;
     if (e.kind != EventKind::rapid && begun) {
       auto& list = blank ? out.blank : out.part;
       list.push_back({at, to, e.kind == EventKind::arc, !e.cw, {e.center_v, e.center_u}});
@@ -51,9 +51,9 @@ class MillSink final : public TraceSink {
     const bool arc = e.kind == EventKind::arc;
     if (!begun || (several_ && rapid)) {
       strange = strange || arc;
-      open = open || u > nowhere / 2 || v > nowhere / 2;
+      open = open || u > no_place / 2 || v > no_place / 2;
       out.emplace_back();
-      if (several_ && w < nowhere / 2) out.back().surface = w;
+      if (several_ && w < no_place / 2) out.back().surface = w;
     } else if (arc || std::hypot(u - u_, v - v_) > 1e-9) {
       strange = strange || rapid || (arc && (e.plane != plane_ || e.turns != 0));
       out.back().elements.push_back({u_, v_, u, v, arc, !e.cw, e.center_u, e.center_v});
@@ -116,8 +116,8 @@ void BlockMachine::stand_for_contour(const ir::ModalState& state, std::optional<
   base_pending_ = 0;
   p_.fill(0);
   // Without a start the move to the first point is seen wherever that lies.
-  path_event_.to.value[ir::axis::x] = from ? from->x : nowhere;
-  path_event_.to.value[ir::axis::z] = from ? from->z : nowhere;
+  path_event_.to.value[ir::axis::x] = from ? from->x : no_place;
+  path_event_.to.value[ir::axis::z] = from ? from->z : no_place;
   if (!from) return;
   p_[ir::axis::x] = from->x;
   p_[ir::axis::z] = from->z;
@@ -127,9 +127,9 @@ void BlockMachine::stand_for_mill_contour(const ir::ModalState& state, bool with
   const auto plane = ir::plane_axes(state.plane);
   stand_for_contour(state, std::nullopt);
   modal_.plane = state.plane;
-  p_[plane.u] = p_[plane.v] = nowhere;
-  path_event_.to.value[plane.u] = path_event_.to.value[plane.v] = nowhere;
-  if (with_height) p_[plane.w] = path_event_.to.value[plane.w] = nowhere;
+  p_[plane.u] = p_[plane.v] = no_place;
+  path_event_.to.value[plane.u] = path_event_.to.value[plane.v] = no_place;
+  if (with_height) p_[plane.w] = path_event_.to.value[plane.w] = no_place;
 }
 
 std::optional<std::vector<ir::cycles::MillContour>> mill_contours_of(const machine::Profile& machine,

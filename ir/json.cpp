@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/source.h"
+#include "base/text.h"
 #include "ir/enum_names.h"
 #include "ir/fields_statement.h"
 #include "ir/text.h"
@@ -127,7 +128,7 @@ class JsonWriter {
   void set(std::string_view name, Json x) { out[std::string(name)] = std::move(x); }
   static Json value(std::string_view text) { return to_utf8(text); }
   static Json value(const std::string& text) { return to_utf8(text); }
-  static Json value(double x) { return std::isfinite(x) ? Json(x) : Json(number_text(x)); }
+  static Json value(double x) { return std::isfinite(x) ? Json(x) : Json(shortest(x)); }
   static Json value(bool x) { return x; }
   static Json value(std::uint8_t x) { return x; }
   static Json value(std::int32_t x) { return x; }

@@ -7,7 +7,7 @@ namespace detail {
 
 std::string label_text(std::string_view text) {
   const bool number_like = text.size() > 1 && text[0] == 'N' && all_digits(text.substr(1));
-  return is_capital_word(text) && !number_like && text != "N" ? std::string(text) : quoted(text);
+  return is_capital_word(text) && !number_like && text != "N" ? std::string(text) : detail::quoted(text);
 }
 
 void Printer::put(std::string_view text) {

@@ -11,8 +11,8 @@ std::string number_node(const Number& n, bool forced) {
   if (bare) {
     out = n.text;
   } else {
-    out = "#" + number_text(n.value);
-    if (!n.text.empty()) out += quoted(n.text);
+    out = "#" + shortest(n.value);
+    if (!n.text.empty()) out += detail::quoted(n.text);
   }
   if (n.integer != natural_integer(n.value)) out += n.integer ? 'i' : 'r';
   return out;
@@ -38,7 +38,7 @@ std::string Printer::index_text(const ExprPtr& e) const {
   const auto* n = e ? std::get_if<Number>(&e->node) : nullptr;
   if (n == nullptr) return expr_text(e, false);
   const std::string after = suffix(*e);
-  const std::string plain = number_text(n->value);
+  const std::string plain = shortest(n->value);
   const bool bare = n->text.empty() && after.empty() && n->integer && natural_integer(n->value) &&
                     number_length(plain) == plain.size();
   return bare ? plain : number_node(*n, true) + after;
@@ -119,7 +119,7 @@ void Printer::value(const Value& v) {
   } else if (says(v.text, v.number, true)) {
     put(v.text);
   } else {
-    put("#" + number_text(v.number));
+    put("#" + shortest(v.number));
     if (!v.text.empty()) glue(detail::quoted(v.text));
   }
 }

@@ -118,8 +118,4 @@ std::string quoted(std::string_view text) {
   return out;
 }
 
-std::string number_text(double value) {
-  return shortest(value);
-}
-
 }  // namespace cnctrans::ir::detail

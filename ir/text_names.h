@@ -42,6 +42,5 @@ bool natural_integer(double value);
 
 /// `text` in double quotes: `"` and `\` with a backslash, control bytes and bytes that are no UTF-8 as \xHH.
 std::string quoted(std::string_view text);
-std::string number_text(double value);
 
 }  // namespace cnctrans::ir::detail

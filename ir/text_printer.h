@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.h"
 #include "ir/enum_names.h"
 #include "ir/fields_statement.h"
 #include "ir/text.h"
@@ -122,7 +123,7 @@ class Printer {
   void value(const VarRef& v) { put(variable_text(v)); }
   void value(const std::string& text) { put(detail::quoted(text)); }
   void value(std::string_view text) { put(detail::quoted(text)); }
-  void value(double x) { put(number_text(x)); }
+  void value(double x) { put(shortest(x)); }
   void value(std::uint8_t x) { put(std::to_string(x)); }
   void value(std::int32_t x) { put(std::to_string(x)); }
   void value(std::uint32_t x) { put(std::to_string(x)); }

@@ -9,15 +9,12 @@
 #include "ir/dataflow.h"
 #include "ir/fact_set.h"
 #include "ir/geometry.h"
+#include "ir/known_number.h"
 #include "ir/missing_features.h"
 #include "ir/opaque_words.h"
 
 namespace cnctrans::ir {
 namespace {
-
-std::optional<double> known(const Value& v) {
-  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-}
 
 /// Probing moves and moves to a stop leave the straight line in force.
 MotionKind left_in_force(MotionKind k) {
@@ -78,11 +75,11 @@ class Transfer {
   }
   void operator()(const SetFeed& x) {
     if (x.block_only) return;
-    f_.feed = x.zero_is_maximum && !x.value.literal() ? std::nullopt : known(x.value);
+    f_.feed = x.zero_is_maximum && !x.value.literal() ? std::nullopt : known_number(x.value);
     if (x.zero_is_maximum && f_.feed == 0.0) f_.feed.reset();
   }
   void operator()(const SetSpindle& x) {
-    if (f_.master == x.number) f_.spindle = known(x.value);
+    if (f_.master == x.number) f_.spindle = known_number(x.value);
     if (!f_.master) f_.spindle.reset();
   }
   /// Each spindle keeps its own speed and its own kind of speed.
@@ -93,7 +90,7 @@ class Transfer {
     f_.settings[static_cast<std::size_t>(Setting::spindle_mode)].reset();
   }
   void operator()(const WorkOffset& x) {
-    const auto row = x.off ? std::optional(0.0) : known(x.index);
+    const auto row = x.off ? std::optional(0.0) : known_number(x.index);
     std::optional<std::int32_t> offset;
     if (row && std::fabs(*row) < 1e6) offset = saturate<std::int32_t>(std::round(*row));
     if (!offset || offset != f_.work_offset || framed_.rows_change) forget_positions();
@@ -110,7 +107,7 @@ class Transfer {
     if (framed_.presets_by_offset && f_.work_offset == 0) return;
     const bool in_force = f_.work_offset.has_value() || !framed_.presets_by_offset;
     for (const auto& w : x.change->words)
-      set_position(w.axis, !in_force ? std::nullopt : resolved(w.axis, w.scale, true, known(w.value)));
+      set_position(w.axis, !in_force ? std::nullopt : resolved(w.axis, w.scale, true, known_number(w.value)));
   }
   void operator()(const CycleDefine& x) {
     const auto* hole = x.cycle ? std::get_if<HoleCycle>(&x.cycle->node) : nullptr;
@@ -163,7 +160,7 @@ class Transfer {
     const bool absolute = left.base == LevelBase::absolute ||
                           (left.base == LevelBase::distance_mode &&
                            setting(Setting::distance) == static_cast<std::uint8_t>(Distance::absolute));
-    if (left.given && absolute) left_at_ = known(left.value);
+    if (left.given && absolute) left_at_ = known_number(left.value);
   }
 
   /// The same points in the other unit; rotary axes have none.
@@ -203,7 +200,7 @@ class Transfer {
     }
     if (!mode || w.axis >= f_.position.size() || w.direction != RotaryDirection::as_value) return std::nullopt;
     const bool absolute = *mode == static_cast<std::uint8_t>(Distance::absolute);
-    const auto x = resolved(w.axis, w.scale, absolute, known(w.value));
+    const auto x = resolved(w.axis, w.scale, absolute, known_number(w.value));
     if (absolute || !x) return x;
     const auto start = f_.position[w.axis];
     return start && !repeated ? std::optional(*start + *x) : std::nullopt;
@@ -239,7 +236,7 @@ class Transfer {
   void by_opening(const MotionExtra& x, const Motion& m, std::optional<MotionKind> kind,
                   const decltype(Facts::position)& before) {
     const auto plane = setting(Setting::plane), distance = setting(Setting::distance);
-    const auto angle = known(x.opening_angle);
+    const auto angle = known_number(x.opening_angle);
     const bool arc = kind == MotionKind::arc_cw || kind == MotionKind::arc_ccw;
     if (!plane || !angle || !arc || m.centers.empty() || m.radius_given || x.has_polar_radius || x.has_polar_angle)
       return;
@@ -251,7 +248,7 @@ class Transfer {
       const bool relative =
           w.mode == CenterMode::from_start ||
           (w.mode == CenterMode::follows_distance && distance == static_cast<std::uint8_t>(Distance::incremental));
-      const auto value = resolved(w.axis, w.scale, !relative, known(w.value));
+      const auto value = resolved(w.axis, w.scale, !relative, known_number(w.value));
       if (!value || (!relative && w.mode == CenterMode::follows_distance && !distance)) return;
       if (w.axis != axes.u && w.axis != axes.v) return;
       (w.axis == axes.u ? centre.u : centre.v) = *value + (relative ? (w.axis == axes.u ? *u : *v) : 0);
@@ -265,7 +262,7 @@ class Transfer {
   /// The other end of a line by its angle and one coordinate of the plane.
   void by_angle(const MotionExtra& x, const Motion& m, const decltype(Facts::position)& before) {
     const auto plane = setting(Setting::plane);
-    const auto angle = known(x.line_angle);
+    const auto angle = known_number(x.line_angle);
     if (!plane || !angle || x.has_polar_radius || x.has_polar_angle || x.has_angle) return;
     const PlaneAxes axes = plane_axes(static_cast<Plane>(*plane));
     const bool first = has_word(m, axes.u);
@@ -316,7 +313,7 @@ class Transfer {
     const auto [u, v, w] = plane_axes(static_cast<Plane>(*plane));
     if (hole_here_ != nullptr) leaves_at(*hole_here_);
     for (const auto& [axis, value] : {std::pair(u, place_.first), std::pair(v, place_.second)}) {
-      if (value != nullptr) set_position(axis, resolved(axis, WordScale::modal, true, known(*value)));
+      if (value != nullptr) set_position(axis, resolved(axis, WordScale::modal, true, known_number(*value)));
     }
     const bool defined_here = runs_here_ && here_is_hole_ && f_.cycle_from == id_;
     if ((active && !defined_here) || !runs_here_)
@@ -338,7 +335,7 @@ class Transfer {
       f_.motion = MotionKind::rapid;
       for (const std::string_view name : {"rough_feed", "finish_feed"}) {
         const Value* v = word(name);
-        const auto n = v != nullptr ? known(*v) : std::nullopt;
+        const auto n = v != nullptr ? known_number(*v) : std::nullopt;
         if (v != nullptr && n != 0.0) f_.feed = n;
       }
     }
@@ -349,7 +346,7 @@ class Transfer {
     if (kind_->ends == cycles::CycleEnd::at_call) return;
     const auto number = [this](std::string_view name) {
       const Value* v = word(name);
-      return v != nullptr ? known(*v) : std::optional(0.0);
+      return v != nullptr ? known_number(*v) : std::optional(0.0);
     };
     const auto depth = number("depth"), clearance = number("clearance");
     std::optional<double> away;

@@ -1,6 +1,8 @@
 # Shell functions of ./cnctrans and ./check; POSIX sh, to be sourced with $root set to the repository's folder.
 # Everything they say goes to stderr; standard output belongs to the program.
 
+as= # the preset that a tree is made with, where it is not called as the tree
+
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 
 # packages_of PURPOSE...: the names in tools/packages-debian.txt for these purposes.
@@ -57,7 +59,7 @@ lock_build() {
 }
 unlock_build() { exec 9>&-; }
 
-# configure PRESET: when there is no configured tree, or the tree was copied here from another place.
+# configure TREE: when build/TREE is not configured yet, or was copied here from another place.
 configure() {
   tree=$root/build/$1
   if [ -f "$tree/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$tree/CMakeCache.txt"; then
@@ -65,7 +67,7 @@ configure() {
   fi
   [ -f "$tree/build.ninja" ] && return 0
   mkdir -p "$tree"
-  (cd "$root" && cmake --preset "$1") </dev/null >"$tree/build.log" 2>&1 9>&-
+  (cd "$root" && cmake --preset "${as:-$1}") </dev/null >"$tree/build.log" 2>&1 9>&-
 }
 
 # build PRESET TARGET...: configures and builds; all output goes to build/PRESET/build.log, whose end is shown when it

@@ -42,7 +42,7 @@ std::string share(std::size_t part, std::size_t of) {
   return of == 0 ? "0" : rounded(100.0 * static_cast<double>(part) / static_cast<double>(of), 2);
 }
 
-std::string quoted(std::string_view text) {
+std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
   std::string out = "\"";
   for (const char c : text) {
@@ -119,8 +119,9 @@ std::string summary_csv(const std::vector<BatchRecord>& records, std::size_t all
     text += fmt::format("status,{},{},\n", s, it == c.status.end() ? 0 : it->second);
   }
   text += fmt::format("share,verified percent,{},\n", share(c.verified, records.size()));
-  for (const auto& [code, n] : c.errors) text += fmt::format("error,{},{},{}\n", quoted(code), n.programs, n.times);
-  for (const auto& [code, n] : c.warnings) text += fmt::format("warning,{},{},{}\n", quoted(code), n.programs, n.times);
+  for (const auto& [code, n] : c.errors) text += fmt::format("error,{},{},{}\n", csv_text(code), n.programs, n.times);
+  for (const auto& [code, n] : c.warnings)
+    text += fmt::format("warning,{},{},{}\n", csv_text(code), n.programs, n.times);
   return text;
 }
 
@@ -129,9 +130,9 @@ std::string programs_csv(const std::vector<BatchRecord>& records) {
   for (const auto& r : records) {
     std::string outputs;
     for (const auto& o : r.outputs) outputs += (outputs.empty() ? "" : " ") + o;
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", quoted(r.program), r.status, r.lines, r.moves,
-                        rounded(r.max_length, 6), quoted(codes_text(r.errors)), quoted(codes_text(r.warnings)),
-                        quoted(outputs), quoted(r.detail));
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_text(r.program), r.status, r.lines, r.moves,
+                        rounded(r.max_length, 6), csv_text(codes_text(r.errors)), csv_text(codes_text(r.warnings)),
+                        csv_text(outputs), csv_text(r.detail));
   }
   return text;
 }

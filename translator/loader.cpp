@@ -19,7 +19,7 @@ bool listed(const std::vector<std::string_view>& list, std::string_view extensio
   return std::find(list.begin(), list.end(), extension) != list.end();
 }
 
-bool letter(char c) {
+bool letter_of_name(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
 }
 
@@ -86,9 +86,9 @@ LatheEvidence lathe_evidence(std::string_view text, const Dialect& dialect) {
     } else if (c == '"') {
       const std::size_t close = text.find_first_of("\"\r\n", i + 1);
       i = close == std::string_view::npos ? text.size() : close + 1;
-    } else if (letter(c)) {
+    } else if (letter_of_name(c)) {
       std::size_t end = i;
-      while (end < text.size() && letter(text[end])) ++end;
+      while (end < text.size() && letter_of_name(text[end])) ++end;
       evidence.word(text.substr(i, end - i), text.substr(end, 8));
       i = end;
     } else {
@@ -367,7 +367,7 @@ std::string Loader::written_file(std::string_view name) const {
                          ? dialect_.written_file(name, profile_.kind == machine::Kind::lathe)
                          : std::string(name);
   for (char& c : file) {
-    const bool plain = letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+    const bool plain = letter_of_name(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
     if (!plain) c = '_';
   }
   return file;

@@ -11,6 +11,10 @@ namespace cnctrans::verifier {
 /// free, across a barrier it is not.
 [[nodiscard]] bool is_barrier(interpreter::EventKind k);
 [[nodiscard]] bool is_motion(interpreter::EventKind k);
+/// A motion with feed along a line or an arc.
+[[nodiscard]] inline bool cuts(const interpreter::Event& e) {
+  return e.kind == interpreter::EventKind::linear || e.kind == interpreter::EventKind::arc;
+}
 
 /// Drops commands that change nothing (the spindle already runs so, the coolant is already so, the same offset or
 /// compensation side again) and orders the state changes of each stretch by kind, keeping the order inside a kind.

@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "ir/cycles/left_material.h"
+#include "verifier/normalise.h"
 #include "verifier/similar_pocket.h"
 #include "verifier/similar_tap.h"
 #include "verifier/similar_thread.h"
@@ -102,10 +103,6 @@ std::vector<Move> moves_of(const Frame& f, const CyclePasses& side) {
     at = {e->to.value[ir::axis::x], e->to.value[ir::axis::z]};
   }
   return out;
-}
-
-bool cuts(const Event& e) {
-  return e.kind == EventKind::linear || e.kind == EventKind::arc;
 }
 
 class Stock {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "verifier/normalise.h"
 
 namespace cnctrans::verifier {
 
@@ -24,28 +25,24 @@ constexpr double sagitta = 2e-4;         ///< of the chords that stand for an ar
 constexpr double full = 6.283185307179586;
 
 /// Middle of the tool: in the plane, and over the floor (upward from the material).
-struct Point {
+struct PocketPoint {
   double u = 0, v = 0, w = 0;
 };
-struct Move {
+struct PocketMove {
   const Event* event = nullptr;
-  std::vector<Point> points;
+  std::vector<PocketPoint> points;
 };
-
-bool cuts(const Event& e) {
-  return e.kind == EventKind::linear || e.kind == EventKind::arc;
-}
 
 class Side {
  public:
   Side(const CyclePasses& passes, const CycleRun& run) : run_(run), axes_(ir::plane_axes(run.plane)) {
-    Point at = of(passes.start);
+    PocketPoint at = of(passes.start);
     for (const Event* e : passes.events) {
       if (e->kind != EventKind::rapid && !cuts(*e)) continue;
-      Move m;
+      PocketMove m;
       m.event = e;
       m.points.push_back(at);
-      const Point to = of(e->to);
+      const PocketPoint to = of(e->to);
       if (e->kind == EventKind::arc && e->plane == run.plane) arc(m, at, to, *e);
       m.points.push_back(to);
       at = to;
@@ -53,7 +50,7 @@ class Side {
       moves_.push_back(std::move(m));
     }
   }
-  [[nodiscard]] const std::vector<Move>& moves() const { return moves_; }
+  [[nodiscard]] const std::vector<PocketMove>& moves() const { return moves_; }
   [[nodiscard]] double lowest() const { return lowest_; }
   [[nodiscard]] double radius() const { return run_.radius; }
   [[nodiscard]] double surface() const { return run_.surface * run_.out; }
@@ -70,7 +67,7 @@ class Side {
     for (const auto& m : moves_) {
       if (!cuts(*m.event)) continue;
       for (std::size_t k = 1; k < m.points.size(); ++k) {
-        for (const Point& p : {m.points[k - 1], m.points[k]}) {
+        for (const PocketPoint& p : {m.points[k - 1], m.points[k]}) {
           if (floor ? p.w > lowest_ + room : p.w > surface() - room) continue;
           for (std::size_t d = 0; d < directions; ++d)
             out[d] = std::max(out[d], p.u * toward[d].u + p.v * toward[d].v + radius());
@@ -81,10 +78,10 @@ class Side {
   }
 
  private:
-  [[nodiscard]] Point of(const interpreter::Position& p) const {
+  [[nodiscard]] PocketPoint of(const interpreter::Position& p) const {
     return {p.value[axes_.u], p.value[axes_.v], p.value[axes_.w] * run_.out};
   }
-  void arc(Move& m, const Point& from, const Point& to, const Event& e) const {
+  void arc(PocketMove& m, const PocketPoint& from, const PocketPoint& to, const Event& e) const {
     const double r = std::hypot(from.u - e.center_u, from.v - e.center_v);
     const double start = std::atan2(from.v - e.center_v, from.u - e.center_u);
     double sweep = std::atan2(to.v - e.center_v, to.u - e.center_u) - start;
@@ -101,7 +98,7 @@ class Side {
   }
   const CycleRun& run_;
   ir::PlaneAxes axes_;
-  std::vector<Move> moves_;
+  std::vector<PocketMove> moves_;
   double lowest_ = std::numeric_limits<double>::infinity();
 };
 
@@ -117,12 +114,12 @@ class Grid {
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] std::size_t count() const { return height_.size(); }
   [[nodiscard]] double at(std::size_t k) const { return height_[k]; }
-  [[nodiscard]] Point place(std::size_t k) const {
+  [[nodiscard]] PocketPoint place(std::size_t k) const {
     return {u_ + size_ * static_cast<double>(k % nu_), v_ + size_ * static_cast<double>(k / nu_), 0};
   }
   /// Calls `f` with every cell within `r` of the way from a to b.
   template <class F>
-  void along(const Point& a, const Point& b, double r, F f) {
+  void along(const PocketPoint& a, const PocketPoint& b, double r, F f) {
     if (r <= 0) return;
     const auto first = [](double from, double by) {
       return static_cast<std::size_t>(std::max(0.0, std::ceil(from / by)));
@@ -145,14 +142,14 @@ class Grid {
       }
     }
   }
-  void cut(const Move& m, double r) {
+  void cut(const PocketMove& m, double r) {
     for (std::size_t k = 1; k < m.points.size(); ++k) {
       const double w = std::max(m.points[k - 1].w, m.points[k].w);
       along(m.points[k - 1], m.points[k], r, [w](double& h) { h = std::min(h, w); });
     }
   }
   /// Some cell under the way stands higher than the tool comes.
-  bool hits(const Move& m, double r, double room) {
+  bool hits(const PocketMove& m, double r, double room) {
     bool hit = false;
     for (std::size_t k = 1; k < m.points.size() && !hit; ++k) {
       const double w = std::min(m.points[k - 1].w, m.points[k].w);
@@ -196,18 +193,18 @@ class Pockets {
     apart = std::max(apart, most);
     return {};
   }
-  [[nodiscard]] bool goes_down(const Move& m) const {
-    const Point &from = m.points.front(), &to = m.points.back();
+  [[nodiscard]] bool goes_down(const PocketMove& m) const {
+    const PocketPoint &from = m.points.front(), &to = m.points.back();
     return to.w < from.w && std::hypot(to.u - from.u, to.v - from.v) <= t_.contour;
   }
   [[nodiscard]] std::string feeds() const {
-    const bool dives = std::any_of(a_.moves().begin(), a_.moves().end(), [this](const Move& m) {
+    const bool dives = std::any_of(a_.moves().begin(), a_.moves().end(), [this](const PocketMove& m) {
       return !cuts(*m.event) && goes_down(m) && m.points.back().w < a_.surface() - t_.contour;
     });
     for (const auto& m : b_.moves()) {
       if (!cuts(*m.event)) continue;
       if (dives && goes_down(m)) continue;  // at feed where the source goes down in rapid
-      const bool known = std::any_of(a_.moves().begin(), a_.moves().end(), [&](const Move& o) {
+      const bool known = std::any_of(a_.moves().begin(), a_.moves().end(), [&](const PocketMove& o) {
         return cuts(*o.event) && o.event->feed_mode == m.event->feed_mode &&
                close_relative(o.event->feed, m.event->feed, t_.feed_relative);
       });
@@ -248,7 +245,7 @@ class Pockets {
       perhaps_b.cut(m, b_.radius() + room);
     }
     for (std::size_t k = 0; k < surely_a.count(); ++k) {
-      const Point p = surely_a.place(k);
+      const PocketPoint p = surely_a.place(k);
       if (surely_a.at(k) < perhaps_b.at(k) - t_.contour)
         return fmt::format("the translation's cycle leaves more than the source's, at {} {}", rounded(p.u, 2),
                            rounded(p.v, 2));
@@ -258,8 +255,8 @@ class Pockets {
     }
     return {};
   }
-  static std::string said(const Move& m) {
-    const Point& p = m.points.back();
+  static std::string said(const PocketMove& m) {
+    const PocketPoint& p = m.points.back();
     return fmt::format("{} {}", rounded(p.u, 3), rounded(p.v, 3));
   }
 

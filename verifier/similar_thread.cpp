@@ -17,15 +17,15 @@ using interpreter::EventKind;
 
 namespace {
 
-struct Point {
+struct ThreadPoint {
   double p = 0, q = 0;  ///< across and along the thread
 };
 struct Pass {
-  Point from, to;
+  ThreadPoint from, to;
   const Event* event = nullptr;
 };
 struct Way {
-  Point from, to;
+  ThreadPoint from, to;
 };
 
 /// The passes of each start of the thread, by its angle in thousandths of a degree, and the rapid moves.
@@ -38,12 +38,12 @@ Thread thread_of(const CyclePasses& side, bool face) {
   Thread out;
   const auto role = [face](const interpreter::Position& p) {
     const double x = p.value[ir::axis::x], z = p.value[ir::axis::z];
-    return face ? Point{z, x} : Point{x, z};
+    return face ? ThreadPoint{z, x} : ThreadPoint{x, z};
   };
-  Point at = role(side.start);
+  ThreadPoint at = role(side.start);
   for (const Event* e : side.events) {
     if (e->kind != EventKind::thread && e->kind != EventKind::rapid) continue;
-    const Point to = role(e->to);
+    const ThreadPoint to = role(e->to);
     if (e->kind == EventKind::rapid) {
       out.rapids.push_back({at, to});
     } else {
@@ -108,7 +108,7 @@ std::string thread_difference(const CyclePasses& source, const CyclePasses& targ
       const double from = std::min(any.from.q, any.to.q), to = std::max(any.from.q, any.to.q);
       const bool over = std::max(r.from.q, r.to.q) > from + t.contour && std::min(r.from.q, r.to.q) < to - t.contour;
       if (!over || std::fabs(r.from.q - r.to.q) <= (to - from) / 2) continue;
-      for (const Point& p : {r.from, r.to}) low = std::min(low, out * (p.p - on_line(any, p.q)));
+      for (const ThreadPoint& p : {r.from, r.to}) low = std::min(low, out * (p.p - on_line(any, p.q)));
     }
     return low;
   };

@@ -2,6 +2,7 @@
 #include <array>
 #include <string>
 
+#include "backends/common/index_of.h"
 #include "backends/common/stream_writer.h"
 
 namespace cnctrans::backends {
@@ -9,11 +10,6 @@ namespace cnctrans::backends {
 using machine::MMeaning;
 
 namespace {
-
-template <class T>
-std::size_t index_of(T value) {
-  return static_cast<std::size_t>(value);
-}
 
 /// M words by number; the texts live as long as the program.
 std::string_view m_text(std::int32_t code, bool two_digits) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "backends/common/comments.h"
+#include "backends/common/index_of.h"
 #include "backends/common/places.h"
 #include "backends/common/tool_words.h"
 #include "backends/common/waiting_offset.h"
@@ -122,11 +123,6 @@ inline bool put(std::string_view text, char*& p, const char* end) {
   if (text.size() > static_cast<std::size_t>(end - p)) return false;
   p = copy_short(p, text);
   return true;
-}
-
-template <class T>
-std::size_t index_of(T value) {
-  return static_cast<std::size_t>(value);
 }
 
 }  // namespace

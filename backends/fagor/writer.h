@@ -17,6 +17,9 @@
 
 namespace cnctrans::backends::fagor {
 
+/// The code of what the language has no word for.
+inline constexpr std::string_view no_word = "TRN-202";
+
 /// The file's name: six digits. The stem when it is that; else the program's number, else the digits in the stem.
 std::string file_name(const ir::Program& program, const WriteOptions& options, bool lathe);
 /// `wanted`, or the next program number whose name is not taken in this job.

@@ -12,8 +12,6 @@ namespace {
 using dialects::fagor::Use;
 using ir::FrameCombine;
 
-constexpr std::string_view no_word = "TRN-202";
-
 }  // namespace
 
 /// Blocks that the target needs one after the other: the place in the source stays that of the first.

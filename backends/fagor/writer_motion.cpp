@@ -16,7 +16,6 @@ namespace {
 
 using dialects::fagor::Use;
 
-constexpr std::string_view no_word = "TRN-202";
 constexpr std::string_view no_cycle = "TRN-214";
 
 constexpr const char* plain_axis =

@@ -15,8 +15,6 @@ namespace {
 
 using dialects::fagor::Use;
 
-constexpr std::string_view no_word = "TRN-202";
-
 template <class T>
 bool holds(const ir::Action& a) {
   return std::holds_alternative<T>(a.data);

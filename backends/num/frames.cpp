@@ -6,16 +6,6 @@
 
 namespace cnctrans::backends::num {
 
-namespace {
-
-constexpr std::string_view no_word = "TRN-202";
-
-bool zero(const ir::Value& v) {
-  return v.is(0);
-}
-
-}  // namespace
-
 void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
   if (w.off) return add("G53", Rank::setting, a.pos);
   if (!w.index.is(1))
@@ -87,7 +77,7 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
     if (clear) text += profile().kind == machine::Kind::lathe ? " X+ Z+" : " X+ Y+ Z+";
     for (const auto& w : c.words) {
       if (!w.value.literal()) return refuse(no_word, a.pos, "a computed mirror has no counterpart here");
-      text += ' ' + std::string(axis_name(w.axis)) + (zero(w.value) ? '+' : '-');
+      text += ' ' + std::string(axis_name(w.axis)) + (w.value.is(0) ? '+' : '-');
     }
     return add(text, Rank::setting, a.pos);
   }

@@ -143,17 +143,13 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   return c;
 }
 
-bool zero(const ir::Value& v) {
-  return v.is(0);
-}
-
 /// A level that a word of the cycle can name: an absolute coordinate.
 bool nameable(const ir::Level& l) {
   return l.given && l.base == ir::LevelBase::absolute;
 }
 /// The height of the call: said by leaving the word out.
 bool at_call(const ir::Level& l) {
-  return l.given && l.base == ir::LevelBase::from_initial && zero(l.value);
+  return l.given && l.base == ir::LevelBase::from_initial && l.value.is(0);
 }
 
 /// The tip is freed as G86 does it: by 2 mm in the direction of the stop.
@@ -229,14 +225,14 @@ bool native_hole(const ir::HoleCycle& c) {
     case ir::HoleKind::peck_break: break;
     case ir::HoleKind::tap_floating:
     case ir::HoleKind::tap:
-      if (!zero(c.dwell_bottom) || c.pecks.law != ir::PeckLaw::none || zero(c.pitch) == (c.kind == ir::HoleKind::tap))
+      if (!c.dwell_bottom.is(0) || c.pecks.law != ir::PeckLaw::none || c.pitch.is(0) == (c.kind == ir::HoleKind::tap))
         return false;
       break;
     case ir::HoleKind::bore_shift:
-      if (!zero(c.dwell_bottom) || !zero(c.shift_w) || !oriented_clearance(c)) return false;
+      if (!c.dwell_bottom.is(0) || !c.shift_w.is(0) || !oriented_clearance(c)) return false;
       break;
     case ir::HoleKind::bore_manual:  // the spindle turns on
-      if (!zero(c.dwell_bottom) || c.spindle_bottom != ir::SpindleStep::none) return false;
+      if (!c.dwell_bottom.is(0) || c.spindle_bottom != ir::SpindleStep::none) return false;
       break;
     default: return false;
   }
@@ -244,8 +240,8 @@ bool native_hole(const ir::HoleCycle& c) {
                            c.orient_first || c.has_speed || c.has_speed_out || c.spindle_after_retract;
   if (own_spindle || c.keeps_initial) return false;
   if (c.kind != ir::HoleKind::bore_manual && c.spindle_bottom != ir::SpindleStep::usual) return false;
-  if (chips && !zero(c.dwell_bottom)) return false;
-  if (c.has_feed || c.has_feed_out || !zero(c.dwell_top) || c.dwell_in_revolutions || c.reference_may_be_below)
+  if (chips && !c.dwell_bottom.is(0)) return false;
+  if (c.has_feed || c.has_feed_out || !c.dwell_top.is(0) || c.dwell_in_revolutions || c.reference_may_be_below)
     return false;
   if (!nameable(c.bottom) || !(nameable(c.reference) || at_call(c.reference))) return false;
   if (c.retract.given && !nameable(c.retract) && !at_call(c.retract)) return false;
@@ -257,7 +253,7 @@ bool native_hole(const ir::HoleCycle& c) {
   const ir::Pecks& p = c.pecks;
   const bool law = p.law == ir::PeckLaw::constant || p.law == ir::PeckLaw::linear;
   return law && !p.first_to.given && !p.first_from_surface && !p.reapproach_automatic && !p.has_first_feed_factor &&
-         (chips || zero(p.dwell)) && zero(p.lift) && !p.lift_rapid;
+         (chips || p.dwell.is(0)) && p.lift.is(0) && !p.lift_rapid;
 }
 
 PlainTable plain_words(const machine::Profile& profile) {

@@ -15,12 +15,7 @@ namespace facts = dialects::num;
 
 namespace {
 
-constexpr std::string_view no_word = "TRN-202";
 constexpr std::string_view no_cycle = "TRN-214";
-
-bool zero(const ir::Value& v) {
-  return v.is(0);
-}
 
 }  // namespace
 
@@ -307,7 +302,7 @@ void Writer::radius(const ir::Motion& m) {
 
 /// EA and EX of a polar end point, K of a thread.
 void Writer::straight_extra(const ir::Motion& m, const ir::MotionExtra& e) {
-  if (e.has_pitch || (e.has_start_angle && !zero(e.start_angle)) || !zero(e.lead_change))
+  if (e.has_pitch || (e.has_start_angle && !e.start_angle.is(0)) || !e.lead_change.is(0))
     return refuse(no_word, m.code_pos, "the start angle or changing pitch of a thread has no counterpart here");
   if (e.has_lead) return add(word("K", e.lead, m.code_pos), Rank::motion_extra);
   // The polar form counts from the origin; elsewhere the pole moves.
@@ -358,7 +353,7 @@ std::string Writer::level_word(std::string_view address, const ir::Level& level,
 
 void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
   const auto at_call = [](const ir::Level& l) {
-    return l.given && l.base == ir::LevelBase::from_initial && zero(l.value);
+    return l.given && l.base == ir::LevelBase::from_initial && l.value.is(0);
   };
   bool retract_at_call = c.retract.given && at_call(c.retract);
   ir::Level retract = c.retract;
@@ -395,7 +390,7 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
     return refuse(no_cycle, a.pos, "this cycle is not one of this control's", "use --cycles=explode");
   const bool chips = c.kind == ir::HoleKind::peck_break;
   const ir::Value& dwell = chips ? c.pecks.dwell : c.dwell_bottom;
-  const bool dwells = !zero(dwell);
+  const bool dwells = !dwell.is(0);
   const bool peck = chips || c.kind == ir::HoleKind::peck_full;
   const std::string_view code = [&]() -> std::string_view {
     switch (c.kind) {
@@ -429,14 +424,14 @@ void Writer::hole_cycle(const ir::Action& a, const ir::HoleCycle& c) {
   if (incremental) add("G91", Rank::motion_extra);
   if (dwells) add(word("EF", c.dwell_scale == 1 ? dwell : ir::scale(dwell, c.dwell_scale), a.pos), Rank::motion_extra);
   if (c.kind == ir::HoleKind::tap) add(word("K", c.pitch, a.pos), Rank::motion_extra);
-  if (c.kind == ir::HoleKind::bore_shift && !zero(c.orient_angle))
+  if (c.kind == ir::HoleKind::bore_shift && !c.orient_angle.is(0))
     add(word("EC", c.orient_angle, a.pos), Rank::motion_extra);
   if (!peck) return;
   add(word("P", c.pecks.first, a.pos), Rank::motion_extra);
   if (c.pecks.law == ir::PeckLaw::linear) add(word("Q", c.pecks.minimum, a.pos), Rank::motion_extra);
   const bool inch = setting(ir::Setting::units) == code_value(ir::Units::inch);
   const bool usual = c.pecks.reapproach.is(inch ? facts::reapproach / 25.4 : facts::reapproach);
-  if (chips ? !zero(c.pecks.reapproach) : !usual) add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
+  if (chips ? !c.pecks.reapproach.is(0) : !usual) add(word("EP", c.pecks.reapproach, a.pos), Rank::motion_extra);
 }
 
 void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <set>
+#include <string_view>
 
 #include "backends/common/file_groups.h"
 #include "backends/common/program_writer.h"
@@ -9,6 +10,9 @@
 #include "dialects/num/assumed_cycles.h"
 
 namespace cnctrans::backends::num {
+
+/// The code of what the language has no word for.
+inline constexpr std::string_view no_word = "TRN-202";
 
 class Writer final : public ProgramWriter {
  public:

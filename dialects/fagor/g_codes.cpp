@@ -50,7 +50,7 @@ constexpr auto T = Model::lathe;
 constexpr auto M = Model::mill;
 constexpr auto B = Model::both;
 
-constexpr std::array table = {
+constexpr std::array g_table = {
     motion(0, MotionKind::rapid, "6.1"),
     motion(1, MotionKind::linear, "6.2"),
     motion(2, MotionKind::arc_cw, "6.3"),
@@ -219,27 +219,27 @@ constexpr std::array table = {
 /// Row number + 1 of every code; 0: none. One table a model.
 constexpr std::array<std::uint8_t, max_g_code + 1> rows_of(Model model) {
   std::array<std::uint8_t, max_g_code + 1> rows{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    if ((static_cast<int>(table[i].model) & static_cast<int>(model)) != 0) {
-      rows[static_cast<std::size_t>(table[i].code)] = static_cast<std::uint8_t>(i + 1);
+  for (std::size_t i = 0; i < g_table.size(); ++i) {
+    if ((static_cast<int>(g_table[i].model) & static_cast<int>(model)) != 0) {
+      rows[static_cast<std::size_t>(g_table[i].code)] = static_cast<std::uint8_t>(i + 1);
     }
   }
   return rows;
 }
-static_assert(table.size() < 255);
+static_assert(g_table.size() < 255);
 constexpr auto lathe_rows = rows_of(Model::lathe);
 constexpr auto mill_rows = rows_of(Model::mill);
 
 }  // namespace
 
 std::span<const GCode> g_codes() {
-  return table;
+  return g_table;
 }
 
 const GCode* find_g(int code, bool lathe) {
   if (code < 0 || code > max_g_code) return nullptr;
   const std::uint8_t row = (lathe ? lathe_rows : mill_rows)[static_cast<std::size_t>(code)];
-  return row == 0 ? nullptr : &table[row - 1];
+  return row == 0 ? nullptr : &g_table[row - 1];
 }
 
 }  // namespace cnctrans::dialects::fagor

@@ -10,7 +10,7 @@ using ir::Datum;
 
 // Name, axis letter follows, index, access from the part program, reading stops block preparation, IR datum, unit,
 // type.
-constexpr std::array<VariableInfo, 280> table = {{
+constexpr std::array<VariableInfo, 280> variable_table = {{
     // §11.2.2: Tools
     {"TOOL", false, Index::none, Access::read, false, Datum::tool_number, Unit::none, ir::Type::integer},
     {"TOD", false, Index::none, Access::read, false, Datum::offset_number, Unit::none, ir::Type::integer},
@@ -317,7 +317,7 @@ constexpr std::array<VariableInfo, 280> table = {{
 }  // namespace
 
 std::span<const VariableInfo> variables() {
-  return table;
+  return variable_table;
 }
 
 std::string_view name(Unit u) {
@@ -339,14 +339,14 @@ std::string_view name(Unit u) {
 }
 
 VariableName find_variable(std::string_view name) {
-  for (const auto& v : table) {
+  for (const auto& v : variable_table) {
     if (!v.axis && v.name == name) return {&v, ir::axis::none};
   }
   if (name.size() < 2) return {};
   const ir::AxisId axis = ir::fixed_axis(name.back());
   if (axis == ir::axis::none) return {};
   name.remove_suffix(1);
-  for (const auto& v : table) {
+  for (const auto& v : variable_table) {
     if (v.axis && v.name == name) return {&v, axis};
   }
   return {};

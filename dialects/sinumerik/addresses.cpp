@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 
+#include "base/text.h"
 #include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/beside.h"
 #include "dialects/sinumerik/cycles.h"
@@ -188,17 +189,6 @@ constexpr std::string_view carried_functions[] = {
     "CTABSEV", "CTABSSV",  "CTABTEP",  "CTABTEV", "CTABTMAX",   "CTABTMIN", "CTABTSP",
     "CTABTSV", "CTRANS",   "INVFRAME", "ISAXIS",  "MEAFRAME",   "MODAXVAL", "SPI"};
 
-char capital(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-bool same_name(std::string_view name, std::string_view capitals) {
-  if (name.size() != capitals.size()) return false;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (capital(name[i]) != capitals[i]) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::span<const NamedWordRow> named_words() {
@@ -207,7 +197,7 @@ std::span<const NamedWordRow> named_words() {
 
 const NamedWordRow* named_word(std::string_view name) {
   for (const auto& r : words) {
-    if (same_name(name, r.name)) return &r;
+    if (iequals_ascii(name, r.name)) return &r;
   }
   return nullptr;
 }

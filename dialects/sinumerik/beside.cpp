@@ -5,6 +5,8 @@
 #include <iterator>
 #include <string>
 
+#include "dialects/sinumerik/capitals.h"
+
 namespace cnctrans::sinumerik {
 
 namespace {
@@ -14,7 +16,7 @@ constexpr auto address = static_cast<std::uint8_t>(BesideForm::address);
 constexpr auto indexed = static_cast<std::uint8_t>(BesideForm::indexed);
 constexpr auto code = static_cast<std::uint8_t>(BesideForm::code);
 
-constexpr BesideRow rows[] = {
+constexpr BesideRow words_beside[] = {
     {"ALF", "beside.realtime", address, false, true},
     {"AXCTSWE", "beside.data", procedure},
     {"AXCTSWED", "beside.data", procedure},
@@ -215,10 +217,6 @@ constexpr std::string_view machine_data_of_the_path[] = {
     "GEOAX",   "INDEX_AX",      "INT_INCR",     "IS_ROT",   "MIRROR", "MODULO",    "REFP_",   "RESET_MODE",
     "SCALING", "SPIND_ASSIGN",  "TOOL_CHANGE",  "TRAANG",   "TRACYL", "TRAFO",     "TRANSMIT"};
 
-char capital(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
 /// As std::string_view::compare, `name` in any case.
 int compare(std::string_view capitals, std::string_view name) {
   const std::size_t n = std::min(capitals.size(), name.size());
@@ -236,13 +234,13 @@ bool of_name(char c) {
 }  // namespace
 
 std::span<const BesideRow> beside_rows() {
-  return rows;
+  return words_beside;
 }
 
 const BesideRow* beside(std::string_view name) {
-  const auto* at = std::lower_bound(std::begin(rows), std::end(rows), name,
+  const auto* at = std::lower_bound(std::begin(words_beside), std::end(words_beside), name,
                                     [](const BesideRow& r, std::string_view n) { return compare(r.name, n) < 0; });
-  return at == std::end(rows) || compare(at->name, name) != 0 ? nullptr : at;
+  return at == std::end(words_beside) || compare(at->name, name) != 0 ? nullptr : at;
 }
 
 const BesideRow* beside(std::string_view name, BesideForm form) {

@@ -6,7 +6,7 @@ namespace {
 
 using enum CycleFamily;
 
-constexpr CycleRow rows[] = {
+constexpr CycleRow cycle_rows[] = {
     // 18.1 drilling
     {"CYCLE81", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,GMODE,DMODE,AMODE"},
     {"CYCLE82", drilling, true, "RTP,RFP,SDIS,DP,DPR,DTB,GMODE,DMODE,AMODE"},
@@ -133,11 +133,11 @@ double coarse_pitch(double size) {
 }
 
 std::span<const CycleRow> cycles() {
-  return rows;
+  return cycle_rows;
 }
 
 const CycleRow* cycle(std::string_view capitals) {
-  for (const auto& r : rows) {
+  for (const auto& r : cycle_rows) {
     if (r.name == capitals) return &r;
   }
   return nullptr;

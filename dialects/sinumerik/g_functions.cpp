@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/text.h"
 #include "ir/modal.h"
 
 namespace cnctrans::sinumerik {
@@ -320,66 +321,55 @@ constexpr std::array<std::string_view, last_offset - first_offset + 1> offset_na
 constexpr std::size_t row_count = std::size(printed) + offset_names.size();
 
 constexpr std::array<GFunction, row_count> make_rows() {
-  std::array<GFunction, row_count> rows{};
+  std::array<GFunction, row_count> g_rows{};
   std::size_t at = 0;
-  for (const auto& r : printed) rows[at++] = r;
+  for (const auto& r : printed) g_rows[at++] = r;
   for (int n = first_offset; n <= last_offset; ++n) {  // G505 is row 5, index 6 of group 8
-    rows[at++] = GFunction{offset_names[static_cast<std::size_t>(n - first_offset)],
-                           static_cast<std::int16_t>(n),
-                           8,
-                           static_cast<std::uint8_t>(n - 499),
-                           true,
-                           GUse::work_offset,
-                           static_cast<std::uint8_t>(n - 500)};
+    g_rows[at++] = GFunction{offset_names[static_cast<std::size_t>(n - first_offset)],
+                             static_cast<std::int16_t>(n),
+                             8,
+                             static_cast<std::uint8_t>(n - 499),
+                             true,
+                             GUse::work_offset,
+                             static_cast<std::uint8_t>(n - 500)};
   }
-  return rows;
+  return g_rows;
 }
-constexpr auto rows = make_rows();
+constexpr auto g_rows = make_rows();
 
 constexpr int number_limit = 1000;
 constexpr std::array<std::int16_t, number_limit> make_by_number() {
   std::array<std::int16_t, number_limit> by{};
   for (auto& b : by) b = -1;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].number >= 0) by[static_cast<std::size_t>(rows[i].number)] = static_cast<std::int16_t>(i);
+  for (std::size_t i = 0; i < g_rows.size(); ++i) {
+    if (g_rows[i].number >= 0) by[static_cast<std::size_t>(g_rows[i].number)] = static_cast<std::int16_t>(i);
   }
   return by;
 }
 constexpr auto by_number = make_by_number();
 
-constexpr char capital(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-bool same_name(std::string_view name, std::string_view capitals) {
-  if (name.size() != capitals.size()) return false;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (capital(name[i]) != capitals[i]) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::span<const GFunction> g_functions() {
-  return rows;
+  return g_rows;
 }
 
 const GFunction* g_function(std::int32_t number) {
   if (number < 0 || number >= number_limit) return nullptr;
   const std::int16_t at = by_number[static_cast<std::size_t>(number)];
-  return at < 0 ? nullptr : &rows[static_cast<std::size_t>(at)];
+  return at < 0 ? nullptr : &g_rows[static_cast<std::size_t>(at)];
 }
 
 const GFunction* g_function(std::string_view name) {
-  for (const auto& r : rows) {
-    if (r.number < 0 && same_name(name, r.name)) return &r;
+  for (const auto& r : g_rows) {
+    if (r.number < 0 && iequals_ascii(name, r.name)) return &r;
   }
   return nullptr;
 }
 
 const GFunction* g_function(std::int32_t group, std::int32_t index) {
   if (index == 0) return nullptr;
-  for (const auto& r : rows) {
+  for (const auto& r : g_rows) {
     if (r.group == group && r.index == index) return &r;
   }
   return nullptr;

@@ -9,7 +9,7 @@ namespace cnctrans::fagor {
 
 namespace {
 
-constexpr std::string_view code = "FAG-051";
+constexpr std::string_view exchange_fault = "FAG-051";
 
 /// The words of the block as written: without skip marks, label and comment.
 std::string words_of(const ir::Program& program, const Span& where) {
@@ -43,23 +43,23 @@ void refuse(ir::Program& program, LowerState& state, ir::Statement& s, ir::passe
   switch (fault) {
     case ExchangeFault::unsure:
       state.warning(
-          code, {},
+          exchange_fault, {},
           "whether axes are exchanged (G28, G29) depends on the way that leads here; the block is kept as text",
           "a run stops here; write G29 with the axis before the block");
       return keep(program, s, "language.synchronised");
     case ExchangeFault::not_said:
       state.warning(
-          code, {},
+          exchange_fault, {},
           "arcs, angles, cycles, offsets and compensation with exchanged axes (G28) are not carried; the block "
           "is kept as text",
           "a run stops here; write the block with the axes that move, behind G29");
       return keep(program, s, "language.synchronised");
     case ExchangeFault::twice:
-      state.error(code, {}, "an axis that is exchanged already [1029]", "write G29 with the axis before it");
+      state.error(exchange_fault, {}, "an axis that is exchanged already [1029]", "write G29 with the axis before it");
       return;
     case ExchangeFault::outside:
       state.warning(
-          code, {},
+          exchange_fault, {},
           "a subroutine of another file is called while axes are exchanged (G28): its words are read as those of "
           "the axes that they name",
           "write G29 with the axis before the call");
@@ -73,7 +73,7 @@ void settle(ir::Program& program, LowerState& state, ir::Statement& s) {
   for (auto& w : m.coords) {
     if (!state.has_axis(w.axis)) {
       state.set_line(s.line.span);
-      state.warning(code, w.pos,
+      state.warning(exchange_fault, w.pos,
                     "the machine has no axis " + std::string(ir::fixed_axis_name(w.axis)) +
                         ", which this word moves after G28; the block is kept as text",
                     "a run stops here; choose a machine profile that has the axis");

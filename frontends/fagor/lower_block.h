@@ -188,4 +188,12 @@ ir::Action& BlockLowerer::act(Data data, const syntax::Word* word, ir::Order ord
   return a;
 }
 
+inline ir::AxisId axis_of(const syntax::Word& w) {
+  return ir::fixed_axis(word_letter(w));
+}
+/// As a message names it.
+inline std::string the_function(const syntax::Word& w) {
+  return "the function " + std::string(word_text(w));
+}
+
 }  // namespace cnctrans::fagor

@@ -20,9 +20,6 @@ template <class Value>
 bool positive(const Value& v) {
   return !v.literal() || v.number > 0;
 }
-ir::AxisId axis_of(const syntax::Word& w) {
-  return ir::fixed_axis(word_letter(w));
-}
 
 /// Cycles along directions of the plane: what they mean with its axes exchanged is not settled.
 bool needs_straight_plane(const dialects::fagor::GCode& row) {
@@ -33,10 +30,6 @@ bool needs_straight_plane(const dialects::fagor::GCode& row) {
     case Use::pattern: return true;
     default: return false;
   }
-}
-
-std::string the_function(const syntax::Word& w) {
-  return "the function " + std::string(word_text(w));
 }
 
 }  // namespace

@@ -18,12 +18,6 @@ namespace {
 namespace facts = dialects::fagor;
 using syntax::Word;
 
-ir::AxisId axis_of(const Word& w) {
-  return ir::fixed_axis(word_letter(w));
-}
-std::string the_function(const Word& w) {
-  return "the function " + std::string(word_text(w));
-}
 const facts::HoleLetters& letters_of(int code) {
   return *std::find_if(std::begin(facts::hole_letters), std::end(facts::hole_letters),
                        [code](const facts::HoleLetters& l) { return l.code == code; });

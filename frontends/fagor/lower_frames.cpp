@@ -20,10 +20,6 @@ ir::Value negated(ir::Value v) {
   return ir::Value(-v.number);
 }
 
-ir::AxisId axis_of(const syntax::Word& w) {
-  return ir::fixed_axis(word_letter(w));
-}
-
 }  // namespace
 
 // --- offsets --------------------------------------------------------------------------------------------------------

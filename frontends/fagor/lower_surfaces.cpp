@@ -8,7 +8,7 @@
 namespace cnctrans::fagor {
 
 namespace {
-constexpr std::string_view code = "FAG-045";
+constexpr std::string_view surface_fault = "FAG-045";
 }
 
 /// G15: the spindle is the C axis, whose words are degrees until a plane with it is chosen. G15 R: the cylinder of this
@@ -17,7 +17,8 @@ void BlockLowerer::c_axis(const GWord& g) {
   const Word* r = corner_radius(*g.word);
   if (r == nullptr) {
     if (state_.surface_by_text == ir::Surface::cylinder)
-      state_.error(code, g.word->pos, "G15 without R while a cylinder is unrolled: what C means from here is not said",
+      state_.error(surface_fault, g.word->pos,
+                   "G15 without R while a cylinder is unrolled: what C means from here is not said",
                    "write G18 first, or G15 R");
     result_->opaque = "motion.transformation";
     result_->harmless = true;
@@ -76,15 +77,17 @@ void BlockLowerer::leave_surface(ir::Order order) {
 bool BlockLowerer::surface_coordinate(ir::CoordWord& c, const Word& w) {
   if (c.axis == ir::axis::x && state_.surface_by_text == ir::Surface::face) c.scale = ir::WordScale::radius;
   if (c.axis == ir::axis::y) {
-    state_.error(code, w.pos, "a word of the Y axis under work with the C axis is not carried");
+    state_.error(surface_fault, w.pos, "a word of the Y axis under work with the C axis is not carried");
     return false;
   }
   if (c.axis != ir::axis::c) return false;
   if (!state_.surface_plane_by_text)
-    state_.error(code, w.pos, "C behind G15 R and before G16 ZC: whether it is a length or an angle is not said",
+    state_.error(surface_fault, w.pos,
+                 "C behind G15 R and before G16 ZC: whether it is a length or an angle is not said",
                  "write G16 ZC behind G15 R");
   if (c.axis == ir::axis::c && machine_coords_ != nullptr)
-    state_.error(code, w.pos, "C in machine coordinates under work on the face or the cylinder is not carried");
+    state_.error(surface_fault, w.pos,
+                 "C in machine coordinates under work on the face or the cylinder is not carried");
   c.axis = ir::axis::y;
   return true;
 }
@@ -94,12 +97,12 @@ ir::AxisId BlockLowerer::center_axis(const Word& w) {
   const auto axis = static_cast<ir::AxisId>(word_letter(w) - 'I');
   if (state_.surface_by_text == ir::Surface::none) return axis;
   if (axis == ir::axis::y) {
-    state_.error(code, w.pos, "J has no axis under work with the C axis; the letter of C is K");
+    state_.error(surface_fault, w.pos, "J has no axis under work with the C axis; the letter of C is K");
     return axis;
   }
   if (axis != ir::axis::z) return axis;
   if (state_.surface_by_text == ir::Surface::cylinder)
-    state_.error(code, w.pos, "K is the letter of Z and of C: which of them the centre means is not said",
+    state_.error(surface_fault, w.pos, "K is the letter of Z and of C: which of them the centre means is not said",
                  "write the arc by its radius R");
   return ir::axis::y;
 }

@@ -39,14 +39,6 @@ bool turns_frame(const ir::Block& b) {
   });
 }
 
-/// G16.
-bool turns_tool(const ir::Block& b) {
-  return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
-    const auto* w = std::get_if<ir::OpaqueWord>(&a.data);
-    return w != nullptr && iequals_ascii(w->word.substr(0, 3), "G16");
-  });
-}
-
 bool worth_a_look(const ir::Program& program) {
   bool found = false;
   for (const auto& r : program.routines) {
@@ -134,6 +126,13 @@ class Judge {
 };
 
 }  // namespace
+
+bool turns_tool(const ir::Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    const auto* w = std::get_if<ir::OpaqueWord>(&a.data);
+    return w != nullptr && iequals_ascii(w->word.substr(0, 3), "G16");
+  });
+}
 
 bool CompensationWatch::suspects(const ir::Block& b) {
   if (b.has_motion && b.motion.kind != ir::MotionKind::modal) motion_ = b.motion.kind;

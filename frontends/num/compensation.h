@@ -6,6 +6,8 @@
 
 namespace cnctrans::frontends::num {
 
+/// The block has G16.
+bool turns_tool(const ir::Block& b);
 /// NUM-051 at an arc with which compensation begins or ends, at a plane function, M00, M01, G52 and an assignment of
 /// L100 to L199 while it is on for certain, and at an arc under G93 (numbers the statements).
 void judge_compensation(ir::Program& program, const ir::ModalState& power_on, Diagnostics& diagnostics);

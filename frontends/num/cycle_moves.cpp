@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "frontends/num/compensation.h"
 #include "ir/dataflow.h"
 #include "ir/search.h"
 
@@ -14,14 +15,6 @@ namespace {
 const ir::HoleCycle* modal_cycle_in(const ir::Block& b) {
   const auto* d = ir::action_in<ir::CycleDefine>(b);
   return d != nullptr && d->modal && d->cycle ? std::get_if<ir::HoleCycle>(&d->cycle->node) : nullptr;
-}
-
-/// G16.
-bool turns_tool(const ir::Block& b) {
-  return std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
-    const auto* w = std::get_if<ir::OpaqueWord>(&a.data);
-    return w != nullptr && iequals_ascii(w->word.substr(0, 3), "G16");
-  });
 }
 
 bool moves_along(const ir::Block& b, ir::AxisId axis) {

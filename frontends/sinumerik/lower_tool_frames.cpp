@@ -9,6 +9,7 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "frontends/sinumerik/angles.h"
 #include "frontends/sinumerik/lower_statements.h"
 #include "frontends/sinumerik/lower_words.h"
 #include "frontends/sinumerik/row_parts.h"
@@ -20,8 +21,6 @@ using syntax::ExprKind;
 using syntax::Word;
 
 namespace {
-
-constexpr double degrees = 180 / 3.14159265358979323846;
 
 std::shared_ptr<ir::FrameChange> cleared(ir::FrameSlot slot) {
   auto out = std::make_shared<ir::FrameChange>();

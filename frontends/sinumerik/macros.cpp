@@ -9,7 +9,7 @@ namespace {
 bool starts_name(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$';
 }
-bool of_name(char c) {
+bool goes_on_name(char c) {
   return starts_name(c) || (c >= '0' && c <= '9');
 }
 
@@ -26,8 +26,8 @@ std::optional<std::string> expand_macros(std::string_view line,
     } else if (line[i] == '"') {
       const std::size_t close = line.find('"', i + 1);
       end = close == std::string_view::npos ? line.size() : close + 1;
-    } else if (of_name(line[i])) {  // a number takes its letters along: 1EX3
-      while (end < line.size() && of_name(line[end])) ++end;
+    } else if (goes_on_name(line[i])) {  // a number takes its letters along: 1EX3
+      while (end < line.size() && goes_on_name(line[end])) ++end;
       const std::string name = to_upper_ascii(line.substr(i, end - i));
       if (name == "DEFINE" || name == "REDEF") return std::nullopt;
       if (const auto found = macros.find(name); found != macros.end()) {

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "frontends/sinumerik/angles.h"
+
 namespace cnctrans::sinumerik {
 
 namespace {
 
-constexpr double degrees = 180 / 3.14159265358979323846;
 constexpr double nearly = 1e-9;
 
 struct Vector {

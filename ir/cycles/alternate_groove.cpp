@@ -17,7 +17,7 @@ constexpr double overlap = 0.8;        ///< of the tool's width, between two plu
 constexpr double flat_overlap = 0.95;  ///< of its flat part, where that is less
 
 /// Digit of a word that holds one decision a digit, from the right.
-int digit(const Roles& r, std::string_view name, int place) {
+int digit_of(const Roles& r, std::string_view name, int place) {
   auto v = saturate<std::int64_t>(std::abs(r.number(name)));
   for (; place > 0; --place) v /= 10;
   return static_cast<int>(v % 10);
@@ -28,7 +28,7 @@ struct Variant {
   bool roughs = true, finishes = true, two_stocks = false, inside = false, left = true;
 };
 std::optional<Variant> variant_of(const Roles& r, std::string* error) {
-  const auto d = [&](int place) { return digit(r, "variant", place); };
+  const auto d = [&](int place) { return digit_of(r, "variant", place); };
   const int what = d(1), position = d(2);
   if (r.number("variant") < 0 || r.number("variant") > 99'999 || d(0) != 0 || what < 1 || what > 3 || position < 1 ||
       position > 8 || d(3) != 0 || d(4) > 1)
@@ -48,7 +48,7 @@ bool depth_of(const Roles& r, const TurnContext& context, bool face, bool inside
   const double given = r.number("depth"), surface = face ? r.number("z") : r.number("nominal") / 2;
   const double base = face ? given : given / 2, increment = std::abs(given);
   const double down = face || !inside ? surface - base : base - surface;
-  const int mode = digit(r, "mode", 0);
+  const int mode = digit_of(r, "mode", 0);
   const GrooveDepth choice = mode == 1   ? GrooveDepth::increment
                              : mode == 2 ? GrooveDepth::absolute
                                          : context.choices.groove_depth;
@@ -79,7 +79,7 @@ bool flanks_of(const Roles& r, std::array<Flank, 2>& flanks, std::string* error)
   // One digit a corner, in the order of the call: 1 is a chamfer.
   int place = 2;
   for (double* element : {&flanks[0].outer, &flanks[0].inner, &flanks[1].inner, &flanks[1].outer}) {
-    const int kind = digit(r, "mode", place++);
+    const int kind = digit_of(r, "mode", place++);
     if (kind > 1) return *error = "this kind of corner of a groove is not carried out", false;
     if (kind == 1) *element = -std::abs(*element);
   }
@@ -148,7 +148,7 @@ bool alternate_groove(Roles& r, const TurnContext& context, bool face, std::stri
   if (flat < tiny) return *error = "the insert of the tool is not wider than its two corners", false;
   if (r.number("slope_angle") != 0) return *error = "a groove on a slope is not carried out", false;
   if (r.number("count") > 1) return *error = "a row of grooves is not carried out", false;
-  if (digit(r, "mode", 1) != 0) return *error = "this way to give the width of a groove is not carried out", false;
+  if (digit_of(r, "mode", 1) != 0) return *error = "this way to give the width of a groove is not carried out", false;
   Groove g;
   double depth = 0, width = 0;
   if (!flanks_of(r, g.flanks, error) || !depth_of(r, context, face, variant->inside, depth, error)) return false;

@@ -10,8 +10,6 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double most_passes = 10'000;
-
 /// Metric coarse pitches by the nominal diameter.
 struct Nominal {
   double size, pitch;
@@ -88,7 +86,8 @@ bool counted_thread(Roles& r, std::string* error) {
   if (!thread_pitch(r.numbers(), pitch, error)) return false;
   if (std::abs(last.q - first.q) < tiny) return *error = "the thread has no length", false;
   if (depth < tiny || stock > depth) return *error = "the thread has no depth", false;
-  if (count < 0 || count > most_passes || idle < 0 || idle > most_passes || (count < 1 && stock < depth - tiny))
+  if (count < 0 || count > most_thread_passes || idle < 0 || idle > most_thread_passes ||
+      (count < 1 && stock < depth - tiny))
     return *error = "the number of passes of the thread makes no sense", false;
   if (variant < 1 || variant > 4) return *error = "this way of cutting a thread is not carried out", false;
   const bool inside = variant % 2 == 0;
@@ -126,7 +125,7 @@ bool chased_thread(Roles& r, std::string* error) {
   if (pitch < tiny) return *error = "the thread has no pitch", false;
   if (depth < tiny || last > depth + tiny) return *error = "the thread has no depth", false;
   if (exit > length - tiny) return *error = "the exit is longer than the thread", false;
-  if (passes > most_passes) return *error = "the number of passes of the thread makes no sense", false;
+  if (passes > most_thread_passes) return *error = "the number of passes of the thread makes no sense", false;
   const double out = sign(start.p - end.p), slope = tangent(r.number("cone")) * sign(r.number("cone"));
   // A positive cone opens from the start to the end.
   const auto root = [&](double q) { return end.p - slope * std::abs(end.q - q); };

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <optional>
 
+#include "base/tiny.h"
 #include "ir/cycles/hole.h"
 
 namespace cnctrans::ir::cycles {
 namespace {
 
-constexpr double tiny = 1e-9;
 constexpr std::size_t most_pecks = 100'000;  ///< longer schedules end with one stroke for the rest
 
 /// Writes the moves and leaves out those that go nowhere.

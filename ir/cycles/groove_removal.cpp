@@ -8,8 +8,7 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr std::size_t most_levels = 100'000;
-constexpr double lift = 1;
+constexpr double groove_lift = 1;
 
 /// Height of the piece at q; both ends count of one that stands upright.
 double height(const Piece& x, double q) {
@@ -20,9 +19,9 @@ double height(const Piece& x, double q) {
   return x.c.p + ((x.a.p + x.b.p) / 2 < x.c.p ? -root : root);
 }
 
-class Groove {
+class GrooveRemover {
  public:
-  Groove(Roles& r, const Orientation& o, const Chain& target, double limit, RolePoint slope)
+  GrooveRemover(Roles& r, const Orientation& o, const Chain& target, double limit, RolePoint slope)
       : r_(r), o_(o), target_(target), start_(o.role(r.here())), limit_(limit), slope_(slope) {}
 
   bool levels(double step, std::string* error) {
@@ -35,13 +34,13 @@ class Groove {
       const double end = std::max(limit_, wall(entry));
       if (end > entry.q - tiny) break;
       if (k > 1) {
-        const double above = std::min(before.p + lift, start_.p);
+        const double above = std::min(before.p + groove_lift, start_.p);
         rapid({above, here().q});
         rapid({above, std::min(on_line(above), free_from(above))});
       }
       if (!enter(before, entry)) return *error = "the entry line of the cycle runs into the profile", false;
       feed({p, end});
-      rapid({p + lift, end + lift});
+      rapid({p + groove_lift, end + groove_lift});
       before = entry;
     }
     if (before.p > start_.p - tiny) return *error = "below the place of the tool there is nothing to remove", false;
@@ -134,7 +133,7 @@ bool groove_stock(Roles& r, const TurnContext& context, bool face, std::string* 
   if (!goes_on(chain)) return *error = "a profile that turns back along the pass is not carried out", false;
   const double x = r.number("stock_x"), z = r.number("stock_z");  // signed along the axes
   const Chain target = shifted(chain, o.sp * (face ? z : x), o.sq * (face ? x : z));
-  return Groove(r, o, target, o.sq * limit, slope).levels(step, error);
+  return GrooveRemover(r, o, target, o.sq * limit, slope).levels(step, error);
 }
 
 }  // namespace cnctrans::ir::cycles::detail

@@ -7,12 +7,13 @@
 #include "ir/cycles/assumed.h"
 #include "ir/cycles/blank_points.h"
 #include "ir/cycles/turning_moves.h"
+#include "ir/cycles/words.h"
 
 namespace cnctrans::ir::cycles {
 
 namespace {
 
-constexpr std::array parameters = {
+constexpr std::array machining_parameters = {
     Parameter{"x", Quantity::cross},
     Parameter{"x_end", Quantity::cross},
     Parameter{"z", Quantity::along},
@@ -170,12 +171,6 @@ constexpr std::array cycles = {
     MachiningCycle{"face.live_key", Kind::live_key, true, true, false, CycleEnd::approach},
 };
 
-template <class Table>
-auto find(const Table& table, std::string_view name) -> decltype(table.data()) {
-  const auto it = std::find_if(table.begin(), table.end(), [name](const auto& row) { return row.name == name; });
-  return it == table.end() ? nullptr : &*it;
-}
-
 }  // namespace
 
 double factor_of(Quantity quantity, const TurnUnits& units) {
@@ -192,7 +187,7 @@ double factor_of(Quantity quantity, const TurnUnits& units) {
 }
 
 const Parameter* find_parameter(std::string_view name) {
-  if (!name.starts_with("blank_")) return find(parameters, name);
+  if (!name.starts_with("blank_")) return find_row(machining_parameters, name);
   struct Point {
     std::array<char, 10> x{}, z{};
   };
@@ -212,13 +207,13 @@ const Parameter* find_parameter(std::string_view name) {
     }
     return out;
   }();
-  return find(table, name);
+  return find_row(table, name);
 }
 std::string blank_name(char axis, std::size_t point) {
   return std::string("blank_") + axis + std::to_string(point);
 }
 const MachiningCycle* find_machining(std::string_view name) {
-  return find(cycles, name);
+  return find_row(cycles, name);
 }
 
 std::string_view family_of(std::string_view cycle) {

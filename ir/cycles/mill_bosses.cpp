@@ -8,8 +8,6 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double usual_step = 0.8;  ///< of the diameter, between rounds about a larger blank
-
 /// In from the outside, or out again, on a half circle between (a, 0) and (far, 0); tangent to a way round that is
 /// clockwise when the half circle is not.
 void half_circle(MillPath& path, double to, double other, bool ccw) {
@@ -38,8 +36,8 @@ bool boss(MillPath& path, bool circle, std::string* error) {
   }
   const Operation operation = path.operation(error);
   const bool ccw = outside_ccw(path, error);
-  if (a < tiny || b < tiny) *error = "a spigot needs its size";
-  if (corner > std::min(a, b) + tiny) *error = "the corners of the spigot are larger than the spigot";
+  if (a < least_mm || b < least_mm) *error = "a spigot needs its size";
+  if (corner > std::min(a, b) + least_mm) *error = "the corners of the spigot are larger than the spigot";
   if (!error->empty()) return false;
   const bool rough = operation == Operation::rough;
   const double stock = std::abs(path.get("wall_stock"));
@@ -78,9 +76,10 @@ bool milled_thread(MillPath& path, std::string* error) {
   const double pitch = std::abs(path.get("pitch"));
   const bool external = path.says("external");
   const auto& n = path.levels();
-  if (pitch < tiny || outer < tiny || (external && core < tiny))
+  if (pitch < least_mm || outer < least_mm || (external && core < least_mm))
     *error = "a milled thread needs its pitch and its diameters";
-  if (!external && (r > outer - tiny || (core > 0 && r > core - tiny))) *error = "the tool is too large for the thread";
+  if (!external && (r > outer - least_mm || (core > 0 && r > core - least_mm)))
+    *error = "the tool is too large for the thread";
   const bool ccw = external ? outside_ccw(path, error) : path.inside_ccw(error);
   if (!error->empty()) return false;
   const double depth = std::abs(n.surface - n.bottom);

@@ -10,8 +10,7 @@ namespace cnctrans::ir::cycles::detail {
 namespace {
 
 constexpr double aside = 2;  ///< mm, of the oriented point from the wall
-constexpr double radians = 3.14159265358979323846 / 180;
-constexpr double most_passes = 10'000;
+constexpr double most_mill_passes = 10'000;
 
 struct Way {
   double p, q;
@@ -44,7 +43,7 @@ void withdraw(MillPath& path, int back, double pitch, double degrees, double sta
 }  // namespace
 
 void MillPath::thread_to(double w, double pitch, double degrees) {
-  if (std::abs(w - w_) < tiny) return;
+  if (std::abs(w - w_) < least_mm) return;
   put(MillStep::thread, u_, v_, w, false);
   moves_.back().amount = pitch;
   moves_.back().angle = degrees;
@@ -67,10 +66,10 @@ bool chased_thread(MillPath& path, std::string* error) {
   const double last = std::abs(path.get("last_pass")), passes = std::max(1.0, std::round(path.get("passes", 1)));
   const double starts = std::clamp(std::round(path.get("starts", 1)), 1.0, 1000.0);
   const double radial = path.get("radial"), back = path.get("back");
-  if (pitch < tiny) return *error = "the thread has no pitch", false;
-  if (depth < tiny || last > depth + tiny) return *error = "the thread has no depth", false;
-  if (std::abs(n.reference - n.bottom) < tiny) return *error = "the thread has no length", false;
-  if (passes > most_passes) return *error = "the number of passes of the thread makes no sense", false;
+  if (pitch < least_mm) return *error = "the thread has no pitch", false;
+  if (depth < least_mm || last > depth + least_mm) return *error = "the thread has no depth", false;
+  if (std::abs(n.reference - n.bottom) < least_mm) return *error = "the thread has no length", false;
+  if (passes > most_mill_passes) return *error = "the number of passes of the thread makes no sense", false;
   if (radial < 0 || radial > 4 || back < 0 || back > 2)
     return *error = "this way of cutting a thread is not carried out", false;
   const Way out = ways[static_cast<std::size_t>(radial)];

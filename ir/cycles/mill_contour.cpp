@@ -6,22 +6,17 @@
 #include <cmath>
 
 #include "ir/cycles/contour.h"
+#include "ir/cycles/words.h"
 
 namespace cnctrans::ir::cycles {
 
 namespace {
 
-constexpr std::size_t numbers_per_element = 8;
 constexpr std::string_view data_word = "contour", fault_word = "contour_fault", role_word = "contour_role",
                            surface_word = "contour_surface";
 
 bool whole_circle(const MillElement& e) {
   return e.arc && std::abs(e.u1 - e.u0) < 1e-9 && std::abs(e.v1 - e.v0) < 1e-9;
-}
-
-const std::string* text_of(const Value& v) {
-  const auto* s = v.expr ? std::get_if<String>(&v.expr->node) : nullptr;
-  return s == nullptr ? nullptr : &s->text;
 }
 
 }  // namespace
@@ -76,7 +71,7 @@ std::optional<std::vector<MillContour>> contours_in(const HoleCycle& cycle, std:
   for (const auto& [name, v] : cycle.mill.words) {
     if (name == data_word && v.literal()) n.push_back(v.number);
     if (name == surface_word && v.literal()) surface = v.number;
-    if (const auto* why = text_of(v); why != nullptr && name == fault_word) return *error = *why, std::nullopt;
+    if (const auto* why = text_in(v); why != nullptr && name == fault_word) return *error = *why, std::nullopt;
   }
   if (n.empty()) return *error = "its contour has not been read", std::nullopt;
   std::vector<MillContour> out;

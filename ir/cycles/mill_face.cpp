@@ -9,8 +9,6 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double usual_step = 0.8;  ///< of the diameter
-
 /// Passes along p from `from` to `to`, one beside the other in q.
 struct Passes {
   double from = 0, to = 0;
@@ -46,7 +44,7 @@ bool face(MillPath& path, std::string* error) {
   const Operation operation = path.operation(error);
   const double step = path.step(usual_step, error);
   if (way < 1 || way > 4) *error = "the way of the passes is 1 to 4 (tens of the variant)";
-  if (std::abs(length) < tiny || std::abs(width) < tiny) *error = "a face needs its two sizes";
+  if (std::abs(length) < least_mm || std::abs(width) < least_mm) *error = "a face needs its two sizes";
   if (!error->empty()) return false;
   const auto& n = path.levels();
   const double stock = std::abs(path.get("floor_stock"));
@@ -57,8 +55,8 @@ bool face(MillPath& path, std::string* error) {
   path.frame(u, v, path.get("angle"));
   // The corner nearest to the tool; the one that is dimensioned when several are.
   const auto [tool_p, tool_q] = path.local();
-  const bool far_p = std::abs(tool_p - length) < std::abs(tool_p) - tiny;
-  const bool far_q = std::abs(tool_q - width) < std::abs(tool_q) - tiny;
+  const bool far_p = std::abs(tool_p - length) < std::abs(tool_p) - least_mm;
+  const bool far_q = std::abs(tool_q - width) < std::abs(tool_q) - least_mm;
   Passes passes;
   passes.swapped = way == 2 || way == 4;
   double along = length, across = width;

@@ -1,6 +1,7 @@
 // The parts of the expansion of milling cycles: a path in a turned frame, and the machining of one shape each.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,7 +10,16 @@
 
 namespace cnctrans::ir::cycles::detail {
 
-constexpr double tiny = 1e-6;  ///< mm
+inline constexpr double least_mm = 1e-6;   ///< shorter is nothing to mill
+inline constexpr double usual_step = 0.8;  ///< of the diameter, where the source names no other factor
+inline constexpr double level_lift = 1;    ///< mm above what is cleared already, between two levels
+inline constexpr double radians = 3.14159265358979323846 / 180;
+
+/// Digit of a word that holds one decision a digit; place 0 is the last.
+inline int digit(double number, int place) {
+  const auto n = std::lround(std::abs(number));
+  return static_cast<int>(place == 0 ? n % 10 : place == 1 ? n / 10 % 10 : n / 100 % 10);
+}
 
 /// How the tool goes to the next level of a pocket.
 enum class Plunge : std::uint8_t { rapid, feed, helix, ramp };

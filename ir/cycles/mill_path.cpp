@@ -7,14 +7,8 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double radians = 3.14159265358979323846 / 180;
-
 bool same(double a, double b) {
   return std::abs(a - b) < 1e-9;
-}
-int digit(double variant, int place) {
-  const auto n = static_cast<long>(std::llround(std::abs(variant)));
-  return static_cast<int>(place == 0 ? n % 10 : n / 10 % 10);
 }
 
 }  // namespace
@@ -64,7 +58,7 @@ bool MillPath::inside_ccw(std::string* error) const {
 double MillPath::step(double factor, std::string* error) const {
   const double diameter = 2 * context_.tool_radius;
   const double given = std::abs(get("step"));
-  if (given > diameter + tiny) *error = "the step in the plane is larger than the diameter of the tool";
+  if (given > diameter + least_mm) *error = "the step in the plane is larger than the diameter of the tool";
   return given > 0 ? given : get("step_factor", factor) * diameter;
 }
 
@@ -78,7 +72,7 @@ long MillPath::times(double exact) {
 std::vector<double> MillPath::depths(double top, double bottom, double infeed, bool equal) {
   const double total = std::abs(top - bottom);
   std::vector<double> out;
-  if (total < tiny) return out;
+  if (total < least_mm) return out;
   if (infeed <= 0) infeed = total;
   const auto n = times(total / infeed);
   for (long k = 1; k < n; ++k) {
@@ -247,8 +241,8 @@ void MillPath::finishing(bool on) {
 void round_rectangle(MillPath& path, double a, double b, double c, bool ccw) {
   const double h = ccw ? 1 : -1;
   c = std::min({c, a, b});
-  if (c < tiny) c = 0;
-  if (c > 0 && a - c < tiny && b - c < tiny) {
+  if (c < least_mm) c = 0;
+  if (c > 0 && a - c < least_mm && b - c < least_mm) {
     path.mill_arc(a, 0, 0, 0, ccw);
     return;
   }

@@ -47,12 +47,7 @@ Lead lead_of(const MillElement& e, bool out, int way, double length, double tool
   return lead;
 }
 
-int digit(double number, int place) {
-  const auto n = std::lround(std::abs(number));
-  return static_cast<int>(place == 0 ? n % 10 : place == 1 ? n / 10 % 10 : n / 100 % 10);
-}
-
-struct Plan {
+struct ContourPlan {
   std::vector<MillElement> way;
   Lead in, out;
   int side = 0;  ///< 1 left, -1 right
@@ -61,7 +56,7 @@ struct Plan {
 };
 
 /// From and to `w`: the height of the contour.
-void once_along(MillPath& path, const Plan& plan, double w, double clear) {
+void once_along(MillPath& path, const ContourPlan& plan, double w, double clear) {
   path.plunge(plan.spatial_in ? clear : w);
   if (plan.side != 0) path.compensate(plan.side);
   path.mill(plan.in.outer_u, plan.in.outer_v);
@@ -85,7 +80,7 @@ void once_along(MillPath& path, const Plan& plan, double w, double clear) {
   path.mill(plan.out.tool_u, plan.out.tool_v);
 }
 
-bool read_plan(MillPath& path, const MillContour& contour, Plan& plan, std::string* error) {
+bool read_plan(MillPath& path, const MillContour& contour, ContourPlan& plan, std::string* error) {
   plan.rough = path.operation(error) == Operation::rough;
   const double side = path.get("side"), variant = path.get("variant");
   if (side != 40 && side != 41 && side != 42) *error = "the side of the contour is 40 (on it), 41 (left) or 42 (right)";
@@ -101,7 +96,8 @@ bool read_plan(MillPath& path, const MillContour& contour, Plan& plan, std::stri
   plan.spatial_in = digit(path.get("approach"), 1) == 1;
   plan.spatial_out = digit(path.get("leave"), 1) == 1;
   const double in_length = std::abs(path.get("approach_length")), out_length = std::abs(path.get("leave_length"));
-  if (in_length < tiny || out_length < tiny) *error = "the way onto or off the contour has no length (alarm 61116)";
+  if (in_length < least_mm || out_length < least_mm)
+    *error = "the way onto or off the contour has no length (alarm 61116)";
   if (!error->empty()) return false;
   if (contour.elements.empty()) return *error = "the contour has no elements", false;
   auto way = parallel(contour.elements, stock, plan.side > 0, error);
@@ -117,7 +113,7 @@ bool read_plan(MillPath& path, const MillContour& contour, Plan& plan, std::stri
 
 bool contour_path(MillPath& path, const std::vector<MillContour>* contours, std::string* error) {
   if (contours == nullptr || contours->size() != 1) return *error = "the cycle needs its contour", false;
-  Plan plan;
+  ContourPlan plan;
   if (!read_plan(path, contours->front(), plan, error)) return false;
   const auto& n = path.levels();
   const double safe = std::abs(n.reference - n.surface);

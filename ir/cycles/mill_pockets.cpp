@@ -8,21 +8,17 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double usual_step = 0.8;  ///< of the diameter, where the source names no other factor
-constexpr double lift = 1;          ///< mm between two levels
-constexpr double radians = 3.14159265358979323846 / 180;
-
 /// Where the tool's middle may go: a rounded rectangle, half sizes and corner; a >= b.
 struct Area {
   double a = 0, b = 0, c = 0;
   [[nodiscard]] Area less(double by) const { return {a - by, b - by, std::max(0.0, c - by)}; }
-  [[nodiscard]] bool line() const { return b < tiny; }
+  [[nodiscard]] bool line() const { return b < least_mm; }
 };
 
 /// Along the middle line from `from` (-1 or 1: its end; 0: its middle), then round in equal steps not above `step`.
 void clear(MillPath& path, const Area& area, double step, bool ccw, double from) {
   const double half = area.a - area.b;
-  if (half > tiny) {
+  if (half > least_mm) {
     if (from == 0) path.mill(-half, 0);
     path.mill(from == 0 ? half : -from * half, 0);
   }
@@ -69,10 +65,10 @@ bool go_down(MillPath& path, Plunge way, const Area& area, double w, bool ccw, s
     case Plunge::helix: {
       const double r = path.get("plunge_radius"), pitch = path.get("plunge_pitch");
       if (r <= 0 || pitch <= 0) return *error = "the helix into the pocket needs its radius and its pitch", false;
-      if (r > area.b + tiny) return *error = "the helix into the pocket is larger than the pocket", false;
+      if (r > area.b + least_mm) return *error = "the helix into the pocket is larger than the pocket", false;
       path.mill(r, 0);
       const double top = path.height();
-      const long turns = depth < tiny ? 0 : path.times(depth / pitch);
+      const long turns = depth < least_mm ? 0 : path.times(depth / pitch);
       for (long k = 1; k <= turns; ++k)
         path.plunge_circle(0, 0, top + (w - top) * static_cast<double>(k) / static_cast<double>(turns), ccw);
       path.plunge_circle(0, 0, w, ccw);
@@ -84,10 +80,10 @@ bool go_down(MillPath& path, Plunge way, const Area& area, double w, bool ccw, s
       if (angle <= 0 || angle >= 90)
         return *error = "the ramp into the pocket needs an angle from 0 to 90 degrees", false;
       const double half = std::max(area.a - area.b, area.a / 2);
-      if (half < tiny) return *error = "the pocket is too small for a ramp", false;
+      if (half < least_mm) return *error = "the pocket is too small for a ramp", false;
       path.mill(-half, 0);
       const double top = path.height(), most = 2 * half * std::tan(angle * radians);
-      const long strokes = depth < tiny ? 0 : path.times(depth / most);
+      const long strokes = depth < least_mm ? 0 : path.times(depth / most);
       double side = 1;
       for (long k = 1; k <= strokes; ++k, side = -side)
         path.plunge_to(side * half, 0, top + (w - top) * static_cast<double>(k) / static_cast<double>(strokes));
@@ -99,7 +95,7 @@ bool go_down(MillPath& path, Plunge way, const Area& area, double w, bool ccw, s
   return true;
 }
 
-struct Plan {
+struct PocketPlan {
   Area finished;  ///< along the finished wall
   double wall = 0, floor = 0;
   double each = 0;  ///< of `wall`: taken by a pass on every level
@@ -110,11 +106,11 @@ struct Plan {
   double start = 0;  ///< on the middle line: 0 its middle, -1 its end
 };
 
-double start_of(const Plan& plan, const Area& area) {
+double start_of(const PocketPlan& plan, const Area& area) {
   return plan.start * (area.a - area.b);
 }
 
-bool rough(MillPath& path, const Plan& plan, std::string* error) {
+bool rough(MillPath& path, const PocketPlan& plan, std::string* error) {
   const Area area = plan.finished.less(plan.wall + plan.each);
   const auto& n = path.levels();
   const auto depths = path.depths(n.surface, n.bottom + n.up * plan.floor);
@@ -135,12 +131,12 @@ bool rough(MillPath& path, const Plan& plan, std::string* error) {
       path.finishing(false);
     }
     path.rapid(start_of(plan, area), 0);
-    if (k + 1 < depths.size()) path.rapid_to(depths[k] + n.up * lift);
+    if (k + 1 < depths.size()) path.rapid_to(depths[k] + n.up * level_lift);
   }
   return true;
 }
 
-void finish(MillPath& path, const Plan& plan) {
+void finish(MillPath& path, const PocketPlan& plan) {
   const auto& n = path.levels();
   const Area& area = plan.finished;
   path.finishing(true);
@@ -160,14 +156,14 @@ void finish(MillPath& path, const Plan& plan) {
     path.rapid(at.p, at.q);
     path.plunge(depths[k]);
     wall(path, area, plan.ccw);
-    if (k + 1 < depths.size()) path.rapid_to(depths[k] + n.up * lift);
+    if (k + 1 < depths.size()) path.rapid_to(depths[k] + n.up * level_lift);
   }
   path.rapid_to(n.reference);
   path.rapid(start_of(plan, area), 0);
   path.finishing(false);
 }
 
-bool machine(MillPath& path, const Plan& plan, std::string* error) {
+bool machine(MillPath& path, const PocketPlan& plan, std::string* error) {
   if (plan.operation != Operation::finish && !rough(path, plan, error)) return false;
   const bool left = plan.wall > 0 || plan.floor > 0;
   if (plan.operation == Operation::finish || (plan.operation == Operation::complete && left)) finish(path, plan);
@@ -175,7 +171,7 @@ bool machine(MillPath& path, const Plan& plan, std::string* error) {
 }
 
 /// Stocks, step, sense and kind of machining, as all shapes have them.
-bool read_plan(MillPath& path, Plan& plan, std::string* error) {
+bool read_plan(MillPath& path, PocketPlan& plan, std::string* error) {
   plan.wall = std::abs(path.get("wall_stock"));
   plan.floor = std::abs(path.get("floor_stock"));
   plan.each = std::abs(path.get("wall_pass"));
@@ -184,7 +180,7 @@ bool read_plan(MillPath& path, Plan& plan, std::string* error) {
   plan.operation = path.operation(error);
   if (!error->empty()) return false;
   const Area rough = plan.finished.less(plan.wall + plan.each);
-  if (rough.b < -tiny) return *error = "the tool is too large for the shape and its allowance", false;
+  if (rough.b < -least_mm) return *error = "the tool is too large for the shape and its allowance", false;
   for (const auto* blank : {"blank_length", "blank_width", "blank_depth"}) {
     if (path.says(blank)) return *error = "a pocket that is partly there already is not carried out yet", false;
   }
@@ -205,15 +201,15 @@ bool pocket(MillPath& path, bool circle, std::string* error) {
   double b = path.says("half_width") ? std::abs(path.get("half_width")) : std::abs(path.get("width")) / 2;
   double corner = std::abs(path.get("corner"));
   if (circle) a = b = corner = std::abs(path.get(path.says("signed_radius") ? "signed_radius" : "radius"));
-  if (a < tiny || b < tiny) return *error = "a pocket needs its size", false;
-  if (corner > 0 && corner < r - tiny) return *error = "the tool is larger than the corners of the pocket", false;
-  if (corner > std::min(a, b) + tiny) return *error = "the corners of the pocket are larger than the pocket", false;
+  if (a < least_mm || b < least_mm) return *error = "a pocket needs its size", false;
+  if (corner > 0 && corner < r - least_mm) return *error = "the tool is larger than the corners of the pocket", false;
+  if (corner > std::min(a, b) + least_mm) return *error = "the corners of the pocket are larger than the pocket", false;
   double angle = circle ? 0 : path.get("angle");
   if (b > a) {  // the middle line lies along the longer side
     std::swap(a, b);
     angle += 90;
   }
-  Plan plan;
+  PocketPlan plan;
   plan.finished = {a - r, b - r, std::max(0.0, corner - r)};
   plan.way = path.plunge_way();
   if (!read_plan(path, plan, error)) return false;
@@ -228,9 +224,9 @@ bool pocket(MillPath& path, bool circle, std::string* error) {
 bool slots(MillPath& path, std::string* error) {
   const double r = path.tool_radius();
   const double length = std::abs(path.get("length")), width = std::abs(path.get("width"));
-  if (length < width - tiny || width < tiny)
+  if (length < width - least_mm || width < least_mm)
     return *error = "a slot needs a width, and is not shorter than wide", false;
-  Plan plan;
+  PocketPlan plan;
   plan.start = -1;
   plan.finished = {length / 2 - r, width / 2 - r, width / 2 - r};
   if (!read_plan(path, plan, error)) return false;
@@ -258,7 +254,7 @@ bool slots(MillPath& path, std::string* error) {
 bool long_holes(MillPath& path, std::string* error) {
   const double r = path.tool_radius();
   const double length = std::abs(path.get("length"));
-  if (length < 2 * r - tiny) return *error = "the long hole is shorter than the tool is wide", false;
+  if (length < 2 * r - least_mm) return *error = "the long hole is shorter than the tool is wide", false;
   double step = 0;
   long count = 0;
   count_angles(path, step, count);
@@ -270,7 +266,7 @@ bool long_holes(MillPath& path, std::string* error) {
   for (long k = 0; k < count; ++k) {
     path.frame(u, v, path.get("angle") + static_cast<double>(k) * step);
     path.frame_along(std::abs(path.get("radius")) + length / 2);
-    double end = path.local().first > tiny ? half : -half;  // the nearer one
+    double end = path.local().first > least_mm ? half : -half;  // the nearer one
     if (k == 0)
       path.approach(end, 0);
     else

@@ -8,12 +8,8 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double usual_step = 0.8;  ///< of the diameter
-constexpr double lift = 1;          ///< mm between two levels
-constexpr double radians = 3.14159265358979323846 / 180;
-
 /// One slot: the frame's origin is the middle of the circle, its first axis points to the beginning of the slot.
-struct Ring {
+struct RingSlot {
   double radius = 0, opening = 0;  ///< of the middle line; degrees
   struct Place {
     double p, q;
@@ -24,7 +20,7 @@ struct Ring {
 };
 
 /// Once round at the distance `out` from the middle line, from the outer side of the slot's end.
-void round(MillPath& path, const Ring& ring, double out, bool ccw) {
+void round(MillPath& path, const RingSlot& ring, double out, bool ccw) {
   const auto end = ring.at(ring.radius, ring.opening), begin = ring.at(ring.radius, 0);
   const auto inner_end = ring.at(ring.radius - out, ring.opening), outer_end = ring.at(ring.radius + out, ring.opening);
   const auto inner_begin = ring.at(ring.radius - out, 0), outer_begin = ring.at(ring.radius + out, 0);
@@ -42,12 +38,12 @@ void round(MillPath& path, const Ring& ring, double out, bool ccw) {
 }
 
 /// In and out on quarter circles beside the outer side of the slot's end. `side` -1: before the wall, 1: behind it.
-Ring::Place beside(const Ring& ring, double out, double r, bool ccw, int side) {
+RingSlot::Place beside(const RingSlot& ring, double out, double r, bool ccw, int side) {
   const double turn = ring.opening * radians, along = (ccw ? side : -side) * r;
   const double radial = ring.radius + out - r;
   return {radial * std::cos(turn) - along * std::sin(turn), radial * std::sin(turn) + along * std::cos(turn)};
 }
-void wall(MillPath& path, const Ring& ring, double out, bool ccw) {
+void wall(MillPath& path, const RingSlot& ring, double out, bool ccw) {
   const double r = std::min(path.tool_radius(), out);
   const auto end = ring.at(ring.radius + out, ring.opening), centre = ring.at(ring.radius + out - r, ring.opening);
   path.mill_arc(end.p, end.q, centre.p, centre.q, ccw);
@@ -57,12 +53,12 @@ void wall(MillPath& path, const Ring& ring, double out, bool ccw) {
 }
 
 /// Along the middle line from one end to the other.
-void along(MillPath& path, const Ring& ring, bool backwards) {
+void along(MillPath& path, const RingSlot& ring, bool backwards) {
   const auto to = ring.at(ring.radius, backwards ? 0 : ring.opening);
   path.mill_arc(to.p, to.q, 0, 0, !backwards);
 }
 
-void rough(MillPath& path, const Ring& ring, double out, double step, bool ccw) {
+void rough(MillPath& path, const RingSlot& ring, double out, double step, bool ccw) {
   const auto& n = path.levels();
   const auto begin = ring.at(ring.radius, 0);
   const auto depths = path.depths(n.surface, n.bottom);
@@ -70,7 +66,7 @@ void rough(MillPath& path, const Ring& ring, double out, double step, bool ccw) 
   for (std::size_t k = 0; k < depths.size(); ++k) {
     path.plunge(depths[k]);
     along(path, ring, backwards);
-    if (out < tiny) {
+    if (out < least_mm) {
       backwards = !backwards;
       continue;
     }
@@ -84,27 +80,27 @@ void rough(MillPath& path, const Ring& ring, double out, double step, bool ccw) 
     path.rapid_to(n.reference);  // a straight way back would cross the inner wall
     if (k + 1 == depths.size()) continue;
     path.rapid(begin.p, begin.q);
-    path.rapid_to(depths[k] + n.up * lift);
+    path.rapid_to(depths[k] + n.up * level_lift);
   }
 }
 
-void finish(MillPath& path, const Ring& ring, double out, bool ccw) {
+void finish(MillPath& path, const RingSlot& ring, double out, bool ccw) {
   const auto& n = path.levels();
   path.finishing(true);
   path.rapid_to(n.reference);
   const auto depths = path.depths(n.surface, n.bottom, path.get("finish_infeed"), true);
-  const auto at =
-      out < tiny ? ring.at(ring.radius, ring.opening) : beside(ring, out, std::min(path.tool_radius(), out), ccw, -1);
+  const auto at = out < least_mm ? ring.at(ring.radius, ring.opening)
+                                 : beside(ring, out, std::min(path.tool_radius(), out), ccw, -1);
   for (std::size_t k = 0; k < depths.size(); ++k) {
     path.rapid(at.p, at.q);
     path.plunge(depths[k]);
-    if (out < tiny) {
+    if (out < least_mm) {
       along(path, ring, true);
       along(path, ring, false);
     } else {
       wall(path, ring, out, ccw);
     }
-    if (k + 1 < depths.size()) path.rapid_to(depths[k] + n.up * lift);
+    if (k + 1 < depths.size()) path.rapid_to(depths[k] + n.up * level_lift);
   }
   path.finishing(false);
 }
@@ -118,9 +114,9 @@ bool ring_slots(MillPath& path, std::string* error) {
   const bool ccw = path.inside_ccw(error);
   const double step = path.step(usual_step, error);
   if (!error->empty()) return false;
-  if (out - stock < -tiny) return *error = "the tool is too large for the slot and its allowance", false;
-  const Ring ring{std::abs(path.get("radius")), std::abs(path.get("opening"))};
-  if (ring.radius <= width / 2 + tiny) return *error = "the slot is wider than its circle", false;
+  if (out - stock < -least_mm) return *error = "the tool is too large for the slot and its allowance", false;
+  const RingSlot ring{std::abs(path.get("radius")), std::abs(path.get("opening"))};
+  if (ring.radius <= width / 2 + least_mm) return *error = "the slot is wider than its circle", false;
   if (ring.opening <= 0 || ring.opening >= 360) return *error = "a slot on a circle needs its opening angle", false;
   const auto count = std::lround(path.get("count", 1));
   if (count < 1) return *error = "the number of slots is not at least 1", false;

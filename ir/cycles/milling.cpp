@@ -12,7 +12,7 @@ namespace {
 
 using enum MillQuantity;
 
-constexpr std::array parameters = {
+constexpr std::array milling_parameters = {
     MillParameter{"u", place_u, "place in the plane, first axis; left out: where the tool stands"},
     MillParameter{"v", place_v, "place in the plane, second axis"},
     MillParameter{"length", length, "size along the first axis, over all"},
@@ -161,11 +161,12 @@ double factor_of(MillQuantity q, const MillUnits& units) {
 }  // namespace
 
 std::span<const MillParameter> mill_parameters() {
-  return parameters;
+  return milling_parameters;
 }
 const MillParameter* find_mill_parameter(std::string_view name) {
-  const auto it = std::find_if(parameters.begin(), parameters.end(), [name](const auto& p) { return p.name == name; });
-  return it == parameters.end() ? nullptr : &*it;
+  const auto it = std::find_if(milling_parameters.begin(), milling_parameters.end(),
+                               [name](const auto& p) { return p.name == name; });
+  return it == milling_parameters.end() ? nullptr : &*it;
 }
 std::span<const MillShape> mill_shapes() {
   return shapes;

@@ -16,7 +16,7 @@ double word(const TurnNumbers& numbers, std::string_view name, double otherwise 
   return it == numbers.end() ? otherwise : it->second;
 }
 /// Digit of a word that holds one decision a digit, from the right.
-int digit(const TurnNumbers& numbers, std::string_view name, int place) {
+int digit_of(const TurnNumbers& numbers, std::string_view name, int place) {
   auto v = saturate<std::int64_t>(std::abs(word(numbers, name)));
   for (; place > 0; --place) v /= 10;
   return static_cast<int>(v % 10);
@@ -27,7 +27,7 @@ using Moves = std::optional<std::vector<TurnMove>>;
 /// A thread between two points by a number of passes: units 1 to 4 as the older variant, hundreds 1 one flank, 2
 /// alternating, ten thousands 2 by the first infeed, hundred thousands 3 roughing and finishing.
 std::optional<TurnNumbers> older_words(const TurnNumbers& n, std::string* error) {
-  const auto d = [&](int place) { return digit(n, "variant", place); };
+  const auto d = [&](int place) { return digit_of(n, "variant", place); };
   const double angle = word(n, "infeed_angle"), starts = std::max(1.0, std::round(word(n, "starts")));
   if (d(1) != 0 || d(2) > 2 || d(3) != 0 || d(4) > 1 || (d(5) != 0 && d(5) != 3) || (d(2) == 1 && angle < 0))
     return *error = "this way of cutting a thread is not carried out", std::nullopt;
@@ -58,9 +58,9 @@ Moves thread_of_digits(const TurnNumbers& n, const TurnContext& context, std::st
 /// A rectangular corner: from its outer point to its inner one. Units: 1 along Z, 2 along X; tens: 1 roughing, 2
 /// finishing, 3 both.
 Moves corner(const TurnNumbers& n, const TurnContext& context, std::string* error) {
-  const bool face = digit(n, "variant", 0) == 2;
-  const int what = digit(n, "variant", 1), position = saturate<int>(word(n, "position"));
-  if (digit(n, "variant", 0) < 1 || digit(n, "variant", 0) > 2 || what < 1 || what > 3 || word(n, "variant") > 99)
+  const bool face = digit_of(n, "variant", 0) == 2;
+  const int what = digit_of(n, "variant", 1), position = saturate<int>(word(n, "position"));
+  if (digit_of(n, "variant", 0) < 1 || digit_of(n, "variant", 0) > 2 || what < 1 || what > 3 || word(n, "variant") > 99)
     return *error = "this way of removing a corner is not carried out", std::nullopt;
   const TurnPoint from{word(n, "nominal") / 2, word(n, "z")}, to{word(n, "nominal_end") / 2, word(n, "z_end")};
   const double sx = sign(from.x - to.x), sz = sign(from.z - to.z);

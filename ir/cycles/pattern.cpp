@@ -6,11 +6,13 @@
 #include <numbers>
 #include <utility>
 
+#include "base/tiny.h"
+#include "ir/cycles/words.h"
+
 namespace cnctrans::ir::cycles {
 
 namespace {
 
-constexpr double tiny = 1e-9;
 constexpr double most_points = 10'000;
 
 constexpr std::array patterns = {
@@ -22,7 +24,7 @@ constexpr std::array patterns = {
     Pattern{"points.list", PatternKind::list, false},
 };
 
-constexpr std::array parameters = {
+constexpr std::array pattern_parameters = {
     PatternParameter{"u", PatternQuantity::length},         PatternParameter{"v", PatternQuantity::length},
     PatternParameter{"length", PatternQuantity::length},    PatternParameter{"step", PatternQuantity::length},
     PatternParameter{"count", PatternQuantity::plain},      PatternParameter{"length2", PatternQuantity::length},
@@ -47,12 +49,6 @@ constexpr std::array parameters = {
     PatternParameter{"v8", PatternQuantity::length},        PatternParameter{"u9", PatternQuantity::length},
     PatternParameter{"v9", PatternQuantity::length},
 };
-
-template <class Table>
-auto find(const Table& table, std::string_view name) -> decltype(table.data()) {
-  const auto it = std::find_if(table.begin(), table.end(), [name](const auto& row) { return row.name == name; });
-  return it == table.end() ? nullptr : &*it;
-}
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -313,10 +309,10 @@ class Builder {
 }  // namespace
 
 const Pattern* find_pattern(std::string_view name) {
-  return find(patterns, name);
+  return find_row(patterns, name);
 }
 const PatternParameter* find_pattern_parameter(std::string_view name) {
-  return find(parameters, name);
+  return find_row(pattern_parameters, name);
 }
 
 std::optional<std::vector<PatternPoint>> pattern_points(const Pattern& pattern, const PatternNumbers& numbers, double u,

@@ -7,22 +7,18 @@
 
 #include "ir/cycles/pocket_moves.h"
 #include "ir/cycles/profile_blocks.h"
+#include "ir/cycles/words.h"
 #include "ir/tool_number.h"
 
 namespace cnctrans::ir::cycles {
 
 namespace {
 
-constexpr double usual_step = 0.75;   ///< in tool diameters
+constexpr double called_step = 0.75;  ///< in tool diameters
 constexpr double usual_plunge = 0.5;  ///< of the feed
 
-const Value* word(const NamedCycle& cycle, std::string_view name) {
-  const auto it =
-      std::find_if(cycle.words.begin(), cycle.words.end(), [name](const auto& w) { return w.first == name; });
-  return it == cycle.words.end() ? nullptr : &it->second;
-}
 bool says(const NamedCycle& cycle, std::string_view name) {
-  const Value* v = word(cycle, name);
+  const Value* v = find_word(cycle, name);
   return v != nullptr && !v->is(0);
 }
 Value magnitude(const Value& v) {
@@ -50,7 +46,7 @@ class Assembly {
       : program_(program), caller_(caller), call_(call), error_(error) {}
 
   bool run() {
-    if (word(call_, "semi_first_label") != nullptr)
+    if (find_word(call_, "semi_first_label") != nullptr)
       return no("a pocket with depth profiles (semi-finishing) is not carried out yet");
     if (!find("drill", drill_) || !find("rough", rough_) || !find("finish", finish_)) return false;
     if (drill_.at == nullptr && rough_.at == nullptr && finish_.at == nullptr) return no("the pocket has no operation");
@@ -71,9 +67,9 @@ class Assembly {
   }
 
   bool find(const std::string& name, Operation& op) {
-    const Value* first = word(call_, name + "_first_label");
+    const Value* first = find_word(call_, name + "_first_label");
     if (first == nullptr) return true;
-    const Value* last = word(call_, name + "_last_label");
+    const Value* last = find_word(call_, name + "_last_label");
     const NamedCycle range{std::string(pocket::call), {{"first_label", *first}, {"last_label", last ? *last : *first}}};
     op.blocks = profile_blocks(program_, caller_, range, error_);
     if (op.blocks.empty()) return no("the blocks of an operation of the pocket (" + name + ") are not in the program");
@@ -104,26 +100,26 @@ class Assembly {
     auto& words = c.mill.words;
     words.emplace_back("operation", Value(operation == std::string_view("rough") ? 1.0 : 2.0));
     for (const auto* name : {"signed_infeed", "step", "pass_angle", "plunge_angle"}) {
-      if (const Value* v = word(from, name)) words.emplace_back(name, *v);
+      if (const Value* v = find_word(from, name)) words.emplace_back(name, *v);
     }
-    if (const Value* v = word(from, "intersection")) words.emplace_back("apart", *v);
-    words.emplace_back("step_factor", Value(usual_step));
+    if (const Value* v = find_word(from, "intersection")) words.emplace_back("apart", *v);
+    words.emplace_back("step_factor", Value(called_step));
     if (says(from, "plunge_feed"))
-      words.emplace_back("plunge_feed", *word(from, "plunge_feed"));
+      words.emplace_back("plunge_feed", *find_word(from, "plunge_feed"));
     else
       words.emplace_back("plunge_factor", Value(usual_plunge));
     return c;
   }
   void add_contours(HoleCycle& c) const {
     for (const auto* name : {"first_label", "last_label", "program"}) {
-      if (const Value* v = word(call_, name)) c.mill.words.emplace_back(name, *v);
+      if (const Value* v = find_word(call_, name)) c.mill.words.emplace_back(name, *v);
     }
   }
   /// Depth and reference plane of the finishing are those of the roughing where it names none.
   bool levels(HoleCycle& c, const NamedCycle& own, const NamedCycle* other) {
     for (const auto* name : {"bottom", "reference"}) {
-      const Value* v = word(own, name);
-      if (v == nullptr && other != nullptr) v = word(*other, name);
+      const Value* v = find_word(own, name);
+      if (v == nullptr && other != nullptr) v = find_word(*other, name);
       if (v == nullptr) return no("an operation of the pocket needs its depth and its reference plane");
       (name == std::string_view("bottom") ? c.bottom : c.reference) = absolute(*v);
     }
@@ -131,19 +127,19 @@ class Assembly {
   }
 
   bool read_rough() {
-    const Value* pass = word(*rough_.named, "signed_infeed");
+    const Value* pass = find_word(*rough_.named, "signed_infeed");
     if (pass == nullptr || pass->is(0)) return no("the roughing of the pocket needs its axial pass");
     rough_cycle_ = pocket_cycle(*rough_.named, "rough");
     rough_cycle_->mill.words.emplace_back("along", Value(1.0));
     if (finish_.named != nullptr && says(*finish_.named, "wall_stock"))
-      rough_cycle_->mill.words.emplace_back("wall_stock", magnitude(*word(*finish_.named, "wall_stock")));
+      rough_cycle_->mill.words.emplace_back("wall_stock", magnitude(*find_word(*finish_.named, "wall_stock")));
     if (!levels(*rough_cycle_, *rough_.named, nullptr)) return false;
     add_contours(*rough_cycle_);
     return true;
   }
 
   bool read_finish() {
-    const Value* way = word(*finish_.named, "direction");
+    const Value* way = find_word(*finish_.named, "direction");
     if (way != nullptr && !way->is(0) && !way->is(1))
       return no("this direction of the finishing of the pocket is not carried out yet");
     if (!says(*finish_.named, "wall_stock")) {

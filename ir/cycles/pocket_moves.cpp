@@ -14,10 +14,8 @@ namespace detail {
 
 namespace {
 
-constexpr double usual_step = 0.75;  ///< of the diameter, where the source names no other factor
-constexpr double lift = 1;           ///< mm above what is cleared already
+constexpr double usual_pocket_step = 0.75;  ///< of the diameter, where the source names no other factor
 constexpr double most_rings = 5000;
-constexpr double radians = 3.14159265358979323846 / 180;
 
 double spread(const PocketPiece& piece) {
   double low = 1e300, high = -1e300;
@@ -29,13 +27,13 @@ double spread(const PocketPiece& piece) {
 }
 
 /// A piece of the area at one distance from the walls, and what lies further inside.
-struct Ring {
+struct Round {
   PocketPiece piece;
-  std::vector<Ring> inner;
+  std::vector<Round> inner;
   std::vector<PocketWay> rest;  ///< what the ways leave here
 };
 
-void collect(const Ring& ring, std::vector<PocketWay>& ways) {
+void collect(const Round& ring, std::vector<PocketWay>& ways) {
   for (const auto& r : ring.inner) collect(r, ways);
   ways.insert(ways.end(), ring.rest.begin(), ring.rest.end());
   ways.insert(ways.end(), ring.piece.islands.begin(), ring.piece.islands.end());
@@ -43,10 +41,10 @@ void collect(const Ring& ring, std::vector<PocketWay>& ways) {
 }
 
 /// The innermost ring that a point lies in; null: none.
-Ring* innermost(Ring& ring, double u, double v) {
+Round* innermost(Round& ring, double u, double v) {
   if (!contains(ring.piece, u, v)) return nullptr;
   for (auto& r : ring.inner) {
-    if (Ring* found = innermost(r, u, v)) return found;
+    if (Round* found = innermost(r, u, v)) return found;
   }
   return &ring;
 }
@@ -57,20 +55,20 @@ struct Job {
   std::vector<PocketWay> ways;
 };
 
-struct Plan {
+struct IslandPlan {
   std::optional<PocketArea> area;
   double step = 0, wall = 0;
   bool natural = true;  ///< with the pocket on the left of its ways
   bool lines = false;
 };
 
-bool read_plan(MillPath& path, const MillContext& context, Plan& plan, std::string* error) {
+bool read_plan(MillPath& path, const MillContext& context, IslandPlan& plan, std::string* error) {
   if (context.contours == nullptr) return *error = "the pocket needs its contours", false;
   plan.area = PocketArea::of(*context.contours, path.says("outside"), context.tolerance, error);
   if (!plan.area) return false;
   if (path.says("apart") && plan.area->overlap())
     return *error = "contours of the pocket that cross each other are not carried out yet", false;
-  plan.step = path.step(usual_step, error);
+  plan.step = path.step(usual_pocket_step, error);
   plan.wall = std::abs(path.get("wall_stock"));
   const double along = path.get("along");
   plan.natural = along != 0 ? plan.area->outside_ccw() == (along > 0) : path.inside_ccw(error);
@@ -80,7 +78,7 @@ bool read_plan(MillPath& path, const MillContext& context, Plan& plan, std::stri
 }
 
 /// What is left between the ways is cut before the ring that lies round it.
-bool clear_rest(const PocketArea& area, Ring& top, double radius, std::string* error) {
+bool clear_rest(const PocketArea& area, Round& top, double radius, std::string* error) {
   constexpr int most_rounds = 8;
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<PocketWay> ways;
@@ -88,17 +86,17 @@ bool clear_rest(const PocketArea& area, Ring& top, double radius, std::string* e
     const auto rest = area.left_over(top.piece, ways, radius);
     if (rest.empty()) return true;
     for (const auto& way : rest) {
-      Ring* at = innermost(top, way.front().u0, way.front().v0);
+      Round* at = innermost(top, way.front().u0, way.front().v0);
       (at != nullptr ? *at : top).rest.push_back(way);
     }
   }
   return *error = "the passes do not clear the pocket", false;
 }
 
-std::optional<std::vector<Job>> jobs(MillPath& path, const Plan& plan, std::string* error) {
+std::optional<std::vector<Job>> jobs(MillPath& path, const IslandPlan& plan, std::string* error) {
   const double radius = path.tool_radius(), first = radius + plan.wall;
   std::vector<Job> out;
-  std::vector<Ring> tops;
+  std::vector<Round> tops;
   for (auto& piece : plan.area->inside(first)) tops.push_back({std::move(piece), {}, {}});
   if (tops.empty()) return *error = "the tool is too large for the pocket and its allowance", std::nullopt;
   for (const auto& top : tops) {
@@ -115,17 +113,17 @@ std::optional<std::vector<Job>> jobs(MillPath& path, const Plan& plan, std::stri
     }
     return out;
   }
-  std::vector<Ring*> level;
+  std::vector<Round*> level;
   for (auto& top : tops) level.push_back(&top);
   for (long k = 1; !level.empty(); ++k) {
-    std::vector<Ring*> next;
+    std::vector<Round*> next;
     for (auto& piece : plan.area->inside(first + static_cast<double>(k) * plan.step)) {
       const auto from = piece.outside.front();
       const auto round = std::find_if(level.begin(), level.end(),
-                                      [&from](const Ring* r) { return contains(r->piece, from.u0, from.v0); });
+                                      [&from](const Round* r) { return contains(r->piece, from.u0, from.v0); });
       if (round != level.end()) (*round)->inner.push_back({std::move(piece), {}, {}});
     }
-    for (Ring* r : level) {
+    for (Round* r : level) {
       for (auto& i : r->inner) next.push_back(&i);
     }
     level = std::move(next);
@@ -174,7 +172,7 @@ class Mill {
   void rough(const Job& job, bool natural, const std::vector<double>& depths) {
     const auto& n = path_.levels();
     for (std::size_t k = 0; k < depths.size(); ++k) {
-      clear_above_ = k == 0 ? n.reference : depths[k - 1] + n.up * lift;
+      clear_above_ = k == 0 ? n.reference : depths[k - 1] + n.up * level_lift;
       bool first = true;
       for (const auto& way : job.ways) {
         PocketWay now = natural || !closed(way) ? way : reversed(way);
@@ -194,7 +192,7 @@ class Mill {
       const Entry entry = entry_of(piece, natural ? way : reversed(way));
       for (std::size_t k = 0; k < depths.size(); ++k) {
         to(entry.from);
-        if (k > 0) path_.rapid_to(depths[k - 1] + n.up * lift);
+        if (k > 0) path_.rapid_to(depths[k - 1] + n.up * level_lift);
         path_.plunge(depths[k]);
         if (entry.radius > 0)
           path_.mill_arc(entry.way.front().u0, entry.way.front().v0, entry.centre.u, entry.centre.v, entry.ccw);
@@ -260,8 +258,8 @@ class Mill {
     const bool ring = closed(way);
     double round = 0;
     for (const auto& e : way) round += length_of(e);
-    if (path_.times(need / std::max(round, tiny)) < 1 || path_.too_many()) return way;
-    for (std::size_t i = 0; done < need - tiny; i = (i + 1) % way.size()) {
+    if (path_.times(need / std::max(round, least_mm)) < 1 || path_.too_many()) return way;
+    for (std::size_t i = 0; done < need - least_mm; i = (i + 1) % way.size()) {
       if (!ring && i == 0 && done > 0) {
         way = reversed(way);
         i = 0;
@@ -270,13 +268,13 @@ class Mill {
       const double length = length_of(e), part = std::min(1.0, (need - done) / length);
       done += length * part;
       const auto p = part < 1 ? point_on(e, part) : PocketPoint{e.u1, e.v1};
-      const double height = done > need - tiny ? w : top + (w - top) * done / need;
+      const double height = done > need - least_mm ? w : top + (w - top) * done / need;
       if (e.arc)
         path_.plunge_arc_to(p.u, p.v, height, e.cu, e.cv, e.ccw);
       else
         path_.plunge_to(p.u, p.v, height);
       at_ = p;
-      if (done > need - tiny) {
+      if (done > need - least_mm) {
         if (ring) return started_at(way, i, part);
         path_.mill(way.front().u0, way.front().v0);
         return way;
@@ -340,15 +338,15 @@ class Mill {
 }  // namespace
 
 bool contour_pocket(MillPath& path, const MillContext& context, std::string* error) {
-  Plan plan;
+  IslandPlan plan;
   if (!read_plan(path, context, plan, error)) return false;
   const auto operation = path.operation(error);
   if (!error->empty()) return false;
   const auto& n = path.levels();
   const double surface = context.contours->front().surface.value_or(n.surface);
-  if ((n.reference - surface) * n.up < -tiny)
+  if ((n.reference - surface) * n.up < -least_mm)
     return *error = "the reference plane does not lie above the surface of the pocket", false;
-  if ((surface - n.bottom) * n.up < tiny) return *error = "the pocket has no depth", false;
+  if ((surface - n.bottom) * n.up < least_mm) return *error = "the pocket has no depth", false;
   path.frame(0, 0, 0);
   Mill mill(path, context);
   if (operation != Operation::finish) {
@@ -381,7 +379,7 @@ std::vector<PocketPoint> pocket_entries(const MillNumbers& mill, const MillConte
   error->clear();
   HoleNumbers levels;
   detail::MillPath path(mill, levels, context);
-  detail::Plan plan;
+  detail::IslandPlan plan;
   if (!detail::read_plan(path, context, plan, error)) return {};
   const auto list = detail::jobs(path, plan, error);
   if (!list) return {};

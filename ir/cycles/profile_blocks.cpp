@@ -4,24 +4,16 @@
 #include <cmath>
 
 #include "base/saturate.h"
+#include "ir/cycles/words.h"
 #include "ir/labels.h"
 
 namespace cnctrans::ir::cycles {
 
 namespace {
 
-const Value* word(const NamedCycle& cycle, std::string_view name) {
-  const auto it =
-      std::find_if(cycle.words.begin(), cycle.words.end(), [name](const auto& w) { return w.first == name; });
-  return it == cycle.words.end() ? nullptr : &it->second;
-}
-const std::string* text_of(const Value& v) {
-  const auto* s = v.expr ? std::get_if<String>(&v.expr->node) : nullptr;
-  return s == nullptr ? nullptr : &s->text;
-}
 /// Key of a label word: a fixed block number or an identifier; empty: computed.
 std::string key_of(const Value& v) {
-  if (const auto* s = text_of(v)) return label_key(*s, false);
+  if (const auto* s = text_in(v)) return label_key(*s, false);
   const auto n = v.literal() ? std::optional(v.number) : constant_value(v.expr);
   if (!n || *n < 0 || *n != std::floor(*n) || *n > 1e15) return {};
   return label_key(std::to_string(saturate<std::int64_t>(*n)), true);
@@ -71,22 +63,22 @@ ContourStart contour_start(const TurnNumbers& numbers, const ModalState& modal) 
 }
 
 bool is_text(const Value& value) {
-  return text_of(value) != nullptr;
+  return text_in(value) != nullptr;
 }
 
 bool has_profile(const NamedCycle& cycle) {
-  return word(cycle, "first_label") != nullptr || word(cycle, "routine") != nullptr;
+  return find_word(cycle, "first_label") != nullptr || find_word(cycle, "routine") != nullptr;
 }
 
 std::optional<RoutineName> profile_routine(const NamedCycle& cycle) {
   RoutineName name;
-  if (const Value* routine = word(cycle, "routine")) {
-    const auto* text = text_of(*routine);
+  if (const Value* routine = find_word(cycle, "routine")) {
+    const auto* text = text_in(*routine);
     if (text == nullptr) return std::nullopt;
     name.text = *text;
     return name;
   }
-  const Value* number = word(cycle, "program");
+  const Value* number = find_word(cycle, "program");
   if (number == nullptr || !number->literal()) return std::nullopt;
   name.number = saturate<std::int64_t>(number->number);
   return name;
@@ -96,8 +88,8 @@ std::vector<const Statement*> profile_blocks(const Program& program, const Routi
                                              std::string* error) {
   error->clear();
   Range wanted;
-  const Value *first = word(cycle, "first_label"), *last = word(cycle, "last_label");
-  const Value *number = word(cycle, "program"), *routine = word(cycle, "routine");
+  const Value *first = find_word(cycle, "first_label"), *last = find_word(cycle, "last_label");
+  const Value *number = find_word(cycle, "program"), *routine = find_word(cycle, "routine");
   if (first != nullptr) {
     wanted.first = key_of(*first);
     wanted.last = last != nullptr ? key_of(*last) : wanted.first;
@@ -109,7 +101,7 @@ std::vector<const Statement*> profile_blocks(const Program& program, const Routi
   const auto fits = [&](const Routine& r) {
     if (number != nullptr) return number->literal() && double(r.name.number) == number->number;
     if (routine != nullptr) {
-      const auto* name = text_of(*routine);
+      const auto* name = text_in(*routine);
       return name != nullptr && !r.name.text.empty() && label_key(r.name.text, false) == label_key(*name, false);
     }
     return true;
@@ -141,12 +133,6 @@ std::vector<const Statement*> profile_blocks(const Program& program, const Routi
   return found->blocks;
 }
 
-namespace {
-
-constexpr std::size_t numbers_per_element = 8;
-
-}  // namespace
-
 void put_contour(NamedCycle& cycle, const TurnProfile& profile) {
   for (const bool blank : {false, true}) {
     for (const auto& e : blank ? profile.blank : profile.part) {
@@ -165,7 +151,7 @@ std::optional<TurnProfile> contour_in(const NamedCycle& cycle, std::string* erro
   std::vector<double> n;
   for (const auto& [name, v] : cycle.words) {
     if (name == "contour" && v.literal()) n.push_back(v.number);
-    if (const auto* why = text_of(v); why != nullptr && name == "contour_fault") *error = *why;
+    if (const auto* why = text_in(v); why != nullptr && name == "contour_fault") *error = *why;
   }
   if (!error->empty()) return std::nullopt;
   if (n.empty()) return *error = "its profile has not been read", std::nullopt;

@@ -11,7 +11,7 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-double radians(double degrees) {
+double in_radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
 
@@ -32,7 +32,7 @@ void hollow(Chain& out, RolePoint to, RolePoint centre) {
 
 Relief shoulder(const ShoulderRelief& d, bool face) {
   Relief r;
-  r.entry = radians(shoulder_slope);
+  r.entry = in_radians(shoulder_slope);
   const double wall = face ? -d.face : 0;
   r.chain.push_back({{0, d.length}, {-d.depth, d.length - d.depth / std::tan(r.entry)}, false, false, {}});
   line(r.chain, {-d.depth, wall + d.radius});
@@ -41,7 +41,7 @@ Relief shoulder(const ShoulderRelief& d, bool face) {
     hollow(r.chain, {c.p, wall}, c);
     return r;
   }
-  const double tilt = radians(face_slope);
+  const double tilt = in_radians(face_slope);
   const RolePoint leaves{c.p + d.radius * std::sin(tilt), c.q - d.radius * std::cos(tilt)};
   hollow(r.chain, leaves, c);
   line(r.chain, {leaves.p - leaves.q / std::tan(tilt), 0});
@@ -51,7 +51,7 @@ Relief shoulder(const ShoulderRelief& d, bool face) {
 /// `height`: of the thread's inner diameter in a bore, above the nominal one.
 Relief thread_end(const ThreadRelief& d, double length, double depth, double height) {
   Relief r;
-  r.entry = radians(thread_slope);
+  r.entry = in_radians(thread_slope);
   const double trim = d.radius * std::tan(r.entry / 2), foot = length - (height + depth) / std::tan(r.entry);
   const RolePoint before{-depth + trim * std::sin(r.entry), foot + trim * std::cos(r.entry)};
   r.chain.push_back({{height, length}, before, false, false, {}});

@@ -9,7 +9,7 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double overlap = 0.95;  ///< of the insert's flat part, between two plunges
+constexpr double insert_overlap = 0.95;  ///< of the insert's flat part, between two plunges
 
 }  // namespace
 
@@ -35,7 +35,7 @@ bool shaped_groove(Roles& r, const TurnContext& context, bool face, std::string*
   g.step = std::abs(r.number("step"));
   g.lift = r.number("withdrawal") != 0 ? std::abs(r.number("withdrawal")) : 1;
   g.dwell = r.number("base_dwell");
-  g.sideways = overlap * flat;
+  g.sideways = insert_overlap * flat;
   if (depth < tiny || base_stock > depth - tiny) return *error = "the groove has no depth", false;
   if (g.step < tiny) return *error = "the step of the groove is not greater than zero", false;
   if (flat < tiny) return *error = "the insert of the tool is not wider than its two corners", false;

@@ -7,8 +7,6 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr std::size_t most_levels = 100'000;
-
 std::vector<ProfileElement> elements_of(const Chain& chain, const Orientation& o) {
   const auto plain = [&o](RolePoint n) {
     const RolePoint r = o.role(n);

@@ -10,7 +10,6 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double most_passes = 10'000;
 constexpr std::size_t segments = 3;
 
 struct Link {
@@ -41,7 +40,8 @@ bool chained_thread(Roles& r, std::string* error) {
   const double count = std::round(r.number("passes")), idle = std::round(r.number("idle"));
   const int variant = static_cast<int>(std::clamp(r.number("variant"), -1.0, 1e6));
   if (depth < tiny || stock > depth) return *error = "the thread has no depth", false;
-  if (count < 0 || count > most_passes || idle < 0 || idle > most_passes || (count < 1 && stock < depth - tiny))
+  if (count < 0 || count > most_thread_passes || idle < 0 || idle > most_thread_passes ||
+      (count < 1 && stock < depth - tiny))
     return *error = "the number of passes of the thread makes no sense", false;
   if (variant < 1 || variant > 4) return *error = "this way of cutting a thread is not carried out", false;
   const double out = variant % 2 == 0 ? -1 : 1;

@@ -7,11 +7,11 @@ namespace cnctrans::ir::cycles::detail {
 
 namespace {
 
-constexpr double most_passes = 100'000;
+constexpr double most_cuts = 100'000;
 
 /// Equal passes not above `step`.
 double pass_count(double total, double step) {
-  return std::clamp(std::ceil(total / step - tiny), 1.0, most_passes);
+  return std::clamp(std::ceil(total / step - tiny), 1.0, most_cuts);
 }
 
 /// The element between its two ends, moved by the finishing allowance: the straight line, or the arc below 180 degrees.

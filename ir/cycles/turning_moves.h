@@ -6,11 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/tiny.h"
 #include "ir/cycles/machining.h"
 
 namespace cnctrans::ir::cycles::detail {
 
-inline constexpr double tiny = 1e-9;
+inline constexpr double most_thread_passes = 10'000;
+inline constexpr std::size_t most_levels = 100'000;  ///< of a removal of stock
+
 inline double sign(double v) {
   return v < 0 ? -1 : 1;
 }

@@ -21,7 +21,7 @@ const NamedCycle* axial_drill(const Action& a) {
   return row != nullptr && row->kind == cycles::MachiningKind::drill ? named : nullptr;
 }
 
-Value word(const NamedCycle& cycle, std::string_view name) {
+Value word_value(const NamedCycle& cycle, std::string_view name) {
   for (const auto& [n, v] : cycle.words) {
     if (n == name) return v;
   }
@@ -35,12 +35,12 @@ struct AxialTap {
 
 /// nullopt: it drills, or only the run knows whether it taps.
 std::optional<AxialTap> axial_tap(const NamedCycle& cycle) {
-  const Value depth = word(cycle, "depth"), clearance = word(cycle, "clearance"), surface = word(cycle, "z"),
-              kind = word(cycle, "factor");
-  if (!word(cycle, "peck").is(0) || !kind.literal() || !depth.literal() || !clearance.literal() || depth.is(0))
+  const Value depth = word_value(cycle, "depth"), clearance = word_value(cycle, "clearance"),
+              surface = word_value(cycle, "z"), kind = word_value(cycle, "factor");
+  if (!word_value(cycle, "peck").is(0) || !kind.literal() || !depth.literal() || !clearance.literal() || depth.is(0))
     return std::nullopt;
   AxialTap tap;
-  tap.x = word(cycle, "x");
+  tap.x = word_value(cycle, "x");
   tap.approach = add(surface, Value{std::copysign(std::fabs(clearance.number), depth.number)});
   HoleCycle& h = tap.hole;
   h.kind = kind.is(0) ? HoleKind::tap_floating : HoleKind::tap;
@@ -55,7 +55,7 @@ std::optional<AxialTap> axial_tap(const NamedCycle& cycle) {
   h.surface = level(surface);
   h.reference = h.retract = level(tap.approach);
   h.bottom = level(subtract(surface, depth));
-  h.dwell_bottom = word(cycle, "dwell");
+  h.dwell_bottom = word_value(cycle, "dwell");
   h.dwell_scale = 0.01;
   return tap;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "ir/axis_mask.h"
+#include "ir/motion_kinds.h"
 #include "ir/passes/flow_states.h"
 #include "ir/passes/rewrite.h"
 
@@ -10,23 +12,18 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-using Mask = std::uint32_t;
-constexpr Mask bit(AxisId a) {
-  return Mask{1} << a;
-}
-
 /// Which axes the words of each axis may move.
 struct Exchanged {
-  std::array<Mask, axis::count_max> moves{};
+  std::array<AxisMask, axis::count_max> moves{};
 
   Exchanged() {
-    for (std::size_t a = 0; a < moves.size(); ++a) moves[a] = bit(static_cast<AxisId>(a));
+    for (std::size_t a = 0; a < moves.size(); ++a) moves[a] = axis_bit(static_cast<AxisId>(a));
   }
-  [[nodiscard]] bool own(AxisId a) const { return moves[a] == bit(a); }
+  [[nodiscard]] bool own(AxisId a) const { return moves[a] == axis_bit(a); }
   [[nodiscard]] bool sure(AxisId a) const { return (moves[a] & (moves[a] - 1)) == 0; }
   [[nodiscard]] AxisId partner(AxisId a) const {
     AxisId p = 0;
-    while ((moves[a] & bit(p)) == 0) ++p;
+    while ((moves[a] & axis_bit(p)) == 0) ++p;
     return p;
   }
   [[nodiscard]] bool any() const {
@@ -42,11 +39,6 @@ struct Exchanged {
 struct Shape {
   bool arc = false, comp = false, cycle = false;
 };
-
-bool is_arc(MotionKind k) {
-  return k == MotionKind::arc_cw || k == MotionKind::arc_ccw || k == MotionKind::arc_tangent ||
-         k == MotionKind::arc_through_point;
-}
 
 /// The pairs in force. A routine that exchanges nothing itself leaves those of each of its callers as they are.
 struct PairDomain {
@@ -65,14 +57,14 @@ struct PairDomain {
     if (!exchange) return;
     for (const AxisId a : exchange->ends) end(state, a);
     for (const auto& [a, b] : exchange->pairs) {
-      state.moves[a] = bit(b);
-      state.moves[b] = bit(a);
+      state.moves[a] = axis_bit(b);
+      state.moves[b] = axis_bit(a);
     }
   }
   static bool join(State& state, const State& other) {
     bool changed = false;
     for (std::size_t a = 0; a < state.moves.size(); ++a) {
-      const Mask both = state.moves[a] | other.moves[a];
+      const AxisMask both = state.moves[a] | other.moves[a];
       changed = changed || both != state.moves[a];
       state.moves[a] = both;
     }
@@ -81,12 +73,12 @@ struct PairDomain {
 
  private:
   static void end(State& state, AxisId a) {
-    const Mask partners = state.moves[a] & ~bit(a);
-    state.moves[a] = bit(a);
+    const AxisMask partners = state.moves[a] & ~axis_bit(a);
+    state.moves[a] = axis_bit(a);
     for (AxisId p = 0; p < axis::count_max; ++p) {
-      if ((partners & bit(p)) == 0) continue;
-      state.moves[p] &= ~bit(a);
-      if (state.moves[p] == 0) state.moves[p] = bit(p);
+      if ((partners & axis_bit(p)) == 0) continue;
+      state.moves[p] &= ~axis_bit(a);
+      if (state.moves[p] == 0) state.moves[p] = axis_bit(p);
     }
   }
 };
@@ -101,7 +93,7 @@ struct ShapeDomain {
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     if (b->has_motion && b->motion.kind != MotionKind::modal && b->motion.keeps_modal)
-      state.arc = is_arc(b->motion.kind);
+      state.arc = is_any_arc(b->motion.kind);
     for (const auto& a : b->actions) {
       if (const auto* set = std::get_if<ModalSet>(&a.data); set != nullptr && set->setting == Setting::comp)
         state.comp = set->value != static_cast<std::uint8_t>(CompSide::off);
@@ -149,7 +141,7 @@ class Rewriter {
     const Motion& m = b->motion;
     if (b->has_motion) {
       for (const auto& w : m.coords) look(w.axis);
-      const bool arc = is_arc(m.kind) || (m.kind == MotionKind::modal && shape_.arc);
+      const bool arc = is_any_arc(m.kind) || (m.kind == MotionKind::modal && shape_.arc);
       const bool curved = m.moves() && (arc || shape_.comp || shape_.cycle || m.extra || !m.centers.empty());
       other = other || (state_.any_of_space() && curved) || (named && m.kind == MotionKind::reference_point);
     }
@@ -173,7 +165,7 @@ class Rewriter {
 bool pairs_again(const Exchanged& before, const AxisExchange& exchange) {
   const auto ended = [&](AxisId a) {
     return std::any_of(exchange.ends.begin(), exchange.ends.end(),
-                       [&](AxisId e) { return e == a || (before.moves[e] & bit(a)) != 0; });
+                       [&](AxisId e) { return e == a || (before.moves[e] & axis_bit(a)) != 0; });
   };
   return std::any_of(exchange.pairs.begin(), exchange.pairs.end(), [&](const auto& p) {
     return (!before.own(p.first) && !ended(p.first)) || (!before.own(p.second) && !ended(p.second));

@@ -4,17 +4,13 @@
 #include <optional>
 #include <set>
 
+#include "ir/label_name.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
-
-using Name = std::pair<bool, std::string>;
-Name name_of(const LabelRef& l) {
-  return {l.is_number, l.text};
-}
 
 class CalledParts {
  public:
@@ -96,7 +92,7 @@ class CalledParts {
 
   /// No way but the call and the blocks around it leads into the part or out of it.
   bool closed(const Routine& home, std::size_t begin, std::size_t end, const CallRoutine& call) const {
-    std::set<Name> inside;
+    std::set<LabelName> inside;
     const auto each = [&](std::size_t from, std::size_t to, const auto& visit) {
       for (std::size_t i = from; i < to; ++i) {
         Body one{home.body[i]};
@@ -104,7 +100,7 @@ class CalledParts {
       }
     };
     each(begin, end, [&inside](const Statement& s) {
-      for (const auto& l : labels_on(s.line)) inside.insert(name_of(l));
+      for (const auto& l : labels_on(s.line)) inside.insert(label_name(l));
     });
     bool good = true;
     const auto check = [&](bool in) {
@@ -112,7 +108,7 @@ class CalledParts {
         if (std::holds_alternative<CallRoutine>(s.node)) return;  // of another program
         each_label_ref(s, [&](LabelRef& l, bool) {
           if (l.text.empty() && !l.computed) return;
-          good = good && !l.computed && (inside.count(name_of(l)) != 0) == in;
+          good = good && !l.computed && (inside.count(label_name(l)) != 0) == in;
         });
       };
     };
@@ -124,8 +120,8 @@ class CalledParts {
         const auto* c = std::get_if<CallRoutine>(&s.node);
         const auto* p = std::get_if<Repeat>(&s.node);
         if (c != nullptr && c->has_range && program_.find(c->routine) == &home && !same(*c, call))
-          good = good && !c->first.computed && !c->last.computed && inside.count(name_of(c->first)) == 0 &&
-                 inside.count(name_of(c->last)) == 0;
+          good = good && !c->first.computed && !c->last.computed && inside.count(label_name(c->first)) == 0 &&
+                 inside.count(label_name(c->last)) == 0;
         if (p != nullptr && p->has_program && program_.find(p->program) == &home) good = false;
       });
     }

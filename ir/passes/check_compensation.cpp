@@ -15,7 +15,7 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-constexpr std::string_view option = "comp.rapid";
+constexpr std::string_view rapid_option = "comp.rapid";
 
 bool program_compensates(const Program& program, const machine::Profile& machine) {
   bool found = machine.power_on.comp != CompSide::off;
@@ -118,7 +118,8 @@ void check_changes(Program& program, const LegaliseContext& context) {
 void check_compensation(Program& program, const LegaliseContext& context) {
   check_changes(program, context);
   check_compensation_ends(program, context);
-  const std::string source = context.source_machine.option(option), target = context.target_machine.option(option);
+  const std::string source = context.source_machine.option(rapid_option),
+                    target = context.target_machine.option(rapid_option);
   if (source == target || !program_compensates(program, context.source_machine)) return;
   const FactsOf facts(program, context);
   const bool suspends = source == "suspended";

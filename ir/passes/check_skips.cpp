@@ -3,6 +3,7 @@
 
 #include "ir/passes/passes.h"
 #include "ir/passes/rewrite.h"
+#include "ir/passes/skip_groups.h"
 
 namespace cnctrans::ir::passes {
 
@@ -24,12 +25,6 @@ void check_line(const LineInfo& line, bool structure, const LegaliseContext& con
     context.diagnostics.error("TRN-163", line.span, "the target can't skip a block with a structured statement",
                               "write the loop or condition with jumps");
   }
-}
-
-bool is_structure(const Statement& s) {
-  if (const auto* i = std::get_if<If>(&s.node)) return !i->one_line;
-  return std::holds_alternative<While>(s.node) || std::holds_alternative<Until>(s.node) ||
-         std::holds_alternative<For>(s.node) || std::holds_alternative<Loop>(s.node);
 }
 
 }  // namespace

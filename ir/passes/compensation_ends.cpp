@@ -2,6 +2,7 @@
 // or ends it may stand in the block of that move or before it, an arc may not follow.
 #include <vector>
 
+#include "ir/motion_kinds.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/facts.h"
 #include "ir/passes/passes.h"
@@ -9,11 +10,6 @@
 namespace cnctrans::ir::passes {
 
 namespace {
-
-bool is_arc(MotionKind k) {
-  return k == MotionKind::arc_cw || k == MotionKind::arc_ccw || k == MotionKind::arc_through_point ||
-         k == MotionKind::arc_tangent;
-}
 
 const Action* comp_action(const Block& b) {
   for (const auto& a : b.actions) {
@@ -28,7 +24,7 @@ struct Meeting {
   Statement* arc;
 };
 
-class Search {
+class MeetingSearch {
  public:
   void body(Body& statements) {
     for (auto& s : statements) {
@@ -44,7 +40,7 @@ class Search {
     if (!b.has_motion) return;
     if (b.motion.kind != MotionKind::modal) kind_ = b.motion.kind;
     if (!b.motion.moves()) return;
-    if (change_ != nullptr && is_arc(kind_)) found.push_back({change_, &s});
+    if (change_ != nullptr && is_any_arc(kind_)) found.push_back({change_, &s});
     change_ = nullptr;
   }
   Statement* change_ = nullptr;
@@ -55,14 +51,14 @@ class Search {
 
 void check_compensation_ends(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
-  Search search;
+  MeetingSearch search;
   for (auto& r : program.routines) search.body(r.body);
   if (search.found.empty()) return;
   const FactsOf facts(program, context);
   for (const auto& m : search.found) {
     const Block& arc = std::get<Block>(m.arc->node);
     const auto kind = motion_in(arc, facts.before(*m.arc));
-    if (kind && !is_arc(*kind)) continue;
+    if (kind && !is_any_arc(*kind)) continue;
     Block& change = std::get<Block>(m.change->node);
     const Facts& before = facts.before(*m.change);
     const auto side = setting<CompSide>(before, Setting::comp),

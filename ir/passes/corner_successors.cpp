@@ -14,7 +14,7 @@ using namespace geometry;
 
 namespace {
 
-enum class Step : std::uint8_t {
+enum class Going : std::uint8_t {
   stands,   ///< surely goes nowhere
   perhaps,  ///< moves in the plane or stands, by values that only the run knows
   along,    ///< moves in the plane
@@ -22,21 +22,21 @@ enum class Step : std::uint8_t {
 };
 
 /// A domain of FlowStates: the corners (ids of their blocks) that wait for the element behind them, on some way.
-class Waiting {
+class WaitingCorners {
  public:
   using State = std::set<std::uint32_t>;
-  Waiting(const LegaliseContext& context, const FactsOf& facts)
+  WaitingCorners(const LegaliseContext& context, const FactsOf& facts)
       : context_(context), facts_(facts), points_(context, facts) {}
 
   [[nodiscard]] static State start(const Routine& /*unused*/, bool /*unused*/) { return {}; }
   void transfer(const Statement& s, State& state) const {
-    const Step step = step_of(s);
-    if (step == Step::along || step == Step::apart) state.clear();
+    const Going step = step_of(s);
+    if (step == Going::along || step == Going::apart) state.clear();
     if (has_corner(s)) state.insert(s.id);
   }
   [[nodiscard]] bool touches(const Routine& r) const {
     bool found = false;
-    for_each_statement(r.body, [&](const Statement& s) { found = found || step_of(s) != Step::stands; });
+    for_each_statement(r.body, [&](const Statement& s) { found = found || step_of(s) != Going::stands; });
     return found;
   }
   static void unknown(State& /*state*/) {}
@@ -46,23 +46,23 @@ class Waiting {
     return a.size() != before;
   }
 
-  [[nodiscard]] Step step_of(const Statement& s) const {
+  [[nodiscard]] Going step_of(const Statement& s) const {
     const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr || !b->has_motion || !b->motion.moves()) return Step::stands;
+    if (b == nullptr || !b->has_motion || !b->motion.moves()) return Going::stands;
     const Motion& m = b->motion;
     const Facts& facts = facts_.before(s);
     const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
-    if (!plane || m.extra || !m.centers.empty() || m.radius_given) return Step::along;
+    if (!plane || m.extra || !m.centers.empty() || m.radius_given) return Going::along;
     const auto axes = plane_axes(*plane);
     if (const auto path = points_.path_of(s); path && (path->e.arc || length(path->e.b - path->e.a) > same_point))
-      return Step::along;
-    Step step = Step::stands;
+      return Going::along;
+    Going step = Going::stands;
     for (const auto& c : m.coords) {
       const auto moved = moves(c, *b, facts);
       const bool inside = c.axis == axes.u || c.axis == axes.v;
-      if (inside && moved == true) return Step::along;
-      if (inside && !moved) step = Step::perhaps;
-      if (!inside && moved != false && step == Step::stands) step = Step::apart;
+      if (inside && moved == true) return Going::along;
+      if (inside && !moved) step = Going::perhaps;
+      if (!inside && moved != false && step == Going::stands) step = Going::apart;
     }
     return step;
   }
@@ -95,10 +95,10 @@ class Waiting {
 
 std::map<std::uint32_t, CornerEnds> corner_ends(const Program& program, const LegaliseContext& context,
                                                 const FactsOf& facts) {
-  const Waiting domain(context, facts);
-  const FlowStates<Waiting> states(program, domain);
+  const WaitingCorners domain(context, facts);
+  const FlowStates<WaitingCorners> states(program, domain);
   std::map<std::uint32_t, CornerEnds> all;
-  const auto alone = [&all](const Waiting::State& waiting, const Span& where) {
+  const auto alone = [&all](const WaitingCorners::State& waiting, const Span& where) {
     for (const auto id : waiting) all[id].alone.push_back(where);
   };
   for (std::size_t i = 0; i < program.routines.size(); ++i) {
@@ -107,10 +107,10 @@ std::map<std::uint32_t, CornerEnds> corner_ends(const Program& program, const Le
       const auto* waiting = states.before(s);
       if (waiting == nullptr || waiting->empty()) return;
       const auto* end = std::get_if<End>(&s.node);
-      const Step step = domain.step_of(s);
+      const Going step = domain.step_of(s);
       const bool ends = end != nullptr && (!end->returns_from_sub || r.kind == RoutineKind::main);
-      if (step == Step::apart || ends) alone(*waiting, s.line.span);
-      if (step != Step::along && step != Step::perhaps && !std::holds_alternative<Opaque>(s.node)) return;
+      if (step == Going::apart || ends) alone(*waiting, s.line.span);
+      if (step != Going::along && step != Going::perhaps && !std::holds_alternative<Opaque>(s.node)) return;
       for (const auto id : *waiting) all[id].followed = true;
     });
     const auto* left = states.behind(i);

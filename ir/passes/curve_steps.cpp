@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "base/tiny.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/rewrite.h"
 #include "ir/passes/words.h"
@@ -11,8 +12,6 @@
 namespace cnctrans::ir::passes {
 
 namespace {
-
-constexpr double tiny = 1e-9;
 
 /// What neither stands between the points of a curve nor beside them in a translation.
 bool disturbs(const Block& b) {

@@ -22,6 +22,13 @@ inline Value product(const Value& a, const Value& b) {
   if (a.literal()) return b.is(1) ? a : ir::scale(b, a.number);
   return b.literal() ? ir::scale(a, b.number) : binary_value(BinaryOp::multiply, a, b);
 }
+/// As product, and 0 where a factor is 0.
+inline Value times(const Value& a, const Value& b) {
+  return a.is(0) || b.is(0) ? Value(0.0) : product(a, b);
+}
+inline Value root(const Value& v) {
+  return v.literal() ? Value(std::sqrt(v.number)) : Value(call(Function::sqrt, {v.expr}));
+}
 inline Value quotient(const Value& a, const Value& b) {
   return a.literal() && b.literal() ? Value(a.number / b.number) : binary_value(BinaryOp::divide, a, b);
 }

@@ -314,10 +314,10 @@ Motion along(MotionKind kind, AxisId axis, double value) {
 }
 
 /// Steps of a hole as blocks.
-class Writer {
+class HoleWriter {
  public:
-  Writer(const LineInfo& like, AxisId axis, Plane plane, double unit, const FeedBefore& feed,
-         std::optional<SpindleState> sense)
+  HoleWriter(const LineInfo& like, AxisId axis, Plane plane, double unit, const FeedBefore& feed,
+             std::optional<SpindleState> sense)
       : like_(like), axis_(axis), plane_(plane), unit_(unit), feed_(feed.word()), no_feed_(feed.none), sense_(sense) {}
 
   /// The feed in force goes on behind the hole.
@@ -460,7 +460,7 @@ std::optional<Explosion> explode(const HoleCycle& c, const LineInfo& like, const
   LineInfo line;
   line.span = like.span;
   line.skip_mask = like.skip_mask;
-  Writer writer(line, *axis_id, *in_plane, unit, feed, sense);
+  HoleWriter writer(line, *axis_id, *in_plane, unit, feed, sense);
   writer.last = height;
   for (const auto& m : moves) {
     if (!writer.add(m, error)) return std::nullopt;

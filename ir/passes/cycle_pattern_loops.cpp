@@ -10,7 +10,7 @@ namespace {
 
 using cycles::PatternKind;
 
-double clean(double x) {
+double clean_offset(double x) {
   const double r = std::round(x * 1e10) / 1e10;
   return r == 0 ? 0 : r;
 }
@@ -86,7 +86,7 @@ class LoopBuilder {
   static Value turned(Function f, const Value& degrees) {
     if (!degrees.literal()) return Value(call(f, {degrees.expr}));
     const double a = radians(degrees.number);
-    return Value(clean(f == Function::cos ? std::cos(a) : std::sin(a)));
+    return Value(clean_offset(f == Function::cos ? std::cos(a) : std::sin(a)));
   }
   std::optional<VarRef> kept(const Value& v) {
     const auto var = editor_.take(like_);
@@ -254,10 +254,11 @@ class LoopBuilder {
     const double radius = std::hypot(cu.number, cv.number);
     const Value each = named(step);
     if (!count_from(1, count)) return false;
-    const Value angle = sum(Value(clean(start)), product(k_, each));
-    loop.next = at(sum(Value(clean(*pu + cu.number)), product(Value(clean(radius)), turned(Function::cos, angle))),
-                   sum(Value(clean(*pv + cv.number)), product(Value(clean(radius)), turned(Function::sin, angle))),
-                   WordMode::absolute);
+    const Value angle = sum(Value(clean_offset(start)), product(k_, each));
+    loop.next = at(
+        sum(Value(clean_offset(*pu + cu.number)), product(Value(clean_offset(radius)), turned(Function::cos, angle))),
+        sum(Value(clean_offset(*pv + cv.number)), product(Value(clean_offset(radius)), turned(Function::sin, angle))),
+        WordMode::absolute);
     return true;
   }
 

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "ir/cycles/pattern.h"
+#include "ir/cycles/words.h"
 #include "ir/passes/lower_cycles.h"
 
 namespace cnctrans::ir::passes {
@@ -15,16 +16,16 @@ namespace {
 using cycles::PatternKind;
 using cycles::PatternPoint;
 
-struct Place {
+struct PatternPlace {
   AxisId u = axis::x, v = axis::y;
   std::optional<double> at_u, at_v;  ///< program units
 };
 
-std::optional<Place> place(const Block& b, const Facts& facts) {
+std::optional<PatternPlace> place(const Block& b, const Facts& facts) {
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
   if (!plane) return std::nullopt;
   const auto axes = plane_axes(*plane);
-  Place p;
+  PatternPlace p;
   p.u = axes.u;
   p.v = axes.v;
   p.at_u = facts.position[axes.u];
@@ -44,7 +45,7 @@ std::optional<cycles::PatternNumbers> numbers_of(const NamedCycle& pattern) {
   return numbers;
 }
 
-double rounded(double x) {
+double clean_point(double x) {
   const double r = std::round(x * 1e9) / 1e9;
   return r == 0 ? 0 : r;
 }
@@ -53,14 +54,14 @@ CoordWord coordinate(AxisId axis, double value, bool absolute) {
   CoordWord c;
   c.axis = axis;
   c.mode = absolute ? WordMode::absolute : WordMode::incremental;
-  c.value = Value{rounded(value)};
+  c.value = Value{clean_point(value)};
   return c;
 }
 
 CenterWord centre(AxisId axis, double value) {
   CenterWord c;
   c.axis = axis;
-  c.value = Value{rounded(value)};
+  c.value = Value{clean_point(value)};
   return c;
 }
 
@@ -74,19 +75,12 @@ MotionKind kind_of(PatternPoint::Way way) {
   return MotionKind::arc_ccw;
 }
 
-const Value* word(const NamedCycle& c, std::string_view name) {
-  for (const auto& [w, v] : c.words) {
-    if (w == name) return &v;
-  }
-  return nullptr;
-}
-
 /// Points as they stand, computed ones too.
-Body listed_points(const NamedCycle& pattern, const LineInfo& like, const Place& at) {
+Body listed_points(const NamedCycle& pattern, const LineInfo& like, const PatternPlace& at) {
   Body blocks;
   for (char digit = '1'; digit <= '9'; ++digit) {
-    const Value* u = word(pattern, std::string{'u', digit});
-    const Value* v = word(pattern, std::string{'v', digit});
+    const Value* u = cycles::find_word(pattern, std::string{'u', digit});
+    const Value* v = cycles::find_word(pattern, std::string{'v', digit});
     if (u == nullptr && v == nullptr) continue;
     Block block;
     block.has_motion = true;
@@ -181,7 +175,7 @@ void balance_increments(Body& points, const Statement& s, const Block& b, const 
       if (c.mode != WordMode::incremental || !c.value.literal()) continue;
       auto& [exact, written] = way[c.axis];
       exact += c.value.number;
-      c.value = Value{rounded(std::round(exact * place) / place - written)};
+      c.value = Value{clean_point(std::round(exact * place) / place - written)};
       written += c.value.number;
       most = std::max(most, std::fabs(exact - written));
     }
@@ -220,14 +214,18 @@ std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b
   if (row->kind == PatternKind::line) {
     // A row from the point that is done: the tool stands at its nearer end.
     const double step = std::hypot(points->front().u - *at->at_u, points->front().v - *at->at_v);
-    const double angle = word(pattern, "angle") != nullptr ? numbers->at("angle") : 0;
+    const double angle = cycles::find_word(pattern, "angle") != nullptr ? numbers->at("angle") : 0;
     const double radians = angle * std::acos(-1.0) / 180;
     const double along =
         std::cos(radians) * (points->front().u - *at->at_u) + std::sin(radians) * (points->front().v - *at->at_v);
     const double turned = angle + (along < 0 ? 180 : 0);
     c.name = "points.row";
-    c.words = {{"u", Value{*at->at_u}},         {"v", Value{*at->at_v}},        {"angle", Value{turned}},
-               {"first", Value{rounded(step)}}, {"step", Value{rounded(step)}}, {"count", count}};
+    c.words = {{"u", Value{*at->at_u}},
+               {"v", Value{*at->at_v}},
+               {"angle", Value{turned}},
+               {"first", Value{clean_point(step)}},
+               {"step", Value{clean_point(step)}},
+               {"count", count}};
     return accepted(std::move(c));
   }
   if (row->kind == PatternKind::circle || row->kind == PatternKind::arc) {
@@ -242,9 +240,9 @@ std::optional<CyclePtr> native_pattern(const NamedCycle& pattern, const Block& b
       while (step <= 0) step += 360;
     }
     c.name = "points.ring";
-    c.words = {{"u", Value{rounded(*at->at_u + cu)}}, {"v", Value{rounded(*at->at_v + cv)}},
-               {"radius", Value{rounded(radius)}},    {"angle", Value{rounded(start + step)}},
-               {"angle_step", Value{rounded(step)}},  {"count", count}};
+    c.words = {{"u", Value{clean_point(*at->at_u + cu)}}, {"v", Value{clean_point(*at->at_v + cv)}},
+               {"radius", Value{clean_point(radius)}},    {"angle", Value{clean_point(start + step)}},
+               {"angle_step", Value{clean_point(step)}},  {"count", count}};
     return accepted(std::move(c));
   }
   return std::nullopt;

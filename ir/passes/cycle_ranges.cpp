@@ -17,7 +17,7 @@ namespace cnctrans::ir::passes {
 namespace {
 
 constexpr std::size_t most_copied = 400;  ///< statements in the place of one repetition
-constexpr int most_rounds = 8;            ///< ranges in ranges
+constexpr int most_nested = 8;            ///< ranges in ranges
 
 /// The statements `first` to `last` (inclusive) of one body.
 struct Range {
@@ -42,7 +42,7 @@ std::optional<Range> range_in(Body& body, std::uint32_t first, std::uint32_t las
   return found;
 }
 
-void each_line(Statement& s, const std::function<void(LineInfo&)>& visit) {
+void each_line_of(Statement& s, const std::function<void(LineInfo&)>& visit) {
   visit(s.line);
   if (auto* i = std::get_if<If>(&s.node)) {
     visit(i->else_line);
@@ -164,7 +164,7 @@ class Separation {
              range.body->begin() + static_cast<std::ptrdiff_t>(range.last) + 1);
     std::set<std::pair<bool, std::string>> inside;
     for_each_statement(all, [&](Statement& s) {
-      each_line(s, [&](LineInfo& l) {
+      each_line_of(s, [&](LineInfo& l) {
         for (const auto& label : labels_on(l)) inside.emplace(label.is_number, label.text);
       });
     });
@@ -190,7 +190,7 @@ class Separation {
     for_each_statement(copy, [&](Statement& s) {
       s.id = 0;
       if (auto* j = std::get_if<Jump>(&s.node)) j->target = fresh.at({j->target.is_number, j->target.text});
-      each_line(s, [&](LineInfo& line) {
+      each_line_of(s, [&](LineInfo& line) {
         const auto labels = labels_on(line);
         line.number = {};
         line.labels.clear();
@@ -240,7 +240,7 @@ bool ambiguous(const Program& program, const FactsOf& facts) {
 
 void separate_cycle_ranges(Program& program, const LegaliseContext& context,
                            const std::function<void(Program&, const LegaliseContext&)>& carry_out) {
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_nested; ++round) {
     const FactsOf facts(program, context);
     if (!ambiguous(program, facts)) return;
     Program trial = program;

@@ -13,7 +13,7 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-constexpr int most_rounds = 4;  ///< a kept word may bring another one to light
+constexpr int most_word_rounds = 4;  ///< a kept word may bring another one to light
 
 const CyclePtr* defined_by(const Statement& s) {
   if (const auto* m = std::get_if<ModalCall>(&s.node)) return !m->off && m->cycle ? &m->cycle : nullptr;
@@ -126,7 +126,7 @@ class Keeper {
 void keep_cycle_words(Program& program, const LegaliseContext& context,
                       const std::function<void(Program&, const LegaliseContext&, StaleWords*)>& carry_out) {
   if (!words_may_change(program)) return;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_word_rounds; ++round) {
     number_statements(program);
     Program trial = program;
     Diagnostics said;

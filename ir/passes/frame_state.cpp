@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ir/known_number.h"
+
 namespace cnctrans::ir::passes {
 
 namespace {
@@ -13,11 +15,6 @@ std::optional<Plane> plane_of_normal(AxisId normal) {
     if (plane_axes(p).w == normal) return p;
   }
   return std::nullopt;
-}
-
-Value plain(Value v) {
-  v.text = {};
-  return v;
 }
 
 }  // namespace
@@ -127,7 +124,7 @@ void FrameState::translate(const FrameChange& c, const Facts& facts, const Block
   for (const auto& w : c.words) {
     if (w.axis >= axes) continue;
     moved.shift[w.axis] =
-        combine == FrameCombine::replace || combine == FrameCombine::replace_named ? w.value : plain(w.value);
+        combine == FrameCombine::replace || combine == FrameCombine::replace_named ? w.value : without_text(w.value);
     moved.shift_scale[w.axis] = w.scale;
   }
   if (combine == FrameCombine::replace) {
@@ -162,7 +159,7 @@ void FrameState::rotate(const FrameChange& c, const Facts& facts, const Block& b
     if (c.rotation_axis != axis::none) plane = plane_of_normal(c.rotation_axis);
     for (const auto& w : c.words) {
       if (w.axis >= axes) continue;
-      centre.shift[w.axis] = plain(w.value);
+      centre.shift[w.axis] = without_text(w.value);
       centre.shift_scale[w.axis] = is_diameter_axis(machine, w.axis) ? WordScale::diameter : w.scale;
     }
     if (machine.option("frame.rotation_centre") == "scaled_and_mirrored" && centre.has_shift()) {
@@ -212,7 +209,7 @@ void FrameState::stretch(const FrameChange& c, const machine::Profile& machine) 
       return a.rotary || (a.id < axes && (named >> a.id & 1U) != 0);
     });
     if (equal_words && (c.uniform_scale || all_axes || c.words[0].value.is(1)))
-      g.factor = plain(c.words[0].value);
+      g.factor = without_text(c.words[0].value);
     else
       g.foreign = true;
     if (keeps) {

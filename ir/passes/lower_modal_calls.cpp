@@ -476,7 +476,7 @@ class ModalCalls {
   int loops_ = 0;
 };
 
-bool has_modal_calls(const Program& program) {
+bool starts_modal_calls(const Program& program) {
   bool found = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&found](const Statement& s) {
@@ -490,7 +490,7 @@ bool has_modal_calls(const Program& program) {
 }  // namespace
 
 void lower_modal_calls(Program& program, const LegaliseContext& context) {
-  if (!has_modal_calls(program)) return;
+  if (!starts_modal_calls(program)) return;
   const FactsOf facts(program, context);
   const CallGraph calls(program);
   ModalCalls pass(program, context, calls, facts);

@@ -7,6 +7,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "ir/cycles/profile_blocks.h"
+#include "ir/known_number.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
 #include "ir/search.h"
@@ -30,18 +31,15 @@ const NamedCycle* machining_of(const Block& b) {
   return nullptr;
 }
 
-std::optional<double> known(const Value& v) {
-  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-}
-std::optional<std::int32_t> known_number(const Value& v) {
-  const auto n = known(v);
+std::optional<std::int32_t> known_count(const Value& v) {
+  const auto n = known_number(v);
   return n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
 }
 
 /// Moves as blocks.
-class Writer {
+class TurnWriter {
  public:
-  Writer(const LineInfo& like, const ModalState& modes, const FeedBefore& feed, const TurnState& state)
+  TurnWriter(const LineInfo& like, const ModalState& modes, const FeedBefore& feed, const TurnState& state)
       : modes_(modes),
         unit_(modes.units == Units::inch ? 25.4 : 1),
         feed_(feed.value),
@@ -331,8 +329,8 @@ void follow(const Block& b, TurnState& state) {
         machining_of(b)->name == "part.off")
       state.spindle.reset();  // it may turn the other way
     if (const auto* t = std::get_if<ToolSelect>(&a.data))
-      state.tool = has_number(*t) ? known_number(t->number) : std::nullopt;
-    if (const auto* d = std::get_if<ToolOffset>(&a.data)) state.offset = known_number(d->number);
+      state.tool = has_number(*t) ? known_count(t->number) : std::nullopt;
+    if (const auto* d = std::get_if<ToolOffset>(&a.data)) state.offset = known_count(d->number);
   }
 }
 
@@ -368,7 +366,7 @@ bool machining_numbers(const NamedCycle& cycle, const ModalState& modes, TurnNum
     const auto* p = cycles::find_parameter(word);
     if (p == nullptr) return false;
     if (p->quantity == cycles::Quantity::text || cycles::is_text(v)) continue;
-    const auto n = known(v);
+    const auto n = known_number(v);
     if (!n) return false;
     out[p->name] = *n * cycles::factor_of(p->quantity, turn_units(modes));
   }
@@ -446,7 +444,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   std::optional<double> x = facts.position[axis::x], z = facts.position[axis::z];
   if (values != nullptr && !anywhere) {
     const auto place = [&](std::optional<double>& at, const std::optional<Value>& word, double k) {
-      const auto n = at || !word ? std::nullopt : known(fold(*word));
+      const auto n = at || !word ? std::nullopt : known_number(fold(*word));
       if (n) at = *n / k;
     };
     place(x, site.state.x, m->diameter == DiameterMode::radius ? 1 : 2);
@@ -471,7 +469,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   }
   TurnState state = site.state;
   state.exact_stop = setting_in<PathMode>(b, facts, Setting::path_mode) == PathMode::exact_stop;
-  Writer writer(s.line, *m, feeds_.at(s, b, facts), state);
+  TurnWriter writer(s.line, *m, feeds_.at(s, b, facts), state);
   writer.at = context.start;
   for (const auto& move : *moves) {
     if (!writer.add(move, error)) return std::nullopt;

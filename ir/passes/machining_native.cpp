@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "ir/cycles/profile_blocks.h"
+#include "ir/known_number.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/machining_moves.h"
 
@@ -15,10 +16,6 @@ namespace {
 using cycles::TurnMove;
 using cycles::TurnNumbers;
 using cycles::TurnStep;
-
-std::optional<double> known(const Value& v) {
-  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-}
 
 bool same_move(const TurnMove& a, const TurnMove& b) {
   constexpr double room = 5e-4;  // mm: what a target of three places rounds away
@@ -91,7 +88,7 @@ std::optional<TurnForm> TurnCycles::native(const NamedCycle& words, const Statem
       constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       cycles::TurnContext before, after;
       const auto place = [&](const std::optional<Value>& v, double by) {
-        const auto n = v ? known(*v) : std::nullopt;
+        const auto n = v ? known_number(*v) : std::nullopt;
         return n ? *n / by : unknown;
       };
       before.start = {place(start.x, k), place(start.z, 1)};
@@ -180,7 +177,7 @@ std::string label_of_use(const Program& program, const std::string& prefix, cons
                          std::string_view word) {
   for (const auto& [w, v] : named.words) {
     if (w != word) continue;
-    const auto n = known(v);
+    const auto n = known_number(v);
     std::string text = n ? prefix + shortest(*n) : std::string();
     bool taken = text.empty();
     for (const auto& r : program.routines) {
@@ -315,7 +312,7 @@ std::optional<SimilarForm> TurnCycles::similar(const NamedCycle& words, const St
   if (const auto x = facts.position[axis::x]) source.start.x = Value(*x * k);
   if (const auto z = facts.position[axis::z]) source.start.z = Value(*z);
   const auto place = [&](const std::optional<Value>& v, double by) {
-    const auto n = v ? known(fold(*v)) : std::nullopt;
+    const auto n = v ? known_number(fold(*v)) : std::nullopt;
     return n ? *n / by : unknown;
   };
   source.at = {place(source.start.x, k), place(source.start.z, 1)};

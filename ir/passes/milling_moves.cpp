@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "ir/cycles/mill_contour.h"
 #include "ir/cycles/pocket_moves.h"
+#include "ir/known_number.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/written_data.h"
 #include "ir/search.h"
@@ -23,11 +24,8 @@ using cycles::MillStep;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-std::optional<double> known(const Value& v) {
-  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-}
 std::optional<std::int32_t> whole(const Value& v) {
-  const auto n = known(v);
+  const auto n = known_number(v);
   return n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
 }
 
@@ -61,9 +59,9 @@ bool stays(const Block& b) {
 }
 
 /// Moves as blocks.
-class Writer {
+class MillWriter {
  public:
-  Writer(const LineInfo& like, PlaneAxes axes, double unit, std::optional<double> feed)
+  MillWriter(const LineInfo& like, PlaneAxes axes, double unit, std::optional<double> feed)
       : axes_(axes), unit_(unit), feed_(feed) {
     line_.span = like.span;
     line_.skip_mask = like.skip_mask;
@@ -207,7 +205,7 @@ std::optional<double> place_after(const Block& b, const Facts& facts, AxisId axi
   for (const auto& c : b.motion.coords) {
     if (c.axis != axis) continue;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const auto n = known(c.value);
+    const auto n = known_number(c.value);
     const bool absolute = c.mode == WordMode::absolute || (c.mode == WordMode::modal && distance == Distance::absolute);
     return absolute && c.scale == WordScale::modal ? n : std::nullopt;
   }
@@ -366,7 +364,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   levels.length_unit = levels.level_unit = levels.feed_unit = unit;
   levels.distance = *distance;
   levels.height = defined_at.value_or(unknown);
-  const auto literal = [](const Value& v) { return known(v); };
+  const auto literal = [](const Value& v) { return known_number(v); };
   const auto numbers = cycles::resolve(c, levels, literal, error);
   const auto words = cycles::resolve(c.mill, {unit, unit, unit, unit}, literal, error);
   if (!numbers || !words) {
@@ -419,7 +417,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   const auto moves = cycles::expand(*words, *numbers, context, error);
   if (!moves) return std::nullopt;
   const FeedBefore feed = feeds_.at(s, b, facts);
-  Writer writer(s.line, axes, unit, feed.value);
+  MillWriter writer(s.line, axes, unit, feed.value);
   writer.u = context.u;
   writer.v = context.v;
   writer.w = context.w;
@@ -452,7 +450,7 @@ std::vector<cycles::PocketPoint> MillCycles::entries(const HoleCycle& c, const B
   if (!units) return *error = "the units are not known here", std::vector<cycles::PocketPoint>{};
   const double unit = *units == Units::inch ? 25.4 : 1;
   const auto words = cycles::resolve(
-      c.mill, {unit, unit, unit, unit}, [](const Value& v) { return known(v); }, error);
+      c.mill, {unit, unit, unit, unit}, [](const Value& v) { return known_number(v); }, error);
   if (!words) {
     if (error->empty()) *error = "its words are computed when the program runs";
     return {};

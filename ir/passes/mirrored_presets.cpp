@@ -5,17 +5,13 @@
 #include <utility>
 
 #include "ir/axis.h"
+#include "ir/axis_mask.h"
 #include "ir/passes/flow_states.h"
 #include "ir/passes/rewrite.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
-
-using Mask = std::uint32_t;
-constexpr Mask bit(AxisId a) {
-  return Mask{1} << a;
-}
 
 bool is_mirror(const FrameChange& c) {
   return c.slot == FrameSlot::mirror && c.kind == FrameKind::mirror;
@@ -41,7 +37,7 @@ bool has_change(const Body& body, const Found& found) {
 
 /// The axes that may be mirrored, and those that may not be.
 struct Mirrored {
-  Mask on = 0, off = ~Mask{0};
+  AxisMask on = 0, off = ~AxisMask{0};
 };
 
 void mirror(const FrameChange& c, Mirrored& state) {
@@ -49,11 +45,11 @@ void mirror(const FrameChange& c, Mirrored& state) {
   for (const auto& w : c.words) {
     const bool on = !w.value.is(0);
     const bool sure = w.value.literal();
-    if (on || !sure) state.on |= bit(w.axis);
-    if (on && sure) state.off &= ~bit(w.axis);
+    if (on || !sure) state.on |= axis_bit(w.axis);
+    if (on && sure) state.off &= ~axis_bit(w.axis);
     if (!on) {
-      state.on &= ~bit(w.axis);
-      state.off |= bit(w.axis);
+      state.on &= ~axis_bit(w.axis);
+      state.off |= axis_bit(w.axis);
     }
   }
 }
@@ -110,8 +106,8 @@ bool presets_past_mirrors(Program& program, const TellPreset& unsure, const Tell
         FrameChange changed = *f->change;
         bool any = false;
         for (auto& w : changed.words) {
-          if ((now.on & bit(w.axis)) == 0) continue;
-          if ((now.off & bit(w.axis)) != 0) return unsure(s);
+          if ((now.on & axis_bit(w.axis)) == 0) continue;
+          if ((now.off & axis_bit(w.axis)) != 0) return unsure(s);
           w.value = opposite(w.value);
           any = true;
         }

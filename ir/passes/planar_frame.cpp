@@ -21,7 +21,7 @@ bool odd(std::uint32_t mirror, Plane plane) {
   return ((mirror >> p.u ^ mirror >> p.v) & 1U) != 0;
 }
 
-Value times(const Value& a, const Value& b) {
+Value multiplied(const Value& a, const Value& b) {
   if (a.is(0) || b.is(0)) return Value{0.0};
   if (b.literal()) return b.number == -1 ? negate(a) : scale(a, b.number);
   if (a.literal()) return a.number == -1 ? negate(b) : scale(b, a.number);
@@ -41,17 +41,17 @@ Value wave(const Value& angle, int quarter) {
   return Value{std::cos(turned * std::numbers::pi / 180)};
 }
 
-struct Point {
+struct PlanePoint {
   std::optional<Value> u, v;
 };
 
 /// R(angle) (u, v).
-Point turned(const Point& p, const std::optional<Value>& angle) {
+PlanePoint turned(const PlanePoint& p, const std::optional<Value>& angle) {
   if (angle && angle->is(0)) return p;
   if (p.u && p.v && p.u->is(0) && p.v->is(0)) return p;
   if (!angle || !p.u || !p.v) return {};
   const Value c = wave(*angle, 0), s = wave(*angle, 1);
-  return {subtract(times(*p.u, c), times(*p.v, s)), add(times(*p.u, s), times(*p.v, c))};
+  return {subtract(multiplied(*p.u, c), multiplied(*p.v, s)), add(multiplied(*p.u, s), multiplied(*p.v, c))};
 }
 
 }  // namespace
@@ -148,11 +148,11 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
         continue;
       }
       if ((*a.mirror >> i & 1U) != 0) v = negate(*v);
-      if (i < 3) v = times(*v, *a.factor);
+      if (i < 3) v = multiplied(*v, *a.factor);
       if (a.turns() && b.shift_scale[i] == WordScale::diameter) r.foreign = true;
     }
     const auto p = plane_axes(a.plane);
-    const Point at = turned({moved[p.u], moved[p.v]}, a.angle);
+    const PlanePoint at = turned({moved[p.u], moved[p.v]}, a.angle);
     moved[p.u] = at.u;
     moved[p.v] = at.v;
     for (std::size_t i = 0; i < PlanarFrame::axes; ++i) {
@@ -177,7 +177,7 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
       r.angle = add(*a.angle, odd(*a.mirror, b.plane) ? negate(*b.angle) : *b.angle);
   }
   if (a.factor && b.factor)
-    r.factor = times(*a.factor, *b.factor);
+    r.factor = multiplied(*a.factor, *b.factor);
   else
     r.factor.reset();
   if (a.mirror && b.mirror)
@@ -194,8 +194,8 @@ PlanarFrame rotation_about(const PlanarFrame& centre, const Value& angle, Plane 
   r.foreign = centre.foreign;
   if (!centre.has_shift()) return r;
   const auto p = plane_axes(plane);
-  const Point c{centre.shift[p.u], centre.shift[p.v]};
-  const Point t = turned(c, angle);
+  const PlanePoint c{centre.shift[p.u], centre.shift[p.v]};
+  const PlanePoint t = turned(c, angle);
   for (const auto& [axis, from, to] : {std::tuple{p.u, c.u, t.u}, std::tuple{p.v, c.v, t.v}}) {
     if (from && to)
       r.shift[axis] = subtract(*from, *to);

@@ -9,7 +9,7 @@ namespace {
 bool outlasts(const machine::Profile& machine) {
   return machine.option("frame.preset_outlasts") == "yes";
 }
-bool is_preset(const Action& a) {
+bool presets(const Action& a) {
   const auto* f = std::get_if<FrameOp>(&a.data);
   return f != nullptr && f->change && f->change->combine == FrameCombine::preset;
 }
@@ -44,7 +44,7 @@ bool presets_taken_back(const Program& program, const LegaliseContext& context, 
 
 bool presets_outlast(const Program& program, const LegaliseContext& context) {
   return program.dialect != context.target.dialect && outlasts(context.target_machine) &&
-         !outlasts(context.source_machine) && any_action(program, is_preset);
+         !outlasts(context.source_machine) && any_action(program, presets);
 }
 
 PresetEnds::PresetEnds(const Program& program, const LegaliseContext& context) : context_(context) {
@@ -55,7 +55,7 @@ PresetEnds::PresetEnds(const Program& program, const LegaliseContext& context) :
 
 void PresetEnds::tell(const Statement& s, const Action& a, bool as_it_is) const {
   const bool goes = source_keeps_ && !(as_it_is && target_keeps_);
-  if (is_preset(a) && goes) say(s, a, false);
+  if (presets(a) && goes) say(s, a, false);
 }
 
 void PresetEnds::tell_kept(const Program& program) const {
@@ -63,7 +63,7 @@ void PresetEnds::tell_kept(const Program& program) const {
     for_each_statement(r.body, [this](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
-        if (is_preset(b->actions[i])) say(s, b->actions[i], true);
+        if (presets(b->actions[i])) say(s, b->actions[i], true);
       }
     });
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "ir/label_name.h"
 #include "ir/passes/early_passes.h"
 #include "ir/passes/editor.h"
 #include "ir/passes/expression_lowering.h"
@@ -41,11 +42,6 @@ bool finds_backward(const PlainJump& j) {
   return j.search != Search::forward;
 }
 
-using Name = std::pair<bool, std::string>;
-Name name_of(const LabelRef& l) {
-  return {l.is_number, l.text};
-}
-
 class RaisePass {
  public:
   RaisePass(Program& program, Routine& routine, const Capabilities& target)
@@ -64,9 +60,9 @@ class RaisePass {
  private:
   /// One body: where its labels stand and which of its statements lead to them.
   struct Map {
-    std::map<Name, std::size_t> at;
-    std::map<Name, std::vector<std::size_t>> users;  ///< `outside` for what is no jump of this body
-    std::vector<bool> fixed;                         ///< statements that must not come into a structure
+    std::map<LabelName, std::size_t> at;
+    std::map<LabelName, std::vector<std::size_t>> users;  ///< `outside` for what is no jump of this body
+    std::vector<bool> fixed;                              ///< statements that must not come into a structure
   };
   static constexpr std::size_t outside = static_cast<std::size_t>(-1);
 
@@ -86,7 +82,7 @@ class RaisePass {
 
   void count_labels(Body& b) {
     for (Statement& s : b) {
-      for (const auto& l : labels_on(s.line)) ++count_[name_of(l)];
+      for (const auto& l : labels_on(s.line)) ++count_[label_name(l)];
       each_body(s, [this](Body& inner) { count_labels(inner); });
     }
   }
@@ -102,13 +98,13 @@ class RaisePass {
   Map map_of(Body& b) {
     Map m;
     m.fixed.resize(b.size());
-    std::map<Name, std::size_t> here, all;
+    std::map<LabelName, std::size_t> here, all;
     for (std::size_t i = 0; i < b.size(); ++i) {
-      for (const auto& l : labels_on(b[i].line)) m.at.emplace(name_of(l), i);
+      for (const auto& l : labels_on(b[i].line)) m.at.emplace(label_name(l), i);
       follow(b[i], i, m, here);
     }
     for_each_statement(routine_.body, [&all](Statement& s) {
-      each_label_ref(s, [&all](const LabelRef& l, bool) { ++all[name_of(l)]; });
+      each_label_ref(s, [&all](const LabelRef& l, bool) { ++all[label_name(l)]; });
     });
     for (const auto& [name, i] : m.at) {
       if (all[name] != here[name]) m.users[name].push_back(outside);
@@ -116,12 +112,12 @@ class RaisePass {
     return m;
   }
   /// Uses of labels in `s`, the `i`-th statement of the body, and in what it encloses.
-  static void follow(Statement& s, std::size_t i, Map& m, std::map<Name, std::size_t>& here) {
+  static void follow(Statement& s, std::size_t i, Map& m, std::map<LabelName, std::size_t>& here) {
     const bool range = std::holds_alternative<Repeat>(s.node);
     if (range || std::holds_alternative<Exit>(s.node)) m.fixed[i] = true;
     each_label_ref(s, [&](const LabelRef& l, bool) {
-      ++here[name_of(l)];
-      m.users[name_of(l)].push_back(range ? outside : i);
+      ++here[label_name(l)];
+      m.users[label_name(l)].push_back(range ? outside : i);
     });
     each_body(s, [&](Body& inner) {
       for (Statement& t : inner) follow(t, i, m, here);
@@ -133,7 +129,7 @@ class RaisePass {
     for (std::size_t i = first; i < end; ++i) {
       if (m.fixed[i]) return false;
       for (const auto& l : labels_on(b[i].line)) {
-        const auto it = m.users.find(name_of(l));
+        const auto it = m.users.find(label_name(l));
         if (it == m.users.end()) continue;
         for (const std::size_t user : it->second) {
           if (user == outside || user < first || user >= end) return false;
@@ -144,18 +140,18 @@ class RaisePass {
   }
   /// Where the label stands, when it stands once.
   std::optional<std::size_t> place(const LabelRef& l, const Map& m) const {
-    const auto it = m.at.find(name_of(l));
-    const auto n = count_.find(name_of(l));
+    const auto it = m.at.find(label_name(l));
+    const auto n = count_.find(label_name(l));
     if (it == m.at.end() || n == count_.end() || n->second != 1) return std::nullopt;
     return it->second;
   }
   static bool used_once(const LabelRef& l, const Map& m) {
-    const auto it = m.users.find(name_of(l));
+    const auto it = m.users.find(label_name(l));
     return it != m.users.end() && it->second.size() == 1 && it->second.front() != outside;
   }
   static bool used(const Statement& s, const Map& m) {
     const auto labels = labels_on(s.line);
-    return std::any_of(labels.begin(), labels.end(), [&m](const auto& l) { return m.users.count(name_of(l)) != 0; });
+    return std::any_of(labels.begin(), labels.end(), [&m](const auto& l) { return m.users.count(label_name(l)) != 0; });
   }
   [[nodiscard]] bool writes(const ExprPtr& condition) const {
     return target_.conditions == ConditionForm::expression && expression_fits(condition, target_);
@@ -247,7 +243,7 @@ class RaisePass {
   }
   static bool closed_else(const Body& b, std::size_t first, std::size_t end, const LabelRef& head, const Map& m) {
     Map inside = m;
-    inside.users.erase(name_of(head));
+    inside.users.erase(label_name(head));
     return closed(b, first, end, inside);
   }
 
@@ -317,7 +313,7 @@ class RaisePass {
   Program& program_;
   Routine& routine_;
   const Capabilities& target_;
-  std::map<Name, int> count_;
+  std::map<LabelName, int> count_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 /// One walk serves changing and reading: `expr` may replace the expression, `target` may change a written variable.
 template <class S, class OnExpr, class OnTarget>
-struct Parts {
+struct StatementParts {
   const OnExpr& expr;
   const OnTarget& target;
 
@@ -141,7 +141,7 @@ void visit_statement(Statement& s, const StatementVisitor& visit) {
   const auto on_target = [&visit](VarRef& v) {
     if (visit.target) visit.target(v);
   };
-  Parts<Statement, decltype(on_expr), decltype(on_target)>{on_expr, on_target}.visit(s.node);
+  StatementParts<Statement, decltype(on_expr), decltype(on_target)>{on_expr, on_target}.visit(s.node);
 }
 
 void each_expression(const Statement& s, const std::function<void(const ExprPtr&)>& visit) {
@@ -159,14 +159,14 @@ void each_expression(const Statement& s, const std::function<void(const ExprPtr&
   }
   const auto on_expr = [&visit](const ExprPtr& e) { visit(e); };
   const auto on_target = [](const VarRef&) {};
-  Parts<const Statement, decltype(on_expr), decltype(on_target)>{on_expr, on_target}.visit(s.node);
+  StatementParts<const Statement, decltype(on_expr), decltype(on_target)>{on_expr, on_target}.visit(s.node);
 }
 
 void each_target(const Statement& s, const std::function<void(const VarRef&)>& visit) {
   if (std::holds_alternative<Block>(s.node)) return;
   const auto on_expr = [](const ExprPtr&) {};
   const auto on_target = [&visit](const VarRef& v) { visit(v); };
-  Parts<const Statement, decltype(on_expr), decltype(on_target)>{on_expr, on_target}.visit(s.node);
+  StatementParts<const Statement, decltype(on_expr), decltype(on_target)>{on_expr, on_target}.visit(s.node);
 }
 
 void each_body(Statement& s, const std::function<void(Body&)>& visit) {

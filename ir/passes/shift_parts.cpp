@@ -13,7 +13,7 @@ namespace cnctrans::ir::passes {
 namespace {
 
 /// The shift of the chain as its two parts; not known: something else than a shift in numbers may be in force.
-struct Parts {
+struct KnownShift {
   bool known = true;
   std::array<double, axis::first_extra> coarse{}, fine{};
   std::array<WordScale, axis::first_extra> scale{};
@@ -39,7 +39,7 @@ class ShiftParts {
     for (auto& r : program_.routines) {
       if (r.kind != RoutineKind::main) continue;
       const LabelUses uses = label_uses(program_, r);
-      now_ = Parts{};
+      now_ = KnownShift{};
       for (auto& s : r.body) {
         for (const auto& l : labels_on(s.line)) {
           if (uses.is_target(l) || uses.computed) now_.known = false;
@@ -74,7 +74,7 @@ class ShiftParts {
   void follow(Action& a, FrameOp& op) {
     const FrameChange& c = *op.change;
     const bool whole = c.combine == FrameCombine::clear || c.combine == FrameCombine::replace;
-    if (whole) now_ = Parts{};
+    if (whole) now_ = KnownShift{};
     if (c.combine == FrameCombine::clear) return;
     const bool literal = std::all_of(c.words.begin(), c.words.end(), [](const FrameWord& w) {
       return w.value.literal() && w.axis < axis::first_extra;
@@ -105,7 +105,7 @@ class ShiftParts {
   }
 
   Program& program_;
-  Parts now_;
+  KnownShift now_;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-constexpr double turn = 360;
+constexpr double full_turn = 360;
 
 class SignedTurns {
  public:
@@ -36,12 +36,12 @@ class SignedTurns {
     const auto from = b.motion.frame == FrameUse::normal ? facts_.before(s).position[c.axis] : std::nullopt;
     const bool shortest = c.direction == RotaryDirection::shortest;
     if (!from) {
-      if (!shortest && to >= 0 && to < turn) warn(s, c);
+      if (!shortest && to >= 0 && to < full_turn) warn(s, c);
       return;  // the writer refuses the others
     }
-    const double way = shortest ? std::remainder(to - *from, turn) : to - *from;
-    if (shortest && std::fabs(way) == turn / 2) return;
-    if (way != 0 && std::fabs(way) < turn) return turn_to(c, to, way < 0);
+    const double way = shortest ? std::remainder(to - *from, full_turn) : to - *from;
+    if (shortest && std::fabs(way) == full_turn / 2) return;
+    if (way != 0 && std::fabs(way) < full_turn) return turn_to(c, to, way < 0);
     c.direction = RotaryDirection::as_value;
     c.mode = WordMode::incremental;
     c.value = Value(way);
@@ -49,7 +49,7 @@ class SignedTurns {
 
   /// The position between 0 and 360 degrees; -0 turns backwards to 0.
   static void turn_to(CoordWord& c, double to, bool backwards) {
-    const double rest = std::fmod(to, turn), at = rest < 0 ? rest + turn : rest + 0.0;
+    const double rest = std::fmod(to, full_turn), at = rest < 0 ? rest + full_turn : rest + 0.0;
     c.direction = RotaryDirection::by_sign;
     if (backwards)
       c.value = Value(-at);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "ir/known_number.h"
 
 namespace cnctrans::ir::passes {
 
@@ -14,18 +15,11 @@ constexpr double near = 1e-3;  ///< mm or the like: radii that are one
 bool nothing(const std::optional<Value>& v) {
   return !v || v->is(0);
 }
-std::optional<double> known(const Value& v) {
-  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-}
-Value plain(Value v) {
-  v.text = {};
-  return v;
-}
 /// Without its sign where that is seen.
 Value unsigned_value(const Value& v) {
   if (v.literal()) return Value(std::fabs(v.number));
   const auto* u = std::get_if<Unary>(&v.expr->node);
-  return u != nullptr && u->op == UnaryOp::negate ? Value(u->operand) : plain(v);
+  return u != nullptr && u->op == UnaryOp::negate ? Value(u->operand) : without_text(v);
 }
 Value less(const Value& v, const std::optional<Value>& by) {
   return nothing(by) ? v : subtract(v, *by);
@@ -84,20 +78,20 @@ class Reader {
   }
   [[nodiscard]] std::optional<Value> word(std::string_view name) const {
     for (const auto& [own, v] : s_.cycle.mill.words) {
-      if (own == name) return plain(v);
+      if (own == name) return without_text(v);
     }
     return std::nullopt;
   }
   /// A level as a coordinate.
   [[nodiscard]] std::optional<Value> height(const Level& l) const {
     if (!l.given) return std::nullopt;
-    if (l.base == LevelBase::absolute) return plain(l.value);
+    if (l.base == LevelBase::absolute) return without_text(l.value);
     const Level* base = l.base == LevelBase::from_surface     ? &s_.cycle.surface
                         : l.base == LevelBase::from_reference ? &s_.cycle.reference
                                                               : nullptr;
     if (base == nullptr || base == &l || base->base == l.base) return std::nullopt;
     const auto from = height(*base);
-    return from ? std::optional(plain(add(*from, l.value))) : std::nullopt;
+    return from ? std::optional(without_text(add(*from, l.value))) : std::nullopt;
   }
   bool levels() {
     const auto reference = height(s_.cycle.reference), bottom = height(s_.cycle.bottom),
@@ -113,13 +107,13 @@ class Reader {
   bool operation() {
     double kind = 0;
     if (const auto v = word("variant")) {
-      const auto n = known(*v);
+      const auto n = known_number(*v);
       if (!n) return no("what it machines is computed");
       kind = std::fmod(std::fabs(*n), 10);
       p_.dives = std::fabs(*n) < 10 && kind != 2;
       if (std::fabs(*n) >= 20) return no("it goes into the material on a helix or a ramp");
     } else if (const auto o = word("operation")) {
-      const auto n = known(*o);
+      const auto n = known_number(*o);
       if (!n) return no("what it machines is computed");
       kind = *n;
     }
@@ -131,7 +125,7 @@ class Reader {
     (kind == 1 ? p_.floor_left : p_.floor_cut) = floor;
     if (const auto each = word("wall_pass"); !nothing(each)) p_.wall_cut = unsigned_value(*each);
     if (!nothing(p_.floor_left)) {  // the floor lies higher then
-      const auto top = known(p_.surface), low = known(p_.bottom);
+      const auto top = known_number(p_.surface), low = known_number(p_.bottom);
       if (!top || !low) return no("its depth is computed, and its floor keeps an allowance");
       p_.bottom = *top > *low ? add(p_.bottom, *p_.floor_left) : subtract(p_.bottom, *p_.floor_left);
     }
@@ -158,10 +152,10 @@ class Reader {
     p_.width = less(unsigned_value(*width), both);
     if (const auto c = word("corner"); !nothing(c)) p_.corner = less(unsigned_value(*c), p_.wall_left);
     // No corner of the source is smaller than the tool.
-    const auto corner = p_.corner ? known(*p_.corner) : std::nullopt;
+    const auto corner = p_.corner ? known_number(*p_.corner) : std::nullopt;
     if (corner && s_.radius && *corner <= *s_.radius + near) p_.corner.reset();
     if (const auto a = word("angle")) {
-      const auto n = known(*a);
+      const auto n = known_number(*a);
       if (!n) return no("its angle is computed");
       p_.angle = *n;
     }
@@ -171,13 +165,13 @@ class Reader {
     for (const auto* name : {"half_length", "signed_radius"}) {
       const auto v = word(name);
       if (!v) continue;
-      const auto n = known(*v);
+      const auto n = known_number(*v);
       if (!n) return no("its sense is that of a computed size");
       p_.ccw = *n < 0;
       return true;
     }
     const auto v = word("sense");
-    const auto n = v ? known(*v) : std::optional(0.0);
+    const auto n = v ? known_number(*v) : std::optional(0.0);
     if (!n || *n < 0 || *n > 3) return no("its sense is computed");
     if (*n >= 2) {
       p_.ccw = *n == 3;
@@ -195,13 +189,13 @@ class Reader {
       p_.infeed = unsigned_value(*all);
     }
     if (nothing(p_.infeed)) {  // in one
-      const auto top = known(p_.surface), low = known(p_.bottom);
+      const auto top = known_number(p_.surface), low = known_number(p_.bottom);
       p_.infeed = top && low && *top < *low ? subtract(p_.bottom, p_.surface) : subtract(p_.surface, p_.bottom);
     }
     if (const auto step = word("step"); !nothing(step)) p_.step = unsigned_value(*step);
     if (p_.step || !s_.radius) return;
     const auto factor = word("step_factor");
-    const auto n = factor ? known(*factor) : std::optional(0.8);
+    const auto n = factor ? known_number(*factor) : std::optional(0.8);
     if (n && *n > 0) p_.step = Value(std::round(*n * 2 * *s_.radius * 1e6) / 1e6);
   }
   void feeds() {
@@ -215,9 +209,9 @@ class Reader {
     p_.plunge_feed = given("plunge_feed");
     if (p_.plunge_feed) return;
     const auto factor = word("plunge_factor");
-    const auto n = factor ? known(*factor) : std::optional(1.0);
+    const auto n = factor ? known_number(*factor) : std::optional(1.0);
     const auto& base = p_.mill_feed ? p_.mill_feed : s_.feed;
-    if (base && n) p_.plunge_feed = plain(*n == 1 ? *base : scale(*base, *n));
+    if (base && n) p_.plunge_feed = without_text(*n == 1 ? *base : scale(*base, *n));
   }
 
   const PocketSource& s_;
@@ -256,7 +250,7 @@ class Teller {
     c_.reference = absolute(p_.reference);
     const Value gap = subtract(p_.reference, p_.surface);
     if (!nothing(gap)) {
-      const auto n = known(gap);
+      const auto n = known_number(gap);
       c_.surface = absolute(n && *n < 0 ? gap : negate(gap));
       c_.surface.base = LevelBase::from_reference;
     }
@@ -292,7 +286,7 @@ class Teller {
     if (finishes && p_.finish_plunge_feed) put("finish_plunge_feed", *p_.finish_plunge_feed);
     if (finishes && p_.finish_feed) put("finish_feed", *p_.finish_feed);
     c_.surface = absolute(p_.surface);
-    const auto top = known(p_.surface), low = known(p_.bottom);
+    const auto top = known_number(p_.surface), low = known_number(p_.bottom);
     c_.reference = absolute(Value(top && low && *top < *low ? -s_.clearance : s_.clearance));
     c_.reference.base = LevelBase::from_surface;
     return done();
@@ -351,11 +345,11 @@ class Teller {
  private:
   static Level absolute(Value v) {
     Level l;
-    l.value = plain(std::move(v));
+    l.value = without_text(std::move(v));
     l.given = true;
     return l;
   }
-  void put(const char* name, Value v) { c_.mill.words.emplace_back(name, plain(std::move(v))); }
+  void put(const char* name, Value v) { c_.mill.words.emplace_back(name, without_text(std::move(v))); }
   bool start(bool own_place) {
     c_ = HoleCycle{};
     c_.kind = HoleKind::mill;
@@ -381,7 +375,7 @@ class Teller {
   }
   bool corners_of_the_tool() {
     if (p_.circle || !p_.corner) return true;
-    const auto corner = known(*p_.corner);
+    const auto corner = known_number(*p_.corner);
     if (!s_.radius || !corner) {
       out_.differs += ", the corners get the radius of the tool" +
                       (corner ? ": the same part only with a tool of radius " + shortest(*corner) : std::string());

@@ -20,10 +20,10 @@ using cycles::TurnNumbers;
 using cycles::TurnPoint;
 using cycles::TurnStep;
 
-constexpr double tiny = 1e-6;  // mm
+constexpr double same_place = 1e-6;  // mm
 
 bool same(const TurnPoint& a, const TurnPoint& b) {
-  return std::abs(a.x - b.x) < tiny && std::abs(a.z - b.z) < tiny;
+  return std::abs(a.x - b.x) < same_place && std::abs(a.z - b.z) < same_place;
 }
 bool same(const std::vector<ProfileElement>& a, const std::vector<ProfileElement>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& u, const auto& v) {
@@ -167,16 +167,16 @@ class StockForms {
     cycles::TurnProfile longer = *s_.profile;
     const TurnPoint end = longer.part.back().to;
     for (const auto& e : longer.part) {
-      if (height(e.from) > height(end) + tiny || height(e.to) > height(end) + tiny) return std::nullopt;
+      if (height(e.from) > height(end) + same_place || height(e.to) > height(end) + same_place) return std::nullopt;
     }
-    if (height(longer.part.front().from) > height(end) - tiny) return std::nullopt;
+    if (height(longer.part.front().from) > height(end) - same_place) return std::nullopt;
     const double top = mine_.first_pass() + *step;
     double to = top;
     Played theirs;
     for (int k = 0; k < 2; ++k) {
       TurnPoint tip = end;
       (mine_.left.face ? tip.z : tip.x) = mine_.left.out * to;
-      if (height(tip) < height(end) + tiny) return std::nullopt;
+      if (height(tip) < height(end) + same_place) return std::nullopt;
       longer.part.resize(s_.profile->part.size());
       longer.part.push_back({end, tip, false, false, {}});
       theirs = {};
@@ -190,9 +190,9 @@ class StockForms {
     const auto& own = mine_.left.rough;
     if (rough.size() != own.size() + 1 || !same(std::vector(rough.begin(), rough.end() - 1), own)) return std::nullopt;
     const TurnPoint a = rough.back().from, b = rough.back().to;
-    const bool straight = std::abs(mine_.left.face ? a.x - b.x : a.z - b.z) < tiny;
+    const bool straight = std::abs(mine_.left.face ? a.x - b.x : a.z - b.z) < same_place;
     if (!straight || theirs.left.face != mine_.left.face || theirs.left.out != mine_.left.out) return std::nullopt;
-    if (recess() || mine_.first_pass() > theirs.top() + tiny) return std::nullopt;
+    if (recess() || mine_.first_pass() > theirs.top() + same_place) return std::nullopt;
     if (!cuts_as_much(theirs)) return std::nullopt;
     auto out = written(form, theirs);
     const double k = s_.modes.diameter == DiameterMode::radius || mine_.left.face ? 1 : 2;
@@ -203,7 +203,7 @@ class StockForms {
   }
   [[nodiscard]] bool recess() const {
     return std::any_of(mine_.left.rough.begin(), mine_.left.rough.end(),
-                       [&](const ProfileElement& e) { return mine_.height(e.to) < mine_.height(e.from) - tiny; });
+                       [&](const ProfileElement& e) { return mine_.height(e.to) < mine_.height(e.from) - same_place; });
   }
 
   bool leaves_the_same(const Played& theirs) {
@@ -215,9 +215,9 @@ class StockForms {
       return no("its contour has a recess, and the target's cycle leaves steps on the far side of one"), false;
     const double high = mine_.first_pass() - (from_the_tool_ ? theirs.height(at_) : theirs.top());
     // Any depth of cut takes less than the whole of a ring that stands over the contour.
-    if (computed_ && s_.named.name == "stock.blank" && high + depth_of_cut().value_or(0) > tiny)
+    if (computed_ && s_.named.name == "stock.blank" && high + depth_of_cut().value_or(0) > same_place)
       return no("the blank stands over the highest point of the contour, and its depth of cut is computed"), false;
-    if (high > tiny && !computed_)
+    if (high > same_place && !computed_)
       return no("the blank stands " + shortest(std::round(high * 1e3) / 1e3) +
                 " mm and more over the highest point of the contour, where the target's cycle begins"),
              false;

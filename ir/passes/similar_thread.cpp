@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "base/tiny.h"
 #include "ir/passes/cycle_computed.h"
 #include "ir/passes/machining_moves.h"
 #include "ir/passes/similar_cycles.h"
@@ -10,8 +11,6 @@
 namespace cnctrans::ir::passes {
 
 namespace {
-
-constexpr double tiny = 1e-9;
 
 class ThreadForms {
  public:

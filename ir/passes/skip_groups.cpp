@@ -24,12 +24,6 @@ Statement forward_jump(const LineInfo& like, const LabelRef& to) {
   return s;
 }
 
-bool is_structure(const Statement& s) {
-  if (const auto* i = std::get_if<If>(&s.node)) return !i->one_line;
-  return std::holds_alternative<While>(s.node) || std::holds_alternative<Until>(s.node) ||
-         std::holds_alternative<For>(s.node) || std::holds_alternative<Loop>(s.node);
-}
-
 /// An end of the line that is under the switch as a whole.
 std::size_t line_end(const Body& body, std::size_t i) {
   ++i;
@@ -261,6 +255,12 @@ bool has_marks(const Routine& r) {
 }
 
 }  // namespace
+
+bool is_structure(const Statement& s) {
+  if (const auto* i = std::get_if<If>(&s.node)) return !i->one_line;
+  return std::holds_alternative<While>(s.node) || std::holds_alternative<Until>(s.node) ||
+         std::holds_alternative<For>(s.node) || std::holds_alternative<Loop>(s.node);
+}
 
 void open_skip_groups(Program& program, const LegaliseContext& context) {
   if (same_language(program, context) || context.target.searches.empty()) return;

@@ -12,4 +12,7 @@ void open_skip_groups(Program& program, const LegaliseContext& context);
 /// The branches become lines under the skip level again, wherever each of their lines can carry it.
 void close_skip_groups(Program& program, const LegaliseContext& context);
 
+/// A statement with bodies of its own, but an IF in one line.
+bool is_structure(const Statement& s);
+
 }  // namespace cnctrans::ir::passes

@@ -6,6 +6,7 @@
 
 #include "ir/passes/editor.h"
 #include "ir/passes/rewrite.h"
+#include "ir/passes/skip_groups.h"
 
 namespace cnctrans::ir::passes {
 
@@ -15,16 +16,9 @@ bool several(const LineInfo& line) {
   return std::popcount(line.skip_mask) > 1;
 }
 
-bool plain(const Statement& s) {
-  const auto* i = std::get_if<If>(&s.node);
-  return i != nullptr ? i->one_line
-                      : !std::holds_alternative<While>(s.node) && !std::holds_alternative<Until>(s.node) &&
-                            !std::holds_alternative<For>(s.node) && !std::holds_alternative<Loop>(s.node);
-}
-
-class Splitter {
+class LevelSplitter {
  public:
-  explicit Splitter(Editor& editor) : editor_(editor) {}
+  explicit LevelSplitter(Editor& editor) : editor_(editor) {}
 
   Body run(Body&& body) {
     Body out;
@@ -33,7 +27,7 @@ class Splitter {
       while (end < body.size() && body[end].line.joined) ++end;
       const auto mask = body[i].line.skip_mask;
       bool good = several(body[i].line) && std::bit_width(mask) <= editor_.target().skip_levels;
-      for (std::size_t k = i; k < end; ++k) good = good && plain(body[k]) && body[k].line.skip_mask == mask;
+      for (std::size_t k = i; k < end; ++k) good = good && !is_structure(body[k]) && body[k].line.skip_mask == mask;
       if (good)
         split(body, i, end, out);
       else
@@ -84,7 +78,7 @@ void split_skip_levels(Program& program, const LegaliseContext& context) {
     const bool any = std::any_of(r.body.begin(), r.body.end(), [](const Statement& s) { return several(s.line); });
     if (!any) continue;
     Editor editor(program, r, context);
-    r.body = Splitter(editor).run(std::move(r.body));
+    r.body = LevelSplitter(editor).run(std::move(r.body));
   }
 }
 

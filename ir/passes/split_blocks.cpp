@@ -76,9 +76,9 @@ bool apart_from_dwell(const std::vector<Action>& actions, const Action& next, co
                                       (speaks(next) && std::any_of(actions.begin(), actions.end(), dwells)));
 }
 
-class Splitter {
+class BlockSplitter {
  public:
-  Splitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
+  BlockSplitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
 
   void put(Body& out) {
     auto& block = std::get<Block>(main_.node);
@@ -220,7 +220,7 @@ void split_blocks(Program& program, const LegaliseContext& context) {
       out.push_back(std::move(s));
       return;
     }
-    Splitter(editor, std::move(s)).put(out);
+    BlockSplitter(editor, std::move(s)).put(out);
   });
   split_crowded_blocks(program, context);
 }

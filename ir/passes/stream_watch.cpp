@@ -33,7 +33,7 @@ Enum in_block(const Block& b, Setting s, Enum before) {
   return before;
 }
 
-bool is_arc(MotionKind k) {
+bool is_centre_arc(MotionKind k) {
   return k == MotionKind::arc_cw || k == MotionKind::arc_ccw;
 }
 
@@ -181,7 +181,7 @@ bool StreamWatch::motion_needs_whole(const Block& block) const {
   if (pitch_each_block_ && (kind == MotionKind::thread || kind == MotionKind::thread_variable) && !m.coords.empty())
     return true;
   if (mixed_feeds_differ_ && kind != MotionKind::rapid && passes::moves_and_turns(block, source_)) return true;
-  if (!is_arc(kind)) return false;
+  if (!is_centre_arc(kind)) return false;
   const auto rounded = [this](const auto& word) { return too_long(word.value); };
   if (long_word_ || std::any_of(m.coords.begin(), m.coords.end(), rounded) ||
       std::any_of(m.centers.begin(), m.centers.end(), rounded) || (m.radius_given && too_long(m.radius)))
@@ -208,7 +208,7 @@ bool StreamWatch::needs_whole(const Block& block) const {
                              return set_of(a, Setting::comp) != nullptr;
                            });
   if (compensates && block.has_motion &&
-      is_arc(block.motion.kind == MotionKind::modal ? state_.motion : block.motion.kind))
+      is_centre_arc(block.motion.kind == MotionKind::modal ? state_.motion : block.motion.kind))
     return true;
   return std::any_of(block.actions.begin(), block.actions.end(), [&](const Action& a) {
     const bool tool = std::holds_alternative<ToolSelect>(a.data) || std::holds_alternative<ToolOffset>(a.data);
@@ -250,7 +250,7 @@ bool StreamWatch::takes_length(const Block& block) const {
 bool StreamWatch::is_arc_from_start(const Block& block) const {
   if (!needs_places_ || !block.has_motion || block.motion.centers.empty()) return false;
   const Motion& m = block.motion;
-  return is_arc(m.kind == MotionKind::modal ? state_.motion : m.kind) && state_.distance == Distance::absolute &&
+  return is_centre_arc(m.kind == MotionKind::modal ? state_.motion : m.kind) && state_.distance == Distance::absolute &&
          std::all_of(m.centers.begin(), m.centers.end(),
                      [](const CenterWord& c) { return c.mode == CenterMode::from_start; });
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/tiny.h"
 #include "ir/geometry.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/editor.h"
@@ -14,8 +15,6 @@ namespace cnctrans::ir::passes {
 using namespace geometry;
 
 namespace {
-
-constexpr double tiny = 1e-9;
 
 class TangentPass {
  public:

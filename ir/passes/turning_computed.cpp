@@ -5,6 +5,7 @@
 
 #include "base/saturate.h"
 #include "ir/cycles/machining.h"
+#include "ir/known_number.h"
 #include "ir/passes/blocks.h"
 #include "ir/passes/cycle_computed.h"
 
@@ -12,17 +13,8 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-std::optional<double> known(const Value& v) {
-  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-}
 bool simple(const Value& v) {
   return v.literal() || is_primary(v.expr);
-}
-Value times(const Value& a, const Value& b) {
-  return a.is(0) || b.is(0) ? Value(0.0) : product(a, b);
-}
-Value root(const Value& v) {
-  return v.literal() ? Value(std::sqrt(v.number)) : Value(call(Function::sqrt, {v.expr}));
 }
 
 }  // namespace
@@ -83,7 +75,7 @@ const Value* ComputedTurn::find(std::string_view name) const {
 Value ComputedTurn::word(std::string_view name, double otherwise) const {
   const Value* v = find(name);
   if (v == nullptr) return Value(otherwise);
-  if (const auto n = known(*v)) return Value(*n);
+  if (const auto n = known_number(*v)) return Value(*n);
   Value out = *v;
   out.text = {};
   return out;

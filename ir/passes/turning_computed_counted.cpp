@@ -7,17 +7,6 @@
 
 namespace cnctrans::ir::passes {
 
-namespace {
-
-Value times(const Value& a, const Value& b) {
-  return a.is(0) || b.is(0) ? Value(0.0) : product(a, b);
-}
-Value root(const Value& v) {
-  return v.literal() ? Value(std::sqrt(v.number)) : Value(call(Function::sqrt, {v.expr}));
-}
-
-}  // namespace
-
 /// A given number of passes: ir/cycles/counted_threads.cpp.
 bool ComputedTurn::thread_by_count() {
   const int variant = saturate<int>(number_word("variant"));

@@ -6,9 +6,6 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-Value times(const Value& a, const Value& b) {
-  return a.is(0) || b.is(0) ? Value(0.0) : product(a, b);
-}
 /// `by` in the sense of the sign.
 Value toward(const Value& base, const Value& sense, const Value& by) {
   if (by.is(0)) return base;

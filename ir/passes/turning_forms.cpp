@@ -4,13 +4,12 @@
 #include <string>
 #include <utility>
 
+#include "base/tiny.h"
 #include "ir/passes/cycle_computed.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
-
-constexpr double tiny = 1e-9;
 
 class Forms {
  public:

@@ -11,7 +11,7 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-constexpr std::string_view option = "work_offset.write", at_once = "at_once";
+constexpr std::string_view write_option = "work_offset.write", at_once = "at_once";
 
 /// The row that the statement writes; -1: the one in force; none: it writes no offset. `several`: more than one row.
 std::optional<std::int32_t> written_row(const Statement& s, bool& several) {
@@ -110,8 +110,8 @@ class Pass {
 }  // namespace
 
 void select_written_offsets(Program& program, const LegaliseContext& context) {
-  const bool from_once = context.source_machine.option(option) == at_once;
-  const bool to_once = context.target_machine.option(option) == at_once;
+  const bool from_once = context.source_machine.option(write_option) == at_once;
+  const bool to_once = context.target_machine.option(write_option) == at_once;
   if (to_once && !from_once) return hold_written_offsets(program, context);
   if (to_once || !from_once) return;
   Pass pass(program, context);
