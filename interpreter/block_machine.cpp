@@ -10,8 +10,10 @@
 
 namespace cnctrans::interpreter {
 
-BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Failure& failure, ValueSource* values)
+BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Failure& failure, ValueSource* values,
+                           const machine::World* world)
     : profile_(profile),
+      world_(world),
       emitter_(emitter),
       failure_(failure),
       values_(values),
@@ -58,6 +60,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   for (auto& s : spindles_) s.mode = modal_.spindle_mode;
   set_units();
   load_offset(modal_.work_offset);
+  if (world_ != nullptr && world_->zeros) active_offset_ = world_->start_offset(profile_);
   // The start is a machine position: the first frame is put under it.
   frame_ = Frame{};
   rebuild_frame();

@@ -30,6 +30,7 @@
 #include "ir/geometry.h"
 #include "ir/program.h"
 #include "machine/profile.h"
+#include "machine/world.h"
 
 namespace cnctrans::interpreter {
 
@@ -57,7 +58,9 @@ struct Move {
 
 class BlockMachine final : public SystemData {
  public:
-  BlockMachine(const machine::Profile& profile, Emitter& emitter, Failure& failure, ValueSource* values);
+  /// `world`: the one that the profile was put into; null: none.
+  BlockMachine(const machine::Profile& profile, Emitter& emitter, Failure& failure, ValueSource* values,
+               const machine::World* world = nullptr);
 
   /// Carries out one block. `with_cycle` false: positions only (a block repeated zero times). False on failure.
   bool block(const ir::Block& b, const Span& where, bool with_cycle = true);
@@ -129,6 +132,8 @@ class BlockMachine final : public SystemData {
     double radius = 0;  ///< mm
   };
   [[nodiscard]] const std::vector<AssumedRadius>& assumed_radii() const { return assumed_radii_; }
+  /// The program writes tables of zero points.
+  [[nodiscard]] bool writes_zeros() const { return writes_zeros_; }
   std::uint64_t arguments_given = 0;  ///< of the present call level
   std::size_t calls_open = 0;
   std::string_view last_label;  ///< number of the numbered statement carried out last; empty: none yet
@@ -365,6 +370,7 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] bool path_words(const ir::Block& b) const;
 
   const machine::Profile& profile_;
+  const machine::World* world_;
   Emitter& emitter_;
   std::vector<CycleRun>* cycle_runs_ = nullptr;
   Failure& failure_;
@@ -388,6 +394,8 @@ class BlockMachine final : public SystemData {
   std::map<std::int32_t, Frame> base_frames_;    ///< in force, outside of the settable frame; by row
   std::map<ir::AxisId, double> active_offset_;   ///< fine part included
   Frame active_shape_;
+  bool zero_open_ = true;           ///< no offset has been selected
+  bool writes_zeros_ = false;       ///< the program writes the tables of offsets or frames
   Axes fine_shift_{};               ///< of the programmable frame; in the slot too
   Axes axis_feed_{};                ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
   Axes increment_base_{};           ///< last programmed coordinate before a frame change, where that is what counts

@@ -8,9 +8,14 @@ namespace cnctrans::interpreter {
 
 struct BlockRunner::State {
   State(const machine::Profile& profile, const Options& o, TraceSink& sink, Diagnostics& d)
-      : options(o), diagnostics(d), emitter(sink, o.max_events), machine(profile, emitter, failure, nullptr) {}
+      : options(o),
+        there(o.world ? machine::put_into(*o.world, profile) : profile),
+        diagnostics(d),
+        emitter(sink, o.max_events),
+        machine(there, emitter, failure, nullptr, options.world ? &*options.world : nullptr) {}
 
   Options options;
+  machine::Profile there;
   Diagnostics& diagnostics;
   Failure failure;
   Emitter emitter;

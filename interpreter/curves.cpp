@@ -306,7 +306,12 @@ bool BlockMachine::polynomial(const ir::Motion& m) {
   ir::curves::PolynomialBlock block;
   block.beside_by = modal_.path_reference;
   if (m.extra->has_interval) block.interval = value(m.extra->interval);
-  for (const auto a : axes_) block.axes.push_back({move.from[a], move.to[a], {}, a <= ir::axis::z, a > ir::axis::z});
+  const auto& named = m.extra->polynomials;
+  for (const auto a : axes_) {  // an axis that the block does not name stands, whatever the denominator is
+    const bool runs = move.from[a] != move.to[a] ||
+                      std::any_of(named.begin(), named.end(), [a](const auto& w) { return w.axis == a; });
+    block.axes.push_back({move.from[a], move.to[a], {}, runs && a <= ir::axis::z, a > ir::axis::z});
+  }
   for (const auto& w : m.extra->polynomials) {
     std::vector<double> higher;
     const auto word = std::find_if(m.coords.begin(), m.coords.end(), [&](const auto& k) { return k.axis == w.axis; });

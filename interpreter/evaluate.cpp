@@ -40,21 +40,33 @@ double Evaluator::number(ExprId id) {
   const Node& n = nodes_[id];
   switch (n.kind) {
     case Kind::number: return n.value;
-    case Kind::global_number: return static_cast<const NumberedSpace*>(n.what)->value[n.a];
+    case Kind::global_number: {
+      const auto* space = static_cast<const NumberedSpace*>(n.what);
+      if (space->set[n.a] == 0) variables_.note_unset(*space, n.a);
+      return space->value[n.a];
+    }
     case Kind::level_number: {
       const auto* space = static_cast<const NumberedSpace*>(n.what);
-      return variables_.level().value[space->level_base + n.a];
+      const auto& level = variables_.level();
+      if (level.set[space->level_base + n.a] == 0 && level.depth == 0) variables_.note_unset(*space, n.a);
+      return level.value[space->level_base + n.a];
     }
     case Kind::computed_number: {
       const double index = number(n.a);
       Place p;
       auto* space = const_cast<NumberedSpace*>(static_cast<const NumberedSpace*>(n.what));
-      return !failure_.set && variables_.place(*space, index, p) ? Variables::number(p) : 0;
+      if (failure_.set || !variables_.place(*space, index, p)) return 0;
+      const bool top = p.level == nullptr || p.level->depth == 0;
+      const auto& set = p.level == nullptr ? space->set[p.index] : p.level->set[space->level_base + p.index];
+      if (set == 0 && top) variables_.note_unset(*space, p.index);
+      return Variables::number(p);
     }
     case Kind::local:
     case Kind::global_name: {
       Place p;
       if (!node_place(n, p)) return 0;
+      if (n.kind == Kind::global_name && p.named != nullptr && p.named->set[p.index] == 0)
+        variables_.note_unset(*p.named);
       if (p.named == nullptr || !p.named->is_text()) return Variables::number(p);
       failure_.fail(code::wrong_type, "variable " + p.named->name + " holds a text where a number is needed");
       return 0;

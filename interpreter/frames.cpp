@@ -73,6 +73,7 @@ Frame BlockMachine::programmable_frame() const {
 bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
   const auto row = w.off ? 0 : saturate<std::int32_t>(std::round(value(w.index)));
   modal_.work_offset = row;
+  zero_open_ = false;
   load_offset(row);
   load_base();
   return !failure_.set && rebuild_frame();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "interpreter/trace.h"
 #include "ir/program.h"
 #include "machine/profile.h"
+#include "machine/world.h"
 
 namespace cnctrans::interpreter {
 
@@ -25,6 +27,7 @@ struct Options {
   std::uint16_t skip_mask = 0;                           ///< block-skip switches that are on
   std::vector<std::pair<std::string, std::string>> set;  ///< NAME=VALUE of --set
   bool optional_stops = false;
+  std::optional<machine::World> world{};  ///< the machine is put there; none: zeros and points are those of the profile
   /// Finds a routine that the program itself does not have (library); null when there is none. The program returned
   /// stays alive as long as the callback does; its spaces are matched to the main program's by prefix.
   std::function<const ir::Program*(const ir::RoutineName&)> library;
@@ -61,6 +64,9 @@ struct Result {
   std::vector<std::uint8_t> outcomes;
   static constexpr std::uint8_t held = 1, failed = 2;
   std::vector<WrittenFile> written;
+  /// Variables that were read before anything gave them a value, though a control may have kept one: names as of --set.
+  std::vector<std::string> read_first;
+  bool writes_zeros = false;  ///< the program writes tables of offsets or frames
   /// Radii of tools that nobody gives, mm, and the first milling cycle that ran with each.
   std::vector<std::pair<Span, double>> assumed_radii;
 };

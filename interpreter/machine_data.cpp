@@ -97,7 +97,9 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
     }
   }
   if (ref.datum == Datum::tool_radius && args.empty() && ref.args.empty()) {
-    out = tool_radius() / (policy_.data_modal ? unit() : 1);
+    const double radius = tool_radius();
+    const bool open = radius == 0 && world_ != nullptr;
+    out = (open ? world_->tool_radius(offset_) : radius) / (policy_.data_modal ? unit() : 1);
     return true;
   }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
@@ -271,7 +273,8 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
 }
 
 bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
-  const auto* tool = tool_of(profile_, args.empty() ? tool_in_spindle_ : args[0]);
+  const double row = args.empty() ? tool_in_spindle_ : args[0];
+  const auto* tool = tool_of(profile_, row);
   const double length = policy_.data_modal ? unit() : 1;
   const auto feed = [&](ir::FeedMode m) {
     const bool inch = m != ir::FeedMode::inverse_time && modal_.units == ir::Units::inch && modal_.units_feed_too;
@@ -284,8 +287,12 @@ bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const dou
     case Datum::offset_number: out = offset_; return true;
     case Datum::tool_length:
       out = tool == nullptr ? 0 : (ref.axis == ir::axis::x ? tool->length_x : tool->length) / length;
+      if (out == 0 && world_ != nullptr) out = world_->tool_length(row, ref.axis) / length;
       return true;
-    case Datum::tool_radius: out = tool == nullptr ? 0 : tool->radius / length; return true;
+    case Datum::tool_radius:
+      out = tool == nullptr ? 0 : tool->radius / length;
+      if (out == 0 && world_ != nullptr) out = world_->tool_radius(row) / length;
+      return true;
     case Datum::tool_nose: out = tool == nullptr ? 0 : tool->nose; return true;
     case Datum::tool_nose_width: out = tool == nullptr ? 0 : tool->nose_width / length; return true;
     case Datum::tool_wear:
@@ -399,6 +406,7 @@ bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> 
 }
 
 bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double> args, const Frame& f) {
+  writes_zeros_ = writes_zeros_ || ref.datum == Datum::frame_active || ref.datum == Datum::frame_settable;
   const auto table = [&](std::map<ir::AxisId, double>& row) {
     row.clear();
     for (const auto a : axes_) {
@@ -436,6 +444,7 @@ bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double>
 }
 
 bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
+  writes_zeros_ = writes_zeros_ || ref.datum == Datum::work_offset || ref.datum == Datum::work_offset_fine;
   switch (ref.datum) {
     case Datum::work_offset: {
       const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]);

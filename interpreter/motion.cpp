@@ -116,6 +116,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   path_event_.feed = linear ? feed_now() : feed_degrees();
   path_event_.feed_mode = modal_.feed_mode;
   path_event_.in_machine = false;
+  path_event_.zero_open = zero_open_;
   path_event_.centre_side = modal_.comp;
   if (modal_.comp != ir::CompSide::off) path_event_.plane = modal_.plane;
   put_offset(path_event_, moved);

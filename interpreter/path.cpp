@@ -249,6 +249,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   e.feed = linear ? move.feed : *move.feed_degrees;
   e.feed_mode = move.feed_mode;
   e.in_machine = move.in_machine;
+  e.zero_open = zero_open_ && !move.in_machine;
   put_centre_side(e, move.comp, move.plane);
   put_offset(e, moved);
   switch (move.kind) {

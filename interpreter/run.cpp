@@ -57,7 +57,7 @@ Runner::Runner(const ir::Program& program, const machine::Profile& profile, cons
       variables_(failure_),
       evaluator_(variables_, failure_),
       emitter_(sink, options.max_events),
-      machine_(profile, emitter_, failure_, &evaluator_),
+      machine_(profile, emitter_, failure_, &evaluator_, options.world ? &*options.world : nullptr),
       routines_(program, options, &variables_) {
   evaluator_.set_system(&machine_);
   evaluator_.set_equal_within(parse_decimal(profile.option("compare.equal_within")).value_or(0));
@@ -158,6 +158,8 @@ Result Runner::finish(EndReason reason, const Span& where) {
   r.covered.assign(covered_.begin(), covered_.end());
   r.outcomes = outcomes_;
   r.written = std::move(written_);
+  r.read_first = variables_.read_first();
+  r.writes_zeros = machine_.writes_zeros();
   for (const auto& a : machine_.assumed_radii()) r.assumed_radii.emplace_back(a.where, a.radius);
   return r;
 }
@@ -375,7 +377,9 @@ void Runner::enter_top() {
 
 Result run(const ir::Program& program, const machine::Profile& profile, const Options& options, TraceSink& sink,
            Diagnostics& diagnostics) {
-  return Runner(program, profile, options, sink, diagnostics).run();
+  if (!options.world) return Runner(program, profile, options, sink, diagnostics).run();
+  const machine::Profile there = machine::put_into(*options.world, profile);
+  return Runner(program, there, options, sink, diagnostics).run();
 }
 
 }  // namespace cnctrans::interpreter

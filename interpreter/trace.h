@@ -66,6 +66,7 @@ struct Event {
   double amount = 0;
   bool revolutions = false;
   bool in_machine = false;  ///< a move programmed in machine coordinates (not printed)
+  bool zero_open = false;   ///< a move by the zero point of power-on: nothing has selected another (not printed)
   OffsetAxes offset;        ///< behind a move (not printed)
   // spindle, tool, offset, comp, coolant, m, stop
   std::int32_t number = 0;

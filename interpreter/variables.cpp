@@ -46,6 +46,7 @@ std::vector<NumberedSpace*> Variables::add_program(const ir::Program& program) {
       space = &spaces_.emplace_back();
       space->prefix = s.prefix;
       space->type = s.type;
+      space->starts_at_zero = s.starts_at_zero;
     }
     std::uint32_t levels = 0;
     for (const auto& segment : s.segments) {
@@ -211,6 +212,19 @@ void Variables::store(const Place& p, std::string value) {
     if (std::none_of(cuts_.begin(), cuts_.end(), same)) cuts_.push_back({failure_.where, p.named->name, length});
   }
   assign(p, std::move(value));
+}
+
+void Variables::note_unset(const NumberedSpace& space, std::uint32_t n) {
+  if (space.starts_at_zero || space.numbers[n].read_only) return;
+  std::string name = space.prefix + std::to_string(n);
+  if (std::find(read_first_.begin(), read_first_.end(), name) == read_first_.end())
+    read_first_.push_back(std::move(name));
+}
+
+void Variables::note_unset(const NamedVariable& v) {
+  if (v.declared || v.is_text() || v.is_frame() || !v.dimensions.empty()) return;
+  if (v.name.find(' ') != std::string::npos) return;  // a reader's own
+  if (std::find(read_first_.begin(), read_first_.end(), v.name) == read_first_.end()) read_first_.push_back(v.name);
 }
 
 void Variables::push_level() {

@@ -30,6 +30,7 @@ struct NumberedSpace {
   };
   std::string prefix;
   ir::Type type = ir::Type::real;
+  bool starts_at_zero = false;  ///< else a variable keeps what an earlier program left
   std::vector<Number> numbers;  ///< by number
   std::vector<double> value;    ///< of the global ones, by number
   std::vector<std::uint8_t> set;
@@ -125,6 +126,11 @@ class Variables {
   };
   [[nodiscard]] const std::vector<Cut>& cuts() const { return cuts_; }
 
+  /// A value is used that nothing has given: variable `n` of a space, a named one.
+  void note_unset(const NumberedSpace& space, std::uint32_t n);
+  void note_unset(const NamedVariable& v);
+  [[nodiscard]] const std::vector<std::string>& read_first() const { return read_first_; }
+
   void push_level();
   void pop_level();
   [[nodiscard]] Level& level() { return *levels_.back(); }
@@ -144,6 +150,7 @@ class Variables {
   std::map<std::string, NamedVariable*, std::less<>> global_names_;
   std::vector<Preset> presets_;
   std::vector<Cut> cuts_;
+  std::vector<std::string> read_first_;
   std::uint32_t level_size_ = 0;
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::unique_ptr<Level>> spare_;

@@ -46,4 +46,26 @@ verifier::Coverage coverage_of(const ir::Program& program, const std::vector<boo
   return c;
 }
 
+verifier::LeftOut left_out_of(const ir::Program& program, const std::vector<bool>& covered,
+                              const std::vector<interpreter::Event>& trace) {
+  verifier::LeftOut out;
+  for (const auto& routine : program.routines) {
+    ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr || s.id >= covered.size() || !covered[s.id]) return;
+      for (const auto& a : b->actions) {
+        const auto* m = std::get_if<ir::ModalSet>(&a.data);
+        if (m != nullptr && m->setting == ir::Setting::path_mode) ++out.path_modes;
+      }
+    });
+  }
+  std::int32_t offset = 0;
+  for (const auto& e : trace) {
+    if (e.kind == interpreter::EventKind::offset && e.number != 0 && e.number != offset) ++out.offset_numbers;
+    if (e.kind == interpreter::EventKind::offset) offset = e.number;
+    if (e.kind == interpreter::EventKind::tool && !e.change) ++out.preselected_tools;
+  }
+  return out;
+}
+
 }  // namespace cnctrans::translator

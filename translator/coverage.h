@@ -14,4 +14,8 @@ namespace cnctrans::translator {
 /// a second replay.
 verifier::Coverage coverage_of(const ir::Program& program, const std::vector<bool>& covered, std::string also = {});
 
+/// What the comparison of a run with these lines and this trace leaves aside (docs/verify.md).
+verifier::LeftOut left_out_of(const ir::Program& program, const std::vector<bool>& covered,
+                              const std::vector<interpreter::Event>& trace);
+
 }  // namespace cnctrans::translator

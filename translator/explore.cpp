@@ -295,7 +295,6 @@ void Explorer::note(const Inputs& inputs, const interpreter::Result& result) {
 }
 
 void Explorer::report(verifier::Coverage& c) const {
-  c.explored = true;
   c.replays = replays_;
   for (const auto& b : branches_) {
     if (!b.two_ways) continue;

@@ -43,7 +43,7 @@ class Explorer {
   std::optional<Inputs> next();
   /// A replay with `inputs` has run and counts; they are not proposed any more.
   void note(const Inputs& inputs, const interpreter::Result& result);
-  /// Adds to `c` the replays, and the branches with those that none of them has taken.
+  /// Adds to `c` the replays noted so far, and the branches with those that none of them has taken.
   void report(verifier::Coverage& c) const;
   /// Statements that some replay has carried out, by Statement::id.
   [[nodiscard]] const std::vector<bool>& covered() const { return covered_; }

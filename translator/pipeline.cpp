@@ -37,13 +37,17 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
   // The names that a translation by anyone gives to the variables are not known.
   const bool one_language = &a.dialect() == &b.dialect();
   const auto target_settings = [one_language](const Settings& set) { return one_language ? set : Settings(); };
+  const auto can = b.dialect().backend->capabilities_for(b.profile());
   Proof proof = prove({a_program, a.profile(), a.loader()}, {b_program, b.profile(), b.loader()},
                       {options.run,
                        target_settings,
                        {},
                        options.further,
                        a.dialect().first_skip_switch,
-                       !b.dialect().backend->capabilities_for(b.profile()).diameter_switch});
+                       !can.diameter_switch,
+                       can.motions.count(ir::MotionKind::reference_point) == 0,
+                       can.length_comp_switch,
+                       false});
   result.verdict = std::move(proof.verdict);
   const auto all_said = [](Diagnostics said, Reading& of, const Replayed& run) {
     said.append(of.loader().library_diagnostics());

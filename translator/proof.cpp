@@ -42,11 +42,11 @@ Replayed replay(const Side& side, interpreter::Options options) {
   return r;
 }
 
-verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to, const Replayed& target) {
+verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to, const Replayed& target,
+                        const std::optional<machine::World>& world, verifier::Options options) {
   // Two runs that end in the same error at the same event are compared up to there; one alone is a difference.
-  verifier::Options options;
-  options.source_start = verifier::start_of(from.profile);
-  options.target_start = verifier::start_of(to.profile);
+  options.source_start = verifier::start_of(from.profile, world ? &*world : nullptr);
+  options.target_start = verifier::start_of(to.profile, world ? &*world : nullptr);
   options.source_cycles = &source.cycles;
   options.target_cycles = &target.cycles;
   verifier::Verdict verdict = verifier::compare(source.events, target.events, options);
@@ -90,19 +90,27 @@ constexpr std::string_view tool_radius = "TOOL_RADIUS";  ///< machine datum of a
 
 class Prover {
  public:
-  Prover(const Side& source, const Side& target, const ProofOptions& options)
-      : source_(source), target_(target), options_(options) {}
+  /// `called`: they begin in the state of their caller, its zero point included.
+  Prover(const Side& source, const Side& target, const ProofOptions& options, bool called)
+      : source_(source), target_(target), options_(options) {
+    compared_.switches_length = options.target_switches_length;
+    if (!called) verifier::compare_zeros(compared_, source.profile, target.profile);
+  }
 
   Proof run() {
     const auto start = Clock::now();
-    runs_.push_back({{options_.run.set, options_.run.skip_mask}, {}});
+    runs_.push_back({{options_.run.set, options_.run.skip_mask}, {}, {}});
     Proof proof = *with(runs_.front().inputs, options_.run, true);
     runs_.front().result = proof.source.result;
+    runs_.front().of_target = proof.target.result.covered;
+    note_first(proof);
     const auto took = Clock::now() - start;
+    if (proof.verdict.good()) proof = in_world(std::move(proof));
     if (proof.verdict.good() && options_.further.skips) proof = with_skips(std::move(proof));
     const bool in_time = !options_.further.time || took < *options_.further.time;
     if (proof.verdict.good() && options_.further.explore != 0 && in_time) return explore(std::move(proof));
-    proof.verdict.coverage = coverage_of(source_.program, covered_by(runs_), std::move(also_));
+    proof.verdict.coverage = coverage_of(source_.program, covered_by(runs_), also_);
+    note_runs(proof.verdict, explorer());
     return proof;
   }
 
@@ -111,16 +119,55 @@ class Prover {
   /// A replay that counts.
   struct Run {
     Inputs inputs;
-    interpreter::Result result;  ///< of the source
+    interpreter::Result result;   ///< of the source
+    std::vector<bool> of_target;  ///< statements that the translation came to
   };
+  static void join(std::vector<bool>& sum, const std::vector<bool>& more) {
+    if (sum.size() < more.size()) sum.resize(more.size());
+    for (std::size_t i = 0; i < more.size(); ++i) sum[i] = sum[i] || more[i];
+  }
 
   static std::vector<bool> covered_by(const std::vector<Run>& runs) {
     std::vector<bool> covered;
-    for (const auto& run : runs) {
-      if (covered.size() < run.result.covered.size()) covered.resize(run.result.covered.size());
-      for (std::size_t i = 0; i < run.result.covered.size(); ++i) covered[i] = covered[i] || run.result.covered[i];
-    }
+    for (const auto& run : runs) join(covered, run.result.covered);
     return covered;
+  }
+
+  /// What the first replay shows beside the comparison.
+  void note_first(Proof& proof) const {
+    auto& v = proof.verdict;
+    v.left_out = left_out_of(source_.program, proof.source.result.covered, proof.source.events);
+    v.read_first = proof.source.result.read_first;
+    const auto of_source = options_.target_settings(as_settings(v.read_first));
+    for (const auto& name : proof.target.result.read_first) {
+      const auto same = [&name](const auto& s) { return plain_name(s.first) == plain_name(name); };
+      if (std::none_of(of_source.begin(), of_source.end(), same)) v.target_read_first.push_back(name);
+    }
+  }
+  static Settings as_settings(const std::vector<std::string>& names) {
+    Settings set;
+    for (const auto& name : names) set.emplace_back(name, "0");
+    return set;
+  }
+
+  /// Of the replays that are always made: lines of the translation, and the ways of the conditions.
+  void note_runs(verifier::Verdict& v, const Explorer& explorer) const {
+    std::vector<bool> covered;
+    for (const auto& run : runs_) join(covered, run.of_target);
+    v.target_coverage = coverage_of(target_.program, covered);
+    auto& c = v.coverage;
+    explorer.report(c);
+    if (!c.explored) {
+      c.replays = 1;
+      c.ways = c.ways_taken = 0;
+    }
+  }
+  [[nodiscard]] Explorer explorer() const {
+    Explorer e(source_.program, runs_.front().inputs, [this](const std::string& name) {
+      return !options_.target_settings({{name, "0"}}).empty();
+    });
+    for (const auto& run : runs_) e.note(run.inputs, run.result);
+    return e;
   }
 
   /// The replay fails: neither the same moves nor none.
@@ -132,37 +179,117 @@ class Prover {
     return proof;
   }
 
+  /// Once more where nothing coincides, with other values in the variables that are read before they are written; the
+  /// replays behind it run in the same world. A source that does not run with such values, or only from its zero point
+  /// (an arc in the first block), is replayed without; one that does not run there at all proves nothing there.
+  Proof in_world(Proof proof) {
+    auto& said = proof.verdict;
+    const auto& inputs = runs_.front().inputs;
+    interpreter::Options run = options_.run;
+    run.world = machine::world_for(source_.profile, target_.profile);
+    run.world->reference_points = !options_.target_without_reference;
+    run.world->zeros = !proof.source.result.writes_zeros && !proof.target.result.writes_zeros;
+    const Kept kept = kept_values(said, inputs.set);
+    for (const bool at_zero : {false, true}) {
+      run.world->stands_at_zero = at_zero;
+      for (const bool with_kept : {true, false}) {
+        if (with_kept && kept.empty()) continue;
+        Inputs started = inputs;
+        if (with_kept) started.set.insert(started.set.end(), kept.source.begin(), kept.source.end());
+        target_kept_ = with_kept ? kept.target : Settings();
+        auto other = with(started, with_kept ? in_short(run) : run);
+        target_kept_.clear();
+        if (!other || (options_.counts_on_start && !at_zero && fails(other->verdict))) continue;
+        world_ = run.world;
+        if (fails(other->verdict)) return elsewhere(*std::move(other), started, with_kept ? kept.target : Settings());
+        verifier::add_distance(said, other->verdict);
+        said.kept_values_tried = with_kept;
+        said.from_zero_only = at_zero;
+        return proof;
+      }
+    }
+    said.one_world = true;
+    return proof;
+  }
+
+  /// Values that an earlier program may have left in variables: for the source, and for those of the translation that
+  /// are no variables of the source.
+  struct Kept {
+    Settings source, target;
+    [[nodiscard]] bool empty() const { return source.empty() && target.empty(); }
+  };
+  [[nodiscard]] Kept kept_values(const verifier::Verdict& v, const Settings& given) const {
+    constexpr int first = 101, step = 6;
+    Kept kept;
+    int value = first;
+    const auto names = [](const Settings& set, const std::string& name) {
+      return std::any_of(set.begin(), set.end(),
+                         [&name](const auto& s) { return plain_name(s.first) == plain_name(name); });
+    };
+    bool all_known = true;
+    for (const auto& name : v.read_first) {
+      const bool known = !options_.target_settings({{name, "0"}}).empty();
+      all_known = all_known && known;
+      if (known && !names(given, name)) kept.source.emplace_back(name, std::to_string(value));
+      value += step;
+    }
+    if (!all_known) return kept;  // one of the translation may be one of the source under another name
+    const Settings of_source = options_.target_settings(with_shared_data(given));
+    for (const auto& name : v.target_read_first) {
+      if (!names(of_source, name)) kept.target.emplace_back(name, std::to_string(value));
+      value += step;
+    }
+    return kept;
+  }
+
+  /// The translation does otherwise there.
+  Proof elsewhere(Proof proof, const Inputs& started, const Settings& of_target) const {
+    std::string with = "zero points that differ";
+    if (const auto more = described(started); !more.empty()) with += ", " + more;
+    for (const auto& [name, value] : of_target)
+      with += (&name == &of_target.front().first ? ", in the translation " : " ") + name + "=" + value;
+    proof.verdict.inputs = std::move(with);
+    return proof;
+  }
+
+  /// Some times the work of the first replay, no more: with other values a program may run on and on.
+  [[nodiscard]] interpreter::Options in_short(interpreter::Options run) const {
+    const auto& first = runs_.front().result;
+    run.max_silent_steps = std::min(run.max_silent_steps, explored_silent_steps);
+    run.max_events = std::min(run.max_events, std::max(short_events, short_times * first.events));
+    run.max_steps = std::min(run.max_steps, std::max(short_steps, short_times * first.steps));
+    return run;
+  }
+
   /// Once more with every switch on that the program uses. A source that can't run like that proves nothing.
   Proof with_skips(Proof proof) {
     Inputs inputs = runs_.front().inputs;
     inputs.skip_mask = static_cast<std::uint16_t>(inputs.skip_mask | skip_switches(source_.program));
     if (inputs.skip_mask == options_.run.skip_mask) return proof;
-    auto other = with(inputs, options_.run);
+    interpreter::Options run = options_.run;
+    run.world = world_;
+    auto other = with(inputs, run);
     if (!other) return proof;
     if (fails(other->verdict)) return failed(*std::move(other), inputs);
     if (other->verdict.good()) {
       also_ = skip_option(inputs.skip_mask, options_.first_skip_switch);
-      add_distance(proof.verdict, other->verdict);
+      verifier::add_distance(proof.verdict, other->verdict);
     }
-    runs_.push_back({std::move(inputs), std::move(other->source.result)});
+    runs_.push_back({std::move(inputs), std::move(other->source.result), std::move(other->target.result.covered)});
     return proof;
   }
 
-  Proof explore(Proof proof) const {
+  Proof explore(Proof proof) {
     const auto start = Clock::now();
     const auto& further = options_.further;
-    Explorer explorer(source_.program, runs_.front().inputs, [this](const std::string& name) {
-      return !options_.target_settings({{name, "0"}}).empty();
-    });
-    for (const auto& run : runs_) explorer.note(run.inputs, run.result);
+    Explorer explorer = this->explorer();
+    verifier::Coverage always;  // what the replays so far came to, whatever the speed of the computer
+    explorer.report(always);
     interpreter::Options run = options_.run;
+    run.world = world_;
     run.max_events = std::min(run.max_events, explored_events);
     run.max_silent_steps = std::min(run.max_silent_steps, explored_silent_steps);
-    if (further.time) {
-      const auto& first = runs_.front().result;
-      run.max_events = std::min(run.max_events, std::max(short_events, short_times * first.events));
-      run.max_steps = std::min(run.max_steps, std::max(short_steps, short_times * first.steps));
-    }
+    if (further.time) run = in_short(std::move(run));
     for (std::size_t n = 0; n < further.explore; ++n) {
       if (further.time && Clock::now() - start > *further.time) break;
       const auto inputs = explorer.next();
@@ -176,10 +303,14 @@ class Prover {
       }
       if (!further.time) add(proof.verdict, v);
       explorer.note(*inputs, other->source.result);
+      if (!further.time) runs_.push_back({*inputs, {}, std::move(other->target.result.covered)});
     }
     const auto covered = further.time ? covered_by(runs_) : explorer.covered();
-    proof.verdict.coverage = coverage_of(source_.program, covered, also_);
-    if (!further.time) explorer.report(proof.verdict.coverage);
+    auto& coverage = proof.verdict.coverage;
+    coverage = coverage_of(source_.program, covered, also_);
+    coverage.explored = !further.time;
+    note_runs(proof.verdict, explorer);
+    if (further.time) coverage.open = std::move(always.open);
     return proof;
   }
 
@@ -196,12 +327,13 @@ class Prover {
       const auto same = [&n = name](const auto& s) { return s.first == n; };
       if (name == tool_radius && std::none_of(run.set.begin(), run.set.end(), same)) run.set.emplace_back(name, value);
     }
+    run.set.insert(run.set.end(), target_kept_.begin(), target_kept_.end());
     const auto& radii = p.source.result.assumed_radii;
     const auto other = [&radii](const auto& a) { return a.second != radii.front().second; };
     if (!radii.empty() && std::none_of(radii.begin(), radii.end(), other))
       run.set.emplace_back(tool_radius, shortest(radii.front().second));
     p.target = replay(target_, run);
-    p.verdict = judge(source_, p.source, target_, p.target);
+    p.verdict = judge(source_, p.source, target_, p.target, run.world, compared_);
     return p;
   }
 
@@ -215,17 +347,13 @@ class Prover {
     return set;
   }
 
-  static void add_distance(verifier::Verdict& sum, const verifier::Verdict& v) {
-    sum.max_length = std::max(sum.max_length, v.max_length);
-    if (v.status == verifier::Status::within_tolerance) sum.status = v.status;
-  }
   static void add(verifier::Verdict& sum, const verifier::Verdict& v) {
     if (!v.good()) return;  // moved nothing
     sum.events += v.events;
     sum.moves += v.moves;
     sum.unfed_moves += v.unfed_moves;
     sum.similar_cycles += v.similar_cycles;
-    add_distance(sum, v);
+    verifier::add_distance(sum, v);
   }
 
   [[nodiscard]] std::string described(const Inputs& inputs) const {
@@ -238,8 +366,11 @@ class Prover {
   const Side& source_;
   const Side& target_;
   const ProofOptions& options_;
-  std::vector<Run> runs_;  ///< those that are always made: as written, with the switches on
-  std::string also_;       ///< inputs of the second one that agreed
+  verifier::Options compared_;
+  std::vector<Run> runs_;                ///< those that are always made: as written, with the switches on
+  Settings target_kept_;                 ///< values in variables of the translation alone, in the next replay
+  std::optional<machine::World> world_;  ///< of all replays but the first; none: the source can't run there
+  std::string also_;                     ///< inputs of the second one that agreed
 };
 
 }  // namespace
@@ -270,9 +401,9 @@ static machine::Profile called_alike(const machine::Profile& source, machine::Pr
 Proof prove(const Side& source, const Side& target, const ProofOptions& options) {
   if (!source.program.routines.empty() && source.program.main() == nullptr) {
     const machine::Profile called = called_alike(source.profile, target.profile, options.target_fixed_diameter);
-    return Prover(source, {target.program, called, target.loader}, options).run();
+    return Prover(source, {target.program, called, target.loader}, options, true).run();
   }
-  return Prover(source, target, options).run();
+  return Prover(source, target, options, false).run();
 }
 
 }  // namespace cnctrans::translator

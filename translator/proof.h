@@ -27,7 +27,8 @@ struct Side {
   Loader& loader;
 };
 
-/// Replays behind the first one, which takes the program as it is written.
+/// Replays behind the first one, which takes the program as it is written and the machines as their profiles are. All
+/// of them run in a world where zeros, reference points and tool data coincide with nothing, if the source can.
 struct FurtherReplays {
   bool skips = false;       ///< one with every block-skip switch on that the program uses
   std::size_t explore = 0;  ///< most replays with other inputs; this one is the first of them
@@ -48,6 +49,12 @@ struct ProofOptions {
   /// The target's language can't switch between radius and diameter: its programs are always in the mode of its
   /// machine.
   bool target_fixed_diameter = false;
+  /// The target's language has no search of the reference point: its place stands in the translation (TRN-328).
+  bool target_without_reference = false;
+  /// The target's language can switch the length compensation off.
+  bool target_switches_length = false;
+  /// The translation counts on a start at the zero point, and a warning says so.
+  bool counts_on_start = false;
 };
 
 /// One run with its trace.

@@ -70,13 +70,14 @@ bool StreamReplay::window() {
     skips_ = static_cast<std::uint16_t>(skips_ | statement_.line.skip_mask);
     if (!going_) continue;
     last_ = statement_.line.span;
-    going_ = runner_.step(statement_) && kind != frontends::StreamLine::program_end;
+    const bool first = runner_.step(statement_), second = other_ && other_->step(statement_);
+    going_ = (first || second) && kind != frontends::StreamLine::program_end;
   }
   window_ = windows_.reader.next();
   return !window_.empty();
 }
 
-StreamRun StreamReplay::finish() {
+StreamRun StreamReplay::finish(interpreter::Result* other) {
   StreamRun run;
   run.outcome = StreamOutcome::needs_program;
   if (reader_ == nullptr || !windows_.reader.read_error().empty()) return run;  // the whole-program path reports
@@ -85,6 +86,7 @@ StreamRun StreamReplay::finish() {
   if (closing.has_errors() || closing.warning_count() != 0) return run;
   run.outcome = StreamOutcome::done;
   run.result = runner_.finish(last_);
+  if (other != nullptr && other_) *other = other_->finish(last_);
   run.diagnostics = std::move(diagnostics_);
   return run;
 }

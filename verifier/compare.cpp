@@ -144,9 +144,11 @@ class Comparison {
     }
     std::string what = motion_difference(a, b);
     if (what.empty()) what = tool_difference(a, b);
+    if (what.empty()) what = zero_difference(a, b);
     if (!what.empty() && a.kind == EventKind::arc && passed_over(a, from_a_, from_b_)) return take_a();
     if (!what.empty() && a.kind == EventKind::arc && passed_over(b, from_b_, from_a_)) return take_b();
     if (!what.empty()) return differ(what, i_, j_);
+    if (a.zero_open && options_.zero_is_open) ++verdict_.open_zero_moves;
     verdict_.max_length = std::max(verdict_.max_length, apart);
     ++verdict_.events;
     ++verdict_.moves;
@@ -182,11 +184,14 @@ class Comparison {
     if (cycle_ == nullptr || !cycles_.about(*cycle_, before_cycle_, {i_, j_, {}, {}})) return false;
     std::string why;
     Verdict verdict = verdict_before_;
-    const auto behind = cycles_.skip(*cycle_, before_cycle_, verdict.max_length, why);
+    double apart = 0;
+    const auto behind = cycles_.skip(*cycle_, before_cycle_, apart, why);
     if (!why.empty()) what = why;
     if (!behind) return false;
     verdict.events += std::max(behind->i - before_cycle_.i, behind->j - before_cycle_.j);
     ++verdict.similar_cycles;
+    verdict.max_length = std::max(verdict.max_length, apart);
+    verdict.similar_length = std::max(verdict.similar_length, apart);
     verdict_ = verdict;
     i_ = behind->i;
     j_ = behind->j;
@@ -318,15 +323,30 @@ class Comparison {
   }
 
   /// Where the tool stands beside the programmed point. It holds for every part of a move.
-  static std::string tool_difference(const Event& a, const Event& b) {
+  [[nodiscard]] std::string tool_difference(const Event& a, const Event& b) const {
     const std::string centre = centre_difference(a, b);
     return centre.empty() ? offset_difference(a, b) : centre;
   }
 
+  /// By which zero point a move goes: coordinates of the machine or of the work, and of which work where no offset is
+  /// selected.
+  [[nodiscard]] std::string zero_difference(const Event& a, const Event& b) const {
+    const auto place = [](const Event& e) { return e.in_machine ? "of the machine" : "of the work"; };
+    if (a.in_machine != b.in_machine)
+      return fmt::format("the {} move goes by coordinates {} in the source, {} in the translation",
+                         interpreter::name(a.kind), place(a), place(b));
+    if (options_.selects_zero && b.zero_open)
+      return fmt::format(
+          "the {} move of the translation goes by the zero point that its machine has at the start: no "
+          "work offset is selected",
+          interpreter::name(a.kind));
+    return {};
+  }
+
   /// An axis that stands with the offset of the tool on one side and without on the other stands elsewhere on a real
   /// machine.
-  static std::string offset_difference(const Event& a, const Event& b) {
-    const std::uint32_t known = known_of_source(a) & b.offset.known & common(a.to, b.to);
+  [[nodiscard]] std::string offset_difference(const Event& a, const Event& b) const {
+    const std::uint32_t known = known_of_source(a, options_.switches_length) & b.offset.known & common(a.to, b.to);
     const std::uint32_t other = (a.offset.with ^ b.offset.with) & known;
     if (other == 0) return {};
     const auto axis = static_cast<std::size_t>(std::countr_zero(other));
@@ -455,18 +475,14 @@ Verdict compare(const std::vector<Event>& source, const std::vector<Event>& targ
   return verdict;
 }
 
+void add_distance(Verdict& sum, const Verdict& further) {
+  sum.max_length = std::max(sum.max_length, further.max_length);
+  if (further.status == Status::within_tolerance) sum.status = further.status;
+}
+
 bool close_relative(double a, double b, double tolerance) {
   constexpr double half_place = 0.00051;  // of the third decimal
   return std::fabs(a - b) <= std::max(half_place, tolerance * std::max(std::fabs(a), std::fabs(b)));
-}
-
-Position start_of(const machine::Profile& machine) {
-  Position p;
-  for (const auto& a : machine.axes) {
-    p.value[a.id] = a.start;
-    p.known |= 1U << a.id;
-  }
-  return p;
 }
 
 }  // namespace cnctrans::verifier

@@ -9,6 +9,7 @@
 #include "interpreter/cycle_runs.h"
 #include "interpreter/trace.h"
 #include "machine/profile.h"
+#include "machine/world.h"
 
 namespace cnctrans::verifier {
 
@@ -28,6 +29,12 @@ struct Options {
   /// Compare numbers of tools and offsets literally; off: only that a change happens.
   bool tool_numbers = true;
   bool offset_numbers = false;
+  /// The zero point of power-on is another one on the target's machine: the translation has to select the source's.
+  bool selects_zero = false;
+  /// The target's language can switch the length compensation off: where the source does, the translation has to.
+  bool switches_length = false;
+  /// Power-on selects none on the source's machine, and the target's begins otherwise.
+  bool zero_is_open = false;
   /// Where the machines stand before the first event; no axis known: the first move has no length to judge by.
   interpreter::Position source_start{}, target_start{};
   /// Cycles that the two runs carried out: where their moves differ they are compared by what they leave. Null: none.
@@ -36,8 +43,8 @@ struct Options {
 };
 /// Feeds, speeds and pitches. A small one may be off by the rounding of its word: F0.0254 is written F0.025.
 bool close_relative(double a, double b, double tolerance);
-/// The position of a machine before a program.
-interpreter::Position start_of(const machine::Profile& machine);
+/// The position of a machine before a program; `world`: where it is put; null: as its profile says.
+interpreter::Position start_of(const machine::Profile& machine, const machine::World* world = nullptr);
 
 enum class Status : std::uint8_t {
   verified,          ///< every event agrees within 1e-6
@@ -45,6 +52,11 @@ enum class Status : std::uint8_t {
   differs,
   nothing_to_compare,  ///< no motion in the source's trace: an empty trace never verifies
   not_replayable       ///< one of the runs ended in an error or by a limit
+};
+
+/// What of a program the comparison leaves aside, in numbers.
+struct LeftOut {
+  std::size_t offset_numbers = 0, path_modes = 0, preselected_tools = 0;
 };
 
 /// The first true difference.
@@ -81,14 +93,23 @@ struct Verdict {
   Status status = Status::nothing_to_compare;
   std::uint64_t events = 0;  ///< compared after normalisation
   std::uint64_t moves = 0;
-  double max_length = 0;             ///< mm
-  std::uint64_t similar_cycles = 0;  ///< compared by the part they leave, not by their passes
-  std::uint64_t unfed_moves = 0;     ///< at a feed that the source never gives, where the translation has one
-  double assumed_radius = 0;         ///< mm, of tools whose radius nobody gives: milling cycles ran with it; 0: none
+  double max_length = 0;              ///< mm
+  std::uint64_t similar_cycles = 0;   ///< compared by the part they leave, not by their passes
+  double similar_length = 0;          ///< mm: the largest distance between the parts that two of them leave
+  std::uint64_t open_zero_moves = 0;  ///< of the source by the zero point of power-on: no offset was selected
+  std::uint64_t unfed_moves = 0;      ///< at a feed that the source never gives, where the translation has one
+  double assumed_radius = 0;          ///< mm, of tools whose radius nobody gives: milling cycles ran with it; 0: none
   Difference difference;
   std::string reason;  ///< with not_replayable
   std::string inputs;  ///< what the replay that failed was started with, as options of the command line; empty: nothing
   Coverage coverage;
+  Coverage target_coverage;  ///< lines only
+  LeftOut left_out;          ///< of the source
+  /// Variables that were read before anything gave them a value: of the source, and of the translation alone.
+  std::vector<std::string> read_first, target_read_first;
+  bool kept_values_tried = false;  ///< with other values in them too
+  bool from_zero_only = false;     ///< proved for a start at the zero point; the program needs that, or is warned of it
+  bool one_world = false;          ///< the source does not run with zero points other than those of the profiles
   /// With not_replayable: the source ran to its end, the translation moved and did not.
   bool target_stopped = false;
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }
@@ -102,6 +123,12 @@ struct Verdict {
 /// motion is.
 Verdict compare(const std::vector<interpreter::Event>& source, const std::vector<interpreter::Event>& target,
                 const Options& options);
+
+/// What the two machines have for a zero point at the start.
+void compare_zeros(Options& options, const machine::Profile& source, const machine::Profile& target);
+
+/// What a further replay adds to a good verdict: how far the traces are apart there.
+void add_distance(Verdict& sum, const Verdict& further);
 
 /// Text for people: status line, and with a difference both source lines.
 std::string describe(const Verdict& verdict, const FileTable& source_files, const FileTable& target_files);

@@ -43,12 +43,14 @@ std::string spindle_after(const std::vector<const Event*>& events) {
 }
 
 /// Each axis stands with the tool offset, or without it, as it does at some move of the source's cycle.
-std::string offset_difference(const std::vector<const Event*>& source, const std::vector<const Event*>& target) {
+std::string offset_difference(const std::vector<const Event*>& source, const std::vector<const Event*>& target,
+                              bool switches) {
   std::uint32_t with = 0, without = 0;
   for (const Event* e : source) {
     if (!is_motion(e->kind)) continue;
-    with |= known_of_source(*e) & e->offset.with;
-    without |= known_of_source(*e) & ~e->offset.with;
+    const std::uint32_t known = known_of_source(*e, switches);
+    with |= known & e->offset.with;
+    without |= known & ~e->offset.with;
   }
   for (const Event* e : target) {
     if (!is_motion(e->kind)) continue;
@@ -183,7 +185,7 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   while (run.family == "tap" && at.j < b_.size() && b_[at.j]->kind == EventKind::spindle &&
          spindle_after(source.events) != spindle_after(target.events))
     take(b_[at.j], target, at.from_b, at.j);
-  what = offset_difference(source.events, target.events);
+  what = offset_difference(source.events, target.events, options_.switches_length);
   if (what.empty()) what = similar_difference(source, target, options_.tolerances, max_length);
   if (!what.empty()) return std::nullopt;
   if (!together(at.from_a, at.from_b, by)) {

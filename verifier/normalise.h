@@ -24,9 +24,10 @@ namespace cnctrans::verifier {
 std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets,
                                                  bool keep_selections);
 /// Axes of the source whose offset can be compared. A length compensation that is off has no counterpart on a control
-/// without that switch: the translator tells it (TRN-142, TRN-143), and what the source means is left open.
-[[nodiscard]] inline std::uint32_t known_of_source(const interpreter::Event& e) {
-  return e.offset.known & ~e.offset.switched_off;
+/// without that switch (`switches`): the translator tells it (TRN-142, TRN-143), and what the source means is left
+/// open.
+[[nodiscard]] inline std::uint32_t known_of_source(const interpreter::Event& e, bool switches) {
+  return switches ? e.offset.known : e.offset.known & ~e.offset.switched_off;
 }
 /// Some tool is made ready before its change.
 bool has_selections(const std::vector<interpreter::Event>& events);

@@ -84,6 +84,7 @@ bool PiecewiseComparison::compare_piece(Events a, Events b) {
   verdict_.events += v.events - (first_ ? 0 : compare(state_a, state_b, options_).events);
   verdict_.moves += v.moves;
   verdict_.unfed_moves += v.unfed_moves;
+  verdict_.open_zero_moves += v.open_zero_moves;
   verdict_.max_length = std::max(verdict_.max_length, v.max_length);
   if (first_ || v.status == Status::within_tolerance) verdict_.status = v.status;
   first_ = false;

@@ -57,6 +57,23 @@ TEST(Compare, AMissingFirstMoveIsADifference) {
   EXPECT_EQ(verifier::compare({rapid(10), linear(20)}, {linear(20)}, {}).status, Status::differs);
 }
 
+TEST(Compare, AMoveGoesByTheSameZeroPoint) {
+  Event of_machine = rapid(10);
+  of_machine.in_machine = true;
+  EXPECT_EQ(compare({of_machine}, {of_machine}).status, Status::verified);
+  EXPECT_EQ(compare({of_machine}, {rapid(10)}).status, Status::differs);
+
+  Event open = rapid(10);
+  open.zero_open = true;
+  verifier::Options options;
+  EXPECT_EQ(verifier::compare({open}, {rapid(10)}, options).open_zero_moves, 0U);
+  options.zero_is_open = true;
+  EXPECT_EQ(verifier::compare({open}, {rapid(10)}, options).open_zero_moves, 1U);
+  options.selects_zero = true;
+  EXPECT_EQ(verifier::compare({open}, {rapid(10)}, options).status, Status::verified);
+  EXPECT_EQ(verifier::compare({open}, {open}, options).status, Status::differs);
+}
+
 Event with_offset(Event e, bool with) {
   e.offset.known = 1;
   e.offset.with = with ? 1 : 0;

@@ -65,6 +65,14 @@ Json sarif_result(const std::string& code, std::string_view level, const std::st
   return {{"ruleId", code}, {"level", level}, {"message", {{"text", message}}}};
 }
 
+Json not_compared(const verifier::LeftOut& l) {
+  Json out;
+  if (l.offset_numbers != 0) out["offset_numbers"] = l.offset_numbers;
+  if (l.path_modes != 0) out["path_modes"] = l.path_modes;
+  if (l.preselected_tools != 0) out["preselected_tools"] = l.preselected_tools;
+  return out;
+}
+
 }  // namespace
 
 std::string report_data(const Report& r, bool with_paths) {
@@ -74,6 +82,13 @@ std::string report_data(const Report& r, bool with_paths) {
   Json verdict{{"status", r.verdict}, {"events", r.events}, {"moves", r.moves}, {"max_length", r.max_length}};
   if (r.replays > 1) verdict.update({{"replays", r.replays}, {"ways", r.ways}, {"ways_taken", r.ways_taken}});
   if (r.blocks != 0) verdict.update({{"blocks", r.blocks}, {"replayed", r.replayed}});
+  if (r.target_blocks != 0)
+    verdict.update({{"translation_blocks", r.target_blocks}, {"translation_replayed", r.target_replayed}});
+  if (r.similar_cycles != 0)
+    verdict.update({{"similar_cycles", r.similar_cycles}, {"similar_length", r.similar_length}});
+  if (const Json aside = not_compared(r.left_out); !aside.empty()) verdict["not_compared"] = aside;
+  if (!r.read_first.empty()) verdict["read_first"] = r.read_first;
+  if (!r.target_read_first.empty()) verdict["translation_read_first"] = r.target_read_first;
   if (!r.verdict_text.empty()) verdict["text"] = to_utf8(r.verdict_text);
   if (r.differs_source) verdict["source_place"] = place_json(*r.differs_source);
   if (r.differs_target) verdict["target_place"] = place_json(*r.differs_target);

@@ -192,6 +192,13 @@ Report make_report(const std::string& path, const TranslateOptions& options, con
     r.max_length = v.max_length;
     r.blocks = v.coverage.blocks;
     r.replayed = v.coverage.replayed;
+    r.target_blocks = v.target_coverage.blocks;
+    r.target_replayed = v.target_coverage.replayed;
+    r.left_out = v.left_out;
+    r.read_first = v.read_first;
+    r.target_read_first = v.target_read_first;
+    r.similar_cycles = v.similar_cycles;
+    r.similar_length = v.similar_length;
     r.replays = v.coverage.replays;
     r.ways = v.coverage.ways;
     r.ways_taken = v.coverage.ways_taken;

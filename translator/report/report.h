@@ -57,7 +57,12 @@ struct Report {
   std::uint64_t events = 0, moves = 0;
   double max_length = 0;                 ///< mm
   std::size_t blocks = 0, replayed = 0;  ///< lines of the source that do something, and those that the replay came to
-  std::size_t replays = 1, ways = 0, ways_taken = 0;  ///< of an explored program: a condition has two ways
+  std::size_t replays = 1, ways = 0, ways_taken = 0;   ///< of an explored program: a condition has two ways
+  std::size_t target_blocks = 0, target_replayed = 0;  ///< the same lines of the translation
+  verifier::LeftOut left_out;
+  std::vector<std::string> read_first, target_read_first;  ///< variables read before they are written
+  std::uint64_t similar_cycles = 0;
+  double similar_length = 0;  ///< mm
   std::optional<ReportPlace> differs_source, differs_target;
   std::vector<ReportFile> sources, targets;
   std::vector<ReportMove> source_path, target_path;
