@@ -370,6 +370,8 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] bool path_words(const ir::Block& b) const;
 
   const machine::Profile& profile_;
+  /// Of a row of the tool table that the profile leaves empty, mm; 0 without a world.
+  [[nodiscard]] double radius_of_world(double row) const { return world_ == nullptr ? 0 : world_->tool_radius(row); }
   const machine::World* world_;
   Emitter& emitter_;
   std::vector<CycleRun>* cycle_runs_ = nullptr;

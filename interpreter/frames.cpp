@@ -5,6 +5,7 @@
 
 #include "base/saturate.h"
 #include "interpreter/block_machine.h"
+#include "interpreter/measured_frame.h"
 #include "interpreter/run_codes.h"
 #include "ir/frame_rows.h"
 
@@ -331,6 +332,79 @@ void BlockMachine::set_pole(const ir::PoleSet& p) {
     if (w.axis == plane.v) base.v = relative ? base.v + x : x;
   }
   pole_ = base;
+}
+
+bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> args, Frame& out) {
+  switch (ref.datum) {
+    case ir::Datum::frame_programmed: out = programmable_frame(); return true;
+    case ir::Datum::frame_active: out = settable_frame(); return true;
+    case ir::Datum::frame_total: out = frame_; return true;
+    case ir::Datum::frame_settable: {
+      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
+      out = Frame{};
+      if (row == ir::frame_rows::measured && args.size() == measured_count) {
+        out = measured_frame(args.subspan<1, measured_count - 1>()).frame;
+        for (std::size_t a = 0; a < 3; ++a) out.t[a] *= unit();
+        return true;
+      }
+      if (row == ir::frame_rows::total_base) {
+        out = base_frame(ir::frame_rows::own_base);
+        return true;
+      }
+      if (const auto it = base_frames_.find(row); it != base_frames_.end()) {
+        out = it->second;
+        return true;
+      }
+      if (const auto it = offset_shapes_.find(row); it != offset_shapes_.end()) out = it->second;
+      if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) {
+        for (const auto& [axis, v] : it->second) out.t[axis] += v;
+      }
+      if (const auto it = fine_offsets_.find(row); it != fine_offsets_.end()) {
+        for (const auto& [axis, v] : it->second) out.t[axis] += v;
+      }
+      return true;
+    }
+    default: break;
+  }
+  return failure_.fail(code::no_datum, "the frame " + ref.text + " is known to the machine only");
+}
+
+bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double> args, const Frame& f) {
+  writes_zeros_ = writes_zeros_ || ref.datum == ir::Datum::frame_active || ref.datum == ir::Datum::frame_settable;
+  const auto table = [&](std::map<ir::AxisId, double>& row) {
+    row.clear();
+    for (const auto a : axes_) {
+      if (f.t[a] != 0) row[a] = f.t[a];
+    }
+  };
+  switch (ref.datum) {
+    case ir::Datum::frame_programmed:
+      for (const auto s : profile_.frame_order) slots_[index_of(s)] = Frame{};
+      slots_[index_of(ir::FrameSlot::chain)] = f;
+      fine_shift_.fill(0);
+      return rebuild_frame();
+    case ir::Datum::frame_active:
+      table(active_offset_);
+      active_shape_ = f.linear_part();
+      return rebuild_frame();
+    case ir::Datum::frame_settable: {
+      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
+      if (row >= ir::frame_rows::neutral)
+        return failure_.fail(code::no_datum, "the frame " + ref.text + " can only be read");
+      if (row >= ir::frame_rows::active_base) {
+        base_frames_[row] = f;
+        return rebuild_frame();
+      }
+      table(work_offsets_[row]);
+      fine_offsets_.erase(row);
+      offset_shapes_[row] = f.linear_part();
+      if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
+      load_offset(row);
+      return rebuild_frame();
+    }
+    default: break;
+  }
+  return failure_.fail(code::no_datum, "writing the frame " + ref.text + " is not carried");
 }
 
 }  // namespace cnctrans::interpreter

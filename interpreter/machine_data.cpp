@@ -19,7 +19,6 @@ namespace {
 using ir::Datum;
 
 constexpr std::size_t crossing_count = 3 + 2 * element_values;
-constexpr std::size_t measured_count = 19;  ///< a row of measured points: its number and their coordinates
 
 std::string datum_key(const ir::SystemRef& ref, std::span<const double> args) {
   std::string key = ref.text;
@@ -98,8 +97,7 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
   }
   if (ref.datum == Datum::tool_radius && args.empty() && ref.args.empty()) {
     const double radius = tool_radius();
-    const bool open = radius == 0 && world_ != nullptr;
-    out = (open ? world_->tool_radius(offset_) : radius) / (policy_.data_modal ? unit() : 1);
+    out = (radius == 0 ? radius_of_world(offset_) : radius) / (policy_.data_modal ? unit() : 1);
     return true;
   }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
@@ -289,10 +287,7 @@ bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const dou
       out = tool == nullptr ? 0 : (ref.axis == ir::axis::x ? tool->length_x : tool->length) / length;
       if (out == 0 && world_ != nullptr) out = world_->tool_length(row, ref.axis) / length;
       return true;
-    case Datum::tool_radius:
-      out = tool == nullptr ? 0 : tool->radius / length;
-      if (out == 0 && world_ != nullptr) out = world_->tool_radius(row) / length;
-      return true;
+    case Datum::tool_radius: out = (tool == nullptr ? radius_of_world(row) : tool->radius) / length; return true;
     case Datum::tool_nose: out = tool == nullptr ? 0 : tool->nose; return true;
     case Datum::tool_nose_width: out = tool == nullptr ? 0 : tool->nose_width / length; return true;
     case Datum::tool_wear:
@@ -368,79 +363,6 @@ double BlockMachine::length_of(ir::AxisId axis, double value) const {
 std::string BlockMachine::axis_name(ir::AxisId axis) const {
   const auto* spec = profile_.axis(axis);
   return spec != nullptr ? spec->name : std::string{};
-}
-
-bool BlockMachine::read_frame(const ir::SystemRef& ref, std::span<const double> args, Frame& out) {
-  switch (ref.datum) {
-    case Datum::frame_programmed: out = programmable_frame(); return true;
-    case Datum::frame_active: out = settable_frame(); return true;
-    case Datum::frame_total: out = frame_; return true;
-    case Datum::frame_settable: {
-      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
-      out = Frame{};
-      if (row == ir::frame_rows::measured && args.size() == measured_count) {
-        out = measured_frame(args.subspan<1, measured_count - 1>()).frame;
-        for (std::size_t a = 0; a < 3; ++a) out.t[a] *= unit();
-        return true;
-      }
-      if (row == ir::frame_rows::total_base) {
-        out = base_frame(ir::frame_rows::own_base);
-        return true;
-      }
-      if (const auto it = base_frames_.find(row); it != base_frames_.end()) {
-        out = it->second;
-        return true;
-      }
-      if (const auto it = offset_shapes_.find(row); it != offset_shapes_.end()) out = it->second;
-      if (const auto it = work_offsets_.find(row); it != work_offsets_.end()) {
-        for (const auto& [axis, v] : it->second) out.t[axis] += v;
-      }
-      if (const auto it = fine_offsets_.find(row); it != fine_offsets_.end()) {
-        for (const auto& [axis, v] : it->second) out.t[axis] += v;
-      }
-      return true;
-    }
-    default: break;
-  }
-  return failure_.fail(code::no_datum, "the frame " + ref.text + " is known to the machine only");
-}
-
-bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double> args, const Frame& f) {
-  writes_zeros_ = writes_zeros_ || ref.datum == Datum::frame_active || ref.datum == Datum::frame_settable;
-  const auto table = [&](std::map<ir::AxisId, double>& row) {
-    row.clear();
-    for (const auto a : axes_) {
-      if (f.t[a] != 0) row[a] = f.t[a];
-    }
-  };
-  switch (ref.datum) {
-    case Datum::frame_programmed:
-      for (const auto s : profile_.frame_order) slots_[slot_of(s)] = Frame{};
-      slots_[slot_of(ir::FrameSlot::chain)] = f;
-      fine_shift_.fill(0);
-      return rebuild_frame();
-    case Datum::frame_active:
-      table(active_offset_);
-      active_shape_ = f.linear_part();
-      return rebuild_frame();
-    case Datum::frame_settable: {
-      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(std::round(args[0]));
-      if (row >= ir::frame_rows::neutral)
-        return failure_.fail(code::no_datum, "the frame " + ref.text + " can only be read");
-      if (row >= ir::frame_rows::active_base) {
-        base_frames_[row] = f;
-        return rebuild_frame();
-      }
-      table(work_offsets_[row]);
-      fine_offsets_.erase(row);
-      offset_shapes_[row] = f.linear_part();
-      if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
-      load_offset(row);
-      return rebuild_frame();
-    }
-    default: break;
-  }
-  return failure_.fail(code::no_datum, "writing the frame " + ref.text + " is not carried");
 }
 
 bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {

@@ -7,6 +7,9 @@
 
 namespace cnctrans::interpreter {
 
+/// Numbers in a row of measured points: its number and their coordinates.
+inline constexpr std::size_t measured_count = 19;
+
 struct MeasuredFrame {
   Frame frame;         ///< turn and shift; neutral where there is none
   double quality = 0;  ///< sum of the distances that are left (0: it fits exactly); -1: the ideal points lie on a line,
