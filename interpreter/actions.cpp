@@ -357,6 +357,7 @@ void BlockMachine::emit_tool(bool change) {
   if (change) tool_in_spindle_ = tool_;
   auto& e = plain(EventKind::tool);
   e.number = tool_;
+  e.state = tool_came_with_t_ ? "with T" : "";
   e.text = tool_name_;
   e.change = change;
   emitter_.emit(e);
@@ -374,6 +375,7 @@ void BlockMachine::emit_dwell(double amount, bool revolutions) {
   auto& e = plain(EventKind::dwell);
   e.amount = amount;
   e.revolutions = revolutions;
+  e.number = master_;
   emitter_.emit(e);
 }
 

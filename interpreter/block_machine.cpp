@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "interpreter/message_form.h"
 #include "interpreter/run_codes.h"
 #include "machine/tool_data.h"
 
@@ -173,14 +174,17 @@ Event& BlockMachine::plain(EventKind kind) {
 }
 
 void BlockMachine::message(std::string text, const Span& where) {
-  const auto trimmed = trim(text);
+  const std::string shown = shown_message(text);
+  const auto trimmed = trim(shown);
   if (trimmed.empty()) return;
   auto& e = plain(EventKind::message);
   e.file = where.file;
   e.line = where.line;
   e.text = std::string(trimmed);
+  e.state = message_form(text);
   emitter_.emit(e);
   e.text.clear();
+  e.state.clear();
 }
 
 bool BlockMachine::finish() {

@@ -117,6 +117,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   path_event_.feed_mode = modal_.feed_mode;
   path_event_.in_machine = false;
   path_event_.zero_open = zero_open_;
+  path_event_.number = master_;
   path_event_.centre_side = modal_.comp;
   if (modal_.comp != ir::CompSide::off) path_event_.plane = modal_.plane;
   put_offset(path_event_, moved);
@@ -295,8 +296,12 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
   if (variable && lead_ == 0 && move.pitch_change == 0) lead_ = reached_pitch_;
   move.pitch = lead_;
   if (lead_ == 0) return failure_.fail(code::thread_pitch, "the thread has no pitch");
+  const auto way = [&move](ir::AxisId a) { return std::abs(move.to[a] - move.from[a]); };
   double travel = 0;
-  for (const auto a : axes_) travel = std::max(travel, std::abs(move.to[a] - move.from[a]));
+  for (const auto a : axes_) travel = std::max(travel, way(a));
+  // The trace has the pitch along the longest way.
+  if (m.extra && m.extra->has_lead && m.extra->lead_axis != ir::axis::none && way(m.extra->lead_axis) > no_move)
+    move.pitch *= travel / way(m.extra->lead_axis);
   const double square = lead_ * lead_ + 2 * move.pitch_change * travel;
   if (square < 0) return failure_.fail(code::thread_pitch, "the pitch of the thread falls to zero before its end");
   reached_pitch_ = std::copysign(std::sqrt(square), lead_);

@@ -250,6 +250,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   e.feed_mode = move.feed_mode;
   e.in_machine = move.in_machine;
   e.zero_open = zero_open_ && !move.in_machine;
+  e.number = master_;
   put_centre_side(e, move.comp, move.plane);
   put_offset(e, moved);
   switch (move.kind) {
@@ -264,6 +265,8 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
       e.pitch = move.pitch;
       e.pitch_change = move.pitch_change;
       e.start_angle = move.start_angle;
+      e.css = spindles_[master_].mode == ir::SpindleMode::css;
+      e.value = spindles_[master_].value[static_cast<std::size_t>(spindles_[master_].mode)];
       break;
     case Move::Kind::arc: {
       const auto plane = ir::plane_axes(move.plane);

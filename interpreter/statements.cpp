@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "interpreter/message_form.h"
 #include "interpreter/run_codes.h"
 #include "interpreter/runner.h"
 #include "ir/cycles/mill_contour.h"
@@ -236,7 +237,7 @@ bool Runner::whole_number(const ir::ExprPtr& e, std::int64_t otherwise, std::int
 
 void Runner::message(const ir::Message& m, const Span& where) {
   if (m.kind == ir::MessageKind::clear) return;
-  std::string text;
+  std::string text, marked;
   const auto file = ir::file_statement(m);
   const bool into_file = file.has_value();
   for (const auto& part : m.parts) {
@@ -247,10 +248,11 @@ void Runner::message(const ir::Message& m, const Span& where) {
       shown = "?";
     }
     text += shown;
+    marked += std::holds_alternative<ir::String>(part->node) ? shown : marked_value(shown);
   }
   if (failure_.set || (file && !write_file(*file, text))) return;
   if (file && file->use != ir::FileUse::line) return;
-  machine_.message(text, where);
+  machine_.message(marked, where);
   if (emitter_.limit_reached()) state_ = State::event_limit;
   if (m.kind != ir::MessageKind::error) return;
   std::string number;

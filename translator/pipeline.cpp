@@ -1,5 +1,7 @@
 #include "translator/pipeline.h"
 
+#include <algorithm>
+
 #include "ir/text.h"
 #include "translator/called.h"
 #include "translator/definitions.h"
@@ -13,6 +15,16 @@ namespace cnctrans::translator {
 SourcePtr Input::open(std::string* error) const {
   return text_ ? text_ : SourceText::open(path_, error);
 }
+
+namespace {
+
+const Diagnostic* first_error(const Diagnostics& said) {
+  const auto& all = said.all();
+  const auto it = std::find_if(all.begin(), all.end(), [](const auto& d) { return d.severity == Severity::error; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+}  // namespace
 
 VerifyResult verify(const Input& source, const std::vector<Input>& targets, const TranslateOptions& options) {
   VerifyResult result;
@@ -49,6 +61,11 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
                        can.length_comp_switch,
                        false});
   result.verdict = std::move(proof.verdict);
+  if (const auto* unread = first_error(b_said); result.verdict.good() && unread != nullptr && !a_said.has_errors()) {
+    result.verdict.status = verifier::Status::not_replayable;
+    result.verdict.reason = "the translation has an error in line " + std::to_string(unread->span.line) +
+                            ", where no replay came to (" + unread->code + ": " + unread->message + ")";
+  }
   const auto all_said = [](Diagnostics said, Reading& of, const Replayed& run) {
     said.append(of.loader().library_diagnostics());
     if (run.result.reason != interpreter::EndReason::error) said = as_warnings(said);

@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "base/text.h"
+#include "verifier/commands.h"
 #include "verifier/cycle_pairs.h"
-#include "verifier/messages.h"
+#include "verifier/dwells.h"
 #include "verifier/normalise.h"
 #include "verifier/tool_names.h"
 
@@ -91,9 +92,9 @@ class Comparison {
     }
     if (is_motion(a.kind)) return step_motion(a, b);
     if (a.kind == EventKind::dwell) return step_dwell();
-    const std::string what = state_difference(a, b);
+    const std::string what = command_difference(a, b, options_, tools_);
     if (!what.empty()) return differ(what, i_, j_);
-    if (a.kind == EventKind::spindle) rpm_ = a.state == "off" || a.css ? 0 : a.value;
+    if (a.kind == EventKind::spindle) rpm_[a.number] = a.state == "off" || a.css ? 0 : a.value;
     ++verdict_.events;
     ++i_;
     ++j_;
@@ -102,31 +103,13 @@ class Comparison {
 
   /// Dwells that follow each other are one. Revolutions of a known speed are a time.
   bool step_dwell() {
-    const Dwells a = dwells(a_, i_), b = dwells(b_, j_);
-    const double allowed = options_.tolerances.seconds * double(std::max(a.events, b.events));
-    const auto whole = [this](const Dwells& d) { return d.seconds + d.turns * 60 / rpm_; };
-    const bool known = rpm_ > 0 && (a.turns == 0) != (b.turns == 0);
-    const bool same = known ? std::fabs(whole(a) - whole(b)) <= allowed
-                            : std::fabs(a.seconds - b.seconds) <= allowed && std::fabs(a.turns - b.turns) <= allowed;
-    if (!same) return differ(fmt::format("dwell of {} in the source, {} in the translation", said(a), said(b)), i_, j_);
+    const Dwells a(a_, i_), b(b_, j_);
+    if (!a.same(b, rpm_, options_.tolerances.seconds))
+      return differ(fmt::format("dwell of {} in the source, {} in the translation", a.said(), b.said()), i_, j_);
     verdict_.events += std::max(a.events, b.events);
     i_ += a.events;
     j_ += b.events;
     return true;
-  }
-  struct Dwells {
-    double seconds = 0, turns = 0;
-    std::size_t events = 0;
-  };
-  static Dwells dwells(const std::vector<const Event*>& trace, std::size_t from) {
-    Dwells d;
-    for (; from < trace.size() && trace[from]->kind == EventKind::dwell; ++from, ++d.events)
-      (trace[from]->revolutions ? d.turns : d.seconds) += trace[from]->amount;
-    return d;
-  }
-  static std::string said(const Dwells& d) {
-    if (d.turns == 0) return shortest(d.seconds) + " s";
-    return shortest(d.turns) + " revolutions" + (d.seconds == 0 ? "" : " and " + shortest(d.seconds) + " s");
   }
 
   bool step_motion(const Event& a, const Event& b) {
@@ -294,8 +277,9 @@ class Comparison {
 
   [[nodiscard]] bool same_feed(const Event& a, const Event& b) const {
     if (a.kind == EventKind::rapid) return true;
-    return a.feed_mode == b.feed_mode &&
-           (a.feed == 0 || close_relative(a.feed, b.feed, options_.tolerances.feed_relative));
+    if (a.feed_mode != b.feed_mode) return false;
+    const bool same_spindle = a.feed_mode != ir::FeedMode::per_rev || a.number == b.number;
+    return same_spindle && (a.feed == 0 || close_relative(a.feed, b.feed, options_.tolerances.feed_relative));
   }
 
   static std::string end_difference(const Event& a, const Event& b) {
@@ -359,8 +343,11 @@ class Comparison {
 
   std::string motion_difference(const Event& a, const Event& b) {
     if (a.kind != EventKind::rapid && a.kind != EventKind::thread && !same_feed(a, b)) {
-      return fmt::format("feed {} ({}) in the source, {} ({}) in the translation", shortest(a.feed),
-                         ir::name(a.feed_mode), shortest(b.feed), ir::name(b.feed_mode));
+      const auto spindle = [&](const Event& e) {
+        return a.feed_mode == b.feed_mode && a.number != b.number ? fmt::format(", spindle {}", e.number) : "";
+      };
+      return fmt::format("feed {} ({}{}) in the source, {} ({}{}) in the translation", shortest(a.feed),
+                         ir::name(a.feed_mode), spindle(a), shortest(b.feed), ir::name(b.feed_mode), spindle(b));
     }
     if (a.kind != EventKind::rapid && a.kind != EventKind::thread && a.feed == 0 && b.feed != 0) ++verdict_.unfed_moves;
     if (a.kind == EventKind::arc) return arc_difference(a, b);
@@ -370,6 +357,10 @@ class Comparison {
       return fmt::format("thread pitch {} in the source, {} in the translation (or its change or start angle)",
                          shortest(a.pitch), shortest(b.pitch));
     }
+    if (a.kind == EventKind::thread) return stroke_difference(a, b, options_.tolerances);
+    if (a.kind == EventKind::probe && a.change != b.change)
+      return fmt::format("probing {} the part in the source, {} in the translation", a.change ? "toward" : "away from",
+                         b.change ? "toward" : "away from");
     return {};
   }
 
@@ -398,56 +389,14 @@ class Comparison {
     return {};
   }
 
-  [[nodiscard]] std::string state_difference(const Event& a, const Event& b) const {
-    const auto& t = options_.tolerances;
-    switch (a.kind) {
-      case EventKind::spindle:
-        if (a.number != b.number || a.state != b.state ||
-            (a.state != "off" && (a.css != b.css || !close_relative(a.value, b.value, t.speed_relative))) ||
-            a.has_limit != b.has_limit || (a.has_limit && !close_relative(a.limit, b.limit, t.speed_relative)) ||
-            (a.state == "oriented" && std::fabs(a.angle - b.angle) > t.angle)) {
-          return fmt::format("spindle {} {} {} in the source, {} {} {} in the translation", a.number, a.state,
-                             shortest(a.value), b.number, b.state, shortest(b.value));
-        }
-        return {};
-      case EventKind::tool:
-        if (a.change != b.change || (options_.tool_numbers && !tools_.same(a, b))) {
-          return fmt::format("tool {}{} in the source, {}{} in the translation", a.number, a.change ? " (change)" : "",
-                             b.number, b.change ? " (change)" : "");
-        }
-        return {};
-      case EventKind::offset:
-        return options_.offset_numbers && a.number != b.number
-                   ? fmt::format("offset {} in the source, {} in the translation", a.number, b.number)
-                   : "";
-      case EventKind::comp: return {};  // on both sides; left or right is compared move by move
-      case EventKind::coolant:
-        return a.state != b.state ? fmt::format("{} {} in the source, {} in the translation", interpreter::name(a.kind),
-                                                a.state, b.state)
-                                  : "";
-      case EventKind::m:
-        return a.number != b.number ? fmt::format("M{} in the source, M{} in the translation", a.number, b.number) : "";
-      case EventKind::message:
-        return same_message(a.text, b.text)
-                   ? ""
-                   : fmt::format("message \"{}\" in the source, \"{}\" in the translation", a.text, b.text);
-      case EventKind::stop: return a.optional_stop != b.optional_stop ? "an optional stop on one side only" : "";
-      case EventKind::end:
-        return a.reason != b.reason ? fmt::format("the run ends by {} in the source, by {} in the translation",
-                                                  interpreter::name(a.reason), interpreter::name(b.reason))
-                                    : "";
-      default: return {};
-    }
-  }
-
   std::vector<const Event*> a_, b_;
   const Event *first_a_, *first_b_;  ///< of the traces before normalisation
   const Options& options_;
-  mutable ToolNames tools_;
+  ToolNames tools_;
   Verdict& verdict_;
   std::size_t i_ = 0, j_ = 0;
   Position from_a_, from_b_;
-  double rpm_ = 0;  ///< 0: not known, or it changes with the diameter
+  SpindleSpeeds rpm_;
   CyclePairs cycles_;
   const interpreter::CycleRun* cycle_ = nullptr;  ///< of the source: the last one that has begun
   PairPlace before_cycle_;
@@ -460,7 +409,7 @@ class Comparison {
 Verdict compare(const std::vector<Event>& source, const std::vector<Event>& target, const Options& options) {
   Verdict verdict;
   verdict.status = Status::verified;
-  const bool selections = has_selections(source) && has_selections(target);
+  const bool selections = !changes_with_the_word(source) && !changes_with_the_word(target);
   Comparison(source, target, selections, options, verdict).run();
   if (verdict.status != Status::verified) return verdict;
   // An empty trace never verifies: nothing was proved.

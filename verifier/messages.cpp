@@ -1,5 +1,6 @@
 #include "verifier/messages.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/text.h"
@@ -9,39 +10,34 @@ namespace cnctrans::verifier {
 
 namespace {
 
-/// Letters and digits in capitals: what must survive of a message on a control with a smaller character set.
-std::string message_core(std::string_view text) {
-  std::string core;
-  for (const char c : to_upper_ascii(to_ascii(text, nullptr))) {
-    if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) core += c;
-  }
-  return core;
-}
-constexpr std::size_t message_core_kept = 24;
+constexpr std::size_t length = 39;        ///< that every control shows
+constexpr std::size_t longest_value = 6;  ///< as a text has it, "?P1234"; what is shown may be one digit
 
-/// A control that can't show values inside a message shows '?' for each: what stands between them must be there, in
-/// order.
-bool message_with_gaps(std::string_view source, std::string_view target) {
-  if (target.find('?') == std::string_view::npos || source.find('?') != std::string_view::npos) return false;
-  const std::string whole = message_core(source);
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t gap = target.find('?');
-    const std::string part = message_core(target.substr(0, gap));
-    const std::size_t found = whole.find(part, at);
-    if (found == std::string::npos || (at == 0 && found != 0)) return false;
-    at = found + part.size();
-    if (gap == std::string_view::npos) return true;
-    target.remove_prefix(gap + 1);
+/// In plain capitals, as every control can show them.
+std::string plain(std::string_view text) {
+  std::string out = to_upper_ascii(to_ascii(text, nullptr));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    char& c = out[i];
+    if (c == '"') c = '\'';
+    if (c == '$' || (c == '?' && i + 1 < out.size() && out[i + 1] == 'P')) c = ' ';  // they begin a value somewhere
   }
+  // Spaces at the ends and beside others are not seen.
+  out.erase(std::unique(out.begin(), out.end(), [](char a, char b) { return a == ' ' && b == ' '; }), out.end());
+  return std::string(trim(out));
 }
 
 }  // namespace
 
-bool same_message(std::string_view source, std::string_view target) {
-  const std::string x = message_core(source), y = message_core(target);
-  const bool cut = y.size() >= message_core_kept && x.starts_with(y);
-  return x == y || cut || message_with_gaps(source, target);
+bool same_message(const interpreter::Event& source, std::string_view target) {
+  const std::string shown = plain(target);
+  const auto begins = [&](const std::string& whole, std::size_t least) {
+    return whole == shown || (target.size() + 1 >= least && whole.starts_with(shown));
+  };
+  std::string gaps = source.state;
+  const auto values = static_cast<std::size_t>(std::count(gaps.begin(), gaps.end(), interpreter::value_mark));
+  if (begins(plain(source.text), length - std::min(length, values * longest_value))) return true;
+  std::replace(gaps.begin(), gaps.end(), interpreter::value_mark, '?');
+  return values != 0 && begins(plain(gaps), length);
 }
 
 }  // namespace cnctrans::verifier

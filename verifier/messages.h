@@ -3,10 +3,13 @@
 
 #include <string_view>
 
+#include "interpreter/message_form.h"
+#include "interpreter/trace.h"
+
 namespace cnctrans::verifier {
 
-/// The same letters and digits. The translation's may end early, behind so many as every control shows, and may have a
-/// '?' for a value that the control can't show inside of a text.
-bool same_message(std::string_view source, std::string_view target);
+/// The same text, but for what a control can't show: letters with marks and small letters, the signs " and $, a value
+/// (a '?' stands for it), and what lies behind the end of the target's line.
+bool same_message(const interpreter::Event& source, std::string_view target);
 
 }  // namespace cnctrans::verifier

@@ -107,6 +107,11 @@ class Taps {
       flush();
       starts_.push_back(order.size());
     }
+    if (e.kind == EventKind::tool && e.change) {  // a spindle that still turns there is seen
+      flush();
+      tap_ = false;
+      stroke_ = nullptr;
+    }
     if (!is_barrier(e.kind)) {
       order.push_back(&e);
       return;
@@ -149,9 +154,9 @@ class Taps {
 
 }  // namespace
 
-bool has_selections(const std::vector<Event>& events) {
+bool changes_with_the_word(const std::vector<Event>& events) {
   return std::any_of(events.begin(), events.end(),
-                     [](const Event& e) { return e.kind == EventKind::tool && !e.change; });
+                     [](const Event& e) { return e.kind == EventKind::tool && !e.state.empty(); });
 }
 
 std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections) {
@@ -160,10 +165,19 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
   StateFilter filter;
   std::size_t stretch = 0;
   const auto close_stretch = [&out, &stretch] {
-    std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(stretch), out.end(),
-                     [](const Event* a, const Event* b) { return a->kind < b->kind; });
-    // Of speeds and limits that follow each other with nothing between only the last is ever driven.
+    // By kind; but how the spindle turns at the change of a tool, and behind it, are two things.
+    std::vector<std::pair<int, const Event*>> ranked;
     const auto from = out.begin() + static_cast<std::ptrdiff_t>(stretch);
+    bool changed = false;
+    for (auto at = from; at != out.end(); ++at) {
+      const Event& e = **at;
+      changed = changed || (e.kind == EventKind::tool && e.change);
+      const bool behind = changed && e.kind == EventKind::spindle;
+      ranked.emplace_back(2 * static_cast<int>(behind ? EventKind::tool : e.kind) + (behind ? 1 : 0), &e);
+    }
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::transform(ranked.begin(), ranked.end(), from, [](const auto& r) { return r.second; });
+    // Of speeds and limits that follow each other with nothing between only the last is ever driven.
     auto kept = from;
     for (auto at = from; at != out.end(); ++at) {
       const bool replaced = at + 1 != out.end() && (*at)->kind == EventKind::spindle &&

@@ -29,7 +29,8 @@ std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::
 [[nodiscard]] inline std::uint32_t known_of_source(const interpreter::Event& e, bool switches) {
   return switches ? e.offset.known : e.offset.known & ~e.offset.switched_off;
 }
-/// Some tool is made ready before its change.
-bool has_selections(const std::vector<interpreter::Event>& events);
+
+/// The machine changes the tool at its word: none is made ready before.
+bool changes_with_the_word(const std::vector<interpreter::Event>& events);
 
 }  // namespace cnctrans::verifier

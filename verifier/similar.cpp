@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "base/text.h"
 #include "ir/cycles/left_material.h"
@@ -13,6 +12,7 @@
 #include "verifier/similar_pocket.h"
 #include "verifier/similar_tap.h"
 #include "verifier/similar_thread.h"
+#include "verifier/similar_ways.h"
 
 namespace cnctrans::verifier {
 
@@ -134,6 +134,7 @@ class Stock {
     if (what.empty()) what = below(there, "source");
     if (what.empty()) what = below(here, "translation");
     if (what.empty()) what = material(there, here);
+    if (what.empty()) what = infeeds(there, here);
     return what;
   }
 
@@ -172,19 +173,70 @@ class Stock {
   }
 
   std::string feeds(const std::vector<Move>& there, const std::vector<Move>& here) const {
-    for (const bool finishing : {false, true}) {
-      for (const auto& m : here) {
-        if (!cuts(*m.event) || m.comp != finishing) continue;
-        const bool known = std::any_of(there.begin(), there.end(), [&](const Move& o) {
-          return cuts(*o.event) && o.comp == finishing && o.event->feed_mode == m.event->feed_mode &&
-                 close_relative(o.event->feed, m.event->feed, t_.feed_relative);
-        });
-        if (!known)
-          return fmt::format("a pass of the translation's cycle has the feed {} ({}), none of the source's has",
-                             shortest(m.event->feed), ir::name(m.event->feed_mode));
-      }
+    const auto plunges = [](const Move& m) {
+      const Point &a = m.points.front(), &b = m.points.back();
+      return a.p - b.p > std::fabs(a.q - b.q);
+    };
+    const bool dives =
+        std::any_of(there.begin(), there.end(), [&](const Move& m) { return cuts(*m.event) && !m.comp && plunges(m); });
+    for (const auto& m : here) {
+      if (!cuts(*m.event)) continue;
+      const bool any_way = m.comp || (plunges(m) && !dives);
+      const bool known = std::any_of(there.begin(), there.end(), [&](const Move& o) {
+        return cuts(*o.event) && o.comp == m.comp && (any_way || plunges(o) == plunges(m)) &&
+               o.event->feed_mode == m.event->feed_mode &&
+               close_relative(o.event->feed, m.event->feed, t_.feed_relative);
+      });
+      if (!known)
+        return fmt::format("a {} of the translation's cycle has the feed {} ({}), none of the source's has",
+                           plunges(m) && !m.comp ? "plunge" : "pass", shortest(m.event->feed),
+                           ir::name(m.event->feed_mode));
     }
     return {};
+  }
+
+  /// The passes straight along the part, in the order in which they are cut: how far each lies below those before it.
+  /// `first`: above the first one at its place; nullopt: not counted.
+  template <class First>
+  static double deepest(const std::vector<Move>& moves, const First& first) {
+    struct Level {
+      double p, low, high;
+    };
+    std::vector<Level> cut;
+    double most = 0;
+    for (const auto& m : moves) {
+      const Point &a = m.points.front(), &b = m.points.back();
+      constexpr double least = 0.1;  // mm
+      if (m.comp || m.event->kind != EventKind::linear || std::fabs(a.p - b.p) > 1e-4 || std::fabs(a.q - b.q) < least)
+        continue;
+      const Level now{a.p, std::min(a.q, b.q), std::max(a.q, b.q)};
+      std::optional<double> before;
+      for (const auto& c : cut) {
+        const bool over = std::min(c.high, now.high) - std::max(c.low, now.low) > (now.high - now.low) / 2;
+        if (over) before = before ? std::min(*before, c.p) : c.p;
+      }
+      if (!before) before = first(now.low, now.high);
+      if (before) most = std::max(most, *before - now.p);
+      cut.push_back(now);
+    }
+    return most;
+  }
+  [[nodiscard]] std::string infeeds(const std::vector<Move>& there, const std::vector<Move>& here) const {
+    const double most = deepest(there, [](double, double) { return std::optional<double>(); });
+    // The material begins where the source cuts first.
+    const double deep = deepest(here, [&](double low, double high) -> std::optional<double> {
+      std::optional<double> top;
+      for (const auto& m : there) {
+        if (!cuts(*m.event) || m.comp) continue;
+        for (const auto& p : m.points) {
+          if (p.q > low && p.q < high) top = top ? std::max(*top, p.p) : p.p;
+        }
+      }
+      return top;
+    });
+    if (most == 0 || !too_deep(deep, most)) return {};
+    return fmt::format("a pass of the translation cuts {} mm deep, none of the source's more than {}", rounded(deep, 3),
+                       rounded(most, 3));
   }
 
   /// No pass, and no rapid move, under the contour that is to stay.
@@ -239,38 +291,10 @@ class Stock {
   double top_ = 0;  ///< the highest point that the source's passes come to
 };
 
-/// Other things than moves that a cycle does must be the same.
-std::string beside_the_moves(const CyclePasses& a, const CyclePasses& b) {
-  const auto of = [](const CyclePasses& side) {
-    std::multiset<std::string> found;
-    for (const Event* e : side.events) {
-      if (e->kind == EventKind::dwell) found.insert("a dwell of " + shortest(e->amount));
-      if (e->kind == EventKind::comp && e->state != "off") found.insert("compensation " + e->state);
-      const bool other = e->kind != EventKind::comp && e->kind != EventKind::dwell && e->kind != EventKind::rapid &&
-                         !cuts(*e) && e->kind != EventKind::thread;
-      if (other) found.insert(std::string(interpreter::name(e->kind)) + " " + e->state);
-    }
-    return found;
-  };
-  const auto there = of(a), here = of(b);
-  if (there == here) return {};
-  for (const auto& what : there) {
-    if (here.count(what) < there.count(what)) return "the translation's cycle lacks " + what;
-  }
-  for (const auto& what : here) {
-    if (there.count(what) < here.count(what)) return "the translation's cycle has " + what + " besides";
-  }
-  return {};
-}
-
-}  // namespace
-
-std::string similar_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances,
-                               double& max_length) {
-  if (source.run->family != target.run->family) return "the cycles are of different kinds";
+/// By what both leave.
+std::string part_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances,
+                            double& max_length) {
   if (source.run->family == "tap") return tap_difference(source, target, tolerances);
-  const std::string what = beside_the_moves(source, target);
-  if (!what.empty()) return what;
   if (source.run->family == "pocket") return pocket_difference(source, target, tolerances, max_length);
   if (source.run->family == "thread") return thread_difference(source, target, tolerances, max_length);
   if (source.run->family != "stock") return "cycles of this kind are compared move by move";
@@ -278,6 +302,17 @@ std::string similar_difference(const CyclePasses& source, const CyclePasses& tar
   std::string found = stock.difference();
   max_length = std::max(max_length, stock.apart);
   return found;
+}
+
+}  // namespace
+
+std::string similar_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances,
+                               double& max_length) {
+  if (source.run->family != target.run->family) return "the cycles are of different kinds";
+  std::string what = beside_the_moves(source, target);
+  const bool turned = source.run->family == "stock" || source.run->family == "thread";
+  if (what.empty()) what = part_difference(source, target, tolerances, max_length);
+  return what.empty() ? way_difference(source, target, turned) : what;
 }
 
 }  // namespace cnctrans::verifier

@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "base/text.h"
 #include "verifier/normalise.h"
+#include "verifier/similar_ways.h"
 
 namespace cnctrans::verifier {
 
@@ -32,6 +35,19 @@ struct PocketMove {
   const Event* event = nullptr;
   std::vector<PocketPoint> points;
 };
+
+/// The directions, as points on a circle of radius 1.
+const std::array<PocketPoint, directions>& ways_around() {
+  static const auto ways = [] {
+    std::array<PocketPoint, directions> out;
+    for (std::size_t d = 0; d < directions; ++d) {
+      const double angle = full * static_cast<double>(d) / directions;
+      out[d] = {std::cos(angle), std::sin(angle), 0};
+    }
+    return out;
+  }();
+  return ways;
+}
 
 class Side {
  public:
@@ -59,11 +75,7 @@ class Side {
   [[nodiscard]] std::array<double, directions> reach(bool floor, double room) const {
     std::array<double, directions> out{};
     out.fill(-std::numeric_limits<double>::infinity());
-    std::array<Point, directions> toward;
-    for (std::size_t d = 0; d < directions; ++d) {
-      const double angle = full * static_cast<double>(d) / directions;
-      toward[d] = {std::cos(angle), std::sin(angle), 0};
-    }
+    const auto& toward = ways_around();
     for (const auto& m : moves_) {
       if (!cuts(*m.event)) continue;
       for (std::size_t k = 1; k < m.points.size(); ++k) {
@@ -178,6 +190,9 @@ class Pockets {
     if (what.empty()) what = walls(false);
     if (what.empty()) what = feeds();
     if (what.empty()) what = material();
+    if (what.empty()) what = infeeds();
+    if (what.empty() && begin(b_) < a_.surface() + t_.contour && begin(a_) > a_.surface() + t_.contour)
+      what = "a rapid move of the translation's cycle comes down to the material";
     return what;
   }
 
@@ -197,22 +212,74 @@ class Pockets {
     const PocketPoint &from = m.points.front(), &to = m.points.back();
     return to.w < from.w && std::hypot(to.u - from.u, to.v - from.v) <= t_.contour;
   }
+  /// What a cut is for: straight down, in the plane along the walls that are to stay, elsewhere in the plane, or both
+  /// at once (a ramp).
+  enum class Role { plunge, wall, plane, ramp };
+  [[nodiscard]] Role role_of(const PocketMove& m, const std::array<double, directions>& walls) const {
+    if (goes_down(m)) return Role::plunge;
+    if (std::fabs(m.points.back().w - m.points.front().w) > t_.contour) return Role::ramp;
+    // All along a wall: the middle of the way, too.
+    const PocketPoint &a = m.points.front(), &b = m.points.back(), &c = m.points[m.points.size() / 2];
+    const PocketPoint middle = m.points.size() > 2 ? c : PocketPoint{(a.u + b.u) / 2, (a.v + b.v) / 2, a.w};
+    for (std::size_t d = 0; d < directions; ++d) {
+      const PocketPoint& toward = ways_around()[d];
+      const double far = middle.u * toward.u + middle.v * toward.v + a_.radius();
+      if (far > walls[d] - t_.contour) return Role::wall;
+    }
+    return Role::plane;
+  }
   [[nodiscard]] std::string feeds() const {
+    const auto walls = a_.reach(false, t_.contour);
+    std::set<Role> roles;
+    std::vector<std::pair<Role, const Event*>> there;
+    for (const auto& m : a_.moves()) {
+      if (!cuts(*m.event)) continue;
+      there.emplace_back(role_of(m, walls), m.event);
+      roles.insert(there.back().first);
+    }
     const bool dives = std::any_of(a_.moves().begin(), a_.moves().end(), [this](const PocketMove& m) {
       return !cuts(*m.event) && goes_down(m) && m.points.back().w < a_.surface() - t_.contour;
     });
     for (const auto& m : b_.moves()) {
       if (!cuts(*m.event)) continue;
-      if (dives && goes_down(m)) continue;  // at feed where the source goes down in rapid
-      const bool known = std::any_of(a_.moves().begin(), a_.moves().end(), [&](const PocketMove& o) {
-        return cuts(*o.event) && o.event->feed_mode == m.event->feed_mode &&
-               close_relative(o.event->feed, m.event->feed, t_.feed_relative);
+      const Role role = role_of(m, walls);
+      if (dives && role == Role::plunge) continue;  // at feed where the source goes down in rapid
+      const bool known = std::any_of(there.begin(), there.end(), [&](const auto& o) {
+        return (o.first == role || roles.count(role) == 0) && o.second->feed_mode == m.event->feed_mode &&
+               close_relative(o.second->feed, m.event->feed, t_.feed_relative);
       });
       if (!known)
-        return fmt::format("a pass of the translation's cycle has the feed {} ({}), none of the source's has",
+        return fmt::format("a {} of the translation's cycle has the feed {} ({}), none of the source's has",
+                           role == Role::plunge ? "plunge"
+                           : role == Role::wall ? "pass along the wall"
+                                                : "pass",
                            shortest(m.event->feed), ir::name(m.event->feed_mode));
     }
     return {};
+  }
+  /// How far below the ones before it the tool cuts in a plane.
+  [[nodiscard]] double infeed(const Side& side) const {
+    double lowest = side.surface(), most = 0;
+    for (const auto& m : side.moves()) {
+      const double from = m.points.front().w, to = m.points.back().w;
+      if (!cuts(*m.event) || std::fabs(from - to) > t_.contour || to >= lowest) continue;
+      most = std::max(most, lowest - to);
+      lowest = to;
+    }
+    return most;
+  }
+  /// Height from which the tool cuts first.
+  static double begin(const Side& side) {
+    for (const auto& m : side.moves()) {
+      if (cuts(*m.event)) return m.points.front().w;
+    }
+    return side.surface();
+  }
+  [[nodiscard]] std::string infeeds() const {
+    const double there = infeed(a_), here = infeed(b_);
+    if (!too_deep(here, there)) return {};
+    return fmt::format("a pass of the translation cuts {} mm deep, none of the source's more than {}", rounded(here, 3),
+                       rounded(there, 3));
   }
   /// Both cut the same cells down to the floor, and the translation makes no rapid move through what stands.
   [[nodiscard]] std::string material() const {

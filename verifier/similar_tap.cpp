@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/text.h"
+#include "verifier/commands.h"
 
 namespace cnctrans::verifier {
 
@@ -44,6 +46,19 @@ std::optional<Hole> hole_of(const CyclePasses& side, const Tolerances& t, std::s
   return hole;
 }
 
+/// The strokes into the hole, or back out of it: each way has a speed of its own.
+std::vector<const Event*> strokes_of(const CyclePasses& side, bool back) {
+  const auto w = ir::plane_axes(side.run->plane).w;
+  double from = side.start.value[w];
+  std::vector<const Event*> out;
+  for (const Event* e : side.events) {
+    const double to = e->to.value[w];
+    if (e->kind == EventKind::thread && ((to - from) * side.run->out > 0) == back) out.push_back(e);
+    if (e->kind == EventKind::thread || e->kind == EventKind::rapid) from = to;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string tap_difference(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances) {
@@ -60,6 +75,13 @@ std::string tap_difference(const CyclePasses& source, const CyclePasses& target,
   if (std::fabs(a.surface - b.surface) > tolerances.length) return "the taps begin at other heights";
   if (std::fabs(there->depth - here->depth) > tolerances.length)
     return fmt::format("the threads are {} and {} mm deep", rounded(there->depth, 4), rounded(here->depth, 4));
+  for (const bool back : {false, true}) {
+    const auto of_source = strokes_of(source, back), of_target = strokes_of(target, back);
+    if (of_source.empty()) continue;
+    for (const Event* e : of_target) {
+      if (what = stroke_difference(*of_source.front(), *e, tolerances); !what.empty()) return what;
+    }
+  }
   if (!close_relative(there->pitch, here->pitch, tolerances.feed_relative))
     return fmt::format("thread pitch {} in the source, {} in the translation", shortest(there->pitch),
                        shortest(here->pitch));

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/text.h"
+#include "verifier/commands.h"
+#include "verifier/similar_ways.h"
 
 namespace cnctrans::verifier {
 
@@ -146,6 +148,7 @@ std::string thread_difference(const CyclePasses& source, const CyclePasses& targ
       if (!same_pitch(*a.event, *p.event))
         return fmt::format("a pass of the thread has the pitch {}, in the source {}", shortest(p.event->pitch),
                            shortest(a.event->pitch));
+      if (auto what = stroke_difference(*a.event, *p.event, t); !what.empty()) return what;
       if (depth(p) < -t.contour || out * (p.from.p - on_line(a, p.from.q)) < -t.contour)
         return "a pass of the translation goes below the thread";
       if (std::fabs(p.to.q - a.to.q) > t.contour) return "a pass of the translation ends elsewhere along the thread";
@@ -153,7 +156,7 @@ std::string thread_difference(const CyclePasses& source, const CyclePasses& targ
       before = depth(p);
     }
     // The first infeed counts from the first pass of the source; the others may be a little deeper by another law.
-    if (infeed_here > std::max(infeed_there, top_there / 4) * 1.3 + 0.01)
+    if (too_deep(infeed_here, std::max(infeed_there, top_there / 4)))
       return fmt::format("a pass of the translation cuts {} mm deep, none of the source's more than {}",
                          rounded(infeed_here, 3), rounded(infeed_there, 3));
   }

@@ -36,6 +36,7 @@ Event dwell(double amount, bool revolutions = false) {
   e.kind = EventKind::dwell;
   e.amount = amount;
   e.revolutions = revolutions;
+  e.number = 1;
   return e;
 }
 Event spindle(double rpm) {
