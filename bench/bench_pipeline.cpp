@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "frontends/common/word_scanner.h"
-#include "interpreter/interpreter.h"
-#include "translator/registry.h"
+#include "interpreter/program/interpreter.h"
+#include "translator/files/registry.h"
 
 namespace {
 

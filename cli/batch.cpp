@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "cli/common.h"
-#include "translator/batch.h"
-#include "translator/names_file.h"
+#include "translator/batch/batch.h"
+#include "translator/files/names_file.h"
 
 namespace cnctrans::cli {
 

@@ -9,11 +9,11 @@
 #include "base/text.h"
 #include "cli/common.h"
 #include "cli/stdout_sink.h"
-#include "translator/names_file.h"
+#include "translator/files/names_file.h"
+#include "translator/files/written_files.h"
 #include "translator/report/report.h"
-#include "translator/stream.h"
-#include "translator/stream_proof.h"
-#include "translator/written_files.h"
+#include "translator/stream/stream.h"
+#include "translator/stream/stream_proof.h"
 
 namespace cnctrans::cli {
 

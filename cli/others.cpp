@@ -3,8 +3,8 @@
 
 #include "base/text.h"
 #include "cli/common.h"
-#include "ir/text.h"
-#include "translator/readable.h"
+#include "ir/text/text.h"
+#include "translator/files/readable.h"
 
 namespace cnctrans::cli {
 

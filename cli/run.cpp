@@ -4,9 +4,9 @@
 
 #include "base/text.h"
 #include "cli/common.h"
-#include "interpreter/run_codes.h"
-#include "interpreter/trace.h"
-#include "translator/written_files.h"
+#include "interpreter/trace/run_codes.h"
+#include "interpreter/trace/trace.h"
+#include "translator/files/written_files.h"
 
 namespace cnctrans::cli {
 
@@ -86,7 +86,7 @@ std::string vars_json(const interpreter::Result& result) {
 }
 
 /// What the program has written, each file in the folder of --written. No file is written over that the run has read
-/// or that belongs to somebody else (translator/written_files.h).
+/// or that belongs to somebody else (translator/files/written_files.h).
 bool write_files(const Arguments& a, const translator::RunResult& result) {
   const translator::WrittenFiles::Origin origin{a.inputs.front(), {}, a.force};
   translator::WrittenFiles folder(a.written);

@@ -40,14 +40,11 @@ function(cnc_unity target)
   endif()
 endfunction()
 
-# cnc_library(folder [EXCLUDE regex] LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
+# cnc_library(folder LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
 function(cnc_library folder)
-  cmake_parse_arguments(ARG "" "EXCLUDE" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-  if(ARG_EXCLUDE)
-    list(FILTER sources EXCLUDE REGEX ${ARG_EXCLUDE})
-  endif()
   if(sources)
     add_library(cnc_${name} STATIC ${sources})
     cnc_unity(cnc_${name})

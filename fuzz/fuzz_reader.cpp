@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "interpreter/interpreter.h"
-#include "ir/text.h"
+#include "interpreter/program/interpreter.h"
+#include "ir/text/text.h"
 #include "translator/pipeline.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

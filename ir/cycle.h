@@ -85,7 +85,7 @@ enum class CycleTrigger : std::uint8_t {
   path_motion       ///< every later block with path motion
 };
 
-/// Kind `mill`: a row of ir/cycles/milling.h and its parameters by name.
+/// Kind `mill`: a row of ir/cycles/milling/milling.h and its parameters by name.
 struct MillWords {
   std::string shape;
   std::vector<std::pair<std::string, Value>> words;

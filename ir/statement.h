@@ -192,7 +192,7 @@ struct Message {
   MessageKind kind = MessageKind::show;
   std::vector<ExprPtr> parts;  ///< strings and numbers, joined
   ExprPtr number;              ///< error number; of a statement for a file its name or number, null: none is named
-  /// A statement for a file of the control, as it was written (ir/file_line.h). A run shows its lines.
+  /// A statement for a file of the control, as it was written (ir/edit/file_line.h). A run shows its lines.
   std::string file_line;
   FileUse file_use = FileUse::line;
 };

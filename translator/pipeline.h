@@ -10,11 +10,11 @@
 
 #include "backends/common/backend.h"
 #include "base/diagnostics.h"
-#include "interpreter/interpreter.h"
-#include "ir/passes/legalise.h"
-#include "translator/loader.h"
-#include "translator/proof.h"
-#include "translator/registry.h"
+#include "interpreter/program/interpreter.h"
+#include "legaliser/legalise.h"
+#include "translator/files/loader.h"
+#include "translator/files/registry.h"
+#include "translator/proving/proof.h"
 #include "verifier/compare.h"
 
 namespace cnctrans::translator {

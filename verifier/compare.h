@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/source.h"
-#include "interpreter/cycle_runs.h"
-#include "interpreter/trace.h"
+#include "interpreter/trace/cycle_runs.h"
+#include "interpreter/trace/trace.h"
 #include "machine/profile.h"
 #include "machine/world.h"
 

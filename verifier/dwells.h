@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/trace.h"
+#include "interpreter/trace/trace.h"
 
 namespace cnctrans::verifier {
 

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "interpreter/message_form.h"
-#include "interpreter/trace.h"
+#include "interpreter/trace/message_form.h"
+#include "interpreter/trace/trace.h"
 
 namespace cnctrans::verifier {
 

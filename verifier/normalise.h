@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "interpreter/trace.h"
+#include "interpreter/trace/trace.h"
 
 namespace cnctrans::verifier {
 

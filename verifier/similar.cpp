@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/text.h"
-#include "ir/cycles/left_material.h"
+#include "ir/cycles/turning/left_material.h"
 #include "verifier/normalise.h"
 #include "verifier/similar_pocket.h"
 #include "verifier/similar_tap.h"

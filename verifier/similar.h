@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/cycle_runs.h"
-#include "interpreter/trace.h"
+#include "interpreter/trace/cycle_runs.h"
+#include "interpreter/trace/trace.h"
 #include "verifier/compare.h"
 
 namespace cnctrans::verifier {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "interpreter/trace.h"
+#include "interpreter/trace/trace.h"
 
 namespace cnctrans::verifier {
 

@@ -13,9 +13,10 @@
 #include "base/diagnostics.h"
 #include "base/source.h"
 #include "base/text.h"
-#include "ir/passes/capabilities.h"
+#include "ir/analysis/uncalled.h"
 #include "ir/program.h"
-#include "ir/uncalled.h"
+#include "legaliser/capabilities.h"
+#include "legaliser/legalise.h"
 #include "machine/profile.h"
 
 namespace cnctrans::backends {

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "ir/cycles/pocket_call.h"
+#include "ir/cycles/milling/pocket_call.h"
 
 namespace cnctrans::backends {
 namespace {

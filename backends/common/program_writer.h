@@ -16,9 +16,9 @@
 #include "backends/common/line.h"
 #include "backends/common/motion_tracker.h"
 #include "backends/common/style.h"
-#include "ir/dataflow.h"
-#include "ir/file_line.h"
-#include "ir/hole_points.h"
+#include "ir/analysis/dataflow.h"
+#include "ir/analysis/hole_points.h"
+#include "ir/edit/file_line.h"
 
 namespace cnctrans::backends {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "ir/passes/editor.h"
-#include "ir/search.h"
+#include "ir/edit/search.h"
+#include "legaliser/edit/editor.h"
 
 namespace cnctrans::backends {
 

@@ -3,8 +3,8 @@
 
 #include "backends/common/program_writer.h"
 #include "base/text.h"
+#include "ir/edit/search.h"
 #include "ir/opaque_words.h"
-#include "ir/search.h"
 
 namespace cnctrans::backends {
 namespace {

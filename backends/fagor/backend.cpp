@@ -6,8 +6,8 @@
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "dialects/fagor/axis_exchange.h"
-#include "ir/passes/mirrored_presets.h"
-#include "ir/search.h"
+#include "ir/analysis/domains/mirrored_presets.h"
+#include "ir/edit/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {

@@ -1,7 +1,8 @@
 // What the language can say, on a lathe and on a mill.
 #pragma once
 
-#include "ir/passes/capabilities.h"
+#include "legaliser/capabilities.h"
+#include "legaliser/legalise.h"
 
 namespace cnctrans::backends::fagor {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "backends/common/labels.h"
-#include "ir/passes/editor.h"
+#include "legaliser/edit/editor.h"
 
 namespace cnctrans::backends::fagor {
 namespace {

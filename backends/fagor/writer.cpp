@@ -9,8 +9,8 @@
 #include "backends/fagor/tables.h"
 #include "base/text.h"
 #include "dialects/fagor/limits.h"
-#include "ir/file_line.h"
-#include "ir/search.h"
+#include "ir/edit/file_line.h"
+#include "ir/edit/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {

@@ -13,7 +13,7 @@
 #include "backends/fagor/cycles.h"
 #include "backends/fagor/expressions.h"
 #include "dialects/fagor/g_codes.h"
-#include "ir/rotary_places.h"
+#include "ir/analysis/rotary_places.h"
 
 namespace cnctrans::backends::fagor {
 

@@ -9,7 +9,7 @@
 #include "dialects/fagor/limits.h"
 #include "dialects/fagor/patterns.h"
 #include "dialects/fagor/pockets.h"
-#include "ir/search.h"
+#include "ir/edit/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {

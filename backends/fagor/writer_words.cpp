@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "dialects/fagor/cycles.h"
 #include "dialects/fagor/pockets.h"
-#include "ir/search.h"
+#include "ir/edit/search.h"
 
 namespace cnctrans::backends::fagor {
 namespace {

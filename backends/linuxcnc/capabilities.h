@@ -1,7 +1,8 @@
 // What LinuxCNC programs can say.
 #pragma once
 
-#include "ir/passes/capabilities.h"
+#include "legaliser/capabilities.h"
+#include "legaliser/legalise.h"
 
 namespace cnctrans::backends::linuxcnc {
 

@@ -7,7 +7,7 @@
 #include "backends/linuxcnc/tables.h"
 #include "base/text.h"
 #include "dialects/linuxcnc/limits.h"
-#include "ir/labels.h"
+#include "ir/edit/labels.h"
 
 namespace cnctrans::backends::linuxcnc {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ir/passes/capabilities.h"
+#include "legaliser/capabilities.h"
 
 namespace cnctrans::backends::num {
 

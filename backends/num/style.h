@@ -4,7 +4,7 @@
 #include "backends/common/expression_printer.h"
 #include "backends/common/stream_writer.h"
 #include "backends/common/style.h"
-#include "ir/passes/capabilities.h"
+#include "legaliser/capabilities.h"
 #include "machine/profile.h"
 
 namespace cnctrans::backends::num {

@@ -1,7 +1,8 @@
 // What Sinumerik can say, for legalisation.
 #pragma once
 
-#include "ir/passes/capabilities.h"
+#include "legaliser/capabilities.h"
+#include "legaliser/legalise.h"
 
 namespace cnctrans::backends::sinumerik {
 

@@ -12,8 +12,8 @@
 #include "dialects/sinumerik/milling.h"
 #include "dialects/sinumerik/turning.h"
 #include "ir/cycles/hole.h"
-#include "ir/cycles/mill_contour.h"
-#include "ir/cycles/milling.h"
+#include "ir/cycles/milling/mill_contour.h"
+#include "ir/cycles/milling/milling.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {

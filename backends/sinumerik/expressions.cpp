@@ -9,7 +9,7 @@
 #include "dialects/sinumerik/frames.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
-#include "ir/whole_numbers.h"
+#include "ir/edit/whole_numbers.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {

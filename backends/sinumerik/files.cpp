@@ -4,8 +4,8 @@
 
 #include "backends/sinumerik/writer.h"
 #include "base/text.h"
-#include "ir/file_line.h"
-#include "ir/passes/written_files.h"
+#include "ir/edit/file_line.h"
+#include "legaliser/data/written_files.h"
 
 namespace cnctrans::backends::sinumerik {
 

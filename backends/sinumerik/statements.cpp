@@ -4,7 +4,7 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/sinumerik/computed.h"
-#include "ir/contour.h"
+#include "ir/geometry/contour.h"
 
 namespace cnctrans::backends::sinumerik {
 

@@ -10,7 +10,7 @@
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/limits.h"
-#include "ir/search.h"
+#include "ir/edit/search.h"
 
 namespace cnctrans::backends::sinumerik {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ir/passes/axis_exchange.h"
+#include "ir/analysis/domains/axis_exchange.h"
 
 namespace cnctrans::dialects::fagor {
 

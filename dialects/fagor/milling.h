@@ -1,5 +1,5 @@
-// Pockets of the mill (25.3): letters and the parameters they are in ir/cycles/milling. The depth I, the reference
-// plane and D (from the reference plane to the surface) are levels of the cycle.
+// Pockets of the mill (25.3): letters and the parameters they are in ir/cycles/milling/milling. The depth I, the
+// reference plane and D (from the reference plane to the surface) are levels of the cycle.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct MillLetter {
 struct MillingCycle {
   int code;
   std::string_view name;   ///< "G87"
-  std::string_view shape;  ///< row of ir/cycles/milling
+  std::string_view shape;  ///< row of ir/cycles/milling/milling
   std::array<MillLetter, 7> letters;
 };
 /// What the letters mean when they are left out.

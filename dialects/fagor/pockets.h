@@ -1,5 +1,5 @@
 // Irregular pockets of the mill (25.5): letters of the call and of its operations, and the words they are in
-// ir/cycles/pocket_call.
+// ir/cycles/milling/pocket_call.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// G45, simple pockets (reference 11.6): addresses and the parameters they are in ir/cycles/milling. ER, EH and the
-// depth are levels of the cycle.
+// G45, simple pockets (reference 11.6): addresses and the parameters they are in ir/cycles/milling/milling. ER, EH and
+// the depth are levels of the cycle.
 #pragma once
 
 #include <array>

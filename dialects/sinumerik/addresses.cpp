@@ -181,8 +181,8 @@ constexpr std::string_view predefined[] = {
     "OMA1",     "OMA2",       "OMA3",       "OMA4",      "OMA5",     "POSRANGE",  "RDISABLE",  "SETTCOR",  "SIRELAY",
     "SIRELIN",  "SIRELOUT",   "SIRELTIME",  "SYNFCT",    "TOOLENV",  "WALCS"};
 
-/// Functions of axes and frames, in alphabetical order: frontends/sinumerik/system_data.cpp and lower_frames.cpp carry
-/// them.
+/// Functions of axes and frames, in alphabetical order: frontends/sinumerik/values/system_data.cpp and lower_frames.cpp
+/// carry them.
 constexpr std::string_view carried_functions[] = {
     "AXNAME",  "AXSTRING", "AXTOSPI",  "CALCDAT", "CFINE",      "CMIRROR",  "CROT",
     "CROTS",   "CRPL",     "CSCALE",   "CTAB",    "CTABEXISTS", "CTABINV",  "CTABPERIOD",

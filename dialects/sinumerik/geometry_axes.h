@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/passes/axis_exchange.h"
+#include "ir/analysis/domains/axis_exchange.h"
 
 namespace cnctrans::sinumerik {
 

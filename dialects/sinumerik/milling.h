@@ -1,4 +1,5 @@
-// Milling cycles that the IR carries: their parameters and those of ir/cycles/milling (reference-language 18.3).
+// Milling cycles that the IR carries: their parameters and those of ir/cycles/milling/milling
+// (reference-language 18.3).
 #pragma once
 
 #include <array>
@@ -25,7 +26,7 @@ inline constexpr std::string_view contour_begin = "E_LAB_A_", contour_end = "E_L
 
 struct MillingCycle {
   std::string_view name;                                                     ///< "POCKET3"
-  std::string_view shape;                                                    ///< row of ir/cycles/milling
+  std::string_view shape;                                                    ///< row of ir/cycles/milling/milling
   std::array<std::pair<std::string_view, std::string_view>, 20> parameters;  ///< own name, name in the IR
   std::string_view needs;        ///< own names that must be given, separated by one comma each
   std::string_view variants;     ///< values of VARI that are carried; empty: it has none

@@ -5,8 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "ir/dataflow.h"
-#include "ir/passes/kept_values.h"
+#include "ir/analysis/dataflow.h"
+#include "ir/analysis/domains/kept_values.h"
 
 namespace cnctrans::frontends {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <set>
 
-#include "ir/dataflow.h"
+#include "ir/analysis/dataflow.h"
 
 namespace cnctrans::frontends {
 

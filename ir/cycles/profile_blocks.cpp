@@ -5,7 +5,7 @@
 
 #include "base/saturate.h"
 #include "ir/cycles/words.h"
-#include "ir/labels.h"
+#include "ir/edit/labels.h"
 
 namespace cnctrans::ir::cycles {
 

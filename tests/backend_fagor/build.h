@@ -7,7 +7,7 @@
 
 #include "backends/fagor/backend.h"
 #include "base/source.h"
-#include "frontends/fagor/frontend.h"
+#include "frontends/fagor/program/frontend.h"
 #include "machine/profile.h"
 #include "tests/support/build_ir.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "interpreter/interpreter.h"
+#include "interpreter/program/interpreter.h"
 #include "tests/backend_fagor/build.h"
 
 namespace cnctrans::test {

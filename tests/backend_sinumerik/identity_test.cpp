@@ -1,6 +1,6 @@
 // Text in the control's own language, read and written again, is the same text when it is canonical (README of the
 // writer).
-#include "frontends/sinumerik/frontend.h"
+#include "frontends/sinumerik/program/frontend.h"
 #include "tests/backend_sinumerik/build.h"
 
 namespace cnctrans::test {

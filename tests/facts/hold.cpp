@@ -4,8 +4,8 @@
 #include <set>
 
 #include "base/text.h"
-#include "ir/dataflow.h"
-#include "translator/reading.h"
+#include "ir/analysis/dataflow.h"
+#include "translator/translation/reading.h"
 
 namespace cnctrans::facts {
 

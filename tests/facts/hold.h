@@ -1,4 +1,5 @@
-// The facts of the analysis (ir/dataflow.h) held against what the machine stands in when the run comes to a statement.
+// The facts of the analysis (ir/analysis/dataflow.h) held against what the machine stands in when the run comes to a
+// statement.
 #pragma once
 
 #include <array>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/source.h"
-#include "frontends/fagor/parse.h"
+#include "frontends/fagor/syntax/parse.h"
 
 namespace cnctrans::fagor {
 namespace {

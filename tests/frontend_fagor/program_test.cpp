@@ -9,8 +9,8 @@
 #include "dialects/fagor/variables.h"
 #include "dialects/fagor/words.h"
 #include "frontends/common/word_scanner.h"
-#include "frontends/fagor/parse.h"
-#include "frontends/fagor/scan_table.h"
+#include "frontends/fagor/syntax/parse.h"
+#include "frontends/fagor/syntax/scan_table.h"
 #include "tests/frontend_fagor/support.h"
 
 namespace cnctrans::fagor {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frontends/fagor/frontend.h"
-#include "ir/text.h"
+#include "frontends/fagor/program/frontend.h"
+#include "ir/text/text.h"
 
 namespace cnctrans::fagor::test {
 

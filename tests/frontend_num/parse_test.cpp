@@ -1,5 +1,5 @@
 // The grammar of one NUM block: the lexical traps, expressions, statements. Sections are the reference's.
-#include "frontends/num/parse.h"
+#include "frontends/num/syntax/parse.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "base/source.h"
-#include "frontends/num/frontend.h"
-#include "ir/text.h"
+#include "frontends/num/program/frontend.h"
+#include "ir/text/text.h"
 
 namespace cnctrans::frontends::num::testing {
 

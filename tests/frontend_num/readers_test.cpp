@@ -5,9 +5,9 @@
 #include <random>
 
 #include "frontends/common/word_scanner.h"
-#include "frontends/num/parse.h"
-#include "frontends/num/reader.h"
-#include "frontends/num/scan_table.h"
+#include "frontends/num/syntax/parse.h"
+#include "frontends/num/syntax/reader.h"
+#include "frontends/num/syntax/scan_table.h"
 
 namespace {
 

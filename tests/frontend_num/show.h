@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "frontends/num/parse.h"
+#include "frontends/num/syntax/parse.h"
 
 namespace cnctrans::frontends::num::testing {
 

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "frontends/common/word_scanner.h"
-#include "frontends/sinumerik/parse.h"
-#include "frontends/sinumerik/scan_table.h"
+#include "frontends/sinumerik/syntax/parse.h"
+#include "frontends/sinumerik/syntax/scan_table.h"
 #include "tests/frontend_sinumerik/show.h"
 
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "frontends/sinumerik/frontend.h"
-#include "frontends/sinumerik/parse.h"
-#include "ir/text.h"
+#include "frontends/sinumerik/program/frontend.h"
+#include "frontends/sinumerik/syntax/parse.h"
+#include "ir/text/text.h"
 
 namespace cnctrans::sinumerik::testing {
 

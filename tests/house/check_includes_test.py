@@ -11,15 +11,15 @@ GOOD = {
     "base/span.h": "#include <cstdint>\n",
     "ir/block.h": '#include "base/span.h"\n// a plain program, num of blocks\n',
     "ir/README.md": "The Fagor frontend fills this.\n",
-    "ir/passes/arcs.cpp": '#include "machine/profile.h"\n#include "ir/block.h"\n',
+    "legaliser/motion/arcs.cpp": '#include "legaliser/edit/blocks.h"\n#include "machine/profile.h"\n',
     "machine/profile.h": '#include "ir/block.h"\n',
     "machine/profile.cpp": '#include "machine/profile.h"\n#include <nlohmann/json.hpp>\n',
     "frontends/common/reader.h": '#include "ir/block.h"\n',
     "frontends/fagor/words.h": "#include <string>\n",
     "frontends/fagor/tree.h": '#include "fagor/FagorParser.h"\n',
     "frontends/fagor/parse.cpp": '#include "frontends/fagor/tree.h"\n#include "frontends/common/reader.h"\n',
-    "backends/num/write.cpp": '#include "ir/passes/arcs.h"\n',
-    "ir/passes/arcs.h": '#include "ir/block.h"\n',
+    "backends/num/write.cpp": '#include "legaliser/edit/blocks.h"\n',
+    "legaliser/edit/blocks.h": '#include "ir/block.h"\n',
     "include/cnctrans/cnctrans.h": "#include <stddef.h>\n",
     "translator/api.cpp": '#include "cnctrans/cnctrans.h"\n#include "base/span.h"\n',
 }
@@ -38,8 +38,8 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(run.returncode, 1 if run.stdout else 0)
         return run.stdout.splitlines()
 
-    def assert_fault(self, name, text, expected):
-        lines = self.faults(files={name: text})
+    def assert_fault(self, name, text, expected, beside=None):
+        lines = self.faults(files={name: text, **(beside or {})})
         self.assertEqual(len(lines), 1, lines)
         self.assertIn(expected, lines[0])
         self.assertTrue(lines[0].startswith(name + ":"), lines[0])
@@ -49,9 +49,20 @@ class CheckIncludes(unittest.TestCase):
 
     def test_arrow_back(self):
         self.assert_fault("base/a.cpp", '#include "ir/block.h"\n', "base may not include ir")
-        self.assert_fault("ir/a.cpp", '#include "ir/passes/arcs.h"\n', "ir may not include ir/passes")
-        self.assert_fault("machine/a.cpp", '#include "ir/passes/arcs.h"\n', "machine may not include ir/passes")
+        for folder in ("ir", "machine", "interpreter"):
+            self.assert_fault(f"{folder}/a.cpp", '#include "legaliser/edit/blocks.h"\n', f"{folder} may not include legaliser")
+        self.assert_fault("frontends/num/a.cpp", '#include "legaliser/edit/blocks.h"\n', "frontends/* may not include legaliser")
+        self.assert_fault("dialects/num/a.cpp", '#include "legaliser/edit/blocks.h"\n', "dialects may not include legaliser")
         self.assert_fault("interpreter/a.cpp", '#include "frontends/common/reader.h"\n', "interpreter may not include")
+
+    def test_rooms(self):
+        self.assert_fault("legaliser/edit/a.cpp", '#include "legaliser/motion/arcs.h"\n', "legaliser/edit may not include legaliser/motion",
+                          beside={"legaliser/motion/arcs.h": "#include <string>\n"})
+        self.assert_fault("ir/a.cpp", '#include "ir/cycles/hole.h"\n', "ir may not include ir/cycles",
+                          beside={"ir/cycles/hole.h": "#include <string>\n"})
+        self.assert_fault("legaliser/attic/a.cpp", '#include "legaliser/edit/blocks.h"\n', "is not in the table")
+        files = {f"base/f{n}.h": "#include <string>\n" for n in range(30)}  # beside span.h
+        self.assertEqual(len(self.faults(files=files)), 1)
 
     def test_frontend_and_backend_do_not_meet(self):
         self.assert_fault("backends/num/a.cpp", '#include "frontends/common/reader.h"\n', "backends/* may not include")

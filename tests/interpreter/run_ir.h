@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/text.h"
-#include "interpreter/interpreter.h"
-#include "ir/text.h"
+#include "interpreter/program/interpreter.h"
+#include "ir/text/text.h"
 #include "machine/profile.h"
 
 namespace cnctrans::interpreter {

@@ -1,5 +1,5 @@
 // The JSON form of every event, key by key, and the stream runner.
-#include "interpreter/trace.h"
+#include "interpreter/trace/trace.h"
 
 #include <nlohmann/json.hpp>
 

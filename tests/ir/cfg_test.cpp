@@ -4,8 +4,8 @@
 #include <chrono>
 #include <vector>
 
-#include "ir/dataflow.h"
-#include "ir/labels.h"
+#include "ir/analysis/dataflow.h"
+#include "ir/edit/labels.h"
 #include "tests/ir/read_ir.h"
 
 namespace cnctrans::ir {

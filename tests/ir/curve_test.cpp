@@ -1,5 +1,5 @@
 // Points of splines and polynomials by own arithmetic: closed forms, blossoms, systems of two equations by hand.
-#include "ir/curve.h"
+#include "ir/geometry/curve.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "ir/dataflow.h"
-#include "ir/fact_set.h"
+#include "ir/analysis/dataflow.h"
+#include "ir/analysis/fact_set.h"
 #include "tests/ir/read_ir.h"
 #include "tests/support/random_program.h"
 

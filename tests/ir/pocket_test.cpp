@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "ir/cycles/pocket_moves.h"
+#include "ir/cycles/milling/pocket_moves.h"
 
 namespace cnctrans::ir::cycles {
 namespace {

@@ -1,5 +1,5 @@
 // The textual form: every field of every node survives print -> read. The JSON form, written by other code, is witness.
-#include "ir/text.h"
+#include "ir/text/text.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <iterator>
 #include <set>
 
-#include "ir/enum_names.h"
+#include "ir/text/enum_names.h"
 #include "tests/support/random_program.h"
 
 namespace cnctrans::ir {

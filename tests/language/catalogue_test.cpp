@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "tests/interpreter/run_ir.h"
 #include "tests/language/markdown.h"
-#include "translator/registry.h"
+#include "translator/files/registry.h"
 
 namespace cnctrans {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "ir/text.h"
+#include "ir/text/text.h"
 #include "tests/language/markdown.h"
 #include "translator/pipeline.h"
 

@@ -16,11 +16,11 @@
 #include "dialects/fagor/g_codes.h"
 #include "dialects/num/gcodes.h"
 #include "dialects/sinumerik/cycles.h"
+#include "ir/check/missing_features.h"
 #include "ir/cycles/pattern.h"
-#include "ir/missing_features.h"
 #include "tests/language/markdown.h"
+#include "translator/files/registry.h"
 #include "translator/pipeline.h"
-#include "translator/registry.h"
 
 namespace cnctrans {
 namespace {

@@ -9,7 +9,7 @@
 #include "dialects/fagor/m_codes.h"
 #include "dialects/fagor/variables.h"
 #include "dialects/fagor/words.h"
-#include "ir/missing_features.h"
+#include "ir/check/missing_features.h"
 #include "machine/data_at_rest.h"
 #include "machine/profile.h"
 #include "tests/language/markdown.h"

@@ -1,7 +1,7 @@
 // tests/identity/<dialect>/: read, write, same text; and reading the written text gives the same program.
 #include <gtest/gtest.h>
 
-#include "ir/text.h"
+#include "ir/text/text.h"
 #include "tests/language/markdown.h"
 #include "translator/pipeline.h"
 

@@ -12,7 +12,7 @@
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
-#include "ir/missing_features.h"
+#include "ir/check/missing_features.h"
 #include "machine/options.h"
 #include "tests/language/markdown.h"
 

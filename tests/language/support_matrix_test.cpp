@@ -10,7 +10,7 @@
 #include "dialects/num/options.h"
 #include "dialects/num/variables.h"
 #include "dialects/num/words.h"
-#include "ir/missing_features.h"
+#include "ir/check/missing_features.h"
 #include "tests/language/markdown.h"
 
 namespace cnctrans {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/cycle_runs.h"
-#include "interpreter/trace.h"
+#include "interpreter/trace/cycle_runs.h"
+#include "interpreter/trace/trace.h"
 #include "tests/mutation/faults.h"
 #include "tests/splice/programs.h"
 

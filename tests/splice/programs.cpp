@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "tests/language/markdown.h"
-#include "translator/loader.h"
+#include "translator/files/loader.h"
 
 namespace cnctrans::splice {
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "base/text.h"
-#include "ir/enum_names.h"
 #include "ir/fields_statement.h"
 #include "ir/program.h"
-#include "ir/text_names.h"
+#include "ir/text/enum_names.h"
+#include "ir/text/text_names.h"
 
 namespace cnctrans::test {
 

@@ -1,5 +1,5 @@
 // A shape is learned from one line and written for the others; what is not the same shape is refused.
-#include "translator/line_shapes.h"
+#include "translator/stream/line_shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include "tests/translator/plain_program.h"
-#include "translator/stream.h"
+#include "translator/stream/stream.h"
 
 namespace cnctrans::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "translator/stream.h"
+#include "translator/stream/stream.h"
 
 namespace cnctrans::translator {
 namespace {

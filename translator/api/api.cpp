@@ -3,8 +3,8 @@
 
 #include "machine/profile.h"
 #include "translator/api/calls.h"
+#include "translator/files/readable.h"
 #include "translator/option_words.h"
-#include "translator/readable.h"
 #include "translator/version.h"
 
 namespace cnctrans::api {

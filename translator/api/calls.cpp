@@ -3,8 +3,8 @@
 #include <exception>
 #include <memory>
 
-#include "interpreter/run_codes.h"
-#include "interpreter/trace.h"
+#include "interpreter/trace/run_codes.h"
+#include "interpreter/trace/trace.h"
 
 namespace cnctrans::translator {
 

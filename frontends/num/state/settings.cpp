@@ -1,0 +1,87 @@
+#include "frontends/num/state/settings.h"
+
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/saturate.h"
+#include "base/text.h"
+#include "dialects/num/limits.h"
+#include "dialects/num/mcodes.h"
+#include "dialects/num/options.h"
+
+namespace cnctrans::frontends::num {
+
+namespace facts = dialects::num;
+
+namespace {
+
+/// "6:9100 55:8055": M06 calls %9100, M55 calls %8055.
+void read_m_programs(std::string_view text, Settings& s) {
+  while (!(text = trim(text)).empty()) {
+    const std::string_view pair = text.substr(0, text.find(' '));
+    text.remove_prefix(pair.size());
+    const std::size_t colon = pair.find(':');
+    const auto code = parse_decimal(pair.substr(0, colon));
+    const auto program = parse_decimal(colon == std::string_view::npos ? "" : pair.substr(colon + 1));
+    const auto whole = [](const std::optional<double>& v, double most) {
+      return v && *v >= 0 && *v <= most && *v == std::floor(*v);
+    };
+    if (whole(code, facts::m_max) && whole(program, facts::system_program_max))
+      s.m_programs[saturate<std::int64_t>(*code)] = saturate<std::int64_t>(*program);
+    else
+      s.bad_m_programs = pair;
+  }
+}
+
+}  // namespace
+
+Settings make_settings(const machine::Profile& profile) {
+  Settings s;
+  const auto option = [&profile](std::string_view name) { return profile.option(name, facts::option_default(name)); };
+  s.lathe = profile.kind == machine::Kind::lathe;
+  s.structured = option(facts::option::family) != "7xx";
+  s.centre_absolute = option(facts::option::centre) != "incremental";
+  s.letter_o = option(facts::option::letter_o) != "false";
+  s.range_by_position = option(facts::option::range_order) == "position";
+  s.mends_ranges = option(facts::option::missing_end) == "to_last_lower";
+  s.m30_ends = option(facts::option::m30) == "end";
+  s.stop_ends_spindle = profile.option("stop.spindle") == "stops";
+  s.face_radius = option(facts::option::face_x) == "radius";
+  s.withdraws_to_er = option(facts::option::peck_withdraw) == "ER";
+  s.pecks_constant = option(facts::option::peck_law) == "constant";
+  const auto set = [&profile](std::string_view name) { return profile.option(name); };
+  s.chased = facts::thread_habits(set);
+  s.reentrant = facts::reentrant_habits(set);
+  s.plunged_by_p = facts::plunge_habits(set, true);
+  s.plunged_by_r = facts::plunge_habits(set, false);
+  s.edge_width = set(facts::option::plunged_width);
+  const auto unit = [&profile](std::string_view name, double fallback) {
+    const auto value = parse_decimal(profile.option(name));
+    return value && *value > 0 ? *value : fallback;
+  };
+  s.units_per_mm = 1000 / unit("num.linear_unit_um", 1);
+  s.units_per_degree = std::round(1 / unit("num.rotary_unit", 0.0001));
+  s.power_on = profile.power_on;
+  for (const auto& axis : profile.axes) {
+    if (axis.id < 32) s.axes |= 1U << axis.id;
+  }
+  for (const char c : option(facts::option::rotary_modulo)) {
+    const ir::AxisId id = ir::fixed_axis(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
+    if (id != ir::axis::none && ir::is_rotary_letter(id)) s.modulo |= 1U << id;
+  }
+  for (const auto& row : facts::m_codes) {
+    s.m[static_cast<std::size_t>(row.code)] = {row.meaning, row.order, row.argument, true};
+  }
+  for (const auto& m : profile.m_codes) {
+    if (m.code < 0 || m.code > 999) continue;
+    s.m[static_cast<std::size_t>(m.code)] = {m.meaning, m.order, static_cast<std::int16_t>(m.argument), true};
+  }
+  read_m_programs(option(facts::option::m_programs), s);
+  if (s.m30_ends) s.m[30] = {machine::MMeaning::program_end, ir::Order::after, 0, true};
+  return s;
+}
+
+}  // namespace cnctrans::frontends::num

@@ -1,0 +1,216 @@
+// Carrying out one block; what all parts of the machine share.
+#include "interpreter/machine/block_machine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "interpreter/trace/message_form.h"
+#include "interpreter/trace/run_codes.h"
+#include "machine/tool_data.h"
+
+namespace cnctrans::interpreter {
+
+BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Failure& failure, ValueSource* values,
+                           const machine::World* world)
+    : profile_(profile),
+      world_(world),
+      emitter_(emitter),
+      failure_(failure),
+      values_(values),
+      modal_(profile.power_on),
+      work_offsets_(profile.work_offsets) {
+  const auto is = [&profile](std::string_view option, std::string_view value) {
+    return profile.option(option) == value;
+  };
+  tool_came_with_t_ = machine::changes_on_select(profile);
+  policy_.cycle_rapid = is("cycle.positioning", "rapid");
+  policy_.modal_words = is("call.modal_words", "yes");
+  policy_.rotary_triggers = is("cycle.rotary_triggers", "yes");
+  policy_.keeps_programmed = is("frame.change_keeps", "programmed");
+  policy_.centre_through_frame = is("frame.rotation_centre", "scaled_and_mirrored");
+  policy_.nearest_pitch = is("helix.pitch_mismatch", "nearest");
+  policy_.machine_metric = is("machine_move.units", "machine");
+  policy_.pole_follows_arc = is("polar.pole_follows_arc", "yes");
+  policy_.pole_stays = is("polar.pole_stays", "yes");
+  policy_.polar_radius_stays = is("polar.radius", "programmed");
+  policy_.plane_resets_pole = is("polar.plane_resets_pole", "yes");
+  policy_.start_angle_stays = is("thread.start_angle", "modal");
+  policy_.straight_tangents = is("arc.tangent_straight", "line");
+  policy_.machine_absolute = is("machine_move.words", "absolute");
+  policy_.position_as_words = is("machine_position.scale", "words");
+  policy_.offsets_at_once = is("work_offset.write", "at_once");
+  policy_.preset_is_offset = is("frame.preset", "with_work_offset");
+  curve_tolerance_ = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
+  policy_.plane_ends_cycle = is("cycle.plane_function", "ends");
+  policy_.data_modal = is("machine_data.units", "modal");
+  policy_.table_offset = is("tool.bare_offset", "table");
+  policy_.edge_offset = is("tool.bare_offset", "edge");
+  policy_.mill = profile.kind == machine::Kind::mill;
+  for (const auto& a : profile.axes) {
+    axis_[a.id].present = true;
+    axis_[a.id].rotary = a.rotary;
+    axis_[a.id].diameter = a.diameter;
+    axes_.push_back(a.id);
+    p_[a.id] = a.start;
+    path_event_.to.value[a.id] = a.start;
+    path_event_.to.known |= 1U << a.id;
+  }
+  feed_[static_cast<std::size_t>(modal_.feed_mode)] = profile.power_on_feed;
+  feed_degrees_ = feed_;
+  for (auto& s : spindles_) s.mode = modal_.spindle_mode;
+  set_units();
+  load_offset(modal_.work_offset);
+  if (world_ != nullptr && world_->zeros) active_offset_ = world_->start_offset(profile_);
+  // The start is a machine position: the first frame is put under it.
+  frame_ = Frame{};
+  rebuild_frame();
+  base_pending_ = 0;
+}
+
+Standing BlockMachine::standing() const {
+  const Spindle& s = spindles_[master_];
+  return {modal_,
+          p_,
+          !contour_.empty(),
+          feed_now() / feed_unit(),
+          master_,
+          s.value[static_cast<std::size_t>(s.mode)],
+          hole_.has_value()};
+}
+
+double BlockMachine::expression(const ir::Value& v) {
+  if (values_ != nullptr) return values_->number_of(v.expr);
+  const auto constant = ir::constant_value(v.expr);
+  if (!constant)
+    failure_.fail(code::needs_whole_program, "a computed value cannot be read in a stream of plain blocks");
+  return constant.value_or(0);
+}
+
+double BlockMachine::feed_unit() const {
+  return modal_.units == ir::Units::inch && modal_.units_feed_too && modal_.feed_mode != ir::FeedMode::inverse_time
+             ? 25.4
+             : 1;
+}
+
+bool BlockMachine::check_axis(ir::AxisId a) {
+  if (a < ir::axis::count_max && axis_[a].present) return !ir::turns_part(modal_.surface) || surface_axis(a);
+  const auto name = a < ir::axis::first_extra ? std::string(ir::fixed_axis_name(a)) : "number " + std::to_string(a);
+  return failure_.fail(code::no_axis, "the machine " + profile_.name + " has no axis " + name);
+}
+
+/// mm (radius) or degrees that a word of this axis means.
+double BlockMachine::coordinate(ir::AxisId a, const ir::Value& v, ir::WordScale scale, bool absolute) {
+  const auto& axis = axis_[a];
+  const double x = value(v);
+  if (scale == ir::WordScale::modal) return x * (absolute ? axis.scale_absolute : axis.scale_incremental);
+  const double factor = axis.rotary ? 1 : unit();
+  return scale == ir::WordScale::diameter ? x * factor / 2 : x * factor;
+}
+
+bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle) {
+  failure_.where = where;
+  path_event_.file = event_.file = where.file;
+  path_event_.line = event_.line = where.line;
+  block_moves_ = sharp_ = false;
+  // On some machines a word of the tool axis under a cycle would be the depth, which can't change there.
+  const auto axis_word = [&] {
+    if (!hole_ || !b.has_motion || b.motion.frame != ir::FrameUse::normal) return false;
+    const bool there = std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                                   [this](const ir::CoordWord& w) { return w.axis == hole_axis_; });
+    if (!there || profile_.option("cycle.axis_word") != "refused") return false;
+    failure_.fail(code::bad_cycle, "a word of the tool axis in a block while a drilling cycle is active");
+    return true;
+  };
+  marks_ = b.actions.empty() ? ir::contour::Marks{} : ir::contour::marks_of(b);
+  if (b.actions.empty()) {
+    pattern_here_ = cycle_defined_here_ = false;
+    if (axis_word() || (b.has_motion && !motion(b, with_cycle))) return false;
+    if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
+    return !failure_.set;
+  }
+  const auto feed_before = feed_;
+  const auto degrees_before = feed_degrees_;
+  const bool own_feed = std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    const auto* f = std::get_if<ir::SetFeed>(&a.data);
+    return f != nullptr && f->block_only;
+  });
+  if (open_pattern_ == &b) return go_on_with_pattern(b);
+  machining_ = nullptr;
+  feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
+  block_corner_.reset();
+  if (!settings_first(b) || !actions(b, false)) return false;
+  if (own_feed) feeds(b, true);
+  if (!(cycle_defined_here_ && cycle_waits_) && axis_word()) return false;
+  if (b.has_motion && !motion(b, with_cycle)) return false;
+  if (own_feed) {
+    feed_ = feed_before;
+    feed_degrees_ = degrees_before;
+    feeds(b, false);
+  }
+  if (block_corner_) {
+    block_corner_.reset();
+    return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");
+  }
+  if (machining_ != nullptr && with_cycle && !run_machining(*machining_)) return false;
+  if (pattern_here_ && with_cycle) {
+    if (!run_pattern()) return false;
+    if (single_points && block_moves_) {  // what acts behind it waits for its last point
+      open_pattern_ = &b;
+      return !failure_.set;
+    }
+  } else if (hole_ && with_cycle) {
+    const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
+    if (runs && !run_cycle()) return false;
+    if (once_) end_single_cycle();
+  }
+  if (feed_stop_) emitter_.emit(plain(EventKind::feed_stop));
+  return actions(b, true) && !failure_.set;
+}
+
+Event& BlockMachine::plain(EventKind kind) {
+  event_.kind = kind;
+  return event_;
+}
+
+void BlockMachine::message(std::string text, const Span& where) {
+  const std::string shown = shown_message(text);
+  const auto trimmed = trim(shown);
+  if (trimmed.empty()) return;
+  auto& e = plain(EventKind::message);
+  e.file = where.file;
+  e.line = where.line;
+  e.text = std::string(trimmed);
+  e.state = message_form(text);
+  emitter_.emit(e);
+  e.text.clear();
+  e.state.clear();
+}
+
+bool BlockMachine::finish() {
+  if (curve_ && !close_curve(nullptr)) return false;
+  if (!contour_.empty())
+    return failure_.fail(code::contour_open, "the program ends before the element that closes the contour");
+  if (!pending_) return true;
+  const bool fault = !pending_->modal;
+  release_pending();
+  if (!fault) return true;
+  return without_corner("the program ends before the element that should follow the corner");
+}
+
+void BlockMachine::end_event(EndReason reason, const Failure& failure, const Span& where) {
+  if (curve_) close_curve(nullptr);
+  if (pending_) release_pending();
+  Event e;
+  e.kind = EventKind::end;
+  e.file = where.file;
+  e.line = where.line;
+  e.reason = reason;
+  if (reason == EndReason::error) {
+    e.code = failure.code;
+    e.text = failure.text;
+  }
+  emitter_.finish(e);
+}
+
+}  // namespace cnctrans::interpreter

@@ -1,0 +1,178 @@
+#include "ir/analysis/fact_set.h"
+
+#include <algorithm>
+
+#include "ir/cycles/pattern.h"
+
+namespace cnctrans::ir::detail {
+
+bool path_words(const Block& b) {
+  if (b.has_motion && b.motion.explicit_code) return true;
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+  });
+}
+
+bool has_pattern(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* c = std::get_if<CycleDefine>(&a.data);
+    const auto* named = c != nullptr && c->cycle ? std::get_if<NamedCycle>(&c->cycle->node) : nullptr;
+    return named != nullptr && !c->modal && c->here && cycles::find_pattern(named->name) != nullptr;
+  });
+}
+
+bool is_tool_datum(Datum d) {
+  return d == Datum::tool_length || d == Datum::tool_radius || d == Datum::tool_wear || d == Datum::tool_nose ||
+         d == Datum::tool_nose_width || d == Datum::part_count || d == Datum::cycle_time;
+}
+
+void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now) {
+  for (const auto& [given, value] :
+       {std::pair(hole.has_speed, &hole.speed), std::pair(hole.has_speed_out, &hole.speed_out)}) {
+    if (!given) continue;
+    const auto speed = value->literal() ? std::optional(value->number) : constant_value(value->expr);
+    f.spindle = runs_now || f.spindle == speed ? speed : std::nullopt;
+  }
+}
+
+FactSet differing(const Facts& a, const Facts& b) {
+  FactSet set;
+  for (std::size_t i = 0; i < setting_count; ++i) set[i] = a.settings[i] != b.settings[i];
+  for (std::size_t i = 0; i < a.position.size(); ++i) set[position_bit + i] = a.position[i] != b.position[i];
+  set[motion_bit] = a.motion != b.motion;
+  set[work_offset_bit] = a.work_offset != b.work_offset;
+  set[feed_bit] = a.feed != b.feed;
+  set[spindle_bit] = a.spindle != b.spindle;
+  set[cycle_bit] = a.cycle_active != b.cycle_active || a.cycle_active_known != b.cycle_active_known ||
+                   a.cycle_is_hole != b.cycle_is_hole || a.cycle_from != b.cycle_from;
+  set[modal_call_bit] = a.modal_call != b.modal_call;
+  set[master_bit] = a.master != b.master;
+  return set;
+}
+
+void take(Facts& facts, const Facts& from, const FactSet& set) {
+  for (std::size_t i = 0; i < setting_count; ++i) {
+    if (set[i]) facts.settings[i] = from.settings[i];
+  }
+  for (std::size_t i = 0; i < facts.position.size(); ++i) {
+    if (set[position_bit + i]) facts.position[i] = from.position[i];
+  }
+  if (set[motion_bit]) facts.motion = from.motion;
+  if (set[work_offset_bit]) facts.work_offset = from.work_offset;
+  if (set[feed_bit]) facts.feed = from.feed;
+  if (set[spindle_bit]) facts.spindle = from.spindle;
+  if (set[cycle_bit]) {
+    facts.cycle_active = from.cycle_active;
+    facts.cycle_active_known = from.cycle_active_known;
+    facts.cycle_is_hole = from.cycle_is_hole;
+    facts.cycle_from = from.cycle_from;
+  }
+  if (set[modal_call_bit]) facts.modal_call = from.modal_call;
+  if (set[master_bit]) facts.master = from.master;
+}
+
+std::array<Facts, 4> probes(const CyclesUsed& cycles) {
+  std::array<Facts, 4> all;
+  for (unsigned n = 0; n < all.size(); ++n) {
+    Facts& f = all[n];
+    f.reachable = true;
+    f.settings.fill(static_cast<std::uint8_t>(n % 3));
+    f.position.fill(7777.125 + n);
+    f.motion = n % 2 == 0 ? MotionKind::linear : MotionKind::rapid;
+    f.work_offset = -5 - static_cast<std::int32_t>(n);
+    f.feed = 7777.125 + n;
+    f.spindle = 7777.125 + n;
+    f.master = n == 0 ? std::optional<std::uint8_t>(100) : std::nullopt;
+    f.cycle_active = cycles.any && n < 3;
+    f.cycle_is_hole = f.cycle_active && !cycles.other_than_holes;
+    f.cycle_from = f.cycle_active ? Facts::several_cycles - 1 - n : 0;
+  }
+  return all;
+}
+
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, const FrameReach& framed) {
+  FactSet set;
+  for (const Facts& before : states) {
+    Facts after = before;
+    apply(s, after, framed);
+    set |= differing(before, after);
+  }
+  return set;
+}
+
+namespace {
+
+/// The two axes that a rotation about a named one turns; nullopt: it is no such rotation.
+std::optional<std::uint32_t> turned_by(const FrameChange& c) {
+  constexpr std::uint32_t space = 1U << axis::x | 1U << axis::y | 1U << axis::z;
+  if (c.kind != FrameKind::rotate || !c.has_angle || c.rotation_axis > axis::z) return std::nullopt;
+  return space & ~(1U << c.rotation_axis);
+}
+
+/// Something may write the offsets while the program runs: the program itself, or a routine that is not at hand.
+bool rows_change(const Program& program) {
+  bool found = false;
+  const auto unknown = [&](const CallRoutine& c) { return c.computed || program.find(c.routine) == nullptr; };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* c = std::get_if<CallRoutine>(&s.node)) found = found || unknown(*c);
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) found = found || (!m->off && !m->cycle && unknown(m->call));
+      if (const auto* p = std::get_if<Repeat>(&s.node)) found = found || (p->has_program && !program.find(p->program));
+      if (const auto* a = std::get_if<Assign>(&s.node)) {
+        for (const auto& item : a->items) found = found || (item.to_system && !is_tool_datum(item.system.datum));
+      }
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& action : b->actions) {
+        const auto* f = std::get_if<FrameOp>(&action.data);
+        found = found || (f != nullptr && (!f->change || f->change->combine == FrameCombine::preset));
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+FrameReach frame_reach(const Program& program, const ModalState& power_on) {
+  constexpr std::uint32_t all = ~0U;
+  std::uint32_t axes = 0, planes = 0;
+  bool turns = false;
+  const auto in_plane = [](Plane p) {
+    const auto a = plane_axes(p);
+    return 1U << a.u | 1U << a.v;
+  };
+  const auto note = [&](const FrameChange& c) {
+    if (c.combine == FrameCombine::preset) return;  // says where the tool is
+    if (c.combine == FrameCombine::clear) return;   // takes back what other statements have set
+    if (c.kind == FrameKind::rotate && c.rotation_axis == axis::none && c.has_angle) {
+      turns = true;
+    } else if (const auto across = turned_by(c)) {
+      axes |= *across;
+    } else if (c.kind == FrameKind::rotate || (c.kind == FrameKind::scale && c.uniform_scale)) {
+      axes = all;
+    } else {
+      for (const auto& w : c.words) axes |= w.axis < axis::count_max ? 1U << w.axis : 0U;
+    }
+  };
+  planes |= in_plane(power_on.plane);
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* assign = std::get_if<Assign>(&s.node)) {
+        for (const auto& item : assign->items) {
+          if (item.to_system && item.value && item.value->type == Type::frame) axes = all;
+        }
+      }
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) note(*f->change);
+        if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane)
+          planes |= in_plane(static_cast<Plane>(m->value));
+      }
+    });
+  }
+  return {turns ? axes | planes : axes, power_on.work_offset != 0, rows_change(program)};
+}
+
+}  // namespace cnctrans::ir::detail

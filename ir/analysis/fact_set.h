@@ -1,0 +1,62 @@
+// Sets of facts, and what a statement can change. Only for the .cpp files of ir/.
+#pragma once
+
+#include <array>
+#include <bitset>
+
+#include "ir/analysis/dataflow.h"
+
+namespace cnctrans::ir::detail {
+
+// One bit a fact: settings, positions, then these.
+inline constexpr std::size_t position_bit = setting_count;
+inline constexpr std::size_t motion_bit = position_bit + axis::count_max;
+inline constexpr std::size_t work_offset_bit = motion_bit + 1;
+inline constexpr std::size_t feed_bit = motion_bit + 2;
+inline constexpr std::size_t spindle_bit = motion_bit + 3;
+inline constexpr std::size_t cycle_bit = motion_bit + 4;
+inline constexpr std::size_t modal_call_bit = motion_bit + 5;
+inline constexpr std::size_t master_bit = motion_bit + 6;
+using FactSet = std::bitset<master_bit + 1>;
+
+/// Which cycles a program has: they decide what a motion can change.
+struct CyclesUsed {
+  bool any = false;
+  bool other_than_holes = false;
+};
+
+/// What the frame statements of a program reach.
+struct FrameReach {
+  std::uint32_t axes = ~0U;  ///< bit n: one of them can move coordinates of axis n
+  /// A preset is part of the work offset, which this machine has in force from the beginning: while the offsets are
+  /// off, it says nothing of where the tool is.
+  bool presets_by_offset = false;
+  /// A row of the work offset table, or what is added to it, may change while the program runs: selecting the row that
+  /// is in force already moves the coordinates.
+  bool rows_change = true;
+};
+FrameReach frame_reach(const Program& program, const ModalState& power_on);
+/// ir::apply() in a program where frame statements reach these axes only.
+void apply(const Statement& statement, Facts& facts, const FrameReach& framed);
+
+/// F, S or a bare motion code: such a block runs a cycle called at each motion, and on some machines a modal
+/// subprogram.
+bool path_words(const Block& b);
+/// The block is carried out at the points of a pattern, and ends at one of them.
+bool has_pattern(const Block& b);
+/// Data of a tool: programmed positions are those of its tip, whatever they are.
+bool is_tool_datum(Datum d);
+
+/// A cycle with speeds of its own leaves the last of them in force, once it has run.
+void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now);
+
+/// Which facts differ.
+FactSet differing(const Facts& a, const Facts& b);
+/// The facts of `from` that are in `set` replace those of `facts`.
+void take(Facts& facts, const Facts& from, const FactSet& set);
+/// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
+std::array<Facts, 4> probes(const CyclesUsed& cycles);
+/// What a statement can change, carried out under any of these states.
+FactSet changed_by(const Statement& s, const std::array<Facts, 4>& states, const FrameReach& framed);
+
+}  // namespace cnctrans::ir::detail

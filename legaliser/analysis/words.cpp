@@ -1,0 +1,112 @@
+#include "legaliser/analysis/words.h"
+
+#include <algorithm>
+
+namespace cnctrans::ir::passes {
+
+std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
+                                const Facts& facts, const machine::Profile& machine) {
+  if (scale == WordScale::diameter) return 0.5;  // said by the word itself, on any axis
+  if (scale == WordScale::radius || !is_diameter_axis(machine, axis)) return 1;
+  const auto mode = setting_in<DiameterMode>(b, facts, Setting::diameter);
+  if (!mode) return std::nullopt;
+  switch (*mode) {
+    case DiameterMode::radius: return 1;
+    case DiameterMode::diameter: return 0.5;
+    case DiameterMode::absolute_only: break;
+  }
+  if (!distance) return std::nullopt;
+  return *distance == Distance::absolute ? 0.5 : 1;
+}
+
+std::optional<std::vector<CoordWord>> absolute_words(const Block& b, const Facts& facts,
+                                                     const machine::Profile& machine,
+                                                     const std::function<std::optional<double>(AxisId)>& base) {
+  if (b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0) return std::nullopt;
+  for (const auto& c : b.motion.centers) {
+    if (c.mode == CenterMode::follows_distance) return std::nullopt;
+  }
+  std::vector<CoordWord> coords = b.motion.coords;
+  for (auto& c : coords) {
+    const auto d = distance_of(c, b, facts);
+    if (!d) return std::nullopt;
+    c.mode = WordMode::absolute;
+    if (*d == Distance::absolute) continue;
+    const auto at = base(c.axis);
+    const auto from = to_radius(c.axis, c.scale, d, b, facts, machine);
+    const auto to = to_radius(c.axis, WordScale::modal, Distance::absolute, b, facts, machine);
+    if (!at || !from || !to) return std::nullopt;
+    c.value = scale(add(Value{*at}, scale(c.value, *from)), 1 / *to);
+    c.value.text = {};
+    c.scale = WordScale::modal;
+  }
+  return coords;
+}
+
+bool table_row(const FrameChange& c) {
+  return !c.words.empty() && std::all_of(c.words.begin(), c.words.end(), [](const FrameWord& w) {
+    const auto* datum = w.value.expr ? std::get_if<SystemRef>(&w.value.expr->node) : nullptr;
+    return w.pos.column == 0 && datum != nullptr && datum->datum == Datum::work_offset;
+  });
+}
+
+std::optional<Plane> plane_of_words(const Motion& m) {
+  if (m.centers.size() != 2) return std::nullopt;
+  for (const auto plane : {Plane::xy, Plane::zx, Plane::yz}) {
+    const PlaneAxes axes = plane_axes(plane);
+    const AxisId a = m.centers[0].axis, b = m.centers[1].axis;
+    if ((a == axes.u && b == axes.v) || (a == axes.v && b == axes.u)) return plane;
+  }
+  return std::nullopt;
+}
+
+void SymbolicPosition::forget(const VarRef& v) {
+  for (auto& p : at_) {
+    if (p && p->expr && reads(p->expr, v)) p.reset();
+  }
+}
+
+void SymbolicPosition::follow(const Statement& s, const Facts& facts) {
+  if (const auto* b = std::get_if<Block>(&s.node)) return follow_block(*b, facts);
+  if (std::holds_alternative<Assign>(s.node)) {
+    each_target(s, [this](const VarRef& v) { forget(v); });
+    return;
+  }
+  if (std::holds_alternative<Message>(s.node) || std::holds_alternative<Declare>(s.node) ||
+      std::holds_alternative<Jump>(s.node))
+    return;  // a jump taken goes elsewhere: labels clear
+  clear();
+}
+
+void SymbolicPosition::follow_block(const Block& b, const Facts& facts) {
+  for (const auto& a : b.actions) {
+    const auto* set = std::get_if<ModalSet>(&a.data);
+    if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+        std::holds_alternative<CycleDefine>(a.data) || (set != nullptr && set->setting == Setting::units)) {
+      clear();
+    }
+  }
+  if (!b.has_motion) return;
+  const Motion& m = b.motion;
+  if (m.frame != FrameUse::normal || m.extra) return clear();
+  for (const auto& c : m.coords) {
+    if (c.axis >= at_.size()) return clear();
+    const auto distance = distance_of(c, b, facts);
+    const auto factor = to_radius(c.axis, c.scale, distance, b, facts, machine_);
+    auto& p = at_[c.axis];
+    if (!distance || !factor) {
+      p.reset();
+      continue;
+    }
+    Value v = scale(c.value, *factor);
+    v.text = {};
+    if (*distance == Distance::absolute) {
+      p = v;
+    } else if (p) {
+      p = add(*p, v);
+      p->text = {};
+    }
+  }
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,60 @@
+// What a word of a block means under the modal state: absolute or incremental, radius or diameter.
+#pragma once
+
+#include <functional>
+
+#include "ir/edit/rewrite.h"
+#include "legaliser/analysis/facts.h"
+
+namespace cnctrans::ir::passes {
+
+/// True for an axis whose words follow the diameter setting on this machine.
+inline bool is_diameter_axis(const machine::Profile& machine, AxisId axis) {
+  const auto* spec = machine.axis(axis);
+  return spec != nullptr && spec->diameter;
+}
+
+/// Distance mode of an end point word.
+inline std::optional<Distance> distance_of(const CoordWord& c, const Block& b, const Facts& facts) {
+  if (c.mode == WordMode::absolute) return Distance::absolute;
+  if (c.mode == WordMode::incremental) return Distance::incremental;
+  return setting_in<Distance>(b, facts, Setting::distance);
+}
+
+/// 0.5 for a diameter, 1 for a radius: the word's value times this is the radius. nullopt: not known here.
+std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
+                                const Facts& facts, const machine::Profile& machine);
+
+/// The end points of a plain move as absolute words: each increment added to the place `base(axis)` (radius) that it
+/// counts from. nullopt where a place, the distance mode or the diameter mode is not known, or where other words of the
+/// block depend on the distance mode.
+std::optional<std::vector<CoordWord>> absolute_words(const Block& b, const Facts& facts,
+                                                     const machine::Profile& machine,
+                                                     const std::function<std::optional<double>(AxisId)>& base);
+
+/// Words of a frame that the reader made from the code alone: the rows of a table, axis by axis. A language writes its
+/// own code again.
+bool table_row(const FrameChange& c);
+
+/// mm that the ends of an arc by its radius may lie too far apart for it: such an arc is the half circle.
+inline constexpr double long_chord = 0.02;
+
+/// Two centre words name the plane.
+std::optional<Plane> plane_of_words(const Motion& m);
+
+/// Last programmed positions along straight text, as expressions, where the dataflow has no number.
+class SymbolicPosition {
+ public:
+  SymbolicPosition(const machine::Profile& machine) : machine_(machine) { clear(); }
+  void clear() { at_.fill(std::nullopt); }
+  void follow(const Statement& s, const Facts& facts);
+  [[nodiscard]] const std::optional<Value>& at(AxisId axis) const { return at_[axis]; }
+
+ private:
+  void follow_block(const Block& b, const Facts& facts);
+  void forget(const VarRef& v);
+  const machine::Profile& machine_;
+  std::array<std::optional<Value>, axis::count_max> at_;  ///< absolute, radius
+};
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,500 @@
+// Modal calls of subprograms (equivalences 21.2): where the target has none, runs them at other blocks, or starts them
+// otherwise.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/domains/kept_values.h"
+#include "ir/analysis/flow_states.h"
+#include "ir/edit/rewrite.h"
+#include "ir/edit/search.h"
+#include "legaliser/analysis/facts.h"
+#include "legaliser/control/modal_callees.h"
+#include "legaliser/cycles/parts/cycle_parts.h"
+#include "legaliser/edit/editor.h"
+#include "legaliser/passes.h"
+
+namespace cnctrans::ir::passes {
+namespace {
+
+/// On this machine F, S and a bare motion code run a modal subprogram as well.
+bool words_run(const machine::Profile& machine) {
+  return machine.option("call.modal_words") == "yes";
+}
+
+class ModalCalls {
+ public:
+  ModalCalls(Program& program, const LegaliseContext& context, const CallGraph& calls, const FactsOf& facts)
+      : program_(program),
+        context_(context),
+        calls_(calls),
+        facts_(facts),
+        in_force_(program, ModalCallInForce{}),
+        reads_first_(program, calls, false),
+        writes_(program) {
+    for (const auto& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* state = in_force_.before(s);
+        if (state != nullptr && *state != 0) under_.emplace(s.id, *state);
+        const auto* m = std::get_if<ModalCall>(&s.node);
+        if (m != nullptr && !m->off && !m->cycle) defined_.emplace(s.id, *m);
+        by_calls_ = by_calls_ || (m != nullptr && m->cycle != nullptr);
+        some_written_out_ = some_written_out_ || (m != nullptr && !m->off && !m->cycle && !stays_modal(*m));
+      });
+    }
+  }
+
+  void run(Routine& routine) {
+    active_.reset();
+    on_target_.reset();
+    from_ = 0;
+    const auto* entry =
+        routine.body.empty() || has_modal_call(routine) ? nullptr : in_force_.before(routine.body.front());
+    brought_ = entry == nullptr ? 0 : *entry;
+    Editor editor(program_, routine, context_);
+    editor_ = &editor;
+    uses_ = label_uses(program_, routine);
+    routine_ = static_cast<std::size_t>(&routine - program_.routines.data());
+    on_target_ = brought();
+    walk(routine.body);
+  }
+
+ private:
+  void walk(Body& body) {
+    Body out;
+    out.reserve(body.size());
+    for (auto& s : body) {
+      each_body(s, [this](Body& inner) { walk(inner); });
+      one(std::move(s), out);
+    }
+    body = std::move(out);
+  }
+  /// The target's own modal call that every caller of this routine has in force. Its own subprogram runs without it.
+  std::optional<ModalCall> brought() const {
+    const auto found = defined_.find(brought_);
+    if (found == defined_.end() || !stays_modal(found->second)) return std::nullopt;
+    ModalCall m = found->second;
+    const auto callee = calls_.index_of(m.call.routine);
+    if (m.call.computed || !callee || reached_from(calls_, *callee).count(routine_) != 0) return std::nullopt;
+    m.here = context_.target.modal_call_here;
+    return m;
+  }
+  bool is_target(const Statement& s) const {
+    const auto labels = labels_on(s.line);
+    return std::any_of(labels.begin(), labels.end(), [this](const LabelRef& l) { return uses_.is_target(l); });
+  }
+  /// The modal call that the text has in force here is not the one that every path brings, and that matters.
+  bool by_another_way(const Statement& s, const Block& b) const {
+    const auto* state = in_force_.before(s);
+    if (state == nullptr || *state == from_ || (from_ == 0 && *state == brought_)) return false;
+    if (runs(b, facts_.before(s), words_run(context_.source_machine)) || pattern_in(b)) return some_written_out_;
+    return runs(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
+  }
+  /// The target's own modal call takes its place.
+  bool stays_modal(const ModalCall& m) const {
+    return context_.target.modal_call && !never_modal(m.call) && (m.here || context_.target.modal_call_here == m.here);
+  }
+  /// The last statement switched the target's call on again, and nothing has run since: it is taken back.
+  bool take_back_on(const Statement& next, Body& out) {
+    if (wrapped_in_ != &out || out.size() != wrapped_size_ || is_target(next)) return false;
+    out.pop_back();
+    return true;
+  }
+
+  /// Whether the block runs the subprogram, on a machine where words alone do so or not.
+  bool runs(const Block& b, const Facts& facts, bool by_words) const {
+    if (b.has_motion && b.motion.moves()) return true;
+    if (!by_words) return false;
+    const auto kind = motion_in(b, facts);
+    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return false;
+    if (b.has_motion && b.motion.explicit_code) return true;
+    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+    });
+  }
+
+  void one(Statement&& s, Body& out) {
+    auto* m = std::get_if<ModalCall>(&s.node);
+    if (m != nullptr && !m->cycle) return definition(std::move(s), out);
+    if (m != nullptr) {  // a cycle in its place
+      active_.reset();
+      on_target_.reset();
+      from_ = 0;
+    }
+    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
+    auto* b = std::get_if<Block>(&s.node);
+    if (b != nullptr && by_another_way(s, *b)) {
+      refuse(
+          s, program_, context_, "TRN-393",
+          "which subprogram is modal here depends on the path that leads here, and its calls would stand in the text",
+          "call the subprogram where it is to run, or end the modal call on every path");
+      out.push_back(std::move(s));
+      return;
+    }
+    if (b == nullptr || (!active_ && !on_target_)) {
+      out.push_back(std::move(s));
+      return;
+    }
+    if (const auto* pattern = pattern_in(*b)) {
+      return points(std::move(s), *pattern, out);
+    }
+    if (on_target_ && cycle_beside(*b, true)) {
+      refuse(s, program_, context_, "TRN-561",
+             "a canned cycle beside a modal subprogram: the target has one of them at a time",
+             "end the modal subprogram before the cycle");
+      out.push_back(std::move(s));
+      return;
+    }
+    const bool only_moves = b->repeat_given != 0 && b->repeat.is(0);
+    if (only_moves) {
+      b->repeat_given = 0;
+      b->repeat = Value{};
+    }
+    const bool in_source = !only_moves && runs(*b, facts_.before(s), words_run(context_.source_machine));
+    if (b->repeat_given != 0 && in_source) goes_on_with_locals(s, active_ ? *active_ : on_target_->call);
+    if (active_) return in_source ? written_out(std::move(s), out) : out.push_back(std::move(s));
+    const bool in_target = runs(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
+    if (in_source && acts_behind_motion(*b) && program_.dialect != context_.target.dialect)
+      return by_itself_with_call(std::move(s), out);
+    if (in_source || !in_target) {
+      out.push_back(std::move(s));
+      return;
+    }
+    // The target would run the subprogram here.
+    if (!fixed_arguments(on_target_->call)) {
+      context_.diagnostics.error("TRN-188", s.line.span,
+                                 "the target would run the modal subprogram at this block too, and its arguments are "
+                                 "computed: it can't be switched off and on again here",
+                                 "write the block before the modal call or after its end");
+    }
+    const LineInfo like = s.line;
+    if (!take_back_on(s, out)) {
+      Statement off = made(like, off_call());
+      move_head(s.line, off.line);
+      out.push_back(std::move(off));
+    }
+    out.push_back(std::move(s));
+    out.push_back(made(like, *on_target_));
+    wrapped_in_ = &out;
+    wrapped_size_ = out.size();
+  }
+  /// The moves of a called subprogram run the modal one as well, and nothing is written there.
+  void inside(const CallRoutine& call, const Statement& s) const {
+    if (!may_move(program_, calls_, call)) return;
+    context_.diagnostics.error("TRN-381", s.line.span,
+                               "the moves of this subprogram would run the modal one too, which the target calls only "
+                               "where it is written",
+                               "end the modal call before this one");
+  }
+  /// The subprogram runs at each point of a pattern. The target's own modal call does so by itself, but for ways at a
+  /// feed of their own, behind which the feed of before counts again.
+  void points(Statement&& s, const NamedCycle& pattern, Body& out) {
+    const LineInfo like = s.line;
+    std::string error;
+    bool guessed = false;
+    auto blocks = pattern_blocks(pattern, like, std::get<Block>(s.node), facts_.before(s), &guessed, &error);
+    const bool own_feed = blocks && std::any_of(blocks->begin(), blocks->end(), [](const Statement& p) {
+                            return !std::get<Block>(p.node).actions.empty();
+                          });
+    if (!active_ && !own_feed) return out.push_back(std::move(s));
+    const CallRoutine call = active_ ? *active_ : on_target_->call;
+    if (guessed) {
+      blocks.reset();
+      error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
+    }
+    const auto feed = facts_.before(s).feed;
+    if (own_feed && (!feed || !leaves_feed(program_, calls_, call, *feed))) {
+      blocks.reset();
+      error = "the tool goes from point to point at a feed of the pattern's own, and the feed behind it is not known";
+    } else if (own_feed && !active_ && !fixed_arguments(call)) {
+      blocks.reset();
+      error = "the arguments of the modal subprogram are computed";
+    }
+    if (!blocks) {
+      if (error.empty()) error = "its words are computed when the program runs";
+      refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
+             "give the pattern's words and the place before it as numbers");
+      out.push_back(std::move(s));
+      return;
+    }
+    balance_increments(*blocks, s, std::get<Block>(s.node), facts_.before(s), context_);
+    Body pieces;
+    if (!active_ && !just_begun(s, out)) pieces.push_back(made(like, off_call()));
+    for (auto& p : *blocks) {
+      auto& b = std::get<Block>(p.node);
+      for (auto& a : b.actions) std::get<SetFeed>(a.data).block_only = false;
+      const bool way = !b.actions.empty();
+      pieces.push_back(std::move(p));
+      if (way) pieces.push_back(make_block(like, action(SetFeed{Value{*feed}})));
+      pieces.push_back(made(like, call));
+    }
+    if (!active_) pieces.push_back(made(like, *on_target_));
+    pieces.front().line = like;
+    editor_->put_group(out, std::move(pieces), 0);
+    if (active_) return;
+    wrapped_in_ = &out;
+    wrapped_size_ = out.size();
+  }
+  /// The target's own call would run before what this block becomes behind its motion: the call stands in the text.
+  void by_itself_with_call(Statement&& s, Body& out) {
+    const LineInfo like = s.line;
+    if (!fixed_arguments(on_target_->call) || std::get<Block>(s.node).repeat_given != 0)
+      context_.diagnostics.error("TRN-188", like.span,
+                                 "the target would run the modal subprogram before what this block does behind its "
+                                 "motion, and its arguments are computed: it can't be called here by itself",
+                                 "write what comes behind the motion into a block of its own");
+    Body pieces;
+    if (!just_begun(s, out)) pieces.push_back(made(like, off_call()));
+    pieces.push_back(std::move(s));
+    pieces.push_back(made(like, on_target_->call));
+    pieces.push_back(made(like, *on_target_));
+    editor_->put_group(out, std::move(pieces), pieces.size() == 4 ? 1 : 0);
+    wrapped_in_ = &out;
+    wrapped_size_ = out.size();
+  }
+  /// The statement before switches the target's call on for nothing: it goes.
+  bool just_begun(const Statement& next, Body& out) const {
+    if (out.empty() || is_target(next)) return false;
+    const auto* on = std::get_if<ModalCall>(&out.back().node);
+    const LineInfo& line = out.back().line;
+    if (on == nullptr || on->off || on->cycle || on->here || !line.number.empty() || !line.labels.empty() ||
+        !line.comments.empty())
+      return false;
+    out.pop_back();
+    return true;
+  }
+  static ModalCall off_call() {
+    ModalCall off;
+    off.off = true;
+    return off;
+  }
+  static bool fixed_arguments(const CallRoutine& call) {
+    return std::all_of(call.arguments.begin(), call.arguments.end(),
+                       [](const Argument& a) { return !a.by_reference && (!a.value || constant_value(a.value)); });
+  }
+
+  /// A block with its call behind it; a repeat count repeats both.
+  void written_out(Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    const LineInfo like = s.line;
+    Body pieces;
+    if (b.repeat_given == 0) {
+      pieces.push_back(std::move(s));
+      pieces.push_back(made(like, *active_));
+      return editor_->put_group(out, std::move(pieces), 0);
+    }
+    const Value count = b.repeat;
+    b.repeat_given = 0;
+    b.repeat = Value{};
+    constexpr double most_copies = 5;
+    if (count.literal() && count.number <= most_copies) {
+      const Block copy = b;
+      pieces.push_back(std::move(s));
+      pieces.push_back(made(like, *active_));
+      for (double i = 1; i < count.number; ++i) {
+        pieces.push_back(made(like, copy));
+        pieces.push_back(made(like, *active_));
+      }
+      return editor_->put_group(out, std::move(pieces), 0);
+    }
+    For loop;
+    loop.counter = VarRef{frame_space(program_), "N" + std::to_string(++loops_) + "@modal", nullptr, {}};
+    loop.from = number(1);
+    loop.to = count.literal() ? number(count.number) : count.expr;
+    loop.body.push_back(made(like, std::move(b)));
+    loop.body.back().line.comments = s.line.comments;
+    loop.body.push_back(made(like, *active_));
+    s.line.comments.clear();
+    s.node = std::move(loop);
+    out.push_back(std::move(s));
+  }
+
+  /// The runs of a repeated block go on with the local parameters as the last run left them: that can't be said by
+  /// calls that each start from the arguments.
+  void goes_on_with_locals(const Statement& s, const CallRoutine& call) {
+    const auto& b = std::get<Block>(s.node);
+    if (call.level != CallLevel::new_level || (b.repeat.literal() && b.repeat.number < 2)) return;
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    if (!callee) return;
+    bool found = false;
+    for_each_statement(program_.routines[*callee].body, [&](const Statement& inner) {
+      each_target(inner, [&](const VarRef& v) {
+        const auto* segment = segment_of(program_, v);
+        found = found || (segment != nullptr && segment->scope == Scope::level && reads_first_(*callee, v));
+      });
+    });
+    if (!found) return;
+    context_.diagnostics.error("TRN-187", s.line.span,
+                               "the repetitions of this block run the modal subprogram with the local parameters that "
+                               "the run before left; in the target each run starts from the arguments",
+                               "write the repetitions as calls with their own arguments");
+  }
+
+  void definition(Statement&& s, Body& out) {
+    ModalCall m = std::get<ModalCall>(s.node);
+    from_ = m.off ? 0 : s.id;
+    if (m.off) {
+      if (!active_) {
+        if (m.here && cycle_stays(s, out)) return;
+        on_target_.reset();
+        if (take_back_on(s, out)) return leave_line(std::move(s), out);
+        out.push_back(std::move(s));
+        return;
+      }
+      active_.reset();
+      leave_line(std::move(s), out);
+      return;
+    }
+    if (program_.dialect != context_.target.dialect && changes_modal_calls(program_, calls_, m.call)) {
+      refuse(s, program_, context_, "TRN-393",
+             "the modal subprogram begins or ends a modal call itself: what is modal behind it depends on its runs",
+             "end the modal call where it was begun");
+      return out.push_back(std::move(s));
+    }
+    const bool modal = context_.target.modal_call && !never_modal(m.call);
+    const LineInfo like = s.line;
+    if (take_back_on(s, out)) on_target_.reset();
+    end_cycle(s, modal && context_.target.modal_call_here == m.here, out);
+    if (modal && context_.target.modal_call_here == m.here) {
+      active_.reset();
+      on_target_ = m;
+      out.push_back(std::move(s));
+      return;
+    }
+    // Another subprogram may still be modal on the target: the motions of this run would run it.
+    const auto* before = in_force_.before(s);
+    const bool ends_other = m.here && context_.target.modal_call && (on_target_ || (before != nullptr && *before != 0));
+    if (ends_other) {
+      Statement off = made(like, off_call());
+      move_head(s.line, off.line);
+      out.push_back(std::move(off));
+    }
+    on_target_.reset();
+    if (modal && m.here) {  // run once, then modal
+      s.node = m.call;
+      out.push_back(std::move(s));
+      m.here = false;
+      active_.reset();
+      on_target_ = m;
+      out.push_back(made(like, std::move(m)));
+      return;
+    }
+    keep_arguments(m.call, s, out);
+    active_ = m.call;
+    if (m.here) {
+      s.node = m.call;
+      out.push_back(std::move(s));
+    } else {
+      leave_line(std::move(s), out);
+    }
+  }
+  /// The arguments are taken once, where the call becomes modal; written out it would compute them at each block.
+  void keep_arguments(CallRoutine& call, Statement& s, Body& out) {
+    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
+    const std::set<std::size_t> run = callee ? reached_from(calls_, *callee) : std::set<std::size_t>();
+    const auto changes = [&](const ExprPtr& value) {
+      if (Writes::reads_machine(value)) return true;
+      return std::any_of(writes_.all().begin(), writes_.all().end(), [&](const Writes::Write& w) {
+        const auto under = under_.find(w.at);
+        const bool meanwhile =
+            under != under_.end() && (under->second == s.id || under->second == ModalCallInForce::several);
+        return (meanwhile || run.count(w.routine) != 0) && writes_.touches(w, value, routine_);
+      });
+    };
+    Body before;
+    for (auto& a : call.arguments) {
+      if (a.by_reference || !a.value || a.value->type == Type::string || constant_value(a.value) || !changes(a.value))
+        continue;
+      a.value = kept(program_, s.line, a.value, "modal", kept_, before);
+    }
+    if (!before.empty()) move_head(s.line, before.front().line);
+    for (auto& b : before) out.push_back(std::move(b));
+  }
+  /// The end of a modal subprogram that leaves a canned cycle in force, on a target where one word ends both.
+  bool cycle_stays(Statement& s, Body& out) {
+    const Facts& facts = facts_.before(s);
+    if (!context_.target.modal_cycle_by_call || (facts.cycle_active_known && !facts.cycle_active)) return false;
+    const auto* state = in_force_.before(s);
+    if (on_target_ || state == nullptr || *state != 0) {
+      refuse(s, program_, context_, "TRN-561",
+             "the end of a modal subprogram, behind which a canned cycle may go on: the target ends both",
+             "write G80, or end the modal subprogram before the cycle is defined");
+      out.push_back(std::move(s));
+      return true;
+    }
+    leave_line(std::move(s), out);
+    return true;
+  }
+  /// A modal subprogram ends a modal cycle; written out it leaves no word that would.
+  void end_cycle(Statement& s, bool stays_modal, Body& out) const {
+    const Facts& facts = facts_.before(s);
+    if (stays_modal || (facts.cycle_active_known && !facts.cycle_active)) return;
+    Statement off = by_calls_ ? made(s.line, off_call()) : make_block(s.line, action(CycleCancel{}));
+    move_head(s.line, off.line);
+    out.push_back(std::move(off));
+  }
+  /// A cycle of this block: a modal one would take the place of the target's modal call, one of the block alone may
+  /// become moves, which would run the modal subprogram.
+  bool cycle_beside(const Block& b, bool modal) const {
+    const auto* define = action_in<CycleDefine>(b);
+    return define != nullptr && define->modal == modal && context_.target.modal_cycle_by_call &&
+           program_.dialect != context_.target.dialect;
+  }
+  bool never_modal(const CallRoutine& call) const {
+    const bool ends_itself = context_.target.modal_cycle_by_call && program_.dialect != context_.target.dialect &&
+                             defines_cycle(program_, calls_, call);
+    return ends_itself || shares_level_too(calls_, call);
+  }
+  static void leave_line(Statement&& s, Body& out) {
+    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+    s.node = Label{};
+    out.push_back(std::move(s));
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  const CallGraph& calls_;
+  const FactsOf& facts_;
+  const FlowStates<ModalCallInForce> in_force_;
+  ReadFirst reads_first_;
+  const Writes writes_;
+  std::map<std::uint32_t, ModalCall> defined_;    ///< modal calls of subprograms, by ids
+  std::map<std::uint32_t, std::uint32_t> under_;  ///< what is in force before a statement, by ids
+  std::size_t routine_ = 0;                       ///< that is rewritten
+  int kept_ = 0;
+  Editor* editor_ = nullptr;
+  LabelUses uses_;
+  std::optional<CallRoutine> active_;   ///< written out after each block
+  std::optional<ModalCall> on_target_;  ///< the target's own one is in force
+  const Body* wrapped_in_ = nullptr;    ///< where the target's call was last switched on again
+  std::size_t wrapped_size_ = 0;
+  bool by_calls_ = false;          ///< the program has cycles that are modal by call
+  bool some_written_out_ = false;  ///< some modal call becomes calls behind each block
+  std::uint32_t brought_ = 0;      ///< what the callers of this routine have in force, which has none of its own
+  std::uint32_t from_ = 0;         ///< id of the definition that the text has in force; 0: none
+  int loops_ = 0;
+};
+
+bool starts_modal_calls(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      found = found || (m != nullptr && !m->off && !m->cycle);
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void lower_modal_calls(Program& program, const LegaliseContext& context) {
+  if (!starts_modal_calls(program)) return;
+  const FactsOf facts(program, context);
+  const CallGraph calls(program);
+  ModalCalls pass(program, context, calls, facts);
+  for (auto& r : program.routines) pass.run(r);
+}
+
+}  // namespace cnctrans::ir::passes

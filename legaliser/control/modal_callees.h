@@ -1,0 +1,42 @@
+// What the subprogram of a modal call does, with those that it calls.
+#pragma once
+
+#include "ir/analysis/call_graph.h"
+#include "legaliser/legalise.h"
+
+namespace cnctrans::ir::passes {
+
+/// The routine begins or ends a modal call.
+bool has_modal_call(const Routine& r);
+/// The called routine, or one below it, does so.
+bool changes_modal_calls(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// It, or one below it, defines a cycle.
+bool defines_cycle(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// It, or one below it, moves, goes to the points of a pattern, or calls what is not at hand.
+bool may_move(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// Behind it this feed is in force when it is before it.
+bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed);
+/// What the block does behind its motion, or in blocks of their own on another control, a modal call would come before.
+bool acts_behind_motion(const Block& b);
+/// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each call.
+bool shares_level_too(const CallGraph& calls, const CallRoutine& call);
+
+/// A domain of FlowStates: the statement that switched the modal call in force on.
+struct ModalCallInForce {
+  using State = std::uint32_t;                                 ///< its id; 0: none is in force
+  static constexpr std::uint32_t several = ~std::uint32_t{0};  ///< the ways that lead here bring different ones
+
+  [[nodiscard]] static State start(const Routine& /*unused*/, bool /*unused*/) { return 0; }
+  static void transfer(const Statement& s, State& state) {
+    if (const auto* m = std::get_if<ModalCall>(&s.node)) state = m->off || m->cycle ? 0 : s.id;
+  }
+  [[nodiscard]] static bool touches(const Routine& r) { return has_modal_call(r); }
+  static void unknown(State& /*state*/) {}  // what is not at hand is taken to leave the caller's modal call alone
+  static bool join(State& a, const State& b) {
+    if (a == b || a == several) return false;
+    a = several;
+    return true;
+  }
+};
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,24 @@
+// Feeds that a cycle names itself, on targets whose cycles go by the F in force.
+#include "legaliser/cycles/cycle_pass.h"
+
+namespace cnctrans::ir::passes {
+
+/// Equivalences 22.4: CYCLE85 with one feed for both ways is the target's reaming at that F; the F before comes back.
+void CyclePass::feed_as_a_word(Active& a, const Block& b, const Facts& facts) const {
+  const auto* hole = std::get_if<HoleCycle>(&a.source->node);
+  const bool one = hole != nullptr && hole->kind == HoleKind::ream && hole->has_feed && hole->has_feed_out &&
+                   equal(hole->feed, hole->feed_out);
+  const bool moves = b.has_motion && b.motion.moves();
+  const bool own = action_in<SetFeed>(b) != nullptr;
+  if (!one || by_call_ || moves || own || !facts.feed) return;
+  HoleCycle plain = *hole;
+  plain.has_feed = plain.has_feed_out = false;
+  auto made = std::make_shared<Cycle>();
+  made->node = std::move(plain);
+  const auto native = native_form(made, b, facts, context_, in_units(a.height, b, facts), sense_.now(), nullptr);
+  if (!native) return;
+  a.native = *native;
+  if (!hole->feed.is(*facts.feed)) a.needs.feed = hole->feed;
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,175 @@
+// The height from which a cycle starts, where the controls go another way to its planes.
+#include "legaliser/cycles/cycle_pass.h"
+
+namespace cnctrans::ir::passes {
+
+bool comes_in_two_moves(const CyclePtr& native, const LegaliseContext& context) {
+  const auto* hole = native ? std::get_if<HoleCycle>(&native->node) : nullptr;
+  return hole != nullptr && context.target.retract_plane_switch && hole->retract.given &&
+         !(hole->retract.base == hole->reference.base && equal(hole->retract.value, hole->reference.value));
+}
+
+bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, const Block& b, const Facts& facts) {
+  if (hole.retract.given || defined_at) return true;
+  return setting_in<RetractPlane>(b, facts, Setting::retract_plane) == RetractPlane::reference;
+}
+
+bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
+  const auto* hole = std::get_if<HoleCycle>(&active_->native->node);
+  const auto w = tool_axis(active_->source, b, facts);
+  const bool moves_tool = w && moves_along(b, *w);
+  const auto height = in_units(moves_tool ? height_after(b, facts, *w) : active_->height, b, facts);
+  if (hole == nullptr || !hole->retract.given) return false;
+  const auto fixed = [](const Level& l) { return l.base == LevelBase::absolute && l.value.literal(); };
+  if (!fixed(hole->retract) || !fixed(hole->reference) || !stands_by_itself(*hole)) return false;
+  const double retract = hole->retract.value.number, reference = hole->reference.value.number;
+  const double to = fixed(hole->bottom) ? hole->bottom.value.number : reference;
+  const double up = retract > to ? 1 : -1;
+  // It has gone to a height that only the run knows, and the target may come over its retract plane.
+  if (!height && (moves_tool || active_->left_height))
+    return hole->approach_by_retract && (retract - reference) * up > 1e-9;
+  return height && (retract - *height) * up > 1e-9 && (retract - reference) * up > 1e-9;
+}
+
+bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {
+  const bool sets = sets_retract_plane(b);
+  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  if (!sets || !active_->native || hole == nullptr || hole->retract.given) return false;
+  auto form = native_form(active_->source, b, facts, context_, in_units(active_->defined_at, b, facts), sense_.now(),
+                          &active_->needs);
+  const bool was_native = active_->native != nullptr;
+  const auto w = cycle_axis(*hole, b, facts);
+  const auto height = w ? in_units(height_.at(*w), b, facts) : std::nullopt;
+  if (form && !by_call_ && !stands_right(std::get<HoleCycle>((*form)->node), height)) form.reset();
+  if (!back_is_known(*hole, active_->defined_at, b, facts)) form.reset();
+  active_->native = form ? *form : nullptr;
+  lacking_ = lacking_ || !active_->native;
+  return was_native;
+}
+
+bool CyclePass::follow_height(const Block& b, const Facts& facts) {
+  const auto w = tool_axis(active_->source, b, facts);
+  active_->left_height = active_->left_height || (w && moves_along(b, *w));
+  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  if (!active_->left_height || !active_->native || by_call_ || hole == nullptr || !triggers(b, facts) ||
+      back_is_known(*hole, active_->defined_at, b, facts))
+    return false;
+  active_->native = nullptr;
+  lacking_ = true;
+  return true;
+}
+
+void CyclePass::leave_height(const Statement& s) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !active_) return;
+  const auto w = tool_axis(active_->source, *b, facts_.before(s));
+  active_->left_height = active_->left_height || (w && moves_along(*b, *w));
+}
+
+/// A single run whose retract plane is not the height it starts from: the target's cycle would go there first. It
+/// returns to the reference plane instead, and the rest is a move of its own. The place to go to; empty: as it is.
+std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active& a) const {
+  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+  if (hole == nullptr || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
+      hole->reference.base != LevelBase::absolute || equal(hole->retract.value, hole->reference.value))
+    return std::nullopt;
+  if (!hole->retract.value.literal() || a.height == hole->retract.value.number) return std::nullopt;
+  HoleCycle low = *hole;
+  low.retract = low.reference;
+  for (const bool approach : {low.approach_by_retract, !low.approach_by_retract}) {
+    low.approach_by_retract = approach;
+    auto made = std::make_shared<Cycle>();
+    made->node = low;
+    if (!context_.target.native_cycle(*made)) continue;
+    const Value to = hole->retract.value;
+    cycle = std::move(made);
+    return to;
+  }
+  return std::nullopt;
+}
+
+bool CyclePass::rises_first(const Active& a, const Block& b, const Facts& facts) const {
+  const auto* hole = a.native ? std::get_if<HoleCycle>(&a.native->node) : nullptr;
+  if (hole == nullptr || context_.target_machine.option("cycle.below_reference") != "refused") return false;
+  if (!hole->reference.given || hole->reference.base != LevelBase::absolute || comes_in_two_moves(a.native, context_))
+    return false;
+  const auto height = in_units(a.height, b, facts);
+  if (!hole->reference.value.literal()) return old_may_run(facts);  // another cycle left the tool somewhere
+  if (!height) return false;
+  const double reference = hole->reference.value.number;
+  const bool upward =
+      hole->bottom.value.literal() && hole->bottom.base == LevelBase::absolute && hole->bottom.value.number > reference;
+  return !upward && reference - *height > 1e-9;
+}
+
+void CyclePass::rise_and_define(Statement&& s, const Active& a, bool modal, Body&& pieces, Body& out) {
+  auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
+  const auto& hole = std::get<HoleCycle>(a.native->node);
+  const LineInfo like = s.line;
+  if (old_may_run(facts)) pieces.push_back(off_statement(like, false));
+  position_rapid(b, context_);
+  Block up;
+  up.has_motion = true;
+  up.motion.kind = MotionKind::rapid;
+  up.motion.explicit_code = true;
+  up.motion.keeps_modal = false;
+  CoordWord z;
+  z.axis = cycle_axis(hole, b, facts).value_or(axis::z);
+  z.mode = WordMode::absolute;
+  z.value = hole.reference.value;
+  z.value.text = {};
+  up.motion.coords.push_back(z);
+  const bool apart = levels_by_mode(a.native, b, facts);
+  const std::size_t main = pieces.size();
+  if (b.empty()) {
+    s.node = std::move(up);
+    pieces.push_back(std::move(s));
+  } else {
+    pieces.push_back(std::move(s));
+    pieces.push_back(made(like, std::move(up)));
+  }
+  Statement define = make_block(like, action(CycleDefine{a.native, modal, true, CycleTrigger::plane_axis_word}));
+  auto& words = std::get<Block>(define.node);
+  if (apart)
+    words.actions.insert(words.actions.begin(),
+                         action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::absolute)}));
+  feed_for_tap(words, a);
+  pieces.push_back(std::move(define));
+  if (apart)
+    pieces.push_back(
+        make_block(like, action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::incremental)})));
+  put_group(out, std::move(pieces), main);
+}
+
+std::optional<Level> CyclePass::kept_bottom(const HoleCycle& change, const Block& b, const Facts& facts) const {
+  const auto& before = std::get<HoleCycle>(active_->source->node);
+  Level kept = before.bottom;
+  const bool along = kept.base == LevelBase::from_reference || kept.base == LevelBase::from_surface;
+  if (!along || !change.reference.given) return kept;
+  const auto initial = in_units(active_->defined_at, b, facts);
+  const Level& reference = before.reference;
+  if (kept.base == LevelBase::from_surface || !kept.value.literal() || !reference.value.literal()) return std::nullopt;
+  if (reference.base == LevelBase::absolute) {
+    kept.value = Value(reference.value.number + kept.value.number);
+  } else if (reference.base == LevelBase::from_initial && initial) {
+    kept.value = Value(*initial + reference.value.number + kept.value.number);
+  } else {
+    return std::nullopt;
+  }
+  kept.base = LevelBase::absolute;
+  return kept;
+}
+
+bool CyclePass::refuse_lost_bottom(Statement& s, const CycleDefine& d, Body& out) {
+  const auto* hole = std::get_if<HoleCycle>(&d.cycle->node);
+  if (hole == nullptr || !hole->keeps_initial || hole->bottom.given) return false;
+  if (kept_bottom(*hole, std::get<Block>(s.node), facts_.before(s))) return false;
+  refuse(s, program_, context_, "TRN-330",
+         "the reference plane of a cycle is changed, and at which height its bottom stays is not known here",
+         "write the cycle again, or its depth (I) as well");
+  out.push_back(std::move(s));
+  return true;
+}
+
+}  // namespace cnctrans::ir::passes

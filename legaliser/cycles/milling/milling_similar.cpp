@@ -1,0 +1,129 @@
+// Pockets as a cycle of the target that leaves the same part by other passes.
+#include <cmath>
+#include <utility>
+
+#include "legaliser/cycles/milling/milling_moves.h"
+#include "legaliser/cycles/milling/similar_pocket.h"
+#include "legaliser/edit/blocks.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// The word by which the block goes to an absolute place, else the number that the text gives.
+std::optional<Value> place_word(const Block& b, const Facts& facts, AxisId axis) {
+  const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+  for (const auto& c : b.motion.coords) {
+    if (!b.has_motion || c.axis != axis || b.motion.extra || b.motion.frame != FrameUse::normal) continue;
+    const bool absolute = c.mode == WordMode::absolute || (c.mode == WordMode::modal && distance == Distance::absolute);
+    if (!absolute || c.scale != WordScale::modal) return std::nullopt;
+    Value v = c.value;
+    v.text = {};
+    return v;
+  }
+  const auto n = place_after(b, facts, axis);
+  return n ? std::optional(Value(*n)) : std::nullopt;
+}
+
+Statement rapid_to(const LineInfo& like, const std::vector<std::pair<AxisId, Value>>& place) {
+  Block b;
+  b.has_motion = true;
+  b.motion.kind = MotionKind::rapid;
+  b.motion.explicit_code = true;
+  b.motion.keeps_modal = false;
+  for (const auto& [axis, v] : place) {
+    CoordWord c;
+    c.axis = axis;
+    c.mode = WordMode::absolute;
+    c.value = v;
+    b.motion.coords.push_back(c);
+  }
+  return made(like, std::move(b));
+}
+
+}  // namespace
+
+std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                                       const Facts& facts, std::optional<double> defined_at,
+                                                       std::optional<SpindleState> sense, bool last_resort,
+                                                       std::string* why) const {
+  why->clear();
+  const auto asked = context_.options.cycles;
+  if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
+  const auto& native = context_.target.native_cycle;
+  const bool pocket = cycle.mill.shape.starts_with("pocket.");
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  const auto it = sites_.find(s.id);
+  if (!native || !pocket || it == sites_.end()) return std::nullopt;
+  if (!units || !plane || distance != Distance::absolute)
+    return *why = "plane, units or absolute and incremental are not the same there", std::nullopt;
+  const auto w = cycle_axis(cycle, b, facts);
+  const auto axes = plane_axes(*plane);
+  if (w != axes.w ||
+      (*plane != Plane::xy && setting_in<DiameterMode>(b, facts, Setting::diameter) != DiameterMode::radius))
+    return *why = "its plane, or diameters in it, are not those of the target's cycle", std::nullopt;
+  if (setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
+    return *why = "radius compensation is on, or may be", std::nullopt;
+  const double unit = *units == Units::inch ? 25.4 : 1;
+  PocketSource source;
+  std::optional<double> initial;
+  if (defined_at) initial = *defined_at / unit;
+  source.cycle = with_absolute_levels(cycle, b, facts, initial);
+  source.cycle.axis = axis::none;
+  source.u = place_word(b, facts, axes.u);
+  source.v = place_word(b, facts, axes.v);
+  const FeedBefore feed = feeds_.at(s, b, facts);
+  if (feed.value) source.feed = Value(*feed.value);
+  for (const auto& a : b.actions) {
+    const auto* own = std::get_if<SetFeed>(&a.data);
+    if (own != nullptr && a.order != Order::after && !source.feed) source.feed = own->value;
+  }
+  std::string error;
+  bool none = false;
+  if (const auto r = radius(it->second, unit, &error, &none); r && *r > 0) source.radius = *r / unit;
+  source.sense = sense;
+  source.clearance = 1 / unit;
+  source.mirrors = mirrors_;
+  auto form = similar_pocket(source, native, why);
+  if (!form) return std::nullopt;
+  Similar out;
+  LineInfo like;
+  like.span = s.line.span;
+  like.skip_mask = s.line.skip_mask;
+  const auto retract = form->retract.literal() ? std::optional(form->retract.number * unit) : std::nullopt;
+  // The writers know heights by the words of the text only.
+  const auto said = height_mm(b, facts, axes.w);
+  const bool rises = !retract || !said || std::fabs(*retract - *said) > 1e-9;
+  Block call;
+  if (form->u && form->v) {
+    Statement to = rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}});
+    // Controls that go to the place of a cycle in rapid take it into the block of the cycle.
+    const bool in_one = !context_.target.retract_plane_switch;
+    if (!rises && in_one && context_.target_machine.option("cycle.positioning") == "rapid") {
+      call = std::move(std::get<Block>(to.node));
+      by_itself(call);
+    } else {
+      out.blocks.push_back(std::move(to));
+    }
+  }
+  if (rises) out.blocks.push_back(rapid_to(like, {{axes.w, form->retract}}));
+  const bool other_feed = form->feed && !(source.feed && equal(*form->feed, *source.feed));
+  if (other_feed && !source.feed && !feed.none)
+    return *why = "the feed in force behind it is not known here", std::nullopt;
+  if (other_feed) call.actions.push_back(action(SetFeed{*form->feed, false}));
+  for (const auto& c : form->cycles) {
+    call.actions.push_back(
+        action(CycleDefine{std::make_shared<const Cycle>(Cycle{c}), false, true, CycleTrigger::plane_axis_word}));
+    out.blocks.push_back(made(like, std::move(call)));
+    call = Block{};
+  }
+  if (other_feed && source.feed) out.blocks.push_back(make_block(like, action(SetFeed{*source.feed, false})));
+  out.end_height = retract;
+  out.differs = form->differs;
+  end_.reset();
+  return out;
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,147 @@
+// Habits of cycles: when they run, how they are reached, which words they take.
+#include <algorithm>
+#include <cmath>
+
+#include "legaliser/cycles/parts/cycle_parts.h"
+
+namespace cnctrans::ir::passes {
+
+CyclePtr with_fixed_bases(const CyclePtr& cycle, std::optional<Distance> distance) {
+  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+  if (hole == nullptr || !distance) return cycle;
+  HoleCycle h = *hole;
+  bool changed = false;
+  for (Level* l : {&h.surface, &h.reference, &h.bottom, &h.retract, &h.pecks.first_to}) {
+    if (l->base != LevelBase::distance_mode) continue;
+    l->base = *distance == Distance::absolute ? LevelBase::absolute : l->otherwise;
+    changed = true;
+  }
+  if (!changed) return cycle;
+  auto made = std::make_shared<Cycle>();
+  made->node = std::move(h);
+  return made;
+}
+std::optional<double> in_units(std::optional<double> mm, const Block& b, const Facts& facts) {
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  if (!mm || !units) return std::nullopt;
+  return *units == Units::inch ? *mm / 25.4 : *mm;
+}
+
+bool position_only(const Block& b) {
+  return b.repeat_given != 0 && b.repeat.is(0);
+}
+
+bool runs_old(const Block& b, bool point_here, bool here) {
+  Block words;
+  words.actions = b.actions;
+  const bool moves = b.has_motion && !(b.motion.moves() && here && point_here);  // a bare motion code runs it as well
+  return moves || disturbs_call(words);
+}
+
+std::optional<MotionKind> way_to_hole(const Block& b, const Facts& facts, const LegaliseContext& context) {
+  if (b.motion.kind == MotionKind::modal && context.source_machine.option("cycle.positioning") == "rapid")
+    return MotionKind::rapid;
+  return motion_in(b, facts);
+}
+
+void position_rapid(Block& b, const LegaliseContext& context) {
+  if (context.source_machine.option("cycle.positioning") != "rapid" || !b.has_motion ||
+      b.motion.kind != MotionKind::modal)
+    return;
+  b.motion.kind = MotionKind::rapid;
+  b.motion.explicit_code = true;
+  b.motion.keeps_modal = false;
+}
+
+void check_axis_word(const Statement& s, const Facts& facts, const CyclePtr& source, const LegaliseContext& context) {
+  const auto& b = std::get<Block>(s.node);
+  if (!b.has_motion || b.motion.frame != FrameUse::normal ||
+      context.source_machine.option("cycle.axis_word") != "refused")
+    return;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  bool active = facts.cycle_active_known && facts.cycle_active;
+  for (const auto& a : b.actions) {
+    if (std::holds_alternative<CycleCancel>(a.data)) active = false;
+    const auto* d = std::get_if<CycleDefine>(&a.data);
+    if (d == nullptr) continue;
+    if (!d->here) return;
+    active = true;
+  }
+  const auto* hole = source ? std::get_if<HoleCycle>(&source->node) : nullptr;
+  const auto w = hole != nullptr && hole->axis != axis::none ? std::optional(hole->axis)
+                 : plane                                     ? std::optional(plane_axes(*plane).w)
+                                                             : std::nullopt;
+  if (!active || !w) return;
+  for (const auto& c : b.motion.coords) {
+    if (c.axis != *w) continue;
+    context.diagnostics.error("TRN-332", s.line.span,
+                              "a word of the tool axis in a block while a drilling cycle is active: the source's "
+                              "control takes it as the depth, which can't change here",
+                              "end the cycle before the move, or check the plane");
+    return;
+  }
+}
+
+std::optional<double> height_mm(const Block& b, const Facts& facts, AxisId w) {
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  if (!facts.position[w] || !units) return std::nullopt;
+  return *facts.position[w] * (*units == Units::inch ? 25.4 : 1);
+}
+
+void position_kind(Block& b, const LegaliseContext& context) {
+  const bool source_rapid = context.source_machine.option("cycle.positioning") == "rapid";
+  const bool target_rapid =
+      context.target_machine.option("cycle.positioning") == "rapid" && !context.target.modal_cycle_by_call;
+  if (!source_rapid || target_rapid || !b.has_motion) return;
+  if (b.motion.kind != MotionKind::modal) return;
+  b.motion.kind = MotionKind::rapid;
+  b.motion.explicit_code = true;
+  b.motion.keeps_modal = false;
+}
+
+void by_itself(Block& b) {
+  if (b.motion.kind != MotionKind::rapid) return;
+  b.motion.kind = MotionKind::modal;
+  b.motion.explicit_code = false;
+}
+
+bool stands_right(const HoleCycle& c, std::optional<double> height) {
+  if (!c.retract.given || (c.retract.base == c.reference.base && equal(c.retract.value, c.reference.value)))
+    return true;
+  return height && c.retract.base == LevelBase::absolute && c.retract.value.literal() &&
+         std::fabs(*height - c.retract.value.number) < 1e-9;
+}
+
+std::optional<AxisId> tool_axis(const CyclePtr& cycle, const Block& b, const Facts& facts) {
+  const auto* hole = std::get_if<HoleCycle>(&cycle->node);
+  return hole != nullptr ? cycle_axis(*hole, b, facts) : std::nullopt;
+}
+
+bool moves_along(const Block& b, AxisId w) {
+  return b.has_motion &&
+         std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [w](const CoordWord& c) { return c.axis == w; });
+}
+
+std::optional<double> height_after(const Block& b, const Facts& facts, AxisId w) {
+  const auto units = setting_in<Units>(b, facts, Setting::units);
+  std::optional<double> height;
+  for (const auto& c : b.motion.coords) {
+    if (c.axis != w) continue;
+    const auto mode = c.mode == WordMode::modal      ? setting_in<Distance>(b, facts, Setting::distance)
+                      : c.mode == WordMode::absolute ? std::optional(Distance::absolute)
+                                                     : std::nullopt;
+    height.reset();
+    if (mode == Distance::absolute && units && c.value.literal())
+      height = c.value.number * (*units == Units::inch ? 25.4 : 1);
+  }
+  return height;
+}
+
+bool sets_retract_plane(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return m != nullptr && m->setting == Setting::retract_plane;
+  });
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,212 @@
+// Taps that orient and turn the spindle by themselves (a speed of their own, a sense behind them), for targets whose
+// taps take the spindle as it runs: speed and sense are said before the tap, and what it leaves behind it.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/text.h"
+#include "legaliser/analysis/facts.h"
+#include "legaliser/cycles/parts/cycle_parts.h"
+#include "legaliser/early_passes.h"
+#include "legaliser/edit/editor.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+struct Around {
+  CyclePtr cycle;
+  Block before;
+  std::optional<Block> after;
+  std::optional<double> slower;  ///< rev/min of the way out, which the target drives as the way in
+};
+
+SpindleState state_of(SpindleStep s) {
+  return s == SpindleStep::ccw ? SpindleState::ccw : s == SpindleStep::cw ? SpindleState::cw : SpindleState::off;
+}
+
+/// A tap whose hand is seen and whose speeds, where it has some, are numbers.
+bool candidate(const HoleCycle& c) {
+  const bool numbers = c.pitch.literal() && c.pitch.number != 0 &&
+                       (!c.has_speed || (c.speed.literal() && c.speed.number > 0)) &&
+                       (!c.has_speed_out || (c.has_speed && c.speed_out.literal()));
+  return c.kind == HoleKind::tap && c.orient_first && numbers && c.spindle_after != SpindleStep::usual &&
+         c.spindle_bottom == SpindleStep::none;
+}
+
+std::optional<Around> split(const CyclePtr& cycle, const Facts& facts, std::optional<SpindleState> sense) {
+  const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+  if (c == nullptr || !candidate(*c)) return std::nullopt;
+  const double in = c->has_speed ? c->speed.number : facts.spindle.value_or(0);
+  const double out = c->has_speed_out ? c->speed_out.number : in;
+  const bool same_in = !c->has_speed || (facts.spindle && std::fabs(*facts.spindle - in) < 1e-9);
+  const SpindleState hand = c->pitch.number < 0 ? SpindleState::ccw : SpindleState::cw;
+  const bool goes_on = state_of(c->spindle_after) == hand && c->spindle_after != SpindleStep::none;
+  if (same_in && std::fabs(out - in) < 1e-9 && goes_on && sense == hand) return std::nullopt;
+  Around a;
+  HoleCycle plain = *c;
+  plain.spindle_after = plain.spindle_bottom = SpindleStep::usual;
+  plain.spindle_after_retract = plain.orient_first = plain.has_speed = plain.has_speed_out = false;
+  plain.orient_angle = plain.speed = plain.speed_out = Value{};
+  plain.pitch = Value{std::fabs(c->pitch.number)};
+  plain.rigid = true;
+  auto made = std::make_shared<Cycle>();
+  made->node = std::move(plain);
+  a.cycle = std::move(made);
+  if (!same_in) a.before.actions.push_back(action(SetSpindle{1, c->speed}));
+  a.before.actions.push_back(action(SpindleRun{1, hand}));
+  const bool other_speed = std::fabs(out - in) > 1e-9;
+  if (other_speed) a.slower = out;
+  if (other_speed || !goes_on) {
+    a.after.emplace();
+    if (other_speed) a.after->actions.push_back(action(SetSpindle{1, c->speed_out}));
+    if (c->spindle_after == SpindleStep::none)  // it stands where the cycle has left it
+      a.after->actions.push_back(action(SpindleOrient{1, c->orient_angle}));
+    else
+      a.after->actions.push_back(action(SpindleRun{1, state_of(c->spindle_after)}));
+  }
+  return a;
+}
+
+class TapSpeeds {
+ public:
+  TapSpeeds(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context),
+        facts_(facts),
+        editor_(program, routine, context),
+        uses_(label_uses(program, routine)),
+        sense_(program) {
+    if (routine.kind != RoutineKind::main) sense_.forget();
+  }
+
+  void run() { walk(editor_.routine.body); }
+
+ private:
+  void walk(Body& body) {
+    Body out;
+    std::optional<Block> behind;  // the modal call in force
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      each_body(body[i], [this](Body& inner) {
+        sense_.forget();
+        walk(inner);
+      });
+      for (const auto& l : labels_on(body[i].line)) {
+        if (uses_.is_target(l)) sense_.forget();
+      }
+      const Statement seen = body[i];
+      one(body, i, behind, out);
+      sense_.follow(seen, std::holds_alternative<Block>(seen.node) || ToolHeight::keeps(seen));
+    }
+    body = std::move(out);
+  }
+  void one(Body& body, std::size_t i, std::optional<Block>& behind, Body& out) {
+    Statement& s = body[i];
+    auto* m = std::get_if<ModalCall>(&s.node);
+    auto* b = std::get_if<Block>(&s.node);
+    std::optional<Around> around;
+    if (m != nullptr && m->cycle && ends_in_sight(body, i)) {
+      around = split(m->cycle, facts_.before(s), sense_.now());
+      if (around) m->cycle = around->cycle;
+    }
+    for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
+      auto* d = std::get_if<CycleDefine>(&b->actions[k].data);
+      if (d == nullptr || d->modal || !d->here) continue;
+      around = split(d->cycle, facts_.before(s), sense_.now());
+      if (around) d->cycle = around->cycle;
+    }
+    const LineInfo like = s.line;
+    if (m != nullptr && behind) {  // the end of the one before
+      Body pieces;
+      pieces.push_back(std::move(s));
+      pieces.push_back(made(like, *std::exchange(behind, std::nullopt)));
+      editor_.put_group(out, std::move(pieces), 0);
+      return;
+    }
+    if (!around) return out.push_back(std::move(s));
+    if (around->slower) tell(like, *around->slower);
+    Body pieces;
+    pieces.push_back(made(like, std::move(around->before)));
+    pieces.push_back(std::move(s));
+    if (around->after && b != nullptr) pieces.push_back(made(like, *std::move(around->after)));
+    if (around->after && m != nullptr) behind = std::move(around->after);
+    editor_.put_group(out, std::move(pieces), 1);
+  }
+  /// Between a modal call and its end stand only points to which the tool goes in rapid, and nothing that turns the
+  /// spindle.
+  bool ends_in_sight(const Body& body, std::size_t from) const {
+    if (facts_.before(body[from]).motion != MotionKind::rapid) return false;
+    for (std::size_t i = from + 1; i < body.size(); ++i) {
+      const Statement& s = body[i];
+      for (const auto& l : labels_on(s.line)) {
+        if (uses_.is_target(l)) return false;
+      }
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) return m->off && s.line.skip_mask == 0;
+      if (const auto* call = std::get_if<CallRoutine>(&s.node)) {
+        if (!calls_points(*call)) return false;
+        continue;
+      }
+      if (!point(s)) return false;
+    }
+    return false;
+  }
+  static bool point(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return ToolHeight::keeps(s);
+    if (b->motion.kind != MotionKind::modal && b->motion.kind != MotionKind::rapid) return false;
+    return std::none_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+      return std::holds_alternative<SetSpindle>(a.data) || std::holds_alternative<SpindleRun>(a.data) ||
+             std::holds_alternative<SetFeed>(a.data);
+    });
+  }
+  /// A subprogram that has nothing but points, in a row.
+  bool calls_points(const CallRoutine& call) const {
+    if (call.computed || call.has_range || call.tail || call.optional) return false;
+    const auto& all = editor_.program.routines;
+    const auto r = std::find_if(all.begin(), all.end(), [&call](const Routine& x) { return x.name == call.routine; });
+    if (r == all.end() || r->kind == RoutineKind::main) return false;
+    return std::all_of(r->body.begin(), r->body.end(), [](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      return std::holds_alternative<Return>(s.node) || (m == nullptr && point(s));
+    });
+  }
+  void tell(const LineInfo& where, double out) const {
+    context_.diagnostics.warning("TRN-422", where.span,
+                                 "the tap leaves its hole at the speed of the way in, not at " + shortest(out) +
+                                     " rev/min: the target's tap has one speed",
+                                 "the thread is the same; give both ways one speed");
+  }
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  Editor editor_;
+  LabelUses uses_;
+  SpindleSense sense_;
+};
+
+bool has_candidate(const Program& program) {
+  bool found = false;
+  const auto look = [&found](const CyclePtr& cycle) {
+    const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+    found = found || (c != nullptr && candidate(*c));
+  };
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&look](const Statement& s) {
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) look(m->cycle);
+      const auto* b = std::get_if<Block>(&s.node);
+      for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+        if (const auto* d = std::get_if<CycleDefine>(&b->actions[i].data)) look(d->cycle);
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+void write_tap_speeds(Program& program, const LegaliseContext& context) {
+  const bool same = program.dialect == context.target.dialect && !program.dialect.empty();
+  if (same || context.options.cycles == CycleWriting::explode || !has_candidate(program)) return;
+  const FactsOf facts(program, context);
+  for (auto& r : program.routines) TapSpeeds(program, r, context, facts).run();
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,20 @@
+#include "legaliser/edit/refuse.h"
+
+#include <utility>
+
+#include "ir/text/text.h"
+
+namespace cnctrans::ir::passes {
+
+void refuse(Statement& s, const Program& program, const LegaliseContext& context, std::string_view code,
+            std::string message, std::string hint, WordPos pos) {
+  context.diagnostics.error(code, word_span(s.line.span, pos), std::move(message), std::move(hint));
+  Opaque o;
+  o.text = to_text(s, program);
+  // Nothing will be written: what follows is looked at as if this statement had changed nothing, so that it is not
+  // blamed for it. When the rest is written all the same, nothing is known behind it.
+  if (context.options.goes_on) o.feature = "language.statement";
+  s.node = std::move(o);
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,492 @@
+// Absolute and incremental words (equivalences 7): a word with its own mode where the target knows block modes only.
+#include <algorithm>
+#include <array>
+
+#include "ir/analysis/flow_states.h"
+#include "legaliser/analysis/words.h"
+#include "legaliser/edit/blocks.h"
+#include "legaliser/edit/editor.h"
+#include "legaliser/frames/axis_scales.h"
+#include "legaliser/frames/shifted_axes.h"
+#include "legaliser/motion/polar_words.h"
+#include "legaliser/passes.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+constexpr std::uint64_t one = 1;
+constexpr unsigned first_plane_bit = axis::count_max;
+constexpr std::uint64_t plane_bits = 7 * (one << first_plane_bit), axis_bits = (one << axis::count_max) - 1;
+
+bool is_polar(const Motion& m) {
+  return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
+}
+
+/// A word that the pass over arcs has put beside others for an axis that stays where it stands: an increment of 0.
+bool holds_still(const CoordWord& c) {
+  return c.mode == WordMode::incremental && c.pos.column == 0 && c.value.is(0);
+}
+
+/// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates. The bits
+/// from first_plane_bit on say which planes may be in force (polar words move both axes of the plane).
+struct UnmovedAxes {
+  using State = std::uint64_t;
+  [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return plane_bits; }
+  static void transfer(const Statement& s, State& state) {
+    if (const auto* assign = std::get_if<Assign>(&s.node)) {
+      for (const auto& i : assign->items) {
+        if (const auto a = axis_of_component(i)) state |= one << *a;
+      }
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) state |= axis_bits;
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      if (m != nullptr && m->setting == Setting::plane)
+        state = (state & axis_bits) | one << (first_plane_bit + m->value);
+    }
+    if (!b->has_motion) return;
+    for (const auto& c : b->motion.coords) {
+      if (!holds_still(c)) state &= ~(one << c.axis);
+    }
+    if (is_polar(b->motion)) state &= ~polar_axes(state);
+  }
+  /// Axes that polar words move whichever of the planes is in force.
+  static State polar_axes(State state) {
+    State moved = axis_bits;
+    for (const auto plane : {Plane::xy, Plane::zx, Plane::yz}) {
+      const PlaneAxes axes = plane_axes(plane);
+      if ((state >> (first_plane_bit + static_cast<unsigned>(plane)) & one) != 0)
+        moved &= one << axes.u | one << axes.v;
+    }
+    return moved;
+  }
+  [[nodiscard]] static bool touches(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      if (!std::holds_alternative<Block>(s.node) && !std::holds_alternative<Assign>(s.node)) return;
+      State none = 0, all = plane_bits | axis_bits;
+      transfer(s, none);
+      transfer(s, all);
+      found = found || none != 0 || all != (plane_bits | axis_bits);  // planes, frames, moves
+    });
+    return found;
+  }
+  /// Changes of frames alone make an axis wait for its first move.
+  [[nodiscard]] static bool adds(const Routine& r) {
+    bool found = false;
+    for_each_statement(r.body, [&found](const Statement& s) {
+      State none = 0;
+      transfer(s, none);
+      found = found || (none & axis_bits) != 0;
+    });
+    return found;
+  }
+  static void only_kept(State& back, State before) { back &= before | ~axis_bits; }
+  static void unknown(State& /*state*/) {}
+  static bool join(State& a, State b) {
+    const State before = a;
+    a |= b;
+    return a != before;
+  }
+};
+
+class DistancePass {
+ public:
+  DistancePass(const Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context), facts_(facts) {
+    keeps_differ_ =
+        context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
+    if (!keeps_differ_) return;
+    unmoved_.emplace(program, UnmovedAxes{});
+    for (const auto& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        if (b == nullptr) return;
+        for (const auto& a : b->actions) {
+          const auto* f = std::get_if<FrameOp>(&a.data);
+          turns_ = turns_ || (f != nullptr && f->change && turns(*f->change));
+        }
+      });
+    }
+  }
+
+  void block(Editor& editor, Statement&& s, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    if (!context_.target.distance_inside_block) keep_last(b);
+    if (!context_.target.distance_per_word) drop_modes_in_force(b, facts_.before(s));
+    const bool settled = watch_frames(s, b);
+    if (settled && !context_.target.distance_per_word &&
+        setting_in<Distance>(b, facts_.before(s), Setting::distance) == Distance::incremental)
+      return switch_for_block(editor, std::move(s), Distance::incremental, out);
+    if (!wants_work(b)) {
+      out.push_back(std::move(s));
+      return;
+    }
+    const Facts& facts = facts_.before(s);
+    const auto mode = setting_in<Distance>(b, facts, Setting::distance);
+    std::size_t foreign = 0, own = 0;
+    for (auto& c : b.motion.coords) {
+      const auto d = explicit_mode(c);
+      if (d && mode && d == mode) c.mode = WordMode::modal;
+      if (explicit_mode(c))
+        ++foreign;
+      else
+        ++own;
+    }
+    const bool switches = own == 0 && mode && uniform(b) && !centres_follow(b);
+    if (foreign == 0 || to_block_mode(b, mode, facts, !switches)) {
+      out.push_back(std::move(s));
+      return;
+    }
+    if (switches) return switch_for_block(editor, std::move(s), *mode, out);
+    if (mode == Distance::incremental && all_absolute(b, facts))
+      return switch_for_block(editor, std::move(s), *mode, out);
+    if (mode)
+      refuse(s, editor.program, context_, "TRN-181",
+             "absolute and incremental words in one block, and the position before it is not known here",
+             "write the block in one mode, or in two blocks");
+    else
+      refuse(s, editor.program, context_, "TRN-181",
+             "a word that is absolute or incremental by itself, and which of the two modes is in force depends on the "
+             "path that leads here",
+             "write G90 or G91 before it on every path");
+    out.push_back(std::move(s));
+  }
+
+  static bool turns(const FrameChange& c) {
+    return c.kind != FrameKind::translate || c.slot == FrameSlot::rotation || c.slot == FrameSlot::scale ||
+           c.slot == FrameSlot::mirror;
+  }
+  void new_routine(Editor& editor) {
+    dirty_ = turned_ = 0;
+    shifted_.clear_all();
+    const Routine& r = editor.routine;
+    uses_ = label_uses(editor.program, r);
+    straight_ = r.kind == RoutineKind::main;
+    for (const auto& s : r.body) {
+      const bool structured = std::holds_alternative<While>(s.node) || std::holds_alternative<Until>(s.node) ||
+                              std::holds_alternative<For>(s.node) || std::holds_alternative<Loop>(s.node) ||
+                              (std::holds_alternative<If>(s.node) && !std::get<If>(s.node).one_line);
+      if (structured) straight_ = false;
+    }
+    if (straight_) shifted_.start();
+  }
+  /// A statement that is no block: does control go on in the text, and with the frame as it was?
+  void other(const Statement& s) {
+    leave_straight(s);
+    if (const auto* assign = std::get_if<Assign>(&s.node)) {
+      for (const auto& i : assign->items) {
+        const auto a = axis_of_component(i);
+        if (!a) continue;
+        turned_ |= 1U << *a;
+        shifted_.at[*a] = shifted_.moved[*a] = std::nullopt;
+      }
+    }
+    const bool goes_on = std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
+                         std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node) ||
+                         std::holds_alternative<Jump>(s.node);
+    if (!goes_on) shifted_.clear_all();
+  }
+
+ private:
+  /// Of several changes in one block (each counts for the words behind it) the last one stays in force.
+  static void keep_last(Block& b) {
+    const auto sets = [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::distance;
+    };
+    auto left = std::count_if(b.actions.begin(), b.actions.end(), sets);
+    std::erase_if(b.actions, [&](const Action& a) { return sets(a) && left-- > 1; });
+  }
+
+  void leave_straight(const Statement& s) {
+    for (const auto& l : labels_on(s.line)) {
+      if (uses_.is_target(l) || uses_.computed) return shifted_.clear_all();
+    }
+  }
+
+  static std::optional<Distance> explicit_mode(const CoordWord& c) {
+    if (c.mode == WordMode::absolute) return Distance::absolute;
+    if (c.mode == WordMode::incremental) return Distance::incremental;
+    return std::nullopt;
+  }
+  bool wants_work(const Block& b) const {
+    if (!b.has_motion || context_.target.distance_per_word) return false;
+    // Which of two modes in a block counts for the centre of an arc is nowhere said.
+    if (context_.target.distance_inside_block && b.motion.centers.empty()) return false;
+    return std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                       [](const CoordWord& c) { return c.mode != WordMode::modal; });
+  }
+  static bool uniform(const Block& b) {
+    const auto first = explicit_mode(b.motion.coords.front());
+    return std::all_of(b.motion.coords.begin(), b.motion.coords.end(),
+                       [&](const CoordWord& c) { return explicit_mode(c) == first; });
+  }
+
+  /// All words in the block's mode, from the known position. False: nothing is changed. `asks`: where it is not known
+  /// the target's own knowledge of it may stand in the text.
+  bool to_block_mode(Block& b, std::optional<Distance> mode, const Facts& facts, bool asks = true) const {
+    if (!mode) return false;
+    std::vector<CoordWord> coords = b.motion.coords;
+    for (auto& c : coords) {
+      const auto d = explicit_mode(c);
+      if (!d) continue;
+      const auto from = to_radius(c.axis, c.scale, d, b, facts, context_.source_machine);
+      const auto to = to_radius(c.axis, WordScale::modal, mode, b, facts, context_.source_machine);
+      const auto& at = facts.position[c.axis];
+      if (!from || !to) return false;
+      if (d == mode) {
+        c.value = scale(c.value, *from / *to);
+        c.mode = WordMode::modal;
+        c.scale = WordScale::modal;
+        continue;
+      }
+      if (!at) {
+        if (!asks || !from_machine(c, *mode, *from / *to)) return false;
+        continue;
+      }
+      const Value here{*at};
+      const Value radius = scale(c.value, *from);
+      c.value = scale(*mode == Distance::absolute ? add(here, radius) : subtract(radius, here), 1 / *to);
+      c.value.text = {};
+      c.mode = WordMode::modal;
+      c.scale = WordScale::modal;
+    }
+    b.motion.coords = std::move(coords);
+    return true;
+  }
+
+  /// Under the other mode the centre would be another one.
+  static bool centres_follow(const Block& b) {
+    return std::any_of(b.motion.centers.begin(), b.motion.centers.end(),
+                       [](const CenterWord& c) { return c.mode == CenterMode::follows_distance; });
+  }
+
+  /// A block of increments with absolute words beside them: all of them absolute. False: nothing is changed.
+  bool all_absolute(Block& b, const Facts& facts) const {
+    const std::vector<CoordWord> as_it_was = b.motion.coords;
+    if (centres_follow(b) || b.motion.extra) return false;
+    for (auto& c : b.motion.coords) {
+      if (c.mode == WordMode::modal) c.mode = WordMode::incremental;
+    }
+    if (to_block_mode(b, Distance::absolute, facts)) return true;
+    b.motion.coords = as_it_was;
+    return false;
+  }
+
+  /// The increment added to what the target knows as the last programmed coordinate.
+  bool from_machine(CoordWord& c, Distance mode, double factor) const {
+    SystemRef here;
+    here.datum = Datum::programmed_position;
+    here.axis = c.axis;
+    if (mode != Distance::absolute || !context_.target.system_data || !context_.target.system_data(here)) return false;
+    Expr e;
+    e.node = std::move(here);
+    const Value step = scale(c.value, factor);
+    c.value = Value{binary(BinaryOp::add, std::make_shared<const Expr>(std::move(e)), as_expr(step))};
+    c.mode = WordMode::modal;
+    c.scale = WordScale::modal;
+    return true;
+  }
+
+  /// The other mode for this block, and back in a block behind.
+  void switch_for_block(Editor& editor, Statement&& s, Distance mode, Body& out) const {
+    auto& b = std::get<Block>(s.node);
+    const Distance other = mode == Distance::absolute ? Distance::incremental : Distance::absolute;
+    for (auto& c : b.motion.coords) c.mode = WordMode::modal;
+    bool said_behind = false;
+    std::erase_if(b.actions, [&said_behind](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      if (m == nullptr || m->setting != Setting::distance) return false;
+      said_behind = said_behind || a.order == Order::after;
+      return a.order != Order::after;
+    });
+    b.actions.insert(b.actions.begin(),
+                     action(ModalSet{Setting::distance, static_cast<std::uint8_t>(other), true, {}}));
+    if (said_behind) return out.push_back(std::move(s));
+    Body pieces;
+    const LineInfo like = s.line;
+    pieces.push_back(std::move(s));
+    pieces.push_back(make_block(like, action(ModalSet{Setting::distance, static_cast<std::uint8_t>(mode), true, {}})));
+    editor.put_group(out, std::move(pieces), 0);
+  }
+
+  /// The frame change as far as numbers go.
+  void follow_frame(const Block& b, const Facts& facts, const FrameChange& c) {
+    const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
+    const bool clears = c.combine == FrameCombine::clear;
+    const bool replaces = c.combine == FrameCombine::replace;
+    if (c.kind == FrameKind::translate && (clears || replaces)) {
+      if (c.slot == FrameSlot::chain) shifted_.turned = false;
+    } else if (c.kind != FrameKind::translate || c.by_distance_mode || c.combine != FrameCombine::replace_named) {
+      shifted_.turned = shifted_.turned || !clears;
+      if (c.kind != FrameKind::translate) return;
+      return shifted_.clear_all();
+    }
+    for (AxisId a = 0; a < axis::first_extra; ++a) {
+      std::optional<double> now = clears || replaces ? std::optional(0.0) : shifted_.shift[a];
+      for (const auto& w : c.words) {
+        if (w.axis != a) continue;
+        const auto factor = to_radius(a, w.scale, Distance::absolute, b, facts, context_.source_machine);
+        now = w.value.literal() && factor && metric ? std::optional(w.value.number * *factor) : std::nullopt;
+      }
+      auto& moved = shifted_.moved[a];
+      moved = moved && now && shifted_.shift[a] ? std::optional(*moved + *now - *shifted_.shift[a]) : std::nullopt;
+      shifted_.shift[a] = now;
+    }
+  }
+
+  /// Where the source's control counts an increment of the axis from, in the frame in force (radius).
+  std::optional<double> base(AxisId a, const Block& b, const Facts& facts) const {
+    if (facts.position[a]) return facts.position[a];
+    if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
+    if (context_.source_machine.option("frame.change_keeps") == "programmed") {
+      const auto surface = facts.settings[static_cast<std::size_t>(Setting::surface)];
+      if (!surface) return std::nullopt;
+      if (*surface == static_cast<std::uint8_t>(Surface::none)) return shifted_.at[a];
+    }  // on the face and the cylinder the point itself counts
+    const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
+    const bool turned = shifted_.turned || (turned_ >> a & 1U) != 0;  // the old point was one of the turned frame
+    if (turned || !shifted_.moved[a] || !metric) return std::nullopt;
+    return *shifted_.at[a] - *shifted_.moved[a];
+  }
+
+  /// Increments right after a frame change become absolute where the place they start from is known.
+  bool made_absolute(Block& b, const Facts& facts) const {
+    auto coords = absolute_words(b, facts, context_.source_machine, [&](AxisId a) { return base(a, b, facts); });
+    if (!coords) return false;
+    b.motion.coords = std::move(*coords);
+    return true;
+  }
+
+  /// An increment right after a frame change: controls differ in what it is added to. True: its words are absolute now.
+  bool watch_frames(const Statement& s, Block& b) {
+    if (!keeps_differ_) return false;
+    leave_straight(s);
+    if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) dirty_ = static_cast<std::uint32_t>(*waiting);
+    if (b.has_motion && is_polar(b.motion)) shifted_.at.fill(std::nullopt);
+    const Facts& facts = facts_.before(s);
+    for (const auto& a : b.actions) {
+      const auto* f = std::get_if<FrameOp>(&a.data);
+      const bool offset = std::holds_alternative<WorkOffset>(a.data);
+      if (f == nullptr && !offset) {
+        const auto* m = std::get_if<ModalSet>(&a.data);
+        if (m != nullptr && m->setting == Setting::units) shifted_.at.fill(std::nullopt);
+        continue;
+      }
+      for (AxisId x = 0; x < axis::first_extra; ++x) {
+        if ((dirty_ >> x & 1U) != 0) continue;  // changed again before a move
+        shifted_.at[x] = facts.position[x];
+        shifted_.moved[x] = 0;
+      }
+      dirty_ = ~0U;
+      if (f != nullptr && f->change && (turns(*f->change) || (turns_ && f->change->combine == FrameCombine::clear)))
+        turned_ = ~0U;
+      if (offset || !f->change || s.line.skip_mask != 0)
+        shifted_.clear_all();
+      else
+        follow_frame(b, facts, *f->change);
+    }
+    if (!b.has_motion || dirty_ == 0) return false;
+    const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
+      return (dirty_ >> c.axis & 1U) != 0 && !holds_still(c) && distance_of(c, b, facts) != Distance::absolute;
+    });
+    const bool settled = relative && made_absolute(b, facts);
+    for (const auto& c : b.motion.coords) {
+      if (holds_still(c)) continue;
+      const std::uint32_t bit = 1U << c.axis;
+      const bool turned = (turned_ & bit) != 0;
+      turned_ &= ~bit;
+      if ((dirty_ & bit) == 0) continue;
+      dirty_ &= ~bit;
+      if (settled || distance_of(c, b, facts) == Distance::absolute) continue;
+      const Span at = word_span(s.line.span, c.pos);
+      const char* const what =
+          "an incremental move of this axis right after a change of the offsets: the source and "
+          "the target control differ in the point that it starts from";
+      const char* const hint = "make the first move of the axis after the change absolute";
+      // By how much is not known; behind a rotation, scale or mirror it is another direction as well.
+      if (turned)
+        context_.diagnostics.error("TRN-182", at, what, hint);
+      else
+        context_.diagnostics.warning("TRN-182", at, what, hint);
+    }
+    return settled;
+  }
+
+  const LegaliseContext& context_;
+  const FactsOf& facts_;
+  std::optional<FlowStates<UnmovedAxes>> unmoved_;
+  bool keeps_differ_ = false;
+  std::uint32_t turned_ = 0;  ///< bit n: not since a rotation, scale or mirror began or ended
+  bool turns_ = false;        ///< the program has such
+  std::uint32_t dirty_ = 0;   ///< bit n: axis n has not moved since the frame changed
+  Shifted shifted_;
+  LabelUses uses_;
+  bool straight_ = false;
+};
+
+/// Where a frame change keeps the position of the machine, an increment of 0 behind it moves nothing; on the other
+/// control it would travel the difference.
+void leave_out_idle(Program& program, const LegaliseContext& context, const FactsOf& facts) {
+  if (context.source_machine.option("frame.change_keeps") != "machine" ||
+      context.target_machine.option("frame.change_keeps") == "machine")
+    return;
+  bool changes = false, idle = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      UnmovedAxes::State none = 0;
+      UnmovedAxes::transfer(s, none);
+      changes = changes || (none & axis_bits) != 0;
+      const auto* b = std::get_if<Block>(&s.node);
+      idle = idle || (b != nullptr && b->has_motion &&
+                      std::any_of(b->motion.coords.begin(), b->motion.coords.end(),
+                                  [](const CoordWord& c) { return c.value.is(0); }));
+    });
+  }
+  if (!changes || !idle) return;
+  const FlowStates<UnmovedAxes> unmoved(program, UnmovedAxes{});
+  const auto statement = [&](Statement& s) {
+    auto* b = std::get_if<Block>(&s.node);
+    const auto* waiting = b != nullptr ? unmoved.before(s) : nullptr;
+    if (waiting == nullptr || !b->has_motion || b->motion.extra || !b->motion.centers.empty() || b->motion.radius_given)
+      return;
+    const auto kind = motion_in(*b, facts.before(s));  // not known: without a centre and a radius it is no arc
+    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return;
+    const auto left = std::erase_if(b->motion.coords, [&](const CoordWord& c) {
+      return (*waiting >> c.axis & one) != 0 && c.value.is(0) &&
+             distance_of(c, *b, facts.before(s)) == Distance::incremental;
+    });
+    if (left == 0) return;
+    if (b->motion.coords.empty() && !b->motion.explicit_code) b->has_motion = false;
+    context.diagnostics.note("TRN-562", s.line.span,
+                             "an increment of 0 right after a change of the offsets moves nothing on the source; the "
+                             "target would travel the change: it is left out");
+  };
+  for (auto& r : program.routines) for_each_statement(r.body, statement);
+}
+
+}  // namespace
+
+void convert_distance(Program& program, const LegaliseContext& context) {
+  const FactsOf facts(program, context);
+  leave_out_idle(program, context, facts);
+  DistancePass pass(program, context, facts);
+  for (auto& routine : program.routines) {
+    Editor editor(program, routine, context);
+    pass.new_routine(editor);
+    rewrite_body(routine.body, [&](Statement&& s, Body& out) {
+      if (std::holds_alternative<Block>(s.node)) {
+        pass.block(editor, std::move(s), out);
+      } else {
+        pass.other(s);
+        out.push_back(std::move(s));
+      }
+    });
+  }
+}
+
+}  // namespace cnctrans::ir::passes

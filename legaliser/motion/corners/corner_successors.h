@@ -1,0 +1,21 @@
+// What follows the corners of a program (RND, CHR, CHF) on the ways that it can take.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "base/source.h"
+#include "legaliser/analysis/path_points.h"
+
+namespace cnctrans::ir::passes {
+
+struct CornerEnds {
+  bool followed = false;    ///< on some way a move in the plane, or something that may make one
+  std::vector<Span> alone;  ///< where another move or the end of the program comes first
+};
+
+/// By the id of the block that has the corner.
+std::map<std::uint32_t, CornerEnds> corner_ends(const Program& program, const LegaliseContext& context,
+                                                const FactsOf& facts);
+
+}  // namespace cnctrans::ir::passes

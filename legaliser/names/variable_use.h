@@ -1,0 +1,50 @@
+// What variables a program uses: numbers of each numbered space, names, and where.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ir/edit/rewrite.h"
+#include "legaliser/legalise.h"
+
+namespace cnctrans::ir::passes {
+
+struct VariableUse {
+  struct Named {
+    std::set<std::size_t> routines;
+    std::vector<std::int64_t> dimensions;
+    /// 1 for a variable that is no array.
+    [[nodiscard]] std::int64_t elements() const {
+      std::int64_t n = 1;
+      for (const auto d : dimensions) n *= std::max<std::int64_t>(d, 1);
+      return n;
+    }
+  };
+  struct Numbered {
+    std::set<std::int64_t> used;
+    bool computed = false;  ///< some number is found at run time
+    LineInfo computed_at;
+  };
+  /// Machine data without a counterpart on the target are reported.
+  VariableUse(const Program& program, const LegaliseContext& context);
+
+  std::map<std::pair<SpaceId, std::string>, Named> named;
+  std::map<SpaceId, Numbered> numbered;
+  bool levels = false;  ///< calls open levels of local parameters
+
+ private:
+  void note(const VarRef& v, std::size_t routine, const LineInfo& line);
+  void dimensions(const Declare& d, std::size_t routine);
+  void system(const SystemRef& ref);
+  /// Says what the statement reads or writes and the target has not: once for each kind of datum, with their number.
+  void say_missing(const Statement& s);
+  std::map<std::string, std::set<std::string>> missing_;  ///< of the statement: names by kind
+  const Program& program_;
+  const LegaliseContext& context_;
+};
+
+}  // namespace cnctrans::ir::passes

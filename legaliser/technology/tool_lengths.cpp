@@ -1,0 +1,123 @@
+#include "legaliser/technology/tool_lengths.h"
+
+#include <string>
+
+#include "base/text.h"
+#include "legaliser/edit/blocks.h"
+#include "legaliser/passes.h"
+
+namespace cnctrans::ir::passes {
+
+bool BareTool::follow(const Block& block, const Span& where) {
+  if (used_) return false;
+  bool changes = false;
+  for (const auto& a : block.actions) {
+    if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
+      given_ = false;
+      changes = changes || t->changes;
+    } else if (std::holds_alternative<ToolChange>(a.data)) {
+      changes = true;
+      if (keeps_) given_ = false;
+    }
+  }
+  for (const auto& a : block.actions) given_ = given_ || std::holds_alternative<ToolOffset>(a.data);
+  if (changes && !waiting_ && !given_) change_ = where;
+  if (changes) waiting_ = true;
+  if (given_) waiting_ = false;
+  used_ = waiting_ && has_motion(block);
+  return used_;
+}
+
+namespace {
+
+std::string bare_offset(const machine::Profile& machine) {
+  const std::string how = machine.option("tool.bare_offset");
+  if (how == "table") return "the offset that its tool table has for the tool";
+  return how == "edge" ? "the edge that the machine data name" : "the offset in force before, or none";
+}
+
+/// Warns once a program, where a tool without a D is used.
+void check_bare_tools(const Program& program, const LegaliseContext& context) {
+  bool said = false;
+  for (const auto& r : program.routines) {
+    BareTool tool(context.source_machine);
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();
+      if (said || b == nullptr || !tool.follow(*b, s.line.span)) return;
+      said = true;
+      tool.tell(context);
+    });
+  }
+}
+
+/// Warns once a program, at the first other plane.
+void check_planes(const Program& program, const LegaliseContext& context) {
+  const Plane usual = context.source_machine.power_on.plane;
+  bool said = false, offset = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || said) return;
+      for (const auto& a : b->actions) {
+        offset = offset || std::holds_alternative<ToolOffset>(a.data) || std::holds_alternative<ToolSelect>(a.data);
+        const auto* set = std::get_if<ModalSet>(&a.data);
+        if (said || !offset || set == nullptr || set->setting != Setting::plane ||
+            set->value == static_cast<std::uint8_t>(usual))
+          continue;
+        said = true;
+        const bool follows = context.target_machine.option("tool.length_axis") == "plane";
+        context.diagnostics.warning(
+            "TRN-523", word_span(s.line.span, a.pos),
+            follows
+                ? "another plane: the length of the tool stays along its axis on the source's machine, on the target's "
+                  "it goes to the axis across the plane (said once a program)"
+                : "another plane: the length of the tool goes to the axis across the plane on the source's machine, "
+                  "on the target's it stays along the axis of the tool (said once a program)",
+            "check along which axis the tool stands, and select its axis on the target");
+      }
+    });
+  }
+}
+
+/// The source chooses the axis of the length by a function of its own: the words of the program say what cycles make of
+/// it, the length itself is the machine's.
+void check_chosen_axes(Program& program, const LegaliseContext& context) {
+  const bool follows = context.target_machine.option("tool.length_axis") == "plane";
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      auto* kept = std::get_if<Opaque>(&s.node);
+      if (kept == nullptr || kept->feature != "motion.length_axis") return;
+      const std::string text(trim(kept->text));
+      context.diagnostics.warning("TRN-523", s.line.span,
+                                  "'" + text +
+                                      "' chooses the axis of the tool's length, which the target can't: there " +
+                                      (follows ? "the length goes to the axis across the plane"
+                                               : "the length stays along the axis of the tool"),
+                                  "check along which axis the tool stands, and select its axis on the target");
+      CommentText remark;
+      remark.text = program.keep("!! TRN-523 " + text);
+      s.line.comments.push_back(remark);
+      kept->feature.clear();
+    });
+  }
+}
+
+}  // namespace
+
+void BareTool::tell(const LegaliseContext& context) const {
+  context.diagnostics.warning("TRN-522", change_,
+                              "a tool without a D: the source takes " + bare_offset(context.source_machine) +
+                                  ", the target " + bare_offset(context.target_machine) +
+                                  "; the tool may stand off by its length (said once a program)",
+                              "write the D beside the T, D0 for no offset");
+}
+
+void check_tool_lengths(Program& program, const LegaliseContext& context) {
+  if (program.dialect == context.target.dialect) return;
+  check_chosen_axes(program, context);
+  if (bare_offsets_differ(context.source_machine, context.target_machine)) check_bare_tools(program, context);
+  if (length_axes_differ(context.source_machine, context.target_machine)) check_planes(program, context);
+}
+
+}  // namespace cnctrans::ir::passes

@@ -1,0 +1,43 @@
+// The length of a tool (equivalences 15): which offset a tool gets that comes without a D, and along which axis its
+// length lies in another plane.
+#pragma once
+
+#include "ir/block.h"
+#include "legaliser/legalise.h"
+#include "machine/profile.h"
+
+namespace cnctrans::ir::passes {
+
+/// The machines give other offsets to a tool without a D (option `tool.bare_offset`).
+inline bool bare_offsets_differ(const machine::Profile& source, const machine::Profile& target) {
+  return source.option("tool.bare_offset") != target.option("tool.bare_offset");
+}
+/// On mills the length follows the plane on one of the machines only (option `tool.length_axis`).
+inline bool length_axes_differ(const machine::Profile& source, const machine::Profile& target) {
+  return source.kind == machine::Kind::mill && source.option("tool.length_axis") != target.option("tool.length_axis");
+}
+
+/// Follows a program block by block: has the tool in the spindle come without a D?
+class BareTool {
+ public:
+  BareTool() = default;
+  /// `kept` of the source's option: a D that stands before the change stays there; elsewhere the change takes its own.
+  explicit BareTool(const machine::Profile& source) : keeps_(source.option("tool.bare_offset") == "kept") {}
+  /// \return a move uses such a tool, for the first time
+  bool follow(const Block& block, const Span& where);
+  /// The D may have been given where it can't be seen.
+  void forget() { waiting_ = false; }
+  /// Where such a tool has come that a move uses: TRN-522.
+  void tell(const LegaliseContext& context) const;
+  /// What the next blocks depend on, as a number below 8.
+  [[nodiscard]] unsigned key() const { return (given_ ? 1U : 0U) + (waiting_ ? 2U : 0U) + (used_ ? 4U : 0U); }
+
+ private:
+  bool keeps_ = false;
+  bool given_ = false;    ///< a D since the last T
+  bool waiting_ = false;  ///< changed without one
+  bool used_ = false;     ///< by a move: the rest does not matter any more
+  Span change_;
+};
+
+}  // namespace cnctrans::ir::passes
