@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,8 +109,9 @@ struct Verdict {
   /// Variables that were read before anything gave them a value: of the source, and of the translation alone.
   std::vector<std::string> read_first, target_read_first;
   bool kept_values_tried = false;  ///< with other values in them too
-  bool from_zero_only = false;     ///< proved for a start at the zero point; the program needs that, or is warned of it
-  bool one_world = false;          ///< the source does not run with zero points other than those of the profiles
+  /// Where the second replay ran; it stands at the zero point when the program needs that, or is warned of it.
+  std::optional<machine::World> world;
+  bool one_world = false;  ///< the source does not run with zero points other than those of the profiles
   /// With not_replayable: the source ran to its end, the translation moved and did not.
   bool target_stopped = false;
   [[nodiscard]] bool good() const { return status == Status::verified || status == Status::within_tolerance; }

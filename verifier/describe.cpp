@@ -55,7 +55,7 @@ std::string by_zero(const Verdict& v) {
         "; {} before a work offset is selected: the zero point that both machines have then is taken for "
         "the same",
         counted(v.open_zero_moves, "move"));
-  if (v.from_zero_only) text += "; proved for a start at the zero point only";
+  if (v.world && v.world->stands_at_zero) text += "; proved for a start at the zero point only";
   if (v.one_world) text += "; proved for zero points as in the profiles only";
   return text;
 }

@@ -26,16 +26,18 @@ class Into : public interpreter::TraceSink {
   std::vector<interpreter::Event>& events_;
 };
 
-Trace trace_of(const std::string& dialect, const std::string& machine, const std::string& file,
-               const std::string& text) {
+Trace trace_of(const std::string& dialect, const std::string& machine, const std::string& file, const std::string& text,
+               const std::optional<machine::World>& world) {
   translator::RunOptions options;
   options.dialect = dialect;
   options.machine = machine;
   limit(options.run);
+  options.run.world = world;
   Trace trace;
   options.run.cycles = &trace.cycles;
   std::string ignored;
-  if (const auto profile = machine::load(machine, &ignored)) trace.start = verifier::start_of(*profile);
+  if (const auto profile = machine::load(machine, &ignored))
+    trace.start = verifier::start_of(*profile, world ? &*world : nullptr);
   const translator::Input input(SourceText::from_string(file, text));
   const auto read = translator::check(input, options);
   if (!read.error.empty() || read.diagnostics.has_errors()) return trace;
@@ -90,11 +92,15 @@ std::optional<Translated> translated(const splice::Program& source, const std::s
   const auto result = translator::translate(SourceText::from_string(source.file_name(), source.text()), options);
   if (result.refused || !result.error.empty() || !result.verdict.good() || result.outputs.size() != 1)
     return std::nullopt;
-  Translated t{source, to, result.target_machine, result.outputs.front().name, lines_of(result.outputs.front().bytes),
-               {},     {}};
-  t.source_trace = trace_of(source.dialect, source.machine(), source.file_name(), source.text());
-  t.trace = trace_of(to, t.machine, t.file, text_of(t.lines));
-  if (!t.source_trace.ran || !t.trace.ran || !verified(t, text_of(t.lines)).verdict.good()) return std::nullopt;
+  Translated t{
+      source, to, result.target_machine, result.outputs.front().name, lines_of(result.outputs.front().bytes), {},
+      {},     {}};
+  const auto proved = verified(t, text_of(t.lines)).verdict;
+  if (!proved.good()) return std::nullopt;
+  t.world = proved.world;
+  t.source_trace = trace_of(source.dialect, source.machine(), source.file_name(), source.text(), t.world);
+  t.trace = trace_of(to, t.machine, t.file, text_of(t.lines), t.world);
+  if (!t.source_trace.ran || !t.trace.ran) return std::nullopt;
   return t;
 }
 
@@ -103,7 +109,7 @@ Outcome tried(const Translated& t, const Fault& fault) {
   const auto lines = with_fault(t.lines, fault);
   if (!lines) return out;
   const std::string text = text_of(*lines);
-  const Trace trace = trace_of(t.to, t.machine, t.file, text);
+  const Trace trace = trace_of(t.to, t.machine, t.file, text, t.world);
   if (!trace.ran) {
     out.fate = Fate::no_run;
     return out;

@@ -7,12 +7,13 @@
 
 #include "interpreter/trace/cycle_runs.h"
 #include "interpreter/trace/trace.h"
+#include "machine/world.h"
 #include "tests/mutation/faults.h"
 #include "tests/splice/programs.h"
 
 namespace cnctrans::mutation {
 
-/// What a program does on its machine, in a world where nothing coincides.
+/// What a program does on its machine, in the world of the proof's second replay when there is one.
 struct Trace {
   std::vector<interpreter::Event> events;
   std::vector<interpreter::CycleRun> cycles;
@@ -25,6 +26,7 @@ struct Translated {
   std::string to, machine;  ///< language and machine of the target
   std::string file;
   Lines lines;
+  std::optional<machine::World> world;
   Trace source_trace, trace;
 };
 /// nullopt: it is refused, or not verified, or the verifier says otherwise of the two texts alone.

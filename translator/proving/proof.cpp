@@ -204,7 +204,7 @@ class Prover {
         if (fails(other->verdict)) return elsewhere(*std::move(other), started, with_kept ? kept.target : Settings());
         verifier::add_distance(said, other->verdict);
         said.kept_values_tried = with_kept;
-        said.from_zero_only = at_zero;
+        said.world = world_;
         return proof;
       }
     }

@@ -118,9 +118,9 @@ StreamVerdict prove_stream(const std::string& source, const std::string& written
   if (first.proved == StreamProved::yes && cut) {
     runs.in_world->world->stands_at_zero = true;
     first = replay_both(paths, *ends, runs, skips, cut);
-    first.verdict.from_zero_only = !cut;
     first.verdict.one_world = cut;
   }
+  if (!cut) first.verdict.world = runs.in_world->world;
   const auto all = static_cast<std::uint16_t>(run.skip_mask | skips);
   if (first.proved != StreamProved::yes || !options.further.skips || all == run.skip_mask) return first;
   runs = {cut ? run : *runs.in_world, {}};
