@@ -188,11 +188,18 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     out.erase(kept, out.end());
   };
   const Taps taps(events);
-  for (const Event* event : taps.order) {
-    const Event& e = *event;
+  // Made ready and changed with nothing between is one command in two words.
+  const auto changed_at_once = [&order = taps.order](std::size_t k) {
+    for (std::size_t n = k + 1; n < order.size() && !is_barrier(order[n]->kind); ++n) {
+      if (order[n]->kind == EventKind::tool) return order[n]->change && order[n]->number == order[k]->number;
+    }
+    return false;
+  };
+  for (std::size_t k = 0; k < taps.order.size(); ++k) {
+    const Event& e = *taps.order[k];
     if (e.kind == EventKind::feed_stop) continue;  // timing, not path: see docs/verify.md
     if (e.kind == EventKind::offset && !keep_offsets) continue;
-    if (e.kind == EventKind::tool && !e.change && !keep_selections) continue;
+    if (e.kind == EventKind::tool && !e.change && (!keep_selections || changed_at_once(k))) continue;
     if (!filter.changes(e)) continue;
     if (is_barrier(e.kind)) {
       close_stretch();

@@ -75,10 +75,13 @@ std::string tap_difference(const CyclePasses& source, const CyclePasses& target,
   if (std::fabs(a.surface - b.surface) > tolerances.length) return "the taps begin at other heights";
   if (std::fabs(there->depth - here->depth) > tolerances.length)
     return fmt::format("the threads are {} and {} mm deep", rounded(there->depth, 4), rounded(here->depth, 4));
+  const auto in = strokes_of(source, false);
   for (const bool back : {false, true}) {
     const auto of_source = strokes_of(source, back), of_target = strokes_of(target, back);
     if (of_source.empty()) continue;
     for (const Event* e : of_target) {
+      // A tap of one speed leaves the hole as it came in.
+      if (back && !in.empty() && stroke_difference(*in.front(), *e, tolerances).empty()) continue;
       if (what = stroke_difference(*of_source.front(), *e, tolerances); !what.empty()) return what;
     }
   }

@@ -90,6 +90,16 @@ std::string way_difference(const CyclePasses& source, const CyclePasses& target,
       box.add(axes.v, e->center_v + by);
     }
   }
+  // What the cycle comes down to belongs to it, and what lies before it as the tool stands at the start, where the
+  // blank is not: a cycle may begin its last pass there.
+  const WayPoint start = point(source.start);
+  for (const auto* contour : {&source.run->rough, &source.run->finish}) {
+    for (const auto& c : *contour) {
+      points.insert(points.end(), {{c.x, c.z}, {c.x, start.v}, {start.u, c.z}});
+      box.add(ir::axis::x, c.x);
+      box.add(ir::axis::z, c.z);
+    }
+  }
   const auto hull = turned ? hull_of(std::move(points)) : std::vector<WayPoint>();
   for (const Event* e : target.events) {
     if (e->kind != EventKind::rapid) continue;

@@ -8,9 +8,9 @@
 
 namespace cnctrans::verifier {
 
-/// Empty: each rapid move of the translation ends inside of the hull of the source's moves, or less than 1 mm outside,
-/// so that it goes nowhere where the source's tool does not go. In the plane X Z (`turned`) the hull is convex, else a
-/// box.
+/// Empty: each rapid move of the translation ends inside of the hull of the source's moves and contour, or less than 1
+/// mm outside, so that it goes nowhere where the source's tool does not go. In the plane X Z (`turned`) the hull is
+/// convex, else a box.
 [[nodiscard]] std::string way_difference(const CyclePasses& source, const CyclePasses& target, bool turned);
 /// Empty: other things than moves that a cycle does are the same. The sense and the dwells of a tap follow from it.
 [[nodiscard]] std::string beside_the_moves(const CyclePasses& source, const CyclePasses& target);
