@@ -39,14 +39,16 @@ struct Row {
 constexpr std::array<Row, 11> table = {{
     {state_order, "order of commands", "the order of spindle, coolant, tool and machine functions among each other"},
     {offset_numbers, "offset numbers", "offset numbers"},
-    {selections, "tools made ready", "a tool that is only made ready when one of the two machines changes at T"},
+    {selections, "tools made ready",
+     "a tool that is only made ready when a T of one of the two programs changes the tool at once"},
     {path_mode, "path mode", "exact-stop and look-ahead modes"},
     {small_moves, "small moves", "a move below the tolerance, on one side only"},
     {tolerances, "tolerance", "Tolerances: 0.0011 mm and degrees on end points"},
-    {texts, "signs of messages", "messages (letters and digits, so that a smaller character set is no difference)"},
+    {texts, "signs of messages", "Messages are the same text, letters and signs, as far as a target can show it"},
     {taps, "sense in a tap", "there the sense of the spindle follows from the path"},
     {unfed, "feed before any F", "The feed the target's power-on state gives such a move"},
-    {cycles, "passes of a cycle", "The infeeds, the number of passes and the ways between them are not compared"},
+    {cycles, "passes of a cycle",
+     "the number of passes, the infeeds up to that limit and the ways between them are not compared"},
     {open_offset, "offset before the first D", "the offset before the first D or change of the program"},
 }};
 constexpr std::uint32_t everything = (1U << table.size()) - 1;
