@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/source.h"
+
 namespace cnctrans::cli {
 
 class Messages;
@@ -45,8 +47,12 @@ struct Arguments {
   bool json = false;
   bool places = false;
   std::string shell;
-  unsigned jobs = 1, timeout = 300;  ///< batch: processes side by side; seconds for a program
-  std::string shard;                 ///< batch: "K/N"
+  std::string color = "auto";
+  std::string code;                                    ///< explain
+  std::string profile_action, profile_name, language;  ///< profile; `language`: only options that this control reads
+  SourcePtr standard_input;                            ///< what stands for the input "-"
+  unsigned jobs = 1, timeout = 300;                    ///< batch: processes side by side; seconds for a program
+  std::string shard;                                   ///< batch: "K/N"
   bool again = false, collect = false;
   Messages* messages = nullptr;  ///< stderr of the call; set by main()
 };
@@ -58,5 +64,7 @@ int verify(const Arguments& a);
 int check(const Arguments& a);
 int print_ir(const Arguments& a);
 int list_dialects(const Arguments& a);
+int explain(const Arguments& a);
+int profile(const Arguments& a);
 
 }  // namespace cnctrans::cli

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -143,6 +144,18 @@ bool stdout_arrived(std::string* why) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   if (why != nullptr && errno != 0) *why = std::string(": ") + std::strerror(errno);
   return false;
+}
+
+translator::Input input_of(const Arguments& a, const std::string& name) {
+  return name == "-" ? translator::Input(a.standard_input) : translator::Input(name);
+}
+
+bool coloured(const Arguments& a, std::FILE* stream) {
+  if (a.color != "auto") return a.color == "always";
+  const char* no = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool plain = (no != nullptr && *no != '\0') || (terminal != nullptr && std::string_view(terminal) == "dumb");
+  return !plain && isatty(fileno(stream)) != 0;
 }
 
 bool write_all(std::FILE* file, std::string_view bytes) {

@@ -31,6 +31,10 @@ std::string output_conflict(const std::vector<OutputOption>& outputs, const std:
 std::vector<std::string> machine_files(const Arguments& a);
 /// The path names a file that `files` were read from.
 bool was_read(const std::string& path, const FileTable& files);
+/// The program that an argument names: a file, or (`-`) what came on standard input.
+translator::Input input_of(const Arguments& a, const std::string& name);
+/// What --color and NO_COLOR say of a stream.
+bool coloured(const Arguments& a, std::FILE* stream);
 bool write_all(std::FILE* file, std::string_view bytes);
 /// What was printed on standard output has arrived. False when it has not (a full disk): main() says so at the end.
 bool stdout_arrived(std::string* why = nullptr);

@@ -1,6 +1,8 @@
 #include "cli/completion.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
 
 namespace cnctrans::cli {
 
@@ -21,6 +23,42 @@ std::string joined(const std::vector<std::string>& list) {
   return text;
 }
 
+/// What an option takes where its words are listed: "{lf,crlf,cr}" stands in the name of its type.
+std::string words_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto open = type.find('{'), close = type.find('}');
+  if (open == std::string::npos || close == std::string::npos) return {};
+  std::string words = type.substr(open + 1, close - open - 1);
+  std::replace(words.begin(), words.end(), ',', ' ');
+  return words;
+}
+
+/// "    --eol) words=... ;;" for each option with a list of words, once.
+std::string value_cases(const CLI::App& app) {
+  std::map<std::string, std::string> values;
+  const auto add = [&values](const CLI::App& a) {
+    for (const auto* o : a.get_options()) {
+      for (const auto& n : o->get_lnames()) {
+        if (const auto words = words_of(*o); !words.empty()) values["--" + n] = words;
+      }
+    }
+  };
+  add(app);
+  for (const auto* sub : app.get_subcommands({})) {
+    add(*sub);
+    for (const auto* o : sub->get_options()) {
+      if (o->get_positional() && !words_of(*o).empty()) values[sub->get_name()] = words_of(*o);
+    }
+  }
+  const std::string dialects = "$(cnctrans dialects --quiet | cut -d' ' -f1)";
+  const std::string machines = "$(cnctrans dialects | sed -n 's/^machines: //p')";
+  for (const char* option : {"--from", "--to", "--dialect"}) values[option] = dialects;
+  for (const char* option : {"--machine", "--target-machine", "init", "show", "options"}) values[option] = machines;
+  std::string cases;
+  for (const auto& [word, list] : values) cases += "    " + word + ") words=\"" + list + "\" ;;\n";
+  return cases;
+}
+
 std::string bash(const CLI::App& app) {
   std::string commands;
   std::string cases;
@@ -30,8 +68,7 @@ std::string bash(const CLI::App& app) {
   }
   return "_cnctrans() {\n  local cur=\"${COMP_WORDS[COMP_CWORD]}\" words\n  case \"${COMP_WORDS[1]}\" in\n" + cases +
          "    *) words=\"" + commands + " " + joined(option_names(app)) +
-         "\" ;;\n  esac\n  case \"${COMP_WORDS[COMP_CWORD-1]}\" in\n    --from|--to|--dialect) words=\"$(cnctrans "
-         "dialects --quiet | cut -d' ' -f1)\" ;;\n"
+         "\" ;;\n  esac\n  case \"${COMP_WORDS[COMP_CWORD-1]}\" in\n" + value_cases(app) +
          "  esac\n  COMPREPLY=( $(compgen -W \"$words\" -- \"$cur\") $(compgen -f -- \"$cur\") )\n}\ncomplete -F "
          "_cnctrans cnctrans\n";
 }
@@ -45,7 +82,9 @@ std::string fish(const CLI::App& app) {
         for (auto& c : what) {
           if (c == '\'') c = ' ';
         }
-        text += "complete -c cnctrans -n '" + condition + "' -l " + n + " -d '" + what + "'\n";
+        const std::string words = words_of(*o);
+        text += "complete -c cnctrans -n '" + condition + "' -l " + n + " -d '" + what + "'" +
+                (words.empty() ? "" : " -x -a '" + words + "'") + "\n";
       }
     }
   };

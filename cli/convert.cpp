@@ -267,7 +267,7 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   with.taken = job.names();
   with.single_output = a.output.empty() || a.output == "-";
   with.files_apart = is_folder(a.output);
-  const auto result = translator::translate(input, with);
+  const auto result = translator::translate(input_of(a, input), with);
   if (!result.error.empty()) return usage_error(a, result.error);
   a.messages->add(result.diagnostics, result.files);
   if (!a.report.empty() && !write_report(a, options, job, result)) return refused;
@@ -377,6 +377,7 @@ std::optional<int> convert_stream_proved(const Arguments& a, const translator::T
 std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options, const Job& job,
                                   Proofs& proofs) {
   const std::string& input = job.input();
+  if (input == "-") return std::nullopt;  // it is in memory already
   if (options.annotate || options.names != nullptr || is_folder(a.output) || !a.report.empty()) return std::nullopt;
   if (options.verify && options.strict) return std::nullopt;
   std::error_code ignored;
@@ -413,8 +414,8 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
 }  // namespace
 
 int convert(const Arguments& a) {
-  if (a.from.empty() || a.to.empty()) return usage_error(a, "--from and --to are needed");
   if (a.inputs.empty()) return usage_error(a, "no input file");
+  if (a.to.empty()) return usage_error(a, "--to is needed: the language of the translation");
   if (a.inputs.size() > 1 && !is_folder(a.output)) return usage_error(a, "several input files need -o FOLDER/");
   if (!a.report.empty() && a.inputs.size() > 1) return usage_error(a, "--report takes one input file");
   if (!a.report.empty() && !translator::report_writer(a.report))

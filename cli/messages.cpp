@@ -1,7 +1,5 @@
 #include "cli/messages.h"
 
-#include <unistd.h>
-
 #include "base/text.h"
 #include "cli/common.h"
 
@@ -18,7 +16,7 @@ void Messages::append(const Diagnostics& diagnostics, const FileTable& files) {
 
 void Messages::add(const Diagnostics& diagnostics, const FileTable& files) {
   if (json_) return append(diagnostics, files);
-  if (!diagnostics.empty()) write_all(stderr, render_text(diagnostics, files, isatty(STDERR_FILENO) != 0));
+  if (!diagnostics.empty()) write_all(stderr, render_text(diagnostics, files, colour_));
 }
 
 void Messages::say(Severity severity, std::string_view code, std::string_view line) {

@@ -9,11 +9,11 @@
 
 namespace cnctrans::cli {
 
-/// As text each message is written at once, coloured on a terminal. As JSON the whole call is one array, written by
+/// As text each message is written at once. As JSON the whole call is one array, written by
 /// finish(): diagnostics and the lines of the command itself in their order.
 class Messages {
  public:
-  explicit Messages(bool json) : json_(json) {}
+  explicit Messages(bool json, bool colour = false) : json_(json), colour_(colour) {}
   ~Messages() { finish(); }
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
@@ -25,7 +25,7 @@ class Messages {
 
  private:
   void append(const Diagnostics& diagnostics, const FileTable& files);
-  bool json_;
+  bool json_, colour_;
   bool finished_ = false;
   std::string list_;  ///< elements of the array
 };

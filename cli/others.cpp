@@ -12,8 +12,9 @@ int verify(const Arguments& a) {
   translator::TranslateOptions options;
   if (!translate_options(a, options)) return usage;
   if (a.inputs.size() < 2) return usage_error(a, "verify takes the source program and its translation");
-  const std::vector<translator::Input> targets(a.inputs.begin() + 1, a.inputs.end());
-  const auto result = translator::verify(a.inputs.front(), targets, options);
+  std::vector<translator::Input> targets;
+  for (auto it = a.inputs.begin() + 1; it != a.inputs.end(); ++it) targets.push_back(input_of(a, *it));
+  const auto result = translator::verify(input_of(a, a.inputs.front()), targets, options);
   if (!result.error.empty()) return usage_error(a, result.error);
   a.messages->add(result.source_diagnostics, result.source_files);
   a.messages->add(result.target_diagnostics, result.target_files);
@@ -28,7 +29,7 @@ int check(const Arguments& a) {
   if (a.inputs.empty()) return usage_error(a, "check takes at least one file");
   int status = ok;
   for (const auto& input : a.inputs) {
-    const auto result = translator::check(input, options);
+    const auto result = translator::check(input_of(a, input), options);
     if (!result.error.empty()) {
       status = usage_error(a, result.error);
       continue;
@@ -53,7 +54,7 @@ int print_ir(const Arguments& a) {
   std::string error;
   const auto* dialect = translator::find_readable(a.dialect, &error);
   if (dialect == nullptr) return usage_error(a, error);
-  const auto source = SourceText::open(a.inputs.front(), &error);
+  const auto source = input_of(a, a.inputs.front()).open(&error);
   if (!source) return usage_error(a, error);
   const auto profile = translator::choose_profile(*dialect, a.machine, source.get(), &error);
   if (!profile) return usage_error(a, error);

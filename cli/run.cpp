@@ -135,7 +135,7 @@ int run(const Arguments& a) {
     return std::make_unique<JsonSink>(trace, files, axes);
   };
   options.may_stream = a.trace.empty();
-  const auto result = translator::run(a.inputs.front(), options, make_sink);
+  const auto result = translator::run(input_of(a, a.inputs.front()), options, make_sink);
   if (!result.error.empty()) return usage_error(a, result.error);
   if (!a.trace.empty() && !trace.close(result.files)) return usage;
   if (!a.vars.empty()) {

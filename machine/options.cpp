@@ -1,7 +1,9 @@
 #include "machine/options.h"
 
 #include <array>
+#include <vector>
 
+#include "base/nearest.h"
 #include "base/text.h"
 
 namespace cnctrans::machine {
@@ -270,7 +272,9 @@ const OptionSpec* find_option(std::string_view name) {
 bool check_option(std::string_view name, std::string_view value, std::string* error) {
   const auto* spec = find_option(name);
   if (spec == nullptr) {
-    *error = "there is no option \"" + std::string(name) + "\"";
+    std::vector<std::string> names;
+    for (const auto& s : specs) names.emplace_back(s.name);
+    *error = "there is no option \"" + std::string(name) + "\"" + did_you_mean(name, names);
     return false;
   }
   if (spec->values == "text" || (value.empty() && spec->fallback.empty())) return true;  // empty: as if not set

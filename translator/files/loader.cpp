@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "translator/files/called.h"
 #include "translator/files/definitions.h"
+#include "translator/files/language.h"
 #include "translator/files/program_axes.h"
 
 namespace cnctrans::translator {
@@ -192,11 +193,18 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   if (mains_.empty()) note_added_axes(profile_, id, diagnostics);
   frontends::ReadOptions options{reader_, &profile_, &definitions()};
   options.has_program = [this](std::string_view name) { return has_file(name); };
-  const std::size_t said = diagnostics.all().size();
-  mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, diagnostics, stats)));
+  Diagnostics said;
+  frontends::ReadStats own;
+  frontends::ReadStats& read = stats != nullptr ? *stats : own;
+  mains_.push_back(std::make_unique<ir::Program>(dialect_.frontend->read(source, id, options, said, &read)));
   ir::Program& program = *mains_.back();
   program.texts->hold(source);
-  note_faults(program, id, diagnostics, said);
+  if (auto wrong = wrong_language(dialect_, *source, id, read)) {
+    if (!wrong->beside) said.clear();
+    said.add(std::move(wrong->said));
+  }
+  note_faults(program, id, said, 0);
+  diagnostics.append(said);
   ir::number_statements(program);
   return &program;
 }

@@ -1,11 +1,17 @@
 #include "translator/files/readable.h"
 
+#include "base/nearest.h"
+
 namespace cnctrans::translator {
 
 std::string unknown_dialect(std::string_view name) {
   std::string text = "unknown dialect '" + std::string(name) + "'; known:";
-  for (const auto& d : dialects()) text += " " + std::string(d.name);
-  return text;
+  std::vector<std::string> names;
+  for (const auto& d : dialects()) {
+    names.emplace_back(d.name);
+    text += " " + names.back();
+  }
+  return text + did_you_mean(name, names);
 }
 
 const Dialect* find_readable(std::string_view name, std::string* error) {
