@@ -37,13 +37,13 @@ struct CycleRow {
 // clang-format off
 inline constexpr std::array cycle_rows{
     CycleRow{200, CycleKind::hole, ir::HoleKind::peck_full, "", "DRILLING", true,
-             {{{200}, {201}, {206}, {202}, {210}, {203}, {204}, {211, false}, {395, false}}}},
+             {{{200}, {201}, {206}, {202}, {210, false}, {203}, {204}, {211, false}, {395, false}}}},
     CycleRow{201, CycleKind::hole, ir::HoleKind::ream, "", "REAMING", true,
              {{{200}, {201}, {206}, {211}, {208}, {203}, {204}}}},
     CycleRow{202, CycleKind::hole, ir::HoleKind::bore_shift, "", "BORING", true,
              {{{200}, {201}, {206}, {211}, {208}, {203}, {204}, {214}, {336, false}}}},
     CycleRow{203, CycleKind::hole, ir::HoleKind::peck_break, "", "UNIVERSAL DRILLING", true,
-             {{{200}, {201}, {206}, {202}, {210}, {203}, {204}, {212}, {213}, {205}, {211}, {208}, {256, false, 0.2},
+             {{{200}, {201}, {206}, {202}, {210, false}, {203}, {204}, {212}, {213}, {205}, {211}, {208}, {256, false, 0.2},
                {395, false}}}},
     CycleRow{204, CycleKind::hole, ir::HoleKind::back_bore, "", "BACK BORING", true,
              {{{200}, {249}, {250}, {251}, {252}, {253}, {254}, {255}, {203}, {204}, {214}, {336, false}}}},

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "dialects/num/variables.h"
+#include "frontends/common/report.h"
 #include "frontends/common/syntax.h"
-#include "frontends/num/state/report.h"
 #include "frontends/num/state/settings.h"
 #include "ir/statement.h"
 

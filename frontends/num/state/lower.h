@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "dialects/num/gcodes.h"
+#include "frontends/common/report.h"
 #include "frontends/common/syntax.h"
 #include "frontends/num/state/arrivals.h"
 #include "frontends/num/state/expressions.h"
-#include "frontends/num/state/report.h"
 #include "frontends/num/state/settings.h"
 #include "ir/geometry/contour.h"
 #include "ir/statement.h"

@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/span.h"
 
-namespace cnctrans::frontends::num {
+namespace cnctrans::frontends {
 
 class Report {
  public:
@@ -65,4 +65,4 @@ class Report {
   bool harmless_ = false;
 };
 
-}  // namespace cnctrans::frontends::num
+}  // namespace cnctrans::frontends

@@ -1,0 +1,212 @@
+// Cycles that act where they are defined (reference 18, 19): datum shift, mirror, rotation, scale, dwell, orientation,
+// preset, and data that change no path.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/text.h"
+#include "frontends/heidenhain/state/lowering.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+using facts::OldKind;
+
+namespace {
+
+ir::FrameChange frame(ir::FrameSlot slot, ir::FrameKind kind, ir::FrameCombine combine) {
+  ir::FrameChange c;
+  c.slot = slot;
+  c.kind = kind;
+  c.combine = combine;
+  return c;
+}
+ir::FrameOp frame_op(ir::FrameChange c) {
+  return {std::make_shared<const ir::FrameChange>(std::move(c))};
+}
+ir::FrameWord frame_word(ir::AxisId axis, ir::Value v) {
+  ir::FrameWord w;
+  w.axis = axis;
+  w.value = std::move(v);
+  return w;
+}
+/// The last number of the part, whatever words stand before it.
+const ir::Value* last_value(const CycleDefinition& cycle, int part) {
+  const auto it = cycle.parts.find(part);
+  if (it == cycle.parts.end()) return nullptr;
+  const ir::Value* found = nullptr;
+  for (const auto& l : it->second.letters) {
+    if (l.has_value) found = &l.value;
+  }
+  return found;
+}
+
+}  // namespace
+
+/// 7 shift, 8 mirror, 10 rotation, 11 and 26 scale.
+void Lowering::frame_cycle(const CycleDefinition& cycle) {
+  ir::Block b;
+  const auto add = [&b](ir::FrameChange c) { b.actions.emplace_back().data = frame_op(std::move(c)); };
+  const auto wrong = [&](std::string message) { report_.refuse("HEI-020", {}, std::move(message)); };
+  using ir::FrameCombine;
+  using ir::FrameKind;
+  using ir::FrameSlot;
+  if (cycle.old->kind == OldKind::datum_shift) {
+    ir::FrameChange absolute = frame(FrameSlot::shift, FrameKind::translate, FrameCombine::replace_named);
+    ir::FrameChange added = frame(FrameSlot::shift, FrameKind::translate, FrameCombine::add);
+    for (const auto& [n, part] : cycle.parts) {
+      for (const auto& l : part.letters) {
+        if (l.address == "#")
+          return report_.keep("HEI-020", {}, "a row of the datum table: the table is known to the machine only",
+                              "motion.transformation");
+        const bool incremental = l.address.size() == 2 && l.address[0] == 'I';
+        const ir::AxisId axis = axis_of(incremental ? std::string_view(l.address).substr(1) : l.address);
+        if (axis == ir::axis::none || !l.has_value) return wrong("cycle 7 takes axes with their shift");
+        if (!has_axis(axis)) return wrong("cycle 7: the machine has no axis " + l.address);
+        (incremental ? added : absolute).words.push_back(frame_word(axis, l.value));
+      }
+    }
+    if (!absolute.words.empty()) add(std::move(absolute));
+    if (!added.words.empty()) add(std::move(added));
+    if (b.actions.empty()) return wrong("cycle 7 shifts nothing");
+  } else if (cycle.old->kind == OldKind::mirror) {
+    ir::FrameChange m = frame(FrameSlot::mirror, FrameKind::mirror, FrameCombine::replace);
+    for (const auto& [n, part] : cycle.parts) {
+      for (const auto& l : part.letters) {
+        const ir::AxisId axis = axis_of(l.address);
+        if (axis == ir::axis::none || l.has_value) continue;  // words of the dialog
+        if (!has_axis(axis)) return wrong("cycle 8: the machine has no axis " + l.address);
+        m.words.push_back(frame_word(axis, ir::Value(1)));
+      }
+    }
+    if (m.words.empty()) m.combine = FrameCombine::clear;
+    add(std::move(m));
+  } else if (cycle.old->kind == OldKind::rotation) {
+    const ir::Value* angle = last_value(cycle, 1);
+    if (angle == nullptr) return wrong("cycle 10 has no angle");
+    const auto& letters = cycle.parts.at(1).letters;
+    const bool adds =
+        std::any_of(letters.begin(), letters.end(), [](const auto& l) { return l.address == "IROT" && l.has_value; });
+    ir::FrameChange r = frame(FrameSlot::rotation, FrameKind::rotate, adds ? FrameCombine::add : FrameCombine::replace);
+    r.has_angle = true;
+    r.angle = *angle;
+    if (!adds && angle->is(0)) {
+      r = frame(FrameSlot::rotation, FrameKind::rotate, FrameCombine::clear);
+    }
+    add(std::move(r));
+  } else {  // in the plane: the tool axis keeps its measure (MP7410)
+    ir::FrameChange k = frame(FrameSlot::scale, FrameKind::scale, FrameCombine::replace);
+    const auto plane = ir::plane_axes(plane_of(tool_axis_));
+    if (cycle.old->kind == OldKind::scale) {
+      const ir::Value* factor = last_value(cycle, 1);
+      if (factor == nullptr) return wrong("cycle 11 has no factor");
+      if (factor->is(1)) {
+        k.combine = FrameCombine::clear;
+      } else {
+        k.words = {frame_word(plane.u, *factor), frame_word(plane.v, *factor)};
+      }
+    } else {
+      bool centre = false, one = true;
+      for (const auto& [n, part] : cycle.parts) {
+        for (const auto& l : part.letters) {
+          const ir::AxisId axis = axis_of(l.address);
+          if (axis != ir::axis::none && l.has_value) {
+            k.words.push_back(frame_word(axis, l.value));
+            one = one && l.value.is(1);
+          } else if (l.address.substr(0, 2) == "CC") {
+            centre = centre || !l.value.is(0);
+          }
+        }
+      }
+      if (centre && !one)
+        return report_.keep("HEI-020", {}, "cycle 26 about a centre is not carried yet", "motion.transformation");
+      if (one) {
+        k.words.clear();
+        k.combine = FrameCombine::clear;
+      }
+    }
+    add(std::move(k));
+  }
+  put(std::move(b));
+}
+
+void Lowering::effect(const CycleDefinition& cycle) {
+  if (cycle.row != nullptr) {
+    if (cycle.row->kind == facts::CycleKind::datum) {
+      const ir::Value& row = cycle.values.at(339).value;
+      ir::Block b;
+      b.actions.emplace_back().data =
+          frame_op(frame(ir::FrameSlot::shift, ir::FrameKind::translate, ir::FrameCombine::clear));
+      ir::WorkOffset offset;
+      offset.index = row;
+      if (row.is(0)) report_.warn("HEI-020", {}, "preset 0 is the datum set by hand: read as no work offset");
+      offset.off = row.is(0);
+      b.actions.emplace_back().data = std::move(offset);
+      put(std::move(b));
+      return;
+    }
+    if (cycle.row->kind == facts::CycleKind::pattern) {
+      Item& item = put(ItemKind::plain, ir::Block{});
+      item.index = static_cast<int>(&cycle - flat_.cycles.data());
+      item.call = CycleCall::once;
+      return;
+    }
+    return report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet",
+                        "cycle.milling");
+  }
+  switch (cycle.old->kind) {
+    case OldKind::datum_shift:
+    case OldKind::mirror:
+    case OldKind::rotation:
+    case OldKind::scale:
+    case OldKind::axis_scale: return frame_cycle(cycle);
+    case OldKind::dwell: {
+      const ir::Value* seconds = last_value(cycle, 1);
+      if (seconds == nullptr) return report_.refuse("HEI-016", {}, "the dwell of cycle 9 has no time");
+      ir::Block b;
+      ir::Dwell dwell;
+      dwell.value = *seconds;
+      b.actions.emplace_back().data = std::move(dwell);
+      put(std::move(b));
+      return;
+    }
+    case OldKind::orientation:
+      if (const ir::Value* angle = last_value(cycle, 1)) orient_ = *angle;
+      return;
+    case OldKind::tolerance:
+      return report_.carry("HEI-021", {}, "cycle 32 smooths the path; the programmed path stays; kept as text",
+                           "beside.compensation");
+    case OldKind::working_plane: {
+      bool tilts = false;
+      for (const auto& [n, part] : cycle.parts) {
+        for (const auto& l : part.letters) tilts = tilts || (l.has_value && !l.value.is(0));
+      }
+      if (tilts) return report_.keep("HEI-022", {}, "tilted planes are not carried yet", "motion.transformation");
+      return report_.carry("HEI-021", {}, "cycle 19 without angles: no tilted plane is in force; kept as text",
+                           "motion.transformation");
+    }
+    default:
+      report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet", "cycle.milling");
+  }
+}
+
+/// TRANS DATUM AXIS X+10: the slot of cycle 7.
+void Lowering::trans_datum(const syntax::Statement& s) {
+  const auto& words = block_->words;
+  ir::FrameChange c = frame(ir::FrameSlot::shift, ir::FrameKind::translate, ir::FrameCombine::replace_named);
+  if (words.empty() || iequals_ascii(words[0].address, "TABLE"))
+    return report_.keep("HEI-020", s.pos, "a row of the datum table: the table is known to the machine only",
+                        "motion.transformation");
+  if (iequals_ascii(words[0].address, "RESET")) c.combine = ir::FrameCombine::clear;
+  for (std::size_t i = 1; i < words.size() && c.combine != ir::FrameCombine::clear; ++i) {
+    const ir::AxisId axis = axis_of(words[i].address);
+    if (axis == ir::axis::none || !words[i].has_value || !has_axis(axis))
+      return report_.refuse("HEI-020", words[i].pos, "TRANS DATUM AXIS takes axes with their shift");
+    c.words.push_back(frame_word(axis, value(words[i])));
+  }
+  ir::Block b;
+  b.actions.emplace_back().data = frame_op(std::move(c));
+  put(std::move(b));
+}
+
+}  // namespace cnctrans::frontends::heidenhain

@@ -1,0 +1,173 @@
+#include "frontends/heidenhain/program/flow.h"
+
+#include <algorithm>
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace {
+
+/// Narrowed to what both say; true when it changed.
+bool narrow(Arrival& a, const Arrival& b) {
+  if (!b.reached) return false;
+  if (!a.reached) {
+    a = b;
+    return true;
+  }
+  const Arrival before = a;
+  const auto same = [](int& mine, int other) {
+    if (mine != other) mine = Arrival::several;
+  };
+  same(a.cycle, b.cycle);
+  same(a.pole, b.pole);
+  same(a.modal, b.modal);
+  same(a.plane, b.plane);
+  a.moved = a.moved || b.moved;
+  a.written = a.written || b.written;
+  a.overlaid = a.overlaid || b.overlaid;
+  a.outside = a.outside || b.outside;
+  return !(a == before);
+}
+
+std::string key_of(const Item& i) {
+  return (i.number ? "N" : "T") + i.label;
+}
+
+}  // namespace
+
+Flow::Flow(const Flat& flat) : flat_(flat) {
+  std::vector<int> called;
+  for (std::size_t i = 0; i < flat.items.size(); ++i) {
+    if (flat.items[i].kind != ItemKind::label) continue;
+    if (!labels_.emplace(key_of(flat.items[i]), static_cast<int>(i)).second) doubled_.push_back(static_cast<int>(i));
+  }
+  for (const Item& i : flat.items) {
+    const int at = i.kind == ItemKind::call ? label(i) : -1;
+    if (at >= 0) called.push_back(at);
+  }
+  std::sort(called.begin(), called.end());
+  called.erase(std::unique(called.begin(), called.end()), called.end());
+  roots_.emplace_back();
+  for (const int c : called) roots_.emplace_back().start = c;
+  for (std::size_t r = 0; r < roots_.size(); ++r) reach(roots_[r], r != 0);
+  run();
+}
+
+int Flow::label(const Item& use) const {
+  const auto it = labels_.find(key_of(use));
+  return it == labels_.end() ? -1 : it->second;
+}
+
+std::vector<int> Flow::next(int item, bool sub) const {
+  const Item& i = flat_.items[static_cast<std::size_t>(item)];
+  switch (i.kind) {
+    case ItemKind::end: return {};
+    case ItemKind::sub_end:
+      if (sub) return {};
+      break;
+    case ItemKind::jump:
+    case ItemKind::repeat: {
+      const auto* jump = std::get_if<ir::Jump>(&i.statement.node);
+      const bool always = jump != nullptr && !jump->condition;
+      const int to = label(i);
+      std::vector<int> out;
+      if (to >= 0) out.push_back(to);
+      if (!always) out.push_back(item + 1);
+      return out;
+    }
+    default: break;
+  }
+  return {item + 1};
+}
+
+void Flow::reach(Root& root, bool sub) const {
+  const int count = static_cast<int>(flat_.items.size());
+  root.reached.assign(flat_.items.size(), false);
+  std::vector<int> open{root.start};
+  while (!open.empty()) {
+    const int at = open.back();
+    open.pop_back();
+    if (at >= count) {
+      root.runs_out = true;
+      continue;
+    }
+    if (root.reached[static_cast<std::size_t>(at)]) continue;
+    root.reached[static_cast<std::size_t>(at)] = true;
+    const ItemKind kind = flat_.items[static_cast<std::size_t>(at)].kind;
+    if (sub && kind == ItemKind::sub_end) root.ends.push_back(at);
+    if (kind == ItemKind::end) root.runs_out = true;
+    for (const int n : next(at, sub)) open.push_back(n);
+  }
+  std::sort(root.ends.begin(), root.ends.end());
+}
+
+Arrival Flow::after(int item, Arrival a) const {
+  const Item& i = flat_.items[static_cast<std::size_t>(item)];
+  switch (i.kind) {
+    case ItemKind::cycle:
+      a.cycle = i.index;
+      a.modal = 0;
+      a.overlaid = a.outside = false;
+      return a;
+    case ItemKind::pole:
+      a.pole = i.index;
+      a.moved = a.written = false;
+      return a;
+    case ItemKind::program: a.outside = a.moved = a.written = true; return a;
+    default: break;
+  }
+  if (i.moves || i.index >= 0) a.moved = true;
+  if (i.index >= 0) a.overlaid = true;  // 220 and 221 have heights of their own
+  if (!i.writes.empty()) a.written = true;
+  if (i.call == CycleCall::modal) {
+    a.modal = 1;
+  } else if (i.call == CycleCall::ends || (i.call == CycleCall::once && i.moves)) {
+    a.modal = 0;
+  }
+  if (const auto* b = std::get_if<ir::Block>(&i.statement.node)) {
+    for (const auto& action : b->actions) {
+      const auto* set = std::get_if<ir::ModalSet>(&action.data);
+      if (set != nullptr && set->setting == ir::Setting::plane) a.plane = set->value;
+    }
+  }
+  return a;
+}
+
+/// Every root by itself: what its callers bring to it, and what it leaves behind.
+void Flow::run() {
+  const std::size_t count = flat_.items.size();
+  arrivals_.assign(count, Arrival{});
+  if (count == 0) return;
+  std::map<int, std::size_t> root_of;
+  for (std::size_t r = 1; r < roots_.size(); ++r) root_of[roots_[r].start] = r;
+  std::vector<std::vector<Arrival>> states(roots_.size(), std::vector<Arrival>(count));
+  std::vector<Arrival> exits(roots_.size());
+  states[0][0].reached = true;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t r = 0; r < roots_.size(); ++r) {
+      for (std::size_t at = 0; at < count; ++at) {
+        const Arrival& here = states[r][at];
+        if (!here.reached) continue;
+        const int item = static_cast<int>(at);
+        const Item& i = flat_.items[at];
+        Arrival out = after(item, here);
+        if (i.kind == ItemKind::sub_end && r != 0) changed = narrow(exits[r], out) || changed;
+        if (i.kind == ItemKind::call) {
+          const auto callee = root_of.find(label(i));
+          if (callee == root_of.end()) continue;
+          changed = narrow(states[callee->second][static_cast<std::size_t>(callee->first)], here) || changed;
+          out = exits[callee->second];
+        }
+        for (const int n : next(item, r != 0)) {
+          if (static_cast<std::size_t>(n) < count && narrow(states[r][static_cast<std::size_t>(n)], out))
+            changed = true;
+        }
+      }
+    }
+  }
+  for (const auto& s : states) {
+    for (std::size_t at = 0; at < count; ++at) narrow(arrivals_[at], s[at]);
+  }
+}
+
+}  // namespace cnctrans::frontends::heidenhain

@@ -1,0 +1,164 @@
+#include "frontends/heidenhain/program/frontend.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/heidenhain/variables.h"
+#include "frontends/common/block_start.h"
+#include "frontends/heidenhain/program/cycle_feeds.h"
+#include "frontends/heidenhain/program/finish.h"
+#include "frontends/heidenhain/program/structure.h"
+#include "frontends/heidenhain/syntax/reader.h"
+#include "ir/analysis/dataflow.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+
+namespace {
+
+/// R0 and the tool axis stand in nearly every block: where the ways of the program bring nothing else, they say nothing
+/// new. What a program that calls this file has left in force is not known.
+void leave_out_what_is_in_force(ir::Program& program, const ir::ModalState& power_on) {
+  ir::number_statements(program);
+  ir::Routine& main = program.routines[0];
+  main.kind = ir::RoutineKind::sub;
+  const ir::FactTable table = ir::analyse(program, power_on);
+  main.kind = ir::RoutineKind::main;
+  for (auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](ir::Statement& s) {
+      auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr) return;
+      const ir::Facts& before = table.before(s.id);
+      if (!before.reachable) return;
+      std::erase_if(b->actions, [&](const ir::Action& a) {
+        const auto* set = std::get_if<ir::ModalSet>(&a.data);
+        return set != nullptr && before.settings[static_cast<std::size_t>(set->setting)] == set->value;
+      });
+    });
+  }
+}
+
+class HeidenhainReader {
+ public:
+  HeidenhainReader(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                   ReadStats& stats)
+      : source_(source),
+        file_(file),
+        options_(options),
+        diagnostics_(diagnostics),
+        stats_(stats),
+        reader_(options.reader),
+        lowering_(*options.profile, program_, diagnostics) {}
+
+  ir::Program read() {
+    program_.dialect = "heidenhain";
+    program_.spaces = facts::spaces();
+    program_.texts->hold(source_);
+    ir::FileLook look;
+    look.file = file_;
+    look.name = source_->name();
+    look.encoding = source_->encoding();
+    look.eol = source_->main_eol();
+    look.bom = source_->has_bom();
+    const auto& lines = source_->lines();
+    look.final_eol = lines.empty() || lines.back().has_eol;
+    program_.files.push_back(std::move(look));
+    for (const SourceLine& l : lines) line(l);
+    lowering_.flush();
+    const Flow flow(lowering_.flat());
+    std::vector<std::vector<ir::Statement>> statements;
+    finish_items(lowering_, flow, statements);
+    ir::Routine main;
+    main.file = file_;
+    main.name.text = lowering_.name().empty() ? to_upper_ascii(source_->stem()) : lowering_.name();
+    program_.unit_hint = lowering_.inch() ? ir::Units::inch : ir::Units::metric;
+    build_routines(lowering_, flow, std::move(statements), std::move(main), program_);
+    if (!lowering_.began() && !lines.empty()) {
+      diagnostics_.warning("HEI-014", Span{file_, 1, 1, 1, 1}, "the file does not begin with BEGIN PGM: millimetres",
+                           "write BEGIN PGM NAME MM");
+    }
+    leave_out_what_is_in_force(program_, options_.profile->power_on);
+    feeds_before_cycles(program_, options_.profile->power_on);
+    return std::move(program_);
+  }
+
+ private:
+  void line(const SourceLine& l) {
+    ++stats_.lines;
+    std::string_view text = l.text;
+    while (!text.empty() && (text.back() == '\x1a' || text.back() == '\0')) text.remove_suffix(1);
+    const Span span{file_, l.number, 1, l.number, static_cast<std::uint32_t>(l.text.size() + 1)};
+    if (trim(text).empty()) {
+      if (blank_ < std::numeric_limits<std::uint16_t>::max()) ++blank_;
+      return;
+    }
+    ParseError error;
+    const bool ok = reader_.read(text, syntax_, error);
+    if (!reader_.difference().empty()) diagnostics_.error("CNC-READERS", span, reader_.difference());
+    ir::LineInfo info;
+    info.span = span;
+    info.blank_lines_before = std::exchange(blank_, std::uint16_t{0});
+    const bool is_block = !ok || !syntax_.words.empty() || !syntax_.statements.empty();
+    if (is_block) ++stats_.blocks;
+    if (!ok) {
+      diagnostics_.error("HEI-001", word_span(span, error.pos), "the block can't be read: " + error.message);
+      return lowering_.unread(std::move(info), text);
+    }
+    if (reader_.scanned() && is_block) ++stats_.scanner_blocks;
+    info.skip_mask = syntax_.skip_mask;
+    for (const auto& c : syntax_.comments) {
+      info.comments.push_back({c.text, is_block ? ir::CommentPlace::end_of_line : ir::CommentPlace::own_line, c.pos});
+    }
+    const std::size_t errors = diagnostics_.error_count();
+    lowering_.line(syntax_, span, text, std::move(info));
+    if (is_block && diagnostics_.error_count() == errors) ++stats_.blocks_read;
+  }
+
+  SourcePtr source_;
+  FileId file_;
+  const ReadOptions& options_;
+  Diagnostics& diagnostics_;
+  ReadStats& stats_;
+  ir::Program program_;
+  LineReader reader_;
+  Lowering lowering_;
+  syntax::Block syntax_;
+  std::uint16_t blank_ = 0;
+};
+
+/// Labels, CC and cycles need the whole program.
+class NoStream : public StreamReader {
+ public:
+  NoStream() { frame_.dialect = "heidenhain"; }
+  StreamLine read(const SourceLine&, ir::Statement&, Diagnostics&) override { return StreamLine::needs_program; }
+  [[nodiscard]] std::string_view end_word() const override { return {}; }
+  StreamEnd end(std::uint32_t, Diagnostics&) override { return StreamEnd::needs_program; }
+  [[nodiscard]] const ir::Program& frame() const override { return frame_; }
+
+ private:
+  ir::Program frame_;
+};
+
+class HeidenhainFrontend : public Frontend {
+ public:
+  [[nodiscard]] std::string_view dialect() const override { return "heidenhain"; }
+  ir::Program read(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
+                   ReadStats* stats) const override {
+    ReadStats own;
+    return HeidenhainReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
+  }
+  [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId, const ReadOptions&, std::string_view) const override {
+    return std::make_unique<NoStream>();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Frontend> make_frontend() {
+  return std::make_unique<HeidenhainFrontend>();
+}
+
+}  // namespace cnctrans::frontends::heidenhain

@@ -1,0 +1,102 @@
+// A program as a row of items: statements in the order of the text, with what only the ways through the program can
+// complete beside them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dialects/heidenhain/cycles.h"
+#include "dialects/heidenhain/old_cycles.h"
+#include "ir/program.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+enum class ItemKind : std::uint8_t {
+  plain,    ///< the statement as it is
+  label,    ///< LBL n
+  sub_end,  ///< LBL 0
+  call,     ///< CALL LBL n
+  repeat,   ///< CALL LBL n REP k
+  jump,     ///< FN 9 to FN 12
+  program,  ///< CALL PGM
+  end,      ///< M2, M30, END PGM
+  cycle,    ///< CYCL DEF of a cycle that is called; no statement
+  pole      ///< CC
+};
+/// What a block does with the machining cycle behind its motion.
+enum class CycleCall : std::uint8_t {
+  none,
+  once,   ///< M99, CYCL CALL
+  modal,  ///< M89: also behind every later positioning block
+  ends    ///< M99: the last one of M89, too
+};
+
+/// The value of a cycle parameter.
+struct QValue {
+  enum class Kind : std::uint8_t { value, rapid, tool_feed, per_rev, per_tooth, linked } kind = Kind::value;
+  ir::Value value;
+  Span where;
+};
+/// A numbered part of an old cycle: what stands behind `1.3`.
+struct OldPartValue {
+  struct Letter {
+    std::string address;  ///< capitals; empty: a number alone
+    ir::Value value;
+    bool has_value = false;
+  };
+  std::vector<Letter> letters;
+};
+struct CycleDefinition {
+  Span where;
+  const dialects::heidenhain::CycleRow* row = nullptr;  ///< of Q parameters
+  const dialects::heidenhain::OldCycle* old = nullptr;  ///< of numbered parts
+  std::int64_t number = 0;
+  std::map<std::int16_t, QValue> values;
+  std::map<int, OldPartValue> parts;
+  bool positive_depth_told = false;
+};
+
+struct Pole {
+  std::vector<ir::FrameWord> words;  ///< in the plane
+  std::vector<bool> incremental;     ///< of each word: from the tool
+};
+
+struct Item {
+  ItemKind kind = ItemKind::plain;
+  ir::Statement statement;
+  std::string label;     ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
+  bool number = false;   ///< `label` is a number
+  int index = -1;        ///< cycle: of the definition; pole: of the pole
+  bool moves = false;    ///< a positioning block
+  bool by_pole = false;  ///< the centre of its arc is CC
+  bool polar = false;    ///< its words are polar
+  CycleCall call = CycleCall::none;
+  std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
+  std::vector<ir::VarRef> writes;  ///< variables
+};
+
+struct Flat {
+  std::vector<Item> items;
+  std::vector<CycleDefinition> cycles;
+  std::vector<Pole> poles;
+};
+
+/// What the ways of the program bring to an item.
+struct Arrival {
+  static constexpr int none = -1, several = -2;
+  bool reached = false;
+  int cycle = none;       ///< index of the definition in force
+  int pole = none;        ///< of the CC in force
+  bool moved = false;     ///< since that CC
+  bool written = false;   ///< a variable, since that CC
+  int modal = 0;          ///< M89: 0 off, 1 on, several
+  int plane = 0;          ///< ir::Plane, or several
+  bool overlaid = false;  ///< 220 or 221 ran since the definition
+  bool outside = false;   ///< a program of another file ran since the definition
+  bool operator==(const Arrival&) const = default;
+};
+
+}  // namespace cnctrans::frontends::heidenhain

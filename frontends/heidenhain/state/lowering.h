@@ -1,0 +1,146 @@
+// Lines -> items. One object reads one file; its parts stand in the rooms above.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontends/common/frontend.h"
+#include "frontends/common/report.h"
+#include "frontends/common/syntax.h"
+#include "frontends/heidenhain/state/flat.h"
+#include "machine/profile.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+class Lowering {
+ public:
+  Lowering(const machine::Profile& profile, ir::Program& program, Diagnostics& diagnostics)
+      : profile_(profile), program_(program), report_(diagnostics) {}
+
+  /// One line that is a block, or a comment. `line`: its place and comments. True: it was understood.
+  bool line(const syntax::Block& block, const Span& where, std::string_view text, ir::LineInfo line);
+  /// A block that can't be read.
+  void unread(ir::LineInfo line, std::string_view text);
+  /// What waits for further lines is complete.
+  void flush();
+
+  [[nodiscard]] Flat& flat() { return flat_; }
+  [[nodiscard]] Report& report() { return report_; }
+  /// Q parameters that the program reads or writes outside of cycle definitions.
+  [[nodiscard]] const std::set<std::int64_t>& own_reads() const { return reads_; }
+  [[nodiscard]] const std::set<std::int64_t>& own_writes() const { return writes_; }
+  std::string_view keep(std::string text) { return program_.keep(std::move(text)); }
+  [[nodiscard]] bool inch() const { return inch_; }
+  [[nodiscard]] bool began() const { return began_; }
+  [[nodiscard]] bool ended() const { return ended_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  using Word = syntax::Word;
+
+  // statements/
+  bool sentence(const syntax::Statement& s);
+  bool begin(const syntax::Statement& s);
+  bool finish_program(const syntax::Statement& s);
+  bool label(const syntax::Statement& s);
+  bool call_label(const syntax::Statement& s);
+  bool call_program(const syntax::Statement& s);
+  bool stop();
+  bool assignment(const syntax::Statement& s);
+  bool function(const syntax::Statement& s);
+  bool jump(const syntax::Statement& s, ir::BinaryOp op);
+  bool sysread(const syntax::Statement& rest);
+  /// Number or name of a label in the words of the line; texts: in quotes.
+  bool label_name(const syntax::Expr* text, const Word* word, Item& item);
+  ir::ExprPtr expression(const syntax::Expr& e);
+  ir::ExprPtr text_function(const syntax::Expr& e);
+  ir::ExprPtr variable(const syntax::Expr& e, bool written);
+  bool target(const syntax::Expr& e, ir::VarRef& out);
+
+  // words/
+  bool path();
+  bool tool_call(const syntax::Statement& s);
+  bool tool_def(const syntax::Statement& s);
+  bool corner(const Word& w, ir::CornerKind kind);
+  bool pole();
+  void axis_word(const Word& w, ir::AxisId axis, bool incremental);
+  bool tail(const Word& w);
+  bool remark(const Word& w);
+  void machine_function(const Word& w);
+  bool feed(const Word& w);
+  void end_motion();
+  ir::Value value(const Word& w);
+  ir::Action& act(const Word& w, ir::ActionData data, ir::Order order = ir::Order::before);
+
+  // cycles/
+  bool cycle_def(const syntax::Statement& s);
+  bool cycle_word(const syntax::Statement& s);
+  bool words_of_the_line(CycleDefinition& cycle);
+  bool old_part(const syntax::Statement& s, std::int64_t number, int part);
+  bool cycle_call(const syntax::Statement& s);
+  void frame_cycle(const CycleDefinition& cycle);
+  void effect(const CycleDefinition& cycle);
+  bool pattern_cycle(const CycleDefinition& cycle);
+  void trans_datum(const syntax::Statement& s);
+
+  // Items
+  Item& put(ItemKind kind, ir::StatementNode node);
+  Item& put(ir::StatementNode node) { return put(ItemKind::plain, std::move(node)); }
+  bool carried(const syntax::Statement& s, bool harmless, std::string_view feature, std::string message);
+  [[nodiscard]] std::string_view slice(WordPos p) const { return text_.substr(p.column - 1, p.length); }
+  [[nodiscard]] std::string_view slice(const Word& w) const { return slice(w.pos); }
+  [[nodiscard]] bool has_axis(ir::AxisId axis) const { return profile_.axis(axis) != nullptr; }
+
+  const machine::Profile& profile_;
+  ir::Program& program_;
+  Report report_;
+  Flat flat_;
+  std::set<std::int64_t> reads_, writes_;
+  std::string name_;
+  bool inch_ = false, began_ = false, ended_ = false;
+
+  // Along the text
+  int tool_axis_ = 2;                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
+  std::optional<ir::Value> tool_feed_;  ///< F of the last TOOL CALL
+  std::optional<ir::Value> orient_;     ///< cycle 13
+  bool shortest_ = false;               ///< M126
+  bool feed_by_fu_ = false;             ///< the last F was FU
+  bool per_rev_ = false;                ///< M136
+  int waiting_ = -1;                    ///< the cycle definition that further lines complete
+  bool waits_more_ = false;             ///< its last line ended with ~
+  ir::LineInfo waiting_line_;
+  bool swallow_ = false;  ///< further lines belong to a sentence that is kept as text
+
+  // Of the line at hand
+  const syntax::Block* block_ = nullptr;
+  std::string_view text_;
+  ir::LineInfo line_;
+  bool first_ = true;  ///< no statement of the line has been put yet
+  ir::Block out_;
+  std::vector<ir::Action> around_;  ///< actions in the order of the words
+  CycleCall call_ = CycleCall::none;
+  std::string_view end_text_;
+  bool rapid_ = false;
+  std::optional<ir::Value> angle_;  ///< PA or IPA
+  bool angle_incremental_ = false;
+  int sense_ = 0;                ///< DR: 1 or -1
+  std::optional<Word> retract_;  ///< M140
+  bool retract_far_ = false;     ///< MB MAX
+};
+
+/// X 0 ... C of the axis letters; none: no axis.
+constexpr ir::AxisId axis_of(std::string_view address) {
+  if (address.size() != 1) return ir::axis::none;
+  const char c = address[0] >= 'a' ? static_cast<char>(address[0] - 'a' + 'A') : address[0];
+  return ir::fixed_axis(c);
+}
+constexpr ir::Plane plane_of(int tool_axis) {
+  return tool_axis == 0 ? ir::Plane::yz : tool_axis == 1 ? ir::Plane::zx : ir::Plane::xy;
+}
+
+}  // namespace cnctrans::frontends::heidenhain

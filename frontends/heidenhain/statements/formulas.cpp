@@ -1,0 +1,324 @@
+// Q parameters, formulas and FN functions (reference 12, 13).
+#include <utility>
+
+#include "base/saturate.h"
+#include "base/text.h"
+#include "dialects/heidenhain/functions.h"
+#include "dialects/heidenhain/variables.h"
+#include "frontends/heidenhain/state/lowering.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+using syntax::Expr;
+using syntax::ExprKind;
+
+namespace {
+
+std::optional<ir::SpaceId> space_of(std::string_view prefix, std::int64_t number) {
+  const auto within = [number](std::int64_t most) { return number >= 0 && number <= most; };
+  if (prefix == "Q" && within(facts::q_max)) return facts::space_q;
+  if (prefix == "QL" && within(facts::ql_max)) return facts::space_ql;
+  if (prefix == "QR" && within(facts::qr_max)) return facts::space_qr;
+  if (prefix == "QS" && within(facts::qs_max)) return facts::space_qs;
+  return std::nullopt;
+}
+
+ir::ExprPtr datum(ir::Datum d, std::string text, ir::AxisId axis = ir::axis::none) {
+  ir::SystemRef ref;
+  ref.datum = d;
+  ref.text = std::move(text);
+  ref.axis = axis;
+  auto e = std::make_shared<ir::Expr>();
+  e->node = std::move(ref);
+  return e;
+}
+
+}  // namespace
+
+ir::ExprPtr Lowering::variable(const Expr& e, bool written) {
+  const auto number = saturate<std::int64_t>(e.args.at(0).number);
+  const auto space = space_of(e.text, number);
+  if (!space) {
+    report_.refuse("HEI-012", e.pos, "there is no parameter " + e.text + e.args[0].text);
+    return nullptr;
+  }
+  if (*space == facts::space_q) {
+    const auto* system = facts::find_system_q(number);
+    if (written && (system != nullptr || facts::is_control_q(number))) {
+      report_.refuse("HEI-012", e.pos, "Q" + std::to_string(number) + " is kept by the control; a program can't set it",
+                     {}, "language.system_variable");
+      return nullptr;
+    }
+    if (system != nullptr) return ir::at(datum(system->datum, "Q" + std::to_string(number)), e.pos);
+    if (facts::is_control_q(number)) return ir::at(datum(ir::Datum::other, "Q" + std::to_string(number)), e.pos);
+    (written ? writes_ : reads_).insert(number);
+  }
+  return ir::at(ir::numbered(*space, number, *space == facts::space_qs ? ir::Type::string : ir::Type::real), e.pos);
+}
+
+ir::ExprPtr Lowering::text_function(const Expr& e) {
+  report_.keep("HEI-013", e.pos, "`" + e.text + "`: functions of texts are not carried yet", "language.statement");
+  return nullptr;
+}
+
+ir::ExprPtr Lowering::expression(const Expr& e) {
+  switch (e.kind) {
+    case ExprKind::number: return ir::at(ir::number(e.number, e.text), e.pos);
+    case ExprKind::string: return ir::at(ir::string_literal(e.text), e.pos);
+    case ExprKind::variable: return variable(e, false);
+    case ExprKind::name:
+      if (e.text == facts::pi_word) return ir::at(ir::number(facts::pi), e.pos);
+      break;
+    case ExprKind::unary: {
+      ir::ExprPtr inner = expression(e.args[0]);
+      return inner ? ir::at(ir::unary(ir::UnaryOp::negate, std::move(inner)), e.pos) : nullptr;
+    }
+    case ExprKind::binary: {
+      ir::ExprPtr a = expression(e.args[0]), b = expression(e.args[1]);
+      if (!a || !b) return nullptr;
+      if (e.text == facts::concat_operator) return text_function(e);
+      const auto* op = facts::find_operator(e.text);
+      if (op == nullptr) break;
+      return ir::at(ir::binary(op->op, std::move(a), std::move(b)), e.pos);
+    }
+    case ExprKind::call: {
+      if (e.args.size() != 1) return text_function(e);
+      if (e.text == facts::negate_word || facts::find_function(e.text) != nullptr || e.text == facts::fraction_word ||
+          e.text == facts::sign_word) {
+        ir::ExprPtr x = expression(e.args[0]);
+        if (!x) return nullptr;
+        if (e.text == facts::negate_word) return ir::at(ir::unary(ir::UnaryOp::negate, std::move(x)), e.pos);
+        if (e.text == facts::fraction_word)
+          return ir::at(ir::binary(ir::BinaryOp::subtract, x, ir::call(ir::Function::trunc, {x})), e.pos);
+        if (e.text == facts::sign_word) {  // 1 for 0 as well: 2 (x >= 0) - 1
+          const ir::ExprPtr not_negative = ir::binary(ir::BinaryOp::ge, x, ir::number(0));
+          return ir::at(ir::binary(ir::BinaryOp::subtract,
+                                   ir::binary(ir::BinaryOp::multiply, ir::number(2), not_negative), ir::number(1)),
+                        e.pos);
+        }
+        return ir::at(ir::call(facts::find_function(e.text)->function, {std::move(x)}), e.pos);
+      }
+      return text_function(e);
+    }
+    case ExprKind::missing: break;
+  }
+  report_.refuse("HEI-013", e.pos, "`" + e.text + "` means nothing in a formula");
+  return nullptr;
+}
+
+bool Lowering::target(const Expr& e, ir::VarRef& out) {
+  const ir::ExprPtr v = variable(e, true);
+  const auto* ref = v ? std::get_if<ir::VarRef>(&v->node) : nullptr;
+  if (ref == nullptr) return false;
+  out = *ref;
+  return true;
+}
+
+bool Lowering::assignment(const syntax::Statement& s) {
+  ir::Assign::Item item;
+  item.pos = s.pos;
+  if (s.args[0].text == "QS") {
+    report_.keep("HEI-013", s.pos, "texts in QS parameters are not carried yet", "language.statement");
+    return false;
+  }
+  item.value = expression(s.args[1]);
+  if (!target(s.args[0], item.target) || !item.value) return false;
+  ir::Assign assign;
+  Item& put_item = put(ir::Assign{});
+  put_item.writes.push_back(item.target);
+  assign.items.push_back(std::move(item));
+  put_item.statement.node = std::move(assign);
+  return true;
+}
+
+bool Lowering::jump(const syntax::Statement& s, ir::BinaryOp op) {
+  const Expr& c = s.args[0];
+  ir::ExprPtr a = expression(c.args[0]), b = expression(c.args[1]);
+  const auto& words = block_->words;
+  const Word* name = nullptr;
+  const bool labelled = !words.empty() && iequals_ascii(words[0].address, "LBL");
+  if (labelled && words[0].has_value) name = words.data();
+  if (labelled && words.size() > 1 && words[1].address.empty()) name = &words[1];
+  Item probe;
+  if (!a || !b || !label_name(s.args.size() > 1 ? &s.args[1] : nullptr, name, probe)) return false;
+  ir::Jump jump;
+  jump.target.text = probe.label;
+  jump.target.is_number = probe.number;
+  jump.condition = ir::at(ir::binary(op, std::move(a), std::move(b)), c.pos);
+  if (const auto constant = ir::constant_value(jump.condition)) {
+    if (*constant == 0) {
+      report_.note("HEI-013", s.pos, "the jump is never taken; it is left out");
+      put(ir::Block{});
+      return true;
+    }
+    jump.condition = nullptr;
+  }
+  Item& item = put(ItemKind::jump, std::move(jump));
+  item.label = probe.label;
+  item.number = probe.number;
+  return true;
+}
+
+/// `SYSREAD Q1 = ID50 NR1 IDXQ2`: read where the datum has a neutral meaning.
+bool Lowering::sysread(const syntax::Statement& rest) {
+  const std::string text = to_upper_ascii(rest.text);
+  const auto number_behind = [&text](std::string_view word) -> std::optional<std::int64_t> {
+    const auto at = text.find(word);
+    if (at == std::string::npos) return std::nullopt;
+    std::string_view digits = trim(std::string_view(text).substr(at + word.size()));
+    digits = digits.substr(0, digits.find_first_not_of("0123456789"));
+    const auto n = parse_decimal(digits);
+    return n ? std::optional(saturate<std::int64_t>(*n)) : std::nullopt;
+  };
+  const auto variable_behind = [&text](std::size_t from) -> std::optional<Expr> {
+    const auto q = text.find('Q', from);
+    if (q == std::string::npos) return std::nullopt;
+    const auto digits = text.find_first_of("0123456789", q);
+    if (digits == std::string::npos) return std::nullopt;
+    Expr e;
+    e.kind = ExprKind::variable;
+    e.text = text.substr(q, digits - q);
+    Expr n;
+    n.kind = ExprKind::number;
+    n.text = text.substr(digits, text.find_first_not_of("0123456789", digits) - digits);
+    n.number = parse_decimal(n.text).value_or(0);
+    e.args.push_back(std::move(n));
+    return e;
+  };
+  const auto id = number_behind("ID"), nr = number_behind("NR");
+  const auto equals = text.find('=');
+  auto target_text = variable_behind(0);
+  const auto* row = id && nr ? facts::find_system_read(*id, *nr) : nullptr;
+  if (row == nullptr || equals == std::string::npos || !target_text) {
+    report_.keep("HEI-027", rest.pos, "FN 18: this datum of the control has no neutral meaning",
+                 "language.system_variable");
+    return false;
+  }
+  target_text->pos = rest.pos;
+  const auto idx = number_behind("IDX");
+  ir::AxisId axis = ir::axis::none;
+  if (row->axis_index) {
+    constexpr std::array<ir::AxisId, 10> order{ir::axis::none, 0, 1, 2, ir::axis::a, ir::axis::b, ir::axis::c, 3, 4, 5};
+    if (!idx || *idx < 1 || *idx > 9) {
+      report_.keep("HEI-027", rest.pos, "FN 18: IDX must name an axis, 1 for X", "language.system_variable");
+      return false;
+    }
+    axis = order[static_cast<std::size_t>(*idx)];
+  }
+  const bool of_tool = *id == 50;
+  auto value = datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
+  if (of_tool) {  // of a tool that a number or a parameter names
+    report_.keep("HEI-027", rest.pos, "FN 18: data of the tool table are known to the machine only", "machine.tools");
+    return false;
+  }
+  ir::Assign::Item item;
+  item.pos = rest.pos;
+  item.value = std::move(value);
+  if (!target(*target_text, item.target)) return false;
+  ir::Assign assign;
+  Item& put_item = put(ir::Assign{});
+  put_item.writes.push_back(item.target);
+  assign.items.push_back(std::move(item));
+  put_item.statement.node = std::move(assign);
+  return true;
+}
+
+bool Lowering::function(const syntax::Statement& s) {
+  const auto* row = facts::fn_row(saturate<std::int64_t>(parse_decimal(s.text).value_or(-1)));
+  const auto wrong = [&] {
+    report_.refuse("HEI-013", s.pos, "FN " + s.text + " has another form", "see the list of FN functions");
+    return false;
+  };
+  if (row == nullptr) return wrong();
+  using facts::FnUse;
+  const bool sets = s.args.size() == 2 && s.args[0].kind == ExprKind::variable;
+  const Expr* e = sets ? &s.args[1] : nullptr;
+  ir::ExprPtr value;
+  const auto both = [&](const auto& make) {
+    ir::ExprPtr a = expression(e->args[0]), b = expression(e->args[1]);
+    if (a && b) value = make(std::move(a), std::move(b));
+  };
+  switch (row->use) {
+    case FnUse::assign:
+      if (e == nullptr || e->kind == ExprKind::binary || e->kind == ExprKind::call) return wrong();
+      value = expression(*e);
+      break;
+    case FnUse::binary:
+      if (e == nullptr || e->kind != ExprKind::binary || e->text != row->word) return wrong();
+      both([row](ir::ExprPtr a, ir::ExprPtr b) { return ir::binary(row->op, std::move(a), std::move(b)); });
+      break;
+    case FnUse::prefix: {
+      if (e == nullptr || e->kind != ExprKind::call || e->text != row->word) return wrong();
+      ir::ExprPtr x = expression(e->args[0]);
+      if (x) value = ir::call(row->function, {std::move(x)});
+      break;
+    }
+    case FnUse::length:
+      if (e == nullptr || e->kind != ExprKind::binary || e->text != row->word) return wrong();
+      both([](ir::ExprPtr a, ir::ExprPtr b) {
+        return ir::call(ir::Function::sqrt,
+                        {ir::binary(ir::BinaryOp::add, ir::call(ir::Function::square, {std::move(a)}),
+                                    ir::call(ir::Function::square, {std::move(b)}))});
+      });
+      break;
+    case FnUse::angle:
+      if (e == nullptr || e->kind != ExprKind::binary || e->text != row->word) return wrong();
+      both([](ir::ExprPtr a, ir::ExprPtr b) {
+        return ir::call(ir::Function::arg, {std::move(b), std::move(a)});  // arg(adjacent, opposite)
+      });
+      break;
+    case FnUse::jump:
+      if (s.args.empty() || s.args[0].kind != ExprKind::binary || s.args[0].text != row->word) return wrong();
+      return jump(s, row->op);
+    case FnUse::error: {
+      if (s.children.empty()) return wrong();
+      ir::Message m;
+      m.kind = ir::MessageKind::error;
+      const auto digits = s.children[0].text.find_first_of("0123456789");
+      const auto n =
+          digits == std::string::npos ? std::nullopt : parse_decimal(trim(s.children[0].text.substr(digits)));
+      if (!n) return wrong();
+      m.number = ir::number(*n);
+      m.parts.push_back(ir::string_literal("error " + std::to_string(saturate<std::int64_t>(*n))));
+      put(std::move(m));
+      return true;
+    }
+    case FnUse::sysread:
+      if (s.children.empty()) return wrong();
+      return sysread(s.children[0]);
+    case FnUse::wait: {
+      ir::Block b;
+      b.actions.emplace_back().data = ir::PreparationStop{};
+      const bool sync = !s.children.empty() && to_upper_ascii(s.children[0].text).find("SYNC") != std::string::npos;
+      if (!sync) {
+        report_.keep("HEI-013", s.pos, "FN 20 waits for a signal of the machine", "language.synchronised");
+        return false;
+      }
+      put(std::move(b));
+      return true;
+    }
+    case FnUse::circle:
+      report_.keep("HEI-013", s.pos, "FN 23 and FN 24 are not carried yet", "language.statement");
+      return false;
+    case FnUse::kept: {
+      const bool reads = row->number == 28;
+      if (!reads)
+        return carried(s, true, "beside.data", "FN " + s.text + " does not change the path; it is kept as text");
+      report_.keep("HEI-013", s.pos, "FN " + s.text + " reads tables that the control keeps", "language.statement");
+      return false;
+    }
+  }
+  ir::Assign::Item item;
+  item.pos = s.pos;
+  if (!value || !target(s.args[0], item.target)) return false;
+  item.value = std::move(value);
+  ir::Assign assign;
+  Item& put_item = put(ir::Assign{});
+  put_item.writes.push_back(item.target);
+  assign.items.push_back(std::move(item));
+  put_item.statement.node = std::move(assign);
+  return true;
+}
+
+}  // namespace cnctrans::frontends::heidenhain

@@ -1,0 +1,354 @@
+// Lines -> items: which sentence a line is, program frame, labels, calls.
+#include <utility>
+
+#include "base/saturate.h"
+#include "base/text.h"
+#include "dialects/heidenhain/limits.h"
+#include "dialects/heidenhain/sentences.h"
+#include "frontends/heidenhain/state/lowering.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+using syntax::Expr;
+using syntax::ExprKind;
+
+namespace {
+
+facts::Sentence sentence_of(std::string_view keyword) {
+  for (const auto& row : facts::sentences) {
+    if (row.words == keyword) return row.sentence;
+  }
+  return facts::Sentence::none;
+}
+
+/// The name of a program file: capitals, without folders and without `.H`.
+std::string program_name(std::string_view text) {
+  text = trim(text);
+  if (const auto at = text.find_last_of("\\/:"); at != std::string_view::npos) text.remove_prefix(at + 1);
+  constexpr std::size_t extension = 2;
+  if (text.size() > extension && iequals_ascii(text.substr(text.size() - extension), ".H"))
+    text.remove_suffix(extension);
+  return to_upper_ascii(text);
+}
+
+std::string_view without_quotes(std::string_view text) {
+  text = trim(text);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return text.substr(1, text.size() - 2);
+  return text;
+}
+
+}  // namespace
+
+Item& Lowering::put(ItemKind kind, ir::StatementNode node) {
+  Item& item = flat_.items.emplace_back();
+  item.kind = kind;
+  if (first_) {
+    item.statement.line = line_;
+  } else {
+    item.statement.line.span = line_.span;
+    item.statement.line.skip_mask = line_.skip_mask;
+    item.statement.line.joined = true;
+  }
+  first_ = false;
+  item.statement.node = std::move(node);
+  return item;
+}
+
+bool Lowering::carried(const syntax::Statement& s, bool harmless, std::string_view feature, std::string message) {
+  if (harmless)
+    report_.note("HEI-021", s.pos, std::move(message));
+  else
+    report_.warn("HEI-013", s.pos, std::move(message));
+  ir::Opaque o;
+  o.text = std::string(trim(text_));
+  o.feature = feature;
+  o.harmless = harmless;
+  put(std::move(o));
+  return true;
+}
+
+void Lowering::unread(ir::LineInfo line, std::string_view text) {
+  flush();
+  swallow_ = false;
+  line_ = std::move(line);
+  first_ = true;
+  ir::Opaque o;
+  o.text = std::string(trim(text));
+  o.feature = "text.unread";
+  put(std::move(o));
+}
+
+bool Lowering::line(const syntax::Block& block, const Span& where, std::string_view text, ir::LineInfo line) {
+  report_.start(where);
+  block_ = &block;
+  text_ = text;
+  const bool goes_on = !block.statements.empty() && block.statements.back().keyword == "~";
+  const std::size_t sentences = block.statements.size() - (goes_on ? 1U : 0U);
+  const syntax::Statement* s = sentences == 0 ? nullptr : &block.statements.front();
+  const bool parameter = s != nullptr && s->keyword == "ASSIGN" && block.number.empty();
+  if (waiting_ >= 0 && parameter && cycle_word(*s)) {
+    waits_more_ = goes_on;
+    return !report_.refused();
+  }
+  const bool part = s != nullptr && s->keyword == "CYCL DEF";
+  if (!part) flush();
+  if (swallow_ && block.number.empty() && (parameter || s == nullptr)) {
+    swallow_ = goes_on || parameter;
+    return true;
+  }
+  swallow_ = false;
+  line_ = std::move(line);
+  first_ = true;
+  out_.clear();
+  call_ = CycleCall::none;
+  end_text_ = {};
+  rapid_ = false;
+  angle_.reset();
+  angle_incremental_ = false;
+  sense_ = 0;
+  retract_.reset();
+  retract_far_ = false;
+  const std::size_t before = flat_.items.size();
+  bool good = true;
+  if (s != nullptr) {
+    good = sentence(*s);
+    if (goes_on && waiting_ < 0) swallow_ = true;
+    if (waiting_ >= 0) waits_more_ = goes_on;
+  } else if (block.words.empty()) {
+    put(ir::Block{});
+  } else {
+    good = path();
+  }
+  if (!report_.refused()) return good;
+  // A line that is refused leaves one kept text and nothing else.
+  flat_.items.resize(before);
+  first_ = true;
+  ir::Opaque o;
+  o.text = std::string(trim(text));
+  o.feature = report_.feature().empty() ? "text.unread" : std::string(report_.feature());
+  put(std::move(o));
+  return false;
+}
+
+bool Lowering::sentence(const syntax::Statement& s) {
+  using facts::Sentence;
+  if (s.keyword == "ASSIGN") return assignment(s);
+  if (s.keyword == "FN") return function(s);
+  if (s.keyword == "OUTLINE") {
+    if (s.text.front() == '(')
+      report_.warn("HEI-026", s.pos, "text in brackets is read as a remark", "write it behind `;`");
+    line_.comments.insert(line_.comments.begin(), {slice(s.pos), ir::CommentPlace::own_line, s.pos});
+    put(ir::Block{});
+    return true;
+  }
+  switch (sentence_of(s.keyword)) {
+    case Sentence::begin_program: return begin(s);
+    case Sentence::end_program: return finish_program(s);
+    case Sentence::blank_form: return carried(s, true, "beside.data", "the blank is drawn only; it is kept as text");
+    case Sentence::tool_def: return tool_def(s);
+    case Sentence::tool_call: return tool_call(s);
+    case Sentence::cycle_def: return cycle_def(s);
+    case Sentence::cycle_call: return cycle_call(s);
+    case Sentence::label: return label(s);
+    case Sentence::call_label: return call_label(s);
+    case Sentence::call_program: return call_program(s);
+    case Sentence::stop: return stop();
+    case Sentence::shift: trans_datum(s); return true;
+    case Sentence::probe:
+      report_.keep("HEI-013", s.pos, "a probing cycle is kept as text: what it measures is known to the machine only",
+                   "motion.probe");
+      return false;
+    case Sentence::plane: {
+      const bool resets = !block_->words.empty() && iequals_ascii(block_->words.front().address, "RESET");
+      const bool stays = !block_->words.empty() && iequals_ascii(block_->words.back().address, "STAY");
+      if (resets && stays)
+        return carried(s, true, "motion.transformation", "no tilted plane is in force: PLANE RESET is kept as text");
+      report_.keep("HEI-022", s.pos, "tilted planes are not carried yet", "motion.transformation");
+      return false;
+    }
+    case Sentence::declare_string:
+      report_.keep("HEI-013", s.pos, "texts in QS parameters are not carried yet", "language.statement");
+      return false;
+    case Sentence::approach:
+    case Sentence::departure:
+      report_.keep("HEI-018", s.pos, "`" + s.keyword + "`: the way to the contour is not carried yet",
+                   "motion.geometry", "write it as L and C");
+      return false;
+    case Sentence::free_contour:
+      report_.keep("HEI-018", s.pos, "free contours (" + s.keyword + ") are not carried yet", "motion.geometry");
+      return false;
+    case Sentence::pattern:
+    case Sentence::global_def:
+    case Sentence::call_selected:
+    case Sentence::select_program:
+    case Sentence::carried:
+    case Sentence::none: break;
+  }
+  report_.keep("HEI-013", s.pos, "`" + s.keyword + "` is kept as text; no run and no translation carries it",
+               "language.statement");
+  return false;
+}
+
+bool Lowering::begin(const syntax::Statement& s) {
+  std::string_view rest = trim(std::string_view(s.text));
+  const auto blank = rest.find_last_of(" \t");
+  const std::string_view unit = blank == std::string_view::npos ? rest : rest.substr(blank + 1);
+  inch_ = iequals_ascii(unit, "INCH");
+  const bool known = inch_ || iequals_ascii(unit, "MM");
+  if (!known) report_.warn("HEI-014", s.pos, "BEGIN PGM without its unit: millimetres", "write MM or INCH");
+  if (known) rest = blank == std::string_view::npos ? std::string_view{} : trim(rest.substr(0, blank));
+  if (began_ || !flat_.items.empty()) {
+    for (const Item& item : flat_.items) {
+      const auto* b = std::get_if<ir::Block>(&item.statement.node);
+      const auto* o = std::get_if<ir::Opaque>(&item.statement.node);
+      if (!began_ && ((b != nullptr && b->empty()) || (o != nullptr && o->feature == "text.unread"))) continue;
+      report_.refuse("HEI-014", s.pos, "BEGIN PGM stands at the start of a file");
+      return false;
+    }
+  }
+  began_ = true;
+  name_ = to_upper_ascii(rest);
+  if (!inch_) {
+    if (!line_.comments.empty()) put(ir::Block{});
+    return true;
+  }
+  ir::Block units;
+  ir::Action& a = units.actions.emplace_back();
+  a.data = ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(ir::Units::inch), true};
+  put(std::move(units));
+  return true;
+}
+
+bool Lowering::finish_program(const syntax::Statement&) {
+  ir::End end;
+  end.text = "END PGM";
+  end.returns_from_sub = true;
+  put(ItemKind::end, std::move(end));
+  ended_ = true;
+  return true;
+}
+
+bool Lowering::label_name(const Expr* text, const Word* word, Item& item) {
+  if (text != nullptr) {
+    item.label = to_upper_ascii(trim(text->text));
+    return true;
+  }
+  const double n = word == nullptr ? -1 : word->number;
+  const auto number = saturate<std::int64_t>(n);
+  if (word == nullptr || word->is_expression || n != static_cast<double>(number) || number < 0 || number > 65535) {
+    report_.refuse("HEI-010", word == nullptr ? WordPos{} : word->pos,
+                   "a label has a number from 1 to 999, or a name in quotes");
+    return false;
+  }
+  item.label = std::to_string(number);
+  item.number = true;
+  return true;
+}
+
+bool Lowering::label(const syntax::Statement& s) {
+  Item probe;
+  const bool one = block_->words.size() == 1 && block_->words[0].address.empty();
+  if (!label_name(s.args.empty() ? nullptr : &s.args[0], one ? block_->words.data() : nullptr, probe)) return false;
+  const bool ends = probe.number && probe.label == "0";
+  if (!ends && probe.number) line_.number = program_.keep(probe.label);
+  if (!ends && !probe.number) line_.labels.push_back(program_.keep(probe.label));
+  ir::StatementNode node = ends ? ir::StatementNode(ir::Block{}) : ir::StatementNode(ir::Label{});
+  Item& item = put(ends ? ItemKind::sub_end : ItemKind::label, std::move(node));
+  item.label = probe.label;
+  item.number = probe.number;
+  return true;
+}
+
+/// CALL LBL 5, CALL LBL "NAME", CALL LBL 5 REP 3/3.
+bool Lowering::call_label(const syntax::Statement& s) {
+  const Word *name = nullptr, *count = nullptr;
+  bool repeats = false;
+  for (const Word& w : block_->words) {
+    if (iequals_ascii(w.address, "REP")) {
+      repeats = true;
+      if (w.has_value) count = &w;
+    } else if (w.address.empty() && w.has_value) {
+      if (name == nullptr && s.args.empty() && !repeats)
+        name = &w;
+      else if (repeats && count == nullptr)
+        count = &w;
+    } else if (w.address == "/" && repeats) {
+      continue;
+    } else {
+      report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing beside CALL LBL", {},
+                     "block.word");
+      return false;
+    }
+  }
+  Item probe;
+  if (!label_name(s.args.empty() ? nullptr : &s.args[0], name, probe)) return false;
+  if (probe.number && probe.label == "0") {
+    report_.refuse("HEI-010", s.pos, "LBL 0 ends subprograms, it can't be called");
+    return false;
+  }
+  if (repeats && count == nullptr) {
+    report_.refuse("HEI-011", s.pos, "REP has no number");
+    return false;
+  }
+  if (!repeats) {
+    ir::CallRoutine call;
+    Item& item = put(ItemKind::call, std::move(call));
+    item.label = probe.label;
+    item.number = probe.number;
+    return true;
+  }
+  ir::Repeat repeat;
+  repeat.first.text = probe.label;
+  repeat.first.is_number = probe.number;
+  repeat.count = ir::as_expr(value(*count));
+  if (report_.refused()) return false;
+  Item& item = put(ItemKind::repeat, std::move(repeat));
+  item.label = probe.label;
+  item.number = probe.number;
+  return true;
+}
+
+bool Lowering::call_program(const syntax::Statement& s) {
+  const std::string name = program_name(s.args.empty() ? without_quotes(s.text) : std::string_view(s.args[0].text));
+  if (name.empty()) {
+    report_.refuse("HEI-011", s.pos, "CALL PGM has no program");
+    return false;
+  }
+  if (name.size() > 2 && name.substr(name.size() - 2) == ".I") {
+    report_.keep("HEI-011", s.pos, "`" + name + "` is a program in DIN/ISO, which is another language",
+                 "language.other_mode");
+    return false;
+  }
+  ir::CallRoutine call;
+  call.routine.text = name;
+  call.level = ir::CallLevel::new_level;
+  put(ItemKind::program, std::move(call));
+  if (!inch_) return true;
+  ir::Block units;
+  units.actions.emplace_back().data =
+      ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(ir::Units::inch), true};
+  put(std::move(units));
+  return true;
+}
+
+bool Lowering::stop() {
+  for (const Word& w : block_->words) {
+    if (!tail(w) || report_.refused()) {
+      if (!report_.refused())
+        report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing beside STOP", {}, "block.word");
+      return false;
+    }
+  }
+  ir::Action& a = out_.actions.emplace_back();
+  a.data = ir::Stop{false};
+  a.order = ir::Order::after;
+  put(std::move(out_));
+  if (end_text_.empty()) return true;
+  ir::End end;
+  end.text = end_text_;
+  put(ItemKind::end, std::move(end));
+  return true;
+}
+
+}  // namespace cnctrans::frontends::heidenhain

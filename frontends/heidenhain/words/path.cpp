@@ -1,0 +1,416 @@
+// Path functions (reference 5, 9, 10): L, C, CR, CT, LP, CP, CTP, CC, RND, CHF, and lines of M functions.
+#include <cmath>
+#include <utility>
+
+#include "base/saturate.h"
+#include "base/text.h"
+#include "dialects/heidenhain/limits.h"
+#include "frontends/heidenhain/state/lowering.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+
+namespace {
+
+bool is(const syntax::Word& w, std::string_view address) {
+  return iequals_ascii(w.address, address);
+}
+bool bare(const syntax::Word& w) {
+  return !w.has_value && w.number_text.empty();
+}
+
+/// Full turns that a polar arc by its signed angle makes beyond the first.
+ir::Value turns_of(const ir::Value& angle) {
+  constexpr double full = 360;
+  if (angle.literal()) return ir::Value(std::max(0.0, std::ceil(std::abs(angle.number) / full - 1e-9) - 1));
+  using ir::BinaryOp;
+  const ir::ExprPtr rounds = ir::binary(BinaryOp::divide, ir::call(ir::Function::abs, {angle.expr}), ir::number(full));
+  return ir::Value(ir::binary(BinaryOp::subtract, ir::call(ir::Function::ceil, {rounds}), ir::number(1)));
+}
+
+}  // namespace
+
+ir::Value Lowering::value(const Word& w) {
+  if (!w.is_expression) return {w.number, w.number_text};
+  return ir::Value(expression(block_->exprs[static_cast<std::size_t>(w.expr)]));
+}
+
+ir::Action& Lowering::act(const Word& w, ir::ActionData data, ir::Order order) {
+  ir::Action& a = out_.actions.emplace_back();
+  a.data = std::move(data);
+  a.order = order;
+  a.pos = w.pos;
+  return a;
+}
+
+void Lowering::axis_word(const Word& w, ir::AxisId axis, bool incremental) {
+  if (!w.has_value) return report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` has no value");
+  if (!has_axis(axis)) {
+    return report_.refuse(
+        "HEI-003", w.pos,
+        "`" + std::string(slice(w)) + "`: the machine has no axis " + std::string(ir::fixed_axis_name(axis)),
+        "choose a machine profile that has it (--machine)", "machine.axis");
+  }
+  if (!w.is_expression && std::abs(w.number) > facts::value_max)
+    return report_.refuse("HEI-024", w.pos, "`" + std::string(slice(w)) + "` is beyond the range of the control");
+  for (const auto& c : out_.motion.coords) {
+    if (c.axis == axis)
+      return report_.refuse("HEI-004", w.pos, "`" + std::string(slice(w)) + "`: the axis stands twice in the block");
+  }
+  ir::CoordWord& c = out_.motion.coords.emplace_back();
+  c.axis = axis;
+  c.mode = incremental ? ir::WordMode::incremental : ir::WordMode::modal;  // absolute is in force always
+  c.value = value(w);
+  c.pos = w.pos;
+  if (shortest_ && ir::is_rotary_letter(axis) && !incremental) c.direction = ir::RotaryDirection::shortest;
+}
+
+/// F500, FMAX, FAUTO, FU0.2. False: no feed word.
+bool Lowering::feed(const Word& w) {
+  if (is(w, "FMAX")) {
+    rapid_ = true;
+    return true;
+  }
+  const auto mode = [&](ir::FeedMode m) {
+    act(w, ir::ModalSet{ir::Setting::feed_mode, static_cast<std::uint8_t>(m), true, ir::FeedMemory::shared});
+  };
+  if (is(w, "FAUTO")) {
+    if (!tool_feed_) {
+      report_.refuse("HEI-005", w.pos, "FAUTO takes the feed of TOOL CALL, and the one above has none", "write F");
+    } else {
+      act(w, ir::SetFeed{*tool_feed_});
+    }
+    return true;
+  }
+  if (is(w, "FU") && w.has_value) {
+    mode(ir::FeedMode::per_rev);
+    feed_by_fu_ = true;
+    act(w, ir::SetFeed{value(w)});
+    return true;
+  }
+  if (is(w, "FZ") || is(w, "FT") || is(w, "FMAXT")) {
+    report_.keep("HEI-005", w.pos,
+                 "`" + std::string(slice(w)) + "`: a feed by teeth or by time needs data that are not in the program",
+                 "feed.of_the_tool", "write F");
+    return true;
+  }
+  if (!is(w, "F")) return false;
+  if (!w.has_value) {
+    report_.refuse("HEI-005", w.pos, "`F` has no value");
+    return true;
+  }
+  if (!w.is_expression && w.number < 0) report_.refuse("HEI-005", w.pos, "a feed is not negative");
+  if (std::exchange(feed_by_fu_, false)) mode(per_rev_ ? ir::FeedMode::per_rev : ir::FeedMode::per_minute);
+  act(w, ir::SetFeed{value(w)});
+  return true;
+}
+
+/// The words that any path function may end with. False: the word is none of them.
+bool Lowering::tail(const Word& w) {
+  const auto comp = [&](ir::CompSide side) {
+    act(w, ir::ModalSet{ir::Setting::comp, static_cast<std::uint8_t>(side)});
+    return true;
+  };
+  if (feed(w)) return true;
+  if (is(w, "RL") && bare(w)) return comp(ir::CompSide::left);
+  if (is(w, "RR") && bare(w)) return comp(ir::CompSide::right);
+  if (is(w, "R") && w.has_value && !w.is_expression && w.number == 0) return comp(ir::CompSide::off);
+  if (is(w, "M") && w.has_value) {
+    machine_function(w);
+    return true;
+  }
+  return false;
+}
+
+/// `(` behind the words: a remark of the programmer; the control knows none.
+bool Lowering::remark(const Word& w) {
+  if (w.address != "(") return false;
+  report_.warn("HEI-026", w.pos, "text in brackets is read as a remark", "write it behind `;`");
+  const std::string_view text = text_.substr(w.pos.column - 1);
+  line_.comments.insert(line_.comments.begin(), {text.substr(0, text.find(';')), ir::CommentPlace::end_of_line, w.pos});
+  return true;
+}
+
+/// Polar words, the sense and rapid make one motion.
+void Lowering::end_motion() {
+  ir::Motion& m = out_.motion;
+  if (angle_) {
+    auto extra = m.extra ? std::make_shared<ir::MotionExtra>(*m.extra) : std::make_shared<ir::MotionExtra>();
+    extra->has_polar_angle = true;
+    extra->polar_angle = *angle_;
+    extra->polar_angle_mode = angle_incremental_ ? ir::WordMode::incremental : ir::WordMode::modal;
+    const bool arc = m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw;
+    if (arc && angle_incremental_) {
+      const ir::Value turns = turns_of(*angle_);
+      extra->has_turns = !turns.is(0);
+      extra->turns = turns;
+      constexpr double full = 360;
+      if (angle_->literal() && std::fmod(angle_->number, full) == 0) {  // to its start
+        extra->has_polar_angle = false;
+        extra->polar_angle = ir::Value{};
+        extra->polar_angle_mode = ir::WordMode::modal;
+      }
+      if (extra->has_polar_angle || extra->has_turns || extra->has_polar_radius) m.extra = extra;
+      return;
+    }
+    m.extra = std::move(extra);
+  }
+}
+
+bool Lowering::path() {
+  const auto& words = block_->words;
+  const Word& first = words.front();
+  if (is(first, "RND") || is(first, "CHF"))
+    return corner(first, is(first, "RND") ? ir::CornerKind::round : ir::CornerKind::chamfer_leg);
+  if (is(first, "CC")) return pole();
+  if (is(first, "QC")) {
+    report_.keep("HEI-013", first.pos, "formulas of contours are kept as text", "language.statement");
+    return false;
+  }
+  using ir::MotionKind;
+  enum class Form : std::uint8_t { none, line, arc, by_radius, tangent, polar_line, polar_arc, polar_tangent };
+  struct FormRow {
+    std::string_view word;
+    Form form;
+  };
+  static constexpr std::array forms{FormRow{"L", Form::line},           FormRow{"C", Form::arc},
+                                    FormRow{"CR", Form::by_radius},     FormRow{"CT", Form::tangent},
+                                    FormRow{"LP", Form::polar_line},    FormRow{"CP", Form::polar_arc},
+                                    FormRow{"CTP", Form::polar_tangent}};
+  Form form = Form::none;
+  for (const auto& f : forms) {
+    if (is(first, f.word) && bare(first)) form = f.form;
+  }
+  const bool named = form != Form::none;
+  if (!named) form = Form::line;
+  const Word* radius = nullptr;
+  const Word *polar_radius = nullptr, *polar_angle = nullptr;
+  for (std::size_t i = named ? 1 : 0; i < words.size() && !report_.refused(); ++i) {
+    Word w = words[i];
+    // A name and its MAX or AUTO with a blank between them.
+    if (is(w, "F") && bare(w) && i + 1 < words.size() && bare(words[i + 1])) {
+      const Word& next = words[i + 1];
+      if (is(next, "MAX") || is(next, "AUTO")) {
+        w.address = is(next, "MAX") ? "FMAX" : "FAUTO";
+        w.pos.length = next.pos.column + next.pos.length - w.pos.column;
+        ++i;
+      }
+    }
+    if (w.has_value && !w.is_expression && w.number_text.empty() && slice(w).find("+-") != std::string_view::npos)
+      report_.warn("HEI-023", w.pos, "`" + std::string(slice(w)) + "`: two signs are read as a minus");
+    const bool incremental = w.address.size() == 2 && (w.address[0] == 'I' || w.address[0] == 'i');
+    const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
+    if (axis != ir::axis::none && (w.has_value || form == Form::line)) {
+      axis_word(w, axis, incremental);
+      continue;
+    }
+    if (is(w, "DR") && !w.number_text.empty() && !w.has_value) {
+      sense_ = w.number_text == "+" ? 1 : -1;
+      continue;
+    }
+    if (is(w, "R") && w.has_value && form == Form::by_radius && radius == nullptr) {
+      radius = &words[i];
+      continue;
+    }
+    if ((is(w, "PR") || is(w, "IPR")) && w.has_value) {
+      polar_radius = &words[i];
+      continue;
+    }
+    if ((is(w, "PA") || is(w, "IPA")) && w.has_value) {
+      polar_angle = &words[i];
+      continue;
+    }
+    if (is(w, "M") && w.has_value) {  // with the words that belong to it
+      const auto code = w.is_expression ? -1 : saturate<std::int64_t>(w.number);
+      machine_function(w);
+      if (i + 1 >= words.size()) continue;
+      const Word& next = words[i + 1];
+      const bool own_feed = (code == 103 || code == 128) && is(next, "F");
+      const bool own = own_feed || (code == 120 && is(next, "LA")) || (code == 124 && is(next, "T")) ||
+                       (code == 118 && axis_of(next.address) != ir::axis::none);
+      if (own) ++i;
+      if (code != 140) continue;
+      if (is(next, "MBMAX") || (is(next, "MB") && bare(next))) {
+        retract_far_ = true;
+        i += is(next, "MB") ? 2 : 1;  // MB MAX
+      } else if (is(next, "MB")) {
+        retract_ = next;
+        ++i;
+      }
+      continue;
+    }
+    if (remark(w)) break;
+    if (is(w, "R") && !w.has_value && !w.number_text.empty()) {  // R+ and R- of a move of one axis
+      report_.keep("HEI-006", w.pos,
+                   "`" + std::string(slice(w)) + "`: a move lengthened by the tool radius is not carried", "block.word",
+                   "write L with RL or RR");
+      break;
+    }
+    if (!tail(w)) {
+      report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing in this block", {}, "block.word");
+    }
+  }
+  if (report_.refused()) return false;
+  ir::Motion& m = out_.motion;
+  const bool polar = form == Form::polar_line || form == Form::polar_arc || form == Form::polar_tangent;
+  if ((polar_radius != nullptr || polar_angle != nullptr) && !polar) {
+    report_.refuse("HEI-006", (polar_radius != nullptr ? *polar_radius : *polar_angle).pos,
+                   "polar words belong to LP, CP and CTP");
+    return false;
+  }
+  if (form == Form::arc || form == Form::by_radius || form == Form::polar_arc) {
+    if (sense_ == 0) {
+      report_.refuse("HEI-006", first.pos, "the arc has no sense", "write DR+ or DR-");
+      return false;
+    }
+  } else if (sense_ != 0) {
+    report_.refuse("HEI-006", first.pos, "DR belongs to an arc");
+    return false;
+  }
+  if (rapid_ && form != Form::line && form != Form::polar_line) {
+    report_.refuse("HEI-006", first.pos, "an arc is not run in rapid traverse: its feed is unknown", "write F");
+    return false;
+  }
+  if (polar_angle != nullptr) {
+    angle_ = value(*polar_angle);
+    angle_incremental_ = polar_angle->address.size() == 3;
+    if (form == Form::polar_arc && angle_incremental_ && angle_->literal() && angle_->number * sense_ < 0) {
+      report_.refuse("HEI-006", polar_angle->pos, "the sign of IPA and DR contradict each other");
+      return false;
+    }
+  }
+  if (polar_radius != nullptr) {
+    auto extra = std::make_shared<ir::MotionExtra>();
+    extra->has_polar_radius = true;
+    extra->polar_radius = value(*polar_radius);
+    extra->polar_mode = polar_radius->address.size() == 3 ? ir::WordMode::incremental : ir::WordMode::modal;
+    m.extra = std::move(extra);
+  }
+  switch (form) {
+    case Form::none:
+    case Form::line:
+    case Form::polar_line: m.kind = rapid_ ? MotionKind::rapid : MotionKind::linear; break;
+    case Form::arc:
+    case Form::by_radius:
+    case Form::polar_arc: m.kind = sense_ > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw; break;
+    case Form::tangent:
+    case Form::polar_tangent: m.kind = MotionKind::arc_tangent; break;
+  }
+  end_motion();
+  out_.has_motion = m.moves() || form == Form::arc || form == Form::polar_arc;  // without an end point: a full circle
+  m.explicit_code = out_.has_motion;
+  if (form == Form::by_radius) {
+    if (radius == nullptr) {
+      report_.refuse("HEI-006", first.pos, "the arc has no radius", "write R");
+      return false;
+    }
+    m.radius_given = true;
+    m.radius = value(*radius);
+    m.radius_pos = radius->pos;
+  }
+  if (!named && m.coords.size() > 1)
+    report_.warn("HEI-006", first.pos, "axis words without a path function are read as L", "write L before them");
+  const bool by_pole = form == Form::arc || form == Form::polar_arc;
+  if (retract_ || retract_far_) {
+    if (retract_far_ || out_.has_motion) {
+      report_.keep("HEI-009", first.pos,
+                   "M140 goes back to the limit of the axis, or beside a move: where that ends is not in the program",
+                   "block.word", "write M140 MB with a distance in a block of its own");
+      return false;
+    }
+    m.kind = rapid_ || !retract_->has_value ? MotionKind::rapid : MotionKind::linear;
+    m.explicit_code = true;
+    ir::CoordWord& c = m.coords.emplace_back();
+    c.axis = static_cast<ir::AxisId>(tool_axis_);
+    c.mode = ir::WordMode::incremental;
+    c.value = value(*retract_);
+    c.pos = retract_->pos;
+    out_.has_motion = true;
+  }
+  const bool moves = out_.has_motion;
+  const bool only_ends = !end_text_.empty() && out_.empty() && call_ == CycleCall::none;
+  if (!only_ends) {
+    Item& item = put(ItemKind::plain, std::move(out_));
+    item.moves = moves;
+    item.by_pole = by_pole;
+    item.polar = polar && form != Form::polar_arc;
+    item.call = call_;
+  }
+  if (!end_text_.empty()) {
+    ir::End end;
+    end.text = end_text_;
+    put(ItemKind::end, std::move(end));
+    ended_ = true;
+  }
+  return true;
+}
+
+/// RND and CHF stand behind the element that ends in the corner.
+bool Lowering::corner(const Word& first, ir::CornerKind kind) {
+  const auto& words = block_->words;
+  const Word* size = first.has_value ? &first : nullptr;
+  const Word* own_feed = nullptr;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const Word& w = words[i];
+    if (is(w, "R") && w.has_value && size == nullptr && kind == ir::CornerKind::round) {
+      size = &w;
+    } else if (is(w, "F") && w.has_value && own_feed == nullptr) {
+      own_feed = &w;
+    } else if (size == nullptr && w.address.empty() && w.has_value) {
+      size = &w;
+    } else {
+      report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing in this block", {}, "block.word");
+      return false;
+    }
+  }
+  if (size == nullptr) {
+    report_.refuse("HEI-007", first.pos, "the corner has no size");
+    return false;
+  }
+  Item* before = flat_.items.empty() ? nullptr : &flat_.items.back();
+  auto* block = before == nullptr ? nullptr : std::get_if<ir::Block>(&before->statement.node);
+  const bool follows = block != nullptr && before->kind == ItemKind::plain && before->moves &&
+                       before->call == CycleCall::none && block->motion.kind != ir::MotionKind::rapid;
+  if (!follows) {
+    report_.refuse("HEI-007", first.pos, "no path element stands right before the corner", {}, "motion.geometry");
+    return false;
+  }
+  ir::Corner corner;
+  corner.kind = kind;
+  corner.value = value(*size);
+  if (own_feed != nullptr) corner.feed = std::make_shared<const ir::Value>(value(*own_feed));
+  if (report_.refused()) return false;
+  ir::Action& a = block->actions.emplace_back();
+  a.data = std::move(corner);
+  if (!line_.comments.empty()) put(ir::Block{});
+  return true;
+}
+
+/// CC: centre of arcs and pole.
+bool Lowering::pole() {
+  Pole pole;
+  for (std::size_t i = 1; i < block_->words.size(); ++i) {
+    const Word& w = block_->words[i];
+    if (remark(w)) break;
+    const bool incremental = w.address.size() == 2 && (w.address[0] == 'I' || w.address[0] == 'i');
+    const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
+    if (axis == ir::axis::none || axis > ir::axis::z || !w.has_value) {
+      report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing beside CC", {}, "block.word");
+      return false;
+    }
+    ir::FrameWord f;
+    f.axis = axis;
+    f.value = value(w);
+    f.pos = w.pos;
+    pole.words.push_back(std::move(f));
+    pole.incremental.push_back(incremental);
+  }
+  if (report_.refused()) return false;
+  flat_.poles.push_back(std::move(pole));
+  Item& item = put(ItemKind::pole, ir::Block{});
+  item.index = static_cast<int>(flat_.poles.size()) - 1;
+  return true;
+}
+
+}  // namespace cnctrans::frontends::heidenhain

@@ -1,0 +1,114 @@
+// TOOL CALL and TOOL DEF (reference 4).
+#include <cmath>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/heidenhain/limits.h"
+#include "frontends/heidenhain/state/lowering.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+
+/// The tool, its axis (and with it the plane), its speed; F is the feed from here on, and that of FAUTO.
+bool Lowering::tool_call(const syntax::Statement& s) {
+  const Word* number = nullptr;
+  const Word* speed = nullptr;
+  const Word* own_feed = nullptr;
+  std::optional<int> axis;
+  for (const Word& w : block_->words) {
+    const auto is = [&](std::string_view a) { return iequals_ascii(w.address, a); };
+    const ir::AxisId letter = w.has_value ? ir::axis::none : axis_of(w.address);
+    if (w.address.empty() && number == nullptr) {
+      number = &w;
+    } else if (letter <= ir::axis::w) {
+      axis = letter % 3;
+    } else if (is("S") && w.has_value) {
+      speed = &w;
+    } else if (is("F") && w.has_value) {
+      own_feed = &w;
+    } else if (is("DL") || is("DR") || (w.address.empty() && number != nullptr)) {  // `DR2 +0.1` is two items
+      if (w.has_value && !w.is_expression && w.number == 0) continue;
+      report_.warn("HEI-015", w.pos,
+                   "`" + std::string(slice(w)) + "`: the oversize of the tool is kept as text; it is not in the path");
+      act(w, ir::OpaqueWord{slice(w)}, ir::Order::with);
+    } else if (w.has_value && (is("R") || is("L"))) {
+      report_.warn("HEI-015", w.pos, "`" + std::string(slice(w)) + "` means nothing here; it is left out");
+    } else {
+      report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing beside TOOL CALL", {},
+                     "block.word");
+      return false;
+    }
+  }
+  Word at;
+  at.pos = s.pos;
+  std::vector<ir::Action> oversize = std::move(out_.actions);
+  out_.actions.clear();
+  if (number != nullptr || !s.args.empty()) {
+    ir::ToolSelect select;
+    if (number != nullptr) {
+      if (!number->is_expression && (number->number < 0 || number->number > facts::tool_max)) {
+        report_.refuse("HEI-015", number->pos, "tool numbers go from 0 to 32767");
+        return false;
+      }
+      select.number = value(*number);
+      if (!number->is_expression && number->number != std::floor(number->number)) {
+        report_.warn("HEI-015", number->pos, "the index of the tool is left out; its number counts");
+        select.number = ir::Value(std::floor(number->number));
+      }
+    } else {
+      select.name = program_.keep(s.args[0].text);
+    }
+    act(at, std::move(select));
+    act(at, ir::ToolChange{});
+  }
+  if (axis) {
+    tool_axis_ = *axis;
+    act(at, ir::ModalSet{ir::Setting::plane, static_cast<std::uint8_t>(plane_of(tool_axis_))});
+  }
+  if (speed != nullptr) act(*speed, ir::SetSpindle{1, value(*speed)});
+  if (own_feed != nullptr) {
+    tool_feed_ = value(*own_feed);
+    act(*own_feed, ir::SetFeed{*tool_feed_});
+  }
+  for (auto& a : oversize) out_.actions.push_back(std::move(a));
+  if (report_.refused()) return false;
+  put(std::move(out_));
+  return true;
+}
+
+/// The next tool is made ready; where the control has no tool table its length and radius stand here.
+bool Lowering::tool_def(const syntax::Statement& s) {
+  const Word* number = nullptr;
+  bool defines = false;
+  for (const Word& w : block_->words) {
+    if (w.address.empty() && number == nullptr) number = &w;
+    defines = defines || ((iequals_ascii(w.address, "L") || iequals_ascii(w.address, "R")) && w.has_value);
+  }
+  if (defines) {
+    report_.note("HEI-015", s.pos, "the tool's length and radius are kept as text: the tools are those of the machine");
+    ir::Opaque o;
+    o.text = std::string(trim(text_));
+    o.feature = "beside.data";
+    o.harmless = true;
+    put(std::move(o));
+    return true;
+  }
+  if (number == nullptr && s.args.empty()) {
+    report_.refuse("HEI-015", s.pos, "TOOL DEF has no tool");
+    return false;
+  }
+  ir::ToolSelect select;
+  if (number != nullptr)
+    select.number = value(*number);
+  else
+    select.name = program_.keep(s.args[0].text);
+  Word at;
+  at.pos = s.pos;
+  act(at, std::move(select));
+  if (report_.refused()) return false;
+  put(std::move(out_));
+  return true;
+}
+
+}  // namespace cnctrans::frontends::heidenhain
