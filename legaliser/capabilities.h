@@ -72,12 +72,15 @@ struct Capabilities {
   bool repeat_range = false;   ///< Repeat in place
   bool repeat_other_program = false;
   bool repeat_count_expression = false;   ///< else a number or a variable
+  bool repeat_count_variable = true;      ///< ... or only a number
+  bool repeat_ends_here = false;          ///< a Repeat carries out what stands right before it, nothing else
   bool repeat_needs_identifiers = false;  ///< the labels of a Repeat must be identifiers
   std::int64_t repeat_max = 9999;         ///< largest count of a Repeat or a call
   bool block_repeat = false;              ///< Block::repeat
   bool modal_call = false;
   bool modal_call_here = false;        ///< a modal call also runs where it stands
   bool modal_cycle_by_call = false;    ///< a modal cycle is written as a modal call (definition does not run by itself)
+  bool cycle_each_call = false;        ///< no cycle is modal: each point has a call of its own behind its move
   bool declares_variables = false;     ///< Declare, named variables
   bool assignment_joins_words = true;  ///< an assignment may share a line with words
   bool several_assignments = true;
@@ -147,6 +150,7 @@ struct Capabilities {
   bool tangential_ends = false;  ///< arcs into and out of a contour that a word beside a straight move adds
   bool arc_angle = false;
   bool helix_turns = false, helix_pitch = false;
+  bool helix_angle = false;            ///< ... or by the angle through which it turns, beyond 360 degrees
   bool full_circle_needs_end = false;  ///< both end coordinates must be written
   /// What a centre word of each form means on a diameter axis; modal: as the end point. Not named: radius.
   std::map<CenterMode, WordScale> center_scales;
@@ -166,8 +170,9 @@ struct Capabilities {
   bool frame_rotation = true;
   /// Programmable frame: which slot takes which operations. Empty slot: the target has none.
   std::map<FrameSlot, std::set<FrameCombine>> frames;
-  bool shift_survives_end = false;     ///< the programmable shift holds on after the end of the program
-  std::int32_t work_offset_rows = 99;  ///< settable offsets that a program can select
+  bool shift_survives_end = false;      ///< the programmable shift holds on after the end of the program
+  bool work_offset_ends_shift = false;  ///< a programmable shift is taken back where a work offset is selected
+  std::int32_t work_offset_rows = 99;   ///< settable offsets that a program can select
   bool work_offset_off = true;
   bool units_with_feed = true;        ///< a unit switch that holds for F as well
   bool units_geometry_only = false;   ///< a unit switch that leaves F alone
@@ -180,6 +185,7 @@ struct Capabilities {
   std::int32_t skip_levels = 1;
   bool skip_several = false;  ///< several levels on one block
   bool skip_on_structures = true;
+  bool messages = true;         ///< a program can show texts
   bool message_values = false;  ///< values inside messages
   std::size_t message_length = 200;
   std::size_t block_length = 512;

@@ -40,8 +40,8 @@ class Comparison {
  public:
   Comparison(const std::vector<Event>& source, const std::vector<Event>& target, bool selections,
              const Options& options, Verdict& verdict)
-      : a_(normalise(source, options.offset_numbers, selections)),
-        b_(normalise(target, options.offset_numbers, selections)),
+      : a_(normalise(source, options.offset_numbers, selections, options.shows_messages)),
+        b_(normalise(target, options.offset_numbers, selections, options.shows_messages)),
         first_a_(source.data()),
         first_b_(target.data()),
         options_(options),

@@ -34,6 +34,8 @@ struct Options {
   bool selects_zero = false;
   /// The target's language can switch the length compensation off: where the source does, the translation has to.
   bool switches_length = false;
+  /// The target's language shows texts; where it can't, the source's are left aside.
+  bool shows_messages = true;
   /// Power-on selects none on the source's machine, and the target's begins otherwise.
   bool zero_is_open = false;
   /// Where the machines stand before the first event; no axis known: the first move has no length to judge by.
@@ -57,7 +59,7 @@ enum class Status : std::uint8_t {
 
 /// What of a program the comparison leaves aside, in numbers.
 struct LeftOut {
-  std::size_t offset_numbers = 0, path_modes = 0, preselected_tools = 0;
+  std::size_t offset_numbers = 0, path_modes = 0, preselected_tools = 0, messages = 0;
 };
 
 /// The first true difference.

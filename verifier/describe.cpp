@@ -88,6 +88,7 @@ std::string left_out(const Verdict& v) {
   add(v.left_out.offset_numbers, "offset number");
   add(v.left_out.path_modes, "path mode");
   add(v.left_out.preselected_tools, "tool made ready");
+  add(v.left_out.messages, "message");
   return text;
 }
 

@@ -159,7 +159,8 @@ bool changes_with_the_word(const std::vector<Event>& events) {
                      [](const Event& e) { return e.kind == EventKind::tool && !e.state.empty(); });
 }
 
-std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections) {
+std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections,
+                                    bool keep_messages) {
   std::vector<const Event*> out;
   out.reserve(events.size());
   StateFilter filter;
@@ -199,6 +200,7 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     const Event& e = *taps.order[k];
     if (e.kind == EventKind::feed_stop) continue;  // timing, not path: see docs/verify.md
     if (e.kind == EventKind::offset && !keep_offsets) continue;
+    if (e.kind == EventKind::message && !keep_messages) continue;
     if (e.kind == EventKind::tool && !e.change && (!keep_selections || changed_at_once(k))) continue;
     if (!filter.changes(e)) continue;
     if (is_barrier(e.kind)) {

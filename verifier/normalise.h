@@ -22,7 +22,7 @@ namespace cnctrans::verifier {
 /// sense that stays is, where the tool cuts again.
 /// `keep_selections`: tools that are only made ready; a turret has no such event.
 std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::Event>& events, bool keep_offsets,
-                                                 bool keep_selections);
+                                                 bool keep_selections, bool keep_messages);
 /// Axes of the source whose offset can be compared. A length compensation that is off has no counterpart on a control
 /// without that switch (`switches`): the translator tells it (TRN-142, TRN-143), and what the source means is left
 /// open.

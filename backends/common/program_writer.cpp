@@ -193,6 +193,11 @@ void ProgramWriter::follow_branch(const ir::LineInfo& line) {
 
 /// Skip mark, block number, indentation and labels of the first target line of a source line.
 std::string ProgramWriter::line_head(bool numbered) {
+  if (style_.label_blocks) {
+    std::string head = first_of_source_line_ ? label_text(*info_) : std::string{};
+    head += skip_marks(info_->skip_mask);
+    return head.append(depth_ * style_.indent, ' ');
+  }
   std::string head = skip_marks(info_->skip_mask);
   const bool renumber = options_.numbering == Numbering::renumber && labels_.renumberable();
   if (renumber && numbered) {
@@ -257,7 +262,9 @@ void ProgramWriter::finish_line() {
   if (refused()) return emit_refusal();
   const std::string words = line_.text(style_.order_by_rank);
   line_.clear();
-  const bool before = style_.comment.line_before && !words.empty() && !same_dialect_ && first_of_source_line_;
+  const bool several = words.find('\n') != std::string::npos;
+  const bool before =
+      (style_.comment.line_before || several) && !words.empty() && !same_dialect_ && first_of_source_line_;
   if (before) emit_comments_before();
   const std::string remarks = before ? std::string{} : line_comments();
   const bool target = first_of_source_line_ && !info_->number.empty() && labels_.is_target(routine_, info_->number);
@@ -270,7 +277,7 @@ void ProgramWriter::finish_line() {
     return;
   }
   text += words;
-  while (!text.empty() && text.back() == ' ') text.pop_back();
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\n')) text.pop_back();
   if (only_head) {
     if (!style_.only_label.empty()) text += ' ' + std::string(style_.only_label);
   } else if (!remarks.empty()) {
@@ -387,11 +394,15 @@ std::string ProgramWriter::number_target(std::size_t routine, const ir::LabelRef
 // ---- what is known -------------------------------------------------------------------------------------------------
 
 const ir::Facts* ProgramWriter::facts() {
-  if (current_ == nullptr || current_->id == 0) return nullptr;
+  return current_ != nullptr ? facts_before(*current_) : nullptr;
+}
+
+const ir::Facts* ProgramWriter::facts_before(const ir::Statement& s) {
+  if (s.id == 0) return nullptr;
   if (!facts_) {
     facts_ = ir::analyse(program_, options_.profile->power_on, options_.uncalled);
   }
-  return &facts_->before(current_->id);
+  return &facts_->before(s.id);
 }
 
 std::optional<std::uint8_t> ProgramWriter::setting(ir::Setting s) {

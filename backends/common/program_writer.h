@@ -160,6 +160,7 @@ class ProgramWriter {
   // ---- what is known --------------------------------------------------------------------------------------------
   /// Facts before the statement being written (an analysis of the whole program, made when first asked).
   [[nodiscard]] const ir::Facts* facts();
+  [[nodiscard]] const ir::Facts* facts_before(const ir::Statement& s);
   /// The present block where the target goes to holes in rapid by itself.
   [[nodiscard]] ir::HolePoint point_in_rapid();
   /// A modal setting before the motion of the statement being written, when it is known.

@@ -1,9 +1,11 @@
 // Calls of some blocks of another program (equivalences 20.4), for a target that calls whole programs only: the blocks
-// become a subprogram of their own, which the program that they stand in calls too.
+// become a subprogram of their own, which the program that they stand in calls too. So do the blocks of a repetition
+// that stand elsewhere, for a target that repeats only what stands right before.
 #include <algorithm>
 #include <optional>
 #include <set>
 
+#include "base/text.h"
 #include "ir/label_name.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/edit/editor.h"
@@ -19,6 +21,17 @@ class CalledParts {
   void run() {
     while (const auto call = next()) {
       if (!separate(*call)) left_.push_back(*call);
+    }
+  }
+
+  /// Repetitions of blocks that stand elsewhere in their routine.
+  void run_repeats() {
+    for (std::size_t n = 0; n < program_.routines.size(); ++n) {
+      std::size_t from = 0;
+      while (const auto at = repeat_of_others(program_.routines[n].body, from)) {
+        from = *at + 1;
+        if (separate_repeated(n, *at)) from = 0;
+      }
     }
   }
 
@@ -89,6 +102,107 @@ class CalledParts {
     return true;
   }
   static std::string shown(const LabelRef& l) { return (l.is_number ? "N" : "") + l.text; }
+
+  static std::optional<std::size_t> repeat_of_others(const Body& body, std::size_t from) {
+    for (std::size_t i = from; i < body.size(); ++i) {
+      const auto* r = std::get_if<Repeat>(&body[i].node);
+      if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty() ||
+          r->curve_use != CurveUse::none)
+        continue;
+      const auto before = i != 0 ? labels_on(body[i - 1].line) : std::vector<LabelRef>{};
+      if (std::none_of(before.begin(), before.end(), [r](const LabelRef& l) { return same_label(l, r->last); }))
+        return i;
+    }
+    return std::nullopt;
+  }
+
+  static bool repeats(const Statement& s, const Repeat& r) {
+    const auto* other = std::get_if<Repeat>(&s.node);
+    return other != nullptr && !other->has_program && same_label(other->first, r.first) &&
+           same_label(other->last, r.last);
+  }
+
+  bool separate_repeated(std::size_t home, std::size_t at) {
+    Body& body = program_.routines[home].body;
+    const Repeat repeat = std::get<Repeat>(body[at].node);
+    const std::size_t begin = find(body, repeat.first);
+    std::size_t end = find(body, repeat.last);
+    if (begin == body.size() || end == body.size() || end < begin || (at >= begin && at <= end)) return false;
+    for (++end; end < body.size() && body[end].line.joined;) ++end;
+    if ((at >= begin && at < end) || body[begin].line.joined || !apart(home, begin, end, repeat)) return false;
+    Routine part;
+    part.kind = RoutineKind::sub;
+    part.locality = Locality::file_local;
+    part.file = program_.routines[home].file;
+    part.name = named_by(repeat.first);
+    for_each_statement(body, [&](Statement& s) {
+      if (!repeats(s, repeat)) return;
+      CallRoutine call;
+      call.routine = part.name;
+      call.count = std::get<Repeat>(s.node).count;
+      s.node = std::move(call);
+    });
+    const auto from = body.begin() + static_cast<std::ptrdiff_t>(begin),
+               to = body.begin() + static_cast<std::ptrdiff_t>(end);
+    CallRoutine own;
+    own.routine = part.name;
+    Statement instead = made(from->line, std::move(own));
+    part.body.assign(std::make_move_iterator(from), std::make_move_iterator(to));
+    context_.diagnostics.note("TRN-551", instead.line.span,
+                              "the target repeats only what stands right before the repetition: the blocks " +
+                                  shown(repeat.first) + " to " + shown(repeat.last) +
+                                  " become a subprogram of their own");
+    body.insert(body.erase(from, to), std::move(instead));
+    program_.routines.push_back(std::move(part));
+    return true;
+  }
+
+  /// Nothing but repetitions of this part leads into it, and nothing out of it.
+  bool apart(std::size_t home, std::size_t begin, std::size_t end, const Repeat& repeat) const {
+    const Body& body = program_.routines[home].body;
+    std::set<LabelName> inside;
+    bool good = true;
+    for (std::size_t i = begin; i < end; ++i) {
+      Body one{body[i]};
+      for_each_statement(one, [&](const Statement& s) {
+        for (const auto& l : labels_on(s.line)) inside.insert(label_name(l));
+        good = good && !std::holds_alternative<Return>(s.node) && !std::holds_alternative<End>(s.node);
+      });
+    }
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      Body one{body[i]};
+      const bool in = i >= begin && i < end;
+      for_each_statement(one, [&](Statement& s) {
+        if (std::holds_alternative<CallRoutine>(s.node) || repeats(s, repeat)) return;
+        each_label_ref(s, [&](LabelRef& l, bool) {
+          if (l.text.empty() && !l.computed) return;
+          good = good && !l.computed && (inside.count(label_name(l)) != 0) == in;
+        });
+      });
+    }
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        const auto* c = std::get_if<CallRoutine>(&s.node);
+        const auto* p = std::get_if<Repeat>(&s.node);
+        if ((c != nullptr && c->has_range && program_.find(c->routine) == &program_.routines[home]) ||
+            (p != nullptr && p->has_program && program_.find(p->program) == &program_.routines[home]))
+          good = false;
+      });
+    }
+    return good;
+  }
+
+  /// The number or name of the first block, where no routine has it.
+  RoutineName named_by(const LabelRef& first) const {
+    RoutineName name;
+    if (first.is_number)
+      name.number = static_cast<std::int64_t>(parse_decimal(first.text).value_or(1));
+    else
+      name.text = first.text;
+    const bool taken = std::any_of(program_.routines.begin(), program_.routines.end(),
+                                   [&name](const Routine& r) { return r.name == name; });
+    return taken ? fresh(std::move(name)) : name;
+  }
 
   /// No way but the call and the blocks around it leads into the part or out of it.
   bool closed(const Routine& home, std::size_t begin, std::size_t end, const CallRoutine& call) const {
@@ -165,7 +279,9 @@ class CalledParts {
 
 void separate_called_parts(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || context.target.call_range) return;
-  CalledParts(program, context).run();
+  CalledParts parts(program, context);
+  parts.run();
+  if (context.target.repeat_ends_here) parts.run_repeats();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -86,12 +86,29 @@ class RepeatPass {
       out.push_back(std::move(s));
       return;
     }
+    if (target_.repeat_ends_here && editor_.program.dialect != target_.dialect) {
+      if (!ends_here(r, out)) {
+        refused(s, "TRN-196", "the target repeats only what stands right before the repetition",
+                "make the part a subprogram, or repeat it right behind its last block");
+        return out.push_back(std::move(s));
+      }
+      r.last = {};
+      return put_counted<Repeat>(std::move(s), out);
+    }
     if (!r.has_program && r.last.text.empty() && !r.last.computed && !end_before(r, out)) {
       refused(s, "TRN-197", "the repeated part has no last block that could get a label",
               "put a label on its last block");
     }
     if (std::holds_alternative<Repeat>(s.node)) return put_counted<Repeat>(std::move(s), out);
     out.push_back(std::move(s));
+  }
+
+  /// The part ends with the statement written last.
+  static bool ends_here(const Repeat& r, const Body& out) {
+    if (r.last.text.empty() && !r.last.computed) return true;
+    if (out.empty() || r.last.computed) return false;
+    const auto have = labels_on(out.back().line);
+    return std::any_of(have.begin(), have.end(), [&r](const LabelRef& l) { return same_label(l, r.last); });
   }
 
   /// A repetition or a call with its count; several where the count is beyond the target's.
@@ -103,6 +120,12 @@ class RepeatPass {
     constexpr double most_statements = 10;
     if (node.count && !n) {
       const auto known = known_count(node.count, s);
+      if (!known && !target_.repeat_count_variable) {
+        refused(s, "TRN-196", "how often this is carried out is computed, and the target counts by a number only",
+                "write a loop with a jump");
+        return out.push_back(std::move(s));
+      }
+      if (known && *known >= 1 && *known <= most && !target_.repeat_count_variable) node.count = number(*known);
       if (!known) tell_limit(s);
       if (!known || *known < 1) return put_guarded<Node>(std::move(s), out);
       if (*known > most) n = known;
@@ -228,7 +251,8 @@ class RepeatPass {
       out.push_back(std::move(s));
       if (*n < 2) return;
       Repeat r;
-      r.first = r.last = label;
+      r.first = label;
+      if (!target_.repeat_ends_here) r.last = label;
       r.count = number(*n - 1);
       out.push_back(made(like, std::move(r)));
       return;

@@ -40,7 +40,7 @@ void CyclePass::lower(Statement&& s, Body& out) {
     out.push_back(std::move(s));
     return;
   }
-  if (active_ && !active_->native &&
+  if (active_ && (!active_->native || context_.target.cycle_each_call) &&
       (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node))) {
     context_.diagnostics.error(
         "TRN-331", s.line.span,

@@ -197,6 +197,7 @@ class CyclePass {
 
   // --- definitions ----------------------------------------------------------------------------------------------
 
+  void define_each(Statement&& s, const CycleDefine& d, Active&& a, Body&& pieces, Body& out);
   Active define(const CyclePtr& cycle, CycleTrigger trigger, const Block& b, const Facts& facts) const {
     Active a;
     a.needs.scale = feed_scale_;

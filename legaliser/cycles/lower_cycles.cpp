@@ -110,7 +110,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
                       !b.motion.radius_given;
   const LineInfo like = s.line;
   const bool point_there = !w || has_plane_word(b, *w) || turns_to_point(b, context_.target_machine);
-  const bool as_is = !active_->single && point_there &&
+  const bool as_is = !context_.target.cycle_each_call && !active_->single && point_there &&
                      (simple || (active_->trigger == CycleTrigger::plane_axis_word && !target_rapid));
   if (as_is && active_->on_target) {
     // A code that does not stay is said: without it the writer would put the one that stays in force.
@@ -163,6 +163,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
+  if (context_.target.cycle_each_call) position_rapid(b, context_);
   const std::size_t main = pieces.size();
   pieces.push_back(std::move(s));
   pieces.push_back(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native));
@@ -291,6 +292,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     if (!d.modal) active_.reset();
     return;
   }
+  if (context_.target.cycle_each_call) return define_each(std::move(s), d, std::move(a), std::move(pieces), out);
   if (!by_call_) {
     CycleDefine native = d;
     native.cycle = a.native;

@@ -88,6 +88,13 @@ class FramePass {
         state.select(*w, context_.source_machine);
         work_offset(s, a, *w);
         actions.push_back(a);
+        if (!target_.shift_again(state, actions)) {
+          refuse(s, program_, context_, "TRN-326",
+                 "a work offset takes the shift back on the target, and how far it is shifted here is not known",
+                 "select the work offset before the shift", a.pos);
+          out.push_back(std::move(s));
+          return;
+        }
         if (program_.dialect == context_.target.dialect ||
             before.slot(FrameSlot::preset) == state.slot(FrameSlot::preset))
           continue;
@@ -214,9 +221,7 @@ class FramePass {
         context_.target.shift_survives_end && program_.dialect != context_.target.dialect && !state.neutral();
     if (needed && target_.can(FrameSlot::shift, FrameCombine::clear)) {
       s.line.joined = false;
-      before.push_back(make_block(s.line, neutral(FrameSlot::shift, FrameKind::translate)));
-      if (target_.can(FrameSlot::rotation, FrameCombine::clear) && target_.part(state).turns())
-        before.push_back(make_block(s.line, neutral(FrameSlot::rotation, FrameKind::rotate)));
+      for (auto& a : target_.taken_back(state)) before.push_back(make_block(s.line, std::move(a)));
     }
     editor.put(out, std::move(before), std::move(s));
   }
@@ -254,14 +259,6 @@ class FramePass {
                   : "the target may end the rotation here (its manual does not say), the "
                     "source keeps it"),
         "end the rotation before the plane function and set it again after it");
-  }
-
-  static Action neutral(FrameSlot slot, FrameKind kind) {
-    auto change = std::make_shared<FrameChange>();
-    change->slot = slot;
-    change->kind = kind;
-    change->combine = FrameCombine::clear;
-    return action(FrameOp{std::move(change)});
   }
 
   bool machine_move(Statement& s, Block& b) {

@@ -272,6 +272,28 @@ bool FrameTarget::to_chain(const std::optional<PlanarFrame>& before, const Plana
   return true;
 }
 
+bool FrameTarget::shift_again(const FrameState& state, std::vector<Action>& out) const {
+  if (!context_.target.work_offset_ends_shift || program_.dialect == context_.target.dialect) return true;
+  const PlanarFrame now = part(state);
+  if (!now.has_shift()) return true;
+  if (std::any_of(now.shift.begin(), now.shift.end(), [](const auto& v) { return !v; })) return false;
+  out.push_back(make(FrameSlot::shift, FrameKind::translate, FrameCombine::replace_named, now.shift_words(true)));
+  return true;
+}
+
+std::vector<Action> FrameTarget::taken_back(const FrameState& state) const {
+  const PlanarFrame now = part(state);
+  std::vector<Action> out;
+  const auto clear = [&](FrameSlot slot, FrameKind kind, bool there) {
+    if (there && can(slot, FrameCombine::clear)) out.push_back(make(slot, kind, FrameCombine::clear));
+  };
+  clear(FrameSlot::shift, FrameKind::translate, true);
+  clear(FrameSlot::rotation, FrameKind::rotate, now.turns());
+  clear(FrameSlot::mirror, FrameKind::mirror, now.mirrors());
+  clear(FrameSlot::scale, FrameKind::scale, now.scales());
+  return out;
+}
+
 bool FrameTarget::to_slots(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift,
                            std::optional<Plane> plane, std::vector<Action>& out) const {
   const auto& order = context_.target_machine.frame_order;

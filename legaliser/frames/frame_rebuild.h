@@ -37,6 +37,11 @@ class FrameTarget {
   /// Actions that make the target's frame equal to `after`. `before`: what it holds; empty: not known at all.
   Result rebuild(const FrameChange& c, const std::optional<PlanarFrame>& before, const PlanarFrame& after,
                  const Parts& kept, std::optional<Plane> plane, std::vector<Action>& out) const;
+  /// The target has taken the shift back with the work offset just selected: it is said again. False: how far it is
+  /// shifted is not known.
+  [[nodiscard]] bool shift_again(const FrameState& state, std::vector<Action>& out) const;
+  /// What makes the frame neutral that `state` may hold.
+  [[nodiscard]] std::vector<Action> taken_back(const FrameState& state) const;
   /// On a target whose frames are chained: `next` is `here` and more inside it, or the same.
   [[nodiscard]] static bool extends(const PlanarFrame& here, const PlanarFrame& next);
   /// The part of a state that the rebuilt slots hold.

@@ -277,6 +277,28 @@ bool ArcPass::turns_to_pitch(Arc& arc) {
   return true;
 }
 
+void ArcPass::helix_angle(Arc& arc) {
+  Motion& m = arc.b.motion;
+  const bool rises =
+      std::any_of(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
+  const bool turns = m.extra && m.extra->has_turns;
+  if ((!rises && !turns) || program_.dialect == context_.target.dialect) return;
+  const auto angle = partial_angle(arc);
+  if (!plane_known_ || !angle || (turns && !m.extra->turns.literal()))
+    return fail(arc, "TRN-311",
+                "a helix whose start or end is not known here; the target wants the angle through which it turns",
+                "program start, end and turns as numbers");
+  if (m.radius_given) {
+    const auto c = centre_by_radius(point(arc.start), point(arc.end), m.radius.number, *arc.ccw, long_chord);
+    if (c) set_center(arc, *c);
+  }
+  auto extra = m.extra ? std::make_shared<MotionExtra>(*m.extra) : std::make_shared<MotionExtra>();
+  extra->has_turns = false;
+  extra->has_angle = true;
+  extra->opening_angle = Value{*angle + (turns ? 360 * m.extra->turns.number : 0)};
+  m.extra = std::move(extra);
+}
+
 void ArcPass::both_ends(Arc& arc, bool needed) {
   if (!context_.target.full_circle_needs_end) return;
   auto& coords = arc.b.motion.coords;

@@ -158,6 +158,7 @@ class ArcPass {
       both_ends(arc, false);
     }
     if (std::holds_alternative<Block>(s.node)) almost_closed(arc);
+    if (std::holds_alternative<Block>(s.node) && context_.target.helix_angle) helix_angle(arc);
   }
 
   // --- start and end beside each other (arc_ends.cpp) --------------------------------------------------------------
@@ -231,7 +232,7 @@ class ArcPass {
     if (m.extra->has_angle && !t.arc_angle && !opening_angle(arc)) return false;
     if (m.extra && m.extra->has_pitch && !t.helix_pitch && !pitch_to_turns(arc)) return false;
     if (m.extra && m.extra->has_pitch && t.helix_pitch && !exact_pitch(arc)) return false;
-    if (m.extra && m.extra->has_turns && !t.helix_turns && !turns_to_pitch(arc)) return false;
+    if (m.extra && m.extra->has_turns && !t.helix_turns && !t.helix_angle && !turns_to_pitch(arc)) return false;
     return true;
   }
 
@@ -254,6 +255,9 @@ class ArcPass {
   bool exact_pitch(Arc& arc);
 
   bool turns_to_pitch(Arc& arc);
+
+  /// A helix says the whole angle through which it turns.
+  void helix_angle(Arc& arc);
 
   // --- centres --------------------------------------------------------------------------------------------------
 

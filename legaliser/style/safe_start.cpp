@@ -46,7 +46,8 @@ class SafeStart {
       blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
     }
     if (!offset_said_ && offset == 0) tell_offset();
-    if (!shift_cleared_ && clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
+    const bool taken_back = offset_said_ && context_.target.work_offset_ends_shift;
+    if (!shift_cleared_ && !taken_back && clears_shift()) blocks.push_back(make_block(LineInfo{}, clear_shift()));
     main_.body.insert(below_head(main_.body), std::make_move_iterator(blocks.begin()),
                       std::make_move_iterator(blocks.end()));
   }

@@ -25,6 +25,8 @@ std::vector<Case> cases() {
     for (const auto& path : testing::files_below(root + std::string(from.name), {".pim", ".pit", ".xpi", ".mpf"})) {
       for (const auto& to : translator::dialects()) {
         const bool replayed = to.frontend != nullptr;  // a dialect that is only written is tested in tests/oracle
+        // The examples show arcs in every plane, which a Heidenhain program can't say (TRN-202); it has no lathe.
+        if (to.name == "heidenhain") continue;
         if (to.name != from.name && replayed) out.push_back({path, std::string(from.name), std::string(to.name)});
       }
     }

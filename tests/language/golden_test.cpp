@@ -20,6 +20,7 @@ const std::string root = CNCTRANS_SOURCE_DIR "/tests/golden/";
 struct Golden {
   const char *from, *file;
   bool lathe;
+  bool heidenhain = false;  ///< it can be said there: one plane, one unit
 };
 std::ostream& operator<<(std::ostream& out, const Golden& g) {
   return out << g.from << '/' << g.file;
@@ -39,8 +40,8 @@ TEST_P(GoldenPrograms, BecomeWhatIsKept) {
   const bool renew = std::getenv("CNCTRANS_RENEW_GOLDEN") != nullptr;
   const std::string source = root + g.from + '/' + g.file;
   ASSERT_TRUE(fs::exists(source));
-  for (const std::string to : {"fagor", "num", "sinumerik"}) {
-    if (to == g.from) continue;
+  for (const std::string to : {"fagor", "num", "sinumerik", "heidenhain"}) {
+    if (to == g.from || (to == "heidenhain" && !g.heidenhain)) continue;
     SCOPED_TRACE(std::string(g.from) + " -> " + to);
     translator::TranslateOptions options;
     options.from = g.from;
@@ -66,6 +67,7 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenPrograms,
                          ::testing::Values(Golden{"fagor", "000321.PIM", false}, Golden{"fagor", "000322.PIT", true},
                                            Golden{"num", "000330.xpi", false}, Golden{"num", "000340.xpi", true},
                                            Golden{"sinumerik", "cover.mpf", false},
+                                           Golden{"sinumerik", "fixture.mpf", false, true},
                                            Golden{"sinumerik", "pinl.mpf", true}));
 
 }  // namespace

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "backends/fagor/backend.h"
+#include "backends/heidenhain/backend.h"
 #include "backends/linuxcnc/backend.h"
 #include "backends/num/backend.h"
 #include "backends/sinumerik/backend.h"
 #include "dialects/num/gcodes.h"
 #include "frontends/fagor/program/frontend.h"
+#include "frontends/heidenhain/program/frontend.h"
 #include "frontends/num/program/frontend.h"
 #include "frontends/sinumerik/program/frontend.h"
 
@@ -78,6 +80,19 @@ const std::vector<Dialect>& dialects() {
        backends::sinumerik::make_backend(),
        {"def"},
        sinumerik_file},
+      {"heidenhain",
+       "Heidenhain iTNC 530",
+       {"h"},
+       {},
+       {},
+       0,
+       "",
+       ';',
+       0,
+       {},
+       {},
+       frontends::heidenhain::make_frontend(),
+       backends::heidenhain::make_backend()},
       {"linuxcnc",
        "LinuxCNC (written only)",
        {},

@@ -94,6 +94,7 @@ class Prover {
   Prover(const Side& source, const Side& target, const ProofOptions& options, bool called)
       : source_(source), target_(target), options_(options) {
     compared_.switches_length = options.target_switches_length;
+    compared_.shows_messages = options.target_shows_messages;
     if (!called) verifier::compare_zeros(compared_, source.profile, target.profile);
   }
 
@@ -137,6 +138,11 @@ class Prover {
   void note_first(Proof& proof) const {
     auto& v = proof.verdict;
     v.left_out = left_out_of(source_.program, proof.source.result.covered, proof.source.events);
+    if (!options_.target_shows_messages) {
+      const auto& events = proof.source.events;
+      v.left_out.messages = static_cast<std::size_t>(std::count_if(
+          events.begin(), events.end(), [](const auto& e) { return e.kind == interpreter::EventKind::message; }));
+    }
     v.read_first = proof.source.result.read_first;
     const auto of_source = options_.target_settings(as_settings(v.read_first));
     for (const auto& name : proof.target.result.read_first) {

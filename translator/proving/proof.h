@@ -53,6 +53,8 @@ struct ProofOptions {
   bool target_without_reference = false;
   /// The target's language can switch the length compensation off.
   bool target_switches_length = false;
+  /// The target's language can show texts.
+  bool target_shows_messages = true;
   /// The translation counts on a start at the zero point, and a warning says so.
   bool counts_on_start = false;
 };

@@ -70,6 +70,7 @@ Json not_compared(const verifier::LeftOut& l) {
   if (l.offset_numbers != 0) out["offset_numbers"] = l.offset_numbers;
   if (l.path_modes != 0) out["path_modes"] = l.path_modes;
   if (l.preselected_tools != 0) out["preselected_tools"] = l.preselected_tools;
+  if (l.messages != 0) out["messages"] = l.messages;
   return out;
 }
 

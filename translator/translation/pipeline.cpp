@@ -59,6 +59,7 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
                        !can.diameter_switch,
                        can.motions.count(ir::MotionKind::reference_point) == 0,
                        can.length_comp_switch,
+                       can.messages,
                        false});
   result.verdict = std::move(proof.verdict);
   if (const auto* unread = first_error(b_said); result.verdict.good() && unread != nullptr && !a_said.has_errors()) {

@@ -296,7 +296,7 @@ void Translation::prove() {
       {source_, reading_.profile(), reading_.loader()}, {back_->program, *target_profile_, back_->loader},
       {options_.run, target_settings, given_data, options_.further, reading_.dialect().first_skip_switch,
        !can.diameter_switch, can.motions.count(ir::MotionKind::reference_point) == 0, can.length_comp_switch,
-       counts_on_start});
+       can.messages, counts_on_start});
   result_.verdict = std::move(proof.verdict);
   const auto twice = shared_name(back_->program);
   if (!twice.empty()) {

@@ -1,0 +1,158 @@
+#include "backends/heidenhain/tool_plan.h"
+
+#include <algorithm>
+
+namespace cnctrans::backends::heidenhain {
+
+namespace {
+
+template <class T>
+bool has_action(const ir::Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(),
+                     [](const ir::Action& a) { return std::holds_alternative<T>(a.data); });
+}
+
+bool selects(const ir::Routine& r) {
+  bool found = false;
+  ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+    const auto* b = std::get_if<ir::Block>(&s.node);
+    found = found || (b != nullptr && has_action<ir::ToolSelect>(*b));
+  });
+  return found;
+}
+
+/// A way may come in here from elsewhere.
+bool is_join(const ir::Statement& s, std::size_t routine, const LabelUse& use) {
+  if (!s.line.number.empty() && use.is_target(routine, s.line.number)) return true;
+  return std::any_of(s.line.labels.begin(), s.line.labels.end(),
+                     [&](std::string_view l) { return use.is_target_name(routine, l); });
+}
+
+/// Neither moves nor leads elsewhere.
+bool passes_by(const ir::Statement& s) {
+  if (std::holds_alternative<ir::Message>(s.node) || std::holds_alternative<ir::Label>(s.node) ||
+      std::holds_alternative<ir::Declare>(s.node))
+    return true;
+  const auto* o = std::get_if<ir::Opaque>(&s.node);
+  return o != nullptr && o->harmless;
+}
+
+}  // namespace
+
+ToolPlan::ToolPlan(const ir::Program& program, const LabelUse& use) : program_(program) {
+  for (const auto& r : program.routines) {
+    if (selects(r)) select_in_.insert(&r);
+  }
+  for (std::size_t i = 0; i < program.routines.size(); ++i) routine(i, use);
+}
+
+const ir::ToolSelect* ToolPlan::tool_of(const ir::Action& change) const {
+  const auto at = tools_.find(&change);
+  return at != tools_.end() ? at->second : nullptr;
+}
+const ir::SetSpindle* ToolPlan::speed_of(const ir::Action& change) const {
+  const auto at = speeds_.find(&change);
+  return at != speeds_.end() ? at->second : nullptr;
+}
+
+void ToolPlan::routine(std::size_t index, const LabelUse& use) {
+  const ir::Routine& r = program_.routines[index];
+  const bool others = select_in_.size() > (select_in_.count(&r) != 0 ? 1U : 0U);
+  const ir::ToolSelect* selected = nullptr;
+  const ir::Action* waiting = nullptr;  // a choice with nothing behind it yet
+  for (std::size_t i = 0; i < r.body.size(); ++i) {
+    const ir::Statement& s = r.body[i];
+    if (is_join(s, index, use)) selected = nullptr, waiting = nullptr;
+    const auto* b = std::get_if<ir::Block>(&s.node);
+    if (b == nullptr) {
+      if (others && std::holds_alternative<ir::CallRoutine>(s.node)) selected = nullptr;
+      if (!passes_by(s)) waiting = nullptr;
+      continue;
+    }
+    // In a block of its own order: the choice counts for the change beside it.
+    for (const auto& a : b->actions) {
+      const auto* t = std::get_if<ir::ToolSelect>(&a.data);
+      if (t == nullptr) continue;
+      selected = t;
+      waiting = t->changes ? nullptr : &a;
+    }
+    for (std::size_t k = 0; k < b->actions.size(); ++k) {
+      const ir::Action& a = b->actions[k];
+      const auto* t = std::get_if<ir::ToolSelect>(&a.data);
+      const bool changes = std::holds_alternative<ir::ToolChange>(a.data) || (t != nullptr && t->changes);
+      if (!changes) continue;
+      if (selected != nullptr) tools_[&a] = selected;
+      if (waiting != nullptr) said_.insert(waiting);
+      waiting = nullptr;
+      find_speed(r.body, i, k, index, use);
+    }
+    if (b->has_motion && b->motion.moves()) waiting = nullptr;
+  }
+  offsets_off(r.body);
+}
+
+/// The speed that the program gives before anything moves or turns.
+void ToolPlan::find_speed(const ir::Body& body, std::size_t at, std::size_t action, std::size_t routine,
+                          const LabelUse& use) {
+  const auto& own = std::get<ir::Block>(body[at].node).actions;
+  const auto take = [&](const ir::Action& a) {
+    const auto* s = std::get_if<ir::SetSpindle>(&a.data);
+    if (s == nullptr || s->number != 1) return false;
+    speeds_[&own[action]] = s;
+    said_.insert(&a);
+    return true;
+  };
+  for (const auto& a : own) {
+    if (take(a)) return;
+  }
+  const auto& change_line = body[at].line;
+  for (std::size_t i = at + 1; i < body.size(); ++i) {
+    const ir::Statement& s = body[i];
+    if (is_join(s, routine, use) || s.line.skip_mask != change_line.skip_mask) return;
+    const auto* b = std::get_if<ir::Block>(&s.node);
+    if (b == nullptr && passes_by(s)) continue;
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      const auto* speed = std::get_if<ir::SetSpindle>(&a.data);
+      if (speed != nullptr) {
+        if (a.order != ir::Order::after && speed->value.literal()) take(a);
+        return;
+      }
+      if (std::holds_alternative<ir::SpindleRun>(a.data) || std::holds_alternative<ir::ToolChange>(a.data) ||
+          std::holds_alternative<ir::ToolSelect>(a.data) || std::holds_alternative<ir::CycleDefine>(a.data) ||
+          std::holds_alternative<ir::Stop>(a.data) || std::holds_alternative<ir::Dwell>(a.data)) {
+        // The speed may stand behind the sense in the same block.
+        if (!std::holds_alternative<ir::SpindleRun>(a.data)) return;
+        const auto later = std::find_if(b->actions.begin(), b->actions.end(), [](const ir::Action& x) {
+          return std::holds_alternative<ir::SetSpindle>(x.data);
+        });
+        if (later != b->actions.end() && std::get<ir::SetSpindle>(later->data).value.literal()) take(*later);
+        return;
+      }
+    }
+    if (b->has_motion && b->motion.moves()) return;
+  }
+}
+
+/// D0: does a move follow before the next tool or offset?
+void ToolPlan::offsets_off(const ir::Body& body) {
+  const ir::Action* off = nullptr;
+  for (const auto& s : body) {
+    const auto* b = std::get_if<ir::Block>(&s.node);
+    if (b == nullptr) {
+      if (off != nullptr && !passes_by(s) && !std::holds_alternative<ir::Assign>(s.node) &&
+          !std::holds_alternative<ir::End>(s.node))
+        matters_.insert(off);
+      continue;
+    }
+    for (const auto& a : b->actions) {
+      const auto* o = std::get_if<ir::ToolOffset>(&a.data);
+      if (o != nullptr) off = o->number.is(0) ? &a : nullptr;
+      if (std::holds_alternative<ir::ToolChange>(a.data)) off = nullptr;
+    }
+    const bool moves = b->has_motion && b->motion.moves() && b->motion.frame == ir::FrameUse::normal;
+    if (off != nullptr && moves) matters_.insert(off);
+  }
+}
+
+}  // namespace cnctrans::backends::heidenhain
