@@ -37,16 +37,12 @@ void without_feed(ir::Block& b) {
   }
 }
 
-bool gives_feed(const ir::Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      found = found || (b != nullptr && action_of<ir::SetFeed>(*b) != nullptr) ||
-              std::holds_alternative<ir::CallRoutine>(s.node);
-    });
-  }
-  return found;
+bool gives_feed(const ir::Statement& s) {
+  const auto* b = std::get_if<ir::Block>(&s.node);
+  return (b != nullptr && action_of<ir::SetFeed>(*b) != nullptr) || std::holds_alternative<ir::CallRoutine>(s.node);
+}
+bool leads_back(const ir::Statement& s) {
+  return std::holds_alternative<ir::Repeat>(s.node) || std::holds_alternative<ir::Jump>(s.node);
 }
 
 /// Nothing of the block runs at feed.
@@ -62,8 +58,15 @@ bool rapid_only(const ir::Statement& s) {
 void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, power_on);
-  const bool none = !gives_feed(program);  // no F anywhere: none has to come back
   for (auto& r : program.routines) {
+    // No F so far on any way to a block of a program that nobody calls: none has to come back.
+    const bool straight = std::none_of(r.body.begin(), r.body.end(), leads_back);
+    const bool ends = std::none_of(r.body.begin(), r.body.end(), [](const ir::Statement& s) {
+      const auto* end = std::get_if<ir::End>(&s.node);
+      return end != nullptr && end->returns_from_sub;
+    });
+    bool none =
+        r.kind == ir::RoutineKind::main && ends && (straight || std::none_of(r.body.begin(), r.body.end(), gives_feed));
     ir::Body out;
     bool left = false;  // a cycle has left its own F in force
     double in_force = 0;
@@ -77,6 +80,7 @@ void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
       out.push_back(std::move(s));
     };
     for (auto& s : r.body) {
+      none = none && !gives_feed(s);
       auto* b = std::get_if<ir::Block>(&s.node);
       const auto* hole = b == nullptr ? nullptr : cycle_with_feed(*b);
       const auto known = back ? back : table.before(s.id).feed;

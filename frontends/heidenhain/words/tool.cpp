@@ -44,7 +44,8 @@ bool Lowering::tool_call(const syntax::Statement& s) {
   at.pos = s.pos;
   std::vector<ir::Action> oversize = std::move(out_.actions);
   out_.actions.clear();
-  if (number != nullptr || !s.args.empty()) {
+  const bool changes = number != nullptr || !s.args.empty();
+  if (changes) {
     ir::ToolSelect select;
     if (number != nullptr) {
       if (!number->is_expression && (number->number < 0 || number->number > facts::tool_max)) {
@@ -66,14 +67,24 @@ bool Lowering::tool_call(const syntax::Statement& s) {
     tool_axis_ = *axis;
     act(at, ir::ModalSet{ir::Setting::plane, static_cast<std::uint8_t>(plane_of(tool_axis_))});
   }
-  if (speed != nullptr) act(*speed, ir::SetSpindle{1, value(*speed)});
   if (own_feed != nullptr) {
     tool_feed_ = value(*own_feed);
     act(*own_feed, ir::SetFeed{*tool_feed_});
   }
   for (auto& a : oversize) out_.actions.push_back(std::move(a));
+  // The new speed is that of the new tool: other controls would change it first in one block.
+  ir::Block after;
+  if (speed != nullptr) {
+    ir::Action set;
+    set.data = ir::SetSpindle{1, value(*speed)};
+    set.pos = speed->pos;
+    (changes ? after : out_).actions.push_back(std::move(set));
+  }
   if (report_.refused()) return false;
-  put(std::move(out_));
+  if (!out_.empty() || after.empty()) put(std::move(out_));
+  if (after.empty()) return true;
+  Item& item = put(std::move(after));
+  item.statement.line.joined = false;
   return true;
 }
 
