@@ -44,6 +44,10 @@ class CycleBuilder {
       : cycle_(cycle), context_(context), report_(report) {}
 
   ir::CyclePtr build() {
+    for (const auto& [number, v] : cycle_.values) {
+      const bool words = v.kind != QValue::Kind::value && v.kind != QValue::Kind::rapid;
+      if (words && !only_value(number)) return nullptr;
+    }
     bool good = false;
     if (cycle_.row != nullptr)
       good = cycle_.row->kind == facts::CycleKind::hole   ? hole()

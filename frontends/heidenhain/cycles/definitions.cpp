@@ -114,6 +114,14 @@ bool Lowering::cycle_word(const syntax::Statement& s) {
   return true;
 }
 
+void Lowering::global_word(const syntax::Statement& s) {
+  const ir::ExprPtr value = expression(s.args[1]);
+  const auto constant = ir::constant_value(value);
+  const bool good = s.args[0].text == "Q" && constant.has_value();
+  if (!good && !report_.refused()) report_.warn("HEI-016", s.pos, "GLOBAL DEF takes parameters Q with numbers");
+  if (good) globals_[saturate<std::int16_t>(s.args[0].args.at(0).number)].emplace_back(*constant);
+}
+
 bool Lowering::old_part(const syntax::Statement& s, std::int64_t number, int part) {
   CycleDefinition* cycle = waiting_ < 0 ? nullptr : &flat_.cycles[static_cast<std::size_t>(waiting_)];
   if (cycle == nullptr || cycle->row != nullptr || cycle->number != number) {
@@ -125,6 +133,7 @@ bool Lowering::old_part(const syntax::Statement& s, std::int64_t number, int par
   }
   OldPartValue& out = cycle->parts[part];
   const auto& words = block_->words;
+  if (words.size() > 1) out.text = trim(text_.substr(words[1].pos.column - 1));
   for (std::size_t i = 1; i < words.size(); ++i) {
     const Word& w = words[i];
     OldPartValue::Letter letter;

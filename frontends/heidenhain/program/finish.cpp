@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/saturate.h"
+#include "base/text.h"
 #include "dialects/heidenhain/variables.h"
 #include "frontends/heidenhain/cycles/build.h"
 
@@ -40,6 +40,7 @@ class Finisher {
       if (flat_.items[i].polar) poles_stay_ = true;
       if (flat_.items[i].by_pole) centre(i);
     }
+    link_globals();
     find_stored();
     out.resize(flat_.items.size());
     for (std::size_t i = 0; i < flat_.items.size(); ++i) one(i, out[i]);
@@ -140,6 +141,20 @@ class Finisher {
     }
     return false;
   }
+  /// PREDEF is the value of GLOBAL DEF, where the file has one only.
+  void link_globals() {
+    for (auto& c : flat_.cycles) {
+      for (auto& [q, v] : c.values) {
+        const auto it = lowering_.globals().find(q);
+        if (v.kind != QValue::Kind::linked || it == lowering_.globals().end()) continue;
+        const auto& all = it->second;
+        if (!std::all_of(all.begin(), all.end(), [&all](const auto& one) { return ir::equal(one, all.front()); }))
+          continue;
+        v.kind = QValue::Kind::value;
+        v.value = all.front();
+      }
+    }
+  }
   /// Parameters whose Q the program itself uses, or that are computed: the definition sets them.
   void find_stored() {
     for (std::size_t i = 0; i < flat_.items.size(); ++i) {
@@ -230,8 +245,32 @@ class Finisher {
     }
     return false;
   }
+  /// Cycle 12: a program is the machining cycle.
+  bool program_call(Item& item, const Arrival& a, std::vector<ir::Statement>& out) {
+    const CycleDefinition* cycle =
+        a.reached && a.cycle >= 0 ? &flat_.cycles[static_cast<std::size_t>(a.cycle)] : nullptr;
+    if (cycle == nullptr || cycle->old == nullptr || cycle->old->kind != facts::OldKind::program) return false;
+    const auto part = cycle->parts.find(1);
+    std::string_view text = part == cycle->parts.end() ? std::string_view{} : std::string_view(part->second.text);
+    constexpr std::string_view word = "PGM";
+    if (iequals_ascii(text.substr(0, word.size()), word)) text.remove_prefix(word.size());
+    ir::CallRoutine routine;
+    routine.routine.text = program_name(text);
+    routine.level = ir::CallLevel::new_level;
+    if (item.shift || routine.routine.text.empty()) return false;
+    const auto* block = std::get_if<ir::Block>(&item.statement.node);
+    if (block != nullptr && block->empty()) {
+      item.statement.node = std::move(routine);
+      out.push_back(std::move(item.statement));
+      return true;
+    }
+    out.push_back(std::move(item.statement));
+    out.push_back(behind(out.back(), std::move(routine)));
+    return true;
+  }
   void call(std::size_t i, std::vector<ir::Statement>& out) {
     Item& item = flat_.items[i];
+    if (program_call(item, arrival(i), out)) return;
     const ir::CyclePtr cycle = cycle_at(item, arrival(i), nullptr);
     auto* block = std::get_if<ir::Block>(&item.statement.node);
     if (cycle == nullptr) {

@@ -48,6 +48,7 @@ struct OldPartValue {
     bool has_value = false;
   };
   std::vector<Letter> letters;
+  std::string text;  ///< all of it
 };
 struct CycleDefinition {
   Span where;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,6 +17,9 @@
 #include "machine/profile.h"
 
 namespace cnctrans::frontends::heidenhain {
+
+/// The name of a program file: capitals, without folders and without `.H`.
+std::string program_name(std::string_view text);
 
 class Lowering {
  public:
@@ -34,6 +38,8 @@ class Lowering {
   /// Q parameters that the program reads or writes outside of cycle definitions.
   [[nodiscard]] const std::set<std::int64_t>& own_reads() const { return reads_; }
   [[nodiscard]] const std::set<std::int64_t>& own_writes() const { return writes_; }
+  /// Values that GLOBAL DEF gives to a parameter, in the order of the text.
+  [[nodiscard]] const std::map<std::int16_t, std::vector<ir::Value>>& globals() const { return globals_; }
   std::string_view keep(std::string text) { return program_.keep(std::move(text)); }
   [[nodiscard]] bool inch() const { return inch_; }
   [[nodiscard]] bool began() const { return began_; }
@@ -80,6 +86,7 @@ class Lowering {
   // cycles/
   bool cycle_def(const syntax::Statement& s);
   bool cycle_word(const syntax::Statement& s);
+  void global_word(const syntax::Statement& s);
   bool words_of_the_line(CycleDefinition& cycle);
   bool old_part(const syntax::Statement& s, std::int64_t number, int part);
   bool cycle_call(const syntax::Statement& s);
@@ -101,6 +108,8 @@ class Lowering {
   Report report_;
   Flat flat_;
   std::set<std::int64_t> reads_, writes_;
+  std::map<std::int16_t, std::vector<ir::Value>> globals_;
+  bool global_ = false;  ///< lines of a GLOBAL DEF are being read
   std::string name_;
   bool inch_ = false, began_ = false, ended_ = false;
 

@@ -22,7 +22,14 @@ facts::Sentence sentence_of(std::string_view keyword) {
   return facts::Sentence::none;
 }
 
-/// The name of a program file: capitals, without folders and without `.H`.
+std::string_view without_quotes(std::string_view text) {
+  text = trim(text);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return text.substr(1, text.size() - 2);
+  return text;
+}
+
+}  // namespace
+
 std::string program_name(std::string_view text) {
   text = trim(text);
   if (const auto at = text.find_last_of("\\/:"); at != std::string_view::npos) text.remove_prefix(at + 1);
@@ -31,14 +38,6 @@ std::string program_name(std::string_view text) {
     text.remove_suffix(extension);
   return to_upper_ascii(text);
 }
-
-std::string_view without_quotes(std::string_view text) {
-  text = trim(text);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return text.substr(1, text.size() - 2);
-  return text;
-}
-
-}  // namespace
 
 Item& Lowering::put(ItemKind kind, ir::StatementNode node) {
   Item& item = flat_.items.emplace_back();
@@ -91,6 +90,11 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
     waits_more_ = goes_on;
     return !report_.refused();
   }
+  if (global_ && parameter) {
+    global_word(*s);
+    return !report_.refused();
+  }
+  global_ = false;
   const bool part = s != nullptr && s->keyword == "CYCL DEF";
   if (!part) flush();
   if (swallow_ && block.number.empty() && (parameter || s == nullptr)) {
@@ -178,8 +182,10 @@ bool Lowering::sentence(const syntax::Statement& s) {
     case Sentence::free_contour:
       report_.keep("HEI-018", s.pos, "free contours (" + s.keyword + ") are not carried yet", "motion.geometry");
       return false;
-    case Sentence::pattern:
     case Sentence::global_def:
+      global_ = true;
+      return carried(s, true, "beside.data", "values for the cycles that say PREDEF; the sentence is kept as text");
+    case Sentence::pattern:
     case Sentence::call_selected:
     case Sentence::select_program:
     case Sentence::carried:
