@@ -179,7 +179,8 @@ class CycleBuilder {
     }
     const Value side = q(214);
     if (!side.literal()) return refuse("Q214 must be a number");
-    const double d = facts::freed_distance;
+    constexpr double inch = 25.4;
+    const double d = facts::freed_distance / (context_.inch ? inch : 1);
     if (side.is(1) || side.is(3)) hole_.shift_u = Value(side.is(1) ? -d : d);
     if (side.is(2) || side.is(4)) hole_.shift_v = Value(side.is(2) ? -d : d);
     return true;

@@ -15,7 +15,7 @@ struct CycleContext {
   /// The value of a Q parameter at the call.
   std::function<ir::Value(std::int16_t)> value;
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: added to the surface
-  std::vector<ir::AxisId> plane;   ///< its two axes and the normal
+  bool inch = false;               ///< the unit of the program; lengths of the control itself are mm
 };
 
 /// Null: the cycle is skipped (depth 0), or was refused (see `report`).

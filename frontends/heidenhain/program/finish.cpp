@@ -228,6 +228,7 @@ class Finisher {
     }
     CycleContext context;
     context.shift = item.shift;
+    context.inch = lowering_.inch();
     context.value = [&](std::int16_t q) {
       const bool height = q == 200 || q == 203 || q == 204;
       if (overlay == nullptr || !height) return parameter(*cycle, q, any);
