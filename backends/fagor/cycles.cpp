@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dialects/fagor/cycles.h"
+#include "dialects/fagor/limits.h"
 #include "dialects/fagor/milling.h"
 #include "ir/cycles/hole.h"
 
@@ -235,15 +236,27 @@ std::optional<CycleWords> cycle_words(const ir::Cycle& cycle) {
   return w;
 }
 
+/// K has room for the dwell; one that is computed is taken to fit.
+static bool dwell_fits(const Value& v, double hundredths) {
+  return !v.literal() || v.number * hundredths <= dialects::fagor::max_dwell;
+}
+
+bool native_cycle(const ir::Cycle& cycle) {
+  const auto w = cycle_words(cycle);
+  return w && (!w->dwell || dwell_fits(*w->dwell, w->dwell_scale * 100));
+}
+
 bool native_machining(const ir::Cycle& cycle) {
   const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);
   const auto* row = named == nullptr ? nullptr : dialects::fagor::find_cycle(named->name);
   if (row == nullptr) return false;
-  return std::all_of(named->words.begin(), named->words.end(), [row](const auto& w) {
-    return !w.first.ends_with("_label") && std::any_of(row->letters.begin(), row->letters.end(), [&w](const auto& l) {
-      return l.letter != 0 && l.parameter == w.first;
-    });
-  });
+  const bool fits = std::all_of(named->words.begin(), named->words.end(),
+                                [](const auto& w) { return w.first != "dwell" || dwell_fits(w.second, 1); });
+  return fits && std::all_of(named->words.begin(), named->words.end(), [row](const auto& w) {
+           return !w.first.ends_with("_label") &&
+                  std::any_of(row->letters.begin(), row->letters.end(),
+                              [&w](const auto& l) { return l.letter != 0 && l.parameter == w.first; });
+         });
 }
 
 std::string_view level_problem(const HoleCycle& c, std::optional<ir::Distance> distance) {

@@ -32,9 +32,7 @@ struct CycleWords {
 std::optional<CycleWords> cycle_words(const ir::Cycle& cycle);
 
 /// For capabilities.
-inline bool native_cycle(const ir::Cycle& cycle) {
-  return cycle_words(cycle).has_value();
-}
+bool native_cycle(const ir::Cycle& cycle);
 
 /// A cycle of the lathe in letters of its own, without a profile.
 bool native_machining(const ir::Cycle& cycle);

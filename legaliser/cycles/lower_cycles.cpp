@@ -6,6 +6,7 @@
 
 #include "ir/cycles/assumed.h"
 #include "ir/cycles/pattern.h"
+#include "legaliser/cycles/copied_cycles.h"
 #include "legaliser/cycles/cycle_ranges.h"
 #include "legaliser/cycles/milling/pocket_calls.h"
 #include "legaliser/data/written_data.h"
@@ -478,7 +479,7 @@ void lower_cycles(Program& program, const LegaliseContext& context) {
   if (!uses_cycles(program)) return leave_out_data(program, context);
   if (program.dialect == context.target.dialect && !program.dialect.empty() &&
       context.options.cycles != CycleWriting::explode)
-    return;
+    return refuse_other_moves(program, context);
   separate_cycle_ranges(program, context, carry_out_cycles);
   keep_cycle_words(program, context, carry_out_noting);
   carry_out_cycles(program, context);

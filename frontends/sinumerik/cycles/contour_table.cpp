@@ -217,8 +217,7 @@ void StatementLowering::fill_table(const Expr& error, WordPos pos, const ir::Lin
               " is " + (ok_is_one ? "1" : "0") + " where all went well" +
               (c.other_axis ? "; words of axes outside of the plane count for nothing" : ""),
           "the option sinumerik.contour_ok of the profile says which number that is");
-  ir::LineInfo own;
-  own.span = info.span;
+  ir::LineInfo own = further_line(info);
   emit(own, std::move(out));
 }
 
@@ -301,7 +300,7 @@ bool StatementLowering::run_element(const Block& block, const ir::LineInfo& info
   ir::LineInfo plain;
   plain.span = info.span;
   const auto put = [&](ir::MotionKind kind) {
-    ir::LineInfo line = plain;
+    ir::LineInfo line = further_line(info);
     emit(line, move(kind));
   };
   for (std::size_t i = 0; i + 1 < std::size(kinds); ++i) {

@@ -140,8 +140,7 @@ void StatementLowering::turn_with_table(const syntax::Block& block, const ir::Li
   item.value = make_expr(std::move(turn), ir::Type::frame, word->pos);
   item.pos = WordPos{word->pos.column, 0};  // of the word, which has its own text
   assign.items.push_back(std::move(item));
-  ir::LineInfo own;
-  own.span = info.span;
+  ir::LineInfo own = further_line(info);
   emit(own, std::move(assign));
 }
 

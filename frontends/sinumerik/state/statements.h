@@ -179,6 +179,8 @@ class StatementLowering {
   std::optional<ir::Type> type_of(const syntax::Expr& type);
 
   void emit(ir::LineInfo& info, ir::StatementNode node);
+  /// A line of its own for what else the block in `info` does: at its place, left out with it.
+  static ir::LineInfo further_line(const ir::LineInfo& info);
 
   FileContext& c_;
   WordLowering& words_;

@@ -166,9 +166,19 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
   const std::string name = one    ? block.statements.front().text
                            : bare ? to_upper_ascii(block.words.front().address)
                                   : std::string{};
+  // Without the one end of a definition its lines would move: the block is kept, whatever its switch says.
+  ir::LineInfo always = info;
+  always.skip_mask = 0;
+  const auto may_be_left_out = [&] {
+    if (block.skip_mask == 0) return false;
+    c_.keep("SIN-008", block.skip_pos, "a skip mark where a definition begins or ends is not carried");
+    add_opaque(block, always, "language.statement", false);
+    return true;
+  };
   if (definition_ == nullptr) {
     definition_ = one ? sinumerik::definition(name) : nullptr;
     if (definition_ == nullptr) return false;
+    if (may_be_left_out()) return true;
     if (definition_->gives_back && !gives_unknown(block.statements.front().args)) {
       definition_ = nullptr;
       return false;
@@ -190,6 +200,11 @@ bool StatementLowering::in_definition(const Block& block, const ir::LineInfo& in
     return false;
   }
   const bool ends = name == definition_->end;
+  if (ends && may_be_left_out()) {
+    contour_.reset();
+    definition_ = nullptr;
+    return true;
+  }
   table_block(block, name);
   if (!ends) contour_block(block);
   const bool filled = ends && one && block.statements.front().args.size() == 1 && contour_known();

@@ -54,6 +54,13 @@ void StatementLowering::emit(ir::LineInfo& info, ir::StatementNode node) {
   info.blank_lines_before = 0;
 }
 
+ir::LineInfo StatementLowering::further_line(const ir::LineInfo& info) {
+  ir::LineInfo line;
+  line.span = info.span;
+  line.skip_mask = info.skip_mask;
+  return line;
+}
+
 // --- assignments ------------------------------------------------------------------------------------------------
 
 namespace {

@@ -124,7 +124,8 @@ bool StatementLowering::chosen_by_index(const Block& block, const ir::LineInfo& 
   }
   c_.interrupt_lasting();
   ir::LineInfo outer = info;
-  ir::LineInfo plain;
+  const ir::LineInfo inside = further_line(info);
+  ir::LineInfo plain;  // of questions, ELSE and ENDIF: behind a first question that is left out control meets none
   plain.span = info.span;
   for (std::size_t i = 0; i < choices.size(); ++i) {
     ir::Statement branch;
@@ -135,14 +136,14 @@ bool StatementLowering::chosen_by_index(const Block& block, const ir::LineInfo& 
     branch.node = std::move(node);
     structure_->open(std::move(branch));
     *part = choices[i];
-    items(one, plain);
+    items(one, inside);
     structure_->else_branch(plain);
   }
   ir::Message alarm;  // as the control: there is no such spindle, axis or kind of position
   alarm.kind = ir::MessageKind::error;
   alarm.number = written_number(65000, by.pos);
   ir::Statement stop;
-  stop.line = plain;
+  stop.line = inside;
   stop.node = std::move(alarm);
   structure_->add(std::move(stop));
   for (std::size_t i = 0; i < choices.size(); ++i) structure_->close(frontends::StructureBuilder::Kind::if_, plain);

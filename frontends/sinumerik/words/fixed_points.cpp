@@ -80,9 +80,7 @@ bool StatementLowering::via_point(const Block& block, std::size_t code, const ir
       "G751: the point on the way is taken in the coordinates of the workpiece, with the frames in force; no manual "
       "at hand says it",
       "write it as G0 and G75 in two blocks");
-  ir::LineInfo outer = info, own;  // the second block has a line of its own
-  own.span = info.span;
-  own.skip_mask = info.skip_mask;
+  ir::LineInfo outer = info, own = further_line(info);
   emit(outer, std::move(first));
   emit(own, std::move(second));
   return true;

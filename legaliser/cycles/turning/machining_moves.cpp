@@ -31,6 +31,12 @@ const NamedCycle* machining_of(const Block& b) {
   return nullptr;
 }
 
+/// The drilling cycle without pecks, as a tap that follows the spindle.
+bool taps_rigidly(const cycles::MachiningCycle& cycle, const TurnNumbers& numbers) {
+  const auto zero = [&](std::string_view name) { return numbers.count(name) == 0 || numbers.at(name) == 0; };
+  return cycle.kind == cycles::MachiningKind::drill && zero("peck") && !zero("factor");
+}
+
 std::optional<std::int32_t> known_count(const Value& v) {
   const auto n = known_number(v);
   return n ? std::optional(saturate<std::int32_t>(std::round(*n))) : std::nullopt;
@@ -68,7 +74,6 @@ class TurnWriter {
         Block b;
         b.actions.push_back(action(SetSpindle{live, Value{std::abs(m.speed)}}));
         b.actions.push_back(action(SpindleRun{live, m.speed < 0 ? SpindleState::ccw : SpindleState::cw}));
-        live_turns_ = true;
         return blocks.push_back(made(line_, std::move(b))), true;
       }
       case TurnStep::spindle_speed:
@@ -77,9 +82,7 @@ class TurnWriter {
       case TurnStep::comp_left: return comp(CompSide::left);
       case TurnStep::comp_right: return comp(CompSide::right);
       case TurnStep::comp_off: return comp(CompSide::off);
-      default:
-        if (m.step == TurnStep::thread && live_turns_) return *error = "a tap that follows the driven tool", false;
-        return move(m, error);
+      default: return move(m, error);
     }
   }
   /// Rapid is in force afterwards; else the feed is as before.
@@ -113,7 +116,6 @@ class TurnWriter {
 
  private:
   static constexpr std::uint8_t live = 3;
-  bool live_turns_ = false;
 
   template <class Data>
   bool put(Data data) {
@@ -462,8 +464,12 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   }
   auto moves = cycles::expand(*cycle, numbers, context, error);
   if (!moves) return std::nullopt;
+  if (taps_rigidly(*cycle, numbers))
+    return *error = "of a rigid tap, the axis would stand at the bottom while the spindle turns back", std::nullopt;
   for (auto& move : *moves) {
-    if (move.step == TurnStep::thread && move.speed == 0) move.speed = facts.spindle.value_or(0);
+    if (move.step == TurnStep::thread && move.speed != 0)
+      return *error = "a tap that follows the driven tool", std::nullopt;
+    if (move.step == TurnStep::thread) move.speed = facts.spindle.value_or(0);
     if (move.step == TurnStep::arc && setting_in<Plane>(b, facts, Setting::plane) != Plane::zx)
       return *error = "its arcs need the plane of Z and X", std::nullopt;
   }
