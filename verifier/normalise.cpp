@@ -190,8 +190,10 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
   };
   const Taps taps(events);
   // Made ready and changed with nothing between is one command in two words.
-  const auto changed_at_once = [&order = taps.order](std::size_t k) {
-    for (std::size_t n = k + 1; n < order.size() && !is_barrier(order[n]->kind); ++n) {
+  const auto changed_at_once = [&order = taps.order, keep_messages](std::size_t k) {
+    for (std::size_t n = k + 1; n < order.size(); ++n) {
+      if (order[n]->kind == EventKind::message && !keep_messages) continue;
+      if (is_barrier(order[n]->kind)) return false;
       if (order[n]->kind == EventKind::tool) return order[n]->change && order[n]->number == order[k]->number;
     }
     return false;

@@ -155,7 +155,12 @@ double unwrapped(ir::RotaryDirection direction, double v, double here) {
 
 }  // namespace
 
+/// The sign of 0 is the one that the word says (`C-L1` turns backwards to 0): variables hold no zero with a sign.
 double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
+  if (v == 0 && !w.value.literal()) {
+    const auto* minus = std::get_if<ir::Unary>(&w.value.expr->node);
+    v = minus != nullptr && minus->op == ir::UnaryOp::negate ? -0.0 : 0.0;
+  }
   return unwrapped(w.direction, v, p_[w.axis]);
 }
 

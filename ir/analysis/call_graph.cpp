@@ -29,6 +29,17 @@ void CallGraph::add(std::size_t caller, const Statement& s, const CallRoutine& c
   sites_.push_back({caller, index_of(call.routine), call.level, &s});
 }
 
+std::set<std::size_t> CallGraph::sharing_level(std::size_t routine) const {
+  std::set<std::size_t> found{routine};
+  for (std::size_t before = 0; before != found.size();) {
+    before = found.size();
+    for (const auto& site : sites_) {
+      if (site.callee && site.level == CallLevel::shared && found.count(site.caller) != 0) found.insert(*site.callee);
+    }
+  }
+  return found;
+}
+
 std::optional<std::size_t> CallGraph::index_of(const RoutineName& name) const {
   const Routine* r = program_.find(name);
   if (r == nullptr) return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ class CallGraph {
   [[nodiscard]] const std::vector<CallSite>& sites() const { return sites_; }
   [[nodiscard]] bool called_with(std::size_t routine, CallLevel level) const;
   [[nodiscard]] bool called(std::size_t routine) const;
+  /// The routine, and those that it calls without a level of local parameters of their own.
+  [[nodiscard]] std::set<std::size_t> sharing_level(std::size_t routine) const;
   /// A call that closes a ring; nullptr: no recursion.
   [[nodiscard]] const CallSite* recursion() const;
   [[nodiscard]] std::optional<std::size_t> index_of(const RoutineName& name) const;

@@ -33,7 +33,7 @@ class ControlPass {
   };
 
   void one(Statement&& s, Body& out) {
-    if (!own() && skipped_loop(s)) return refused_loop(std::move(s), out);
+    if (!own() && skipped_structure(s)) return refused_structure(std::move(s), out);
     if (std::holds_alternative<If>(s.node)) return if_else(std::move(s), out);
     if (std::holds_alternative<While>(s.node)) return while_loop(std::move(s), out);
     if (std::holds_alternative<Until>(s.node)) return until_loop(std::move(s), out);
@@ -44,18 +44,24 @@ class ControlPass {
     out.push_back(std::move(s));
   }
 
-  /// A mark at the head of a loop, or at the condition behind it: what the other line does without it is stated
-  /// nowhere.
-  static bool skipped_loop(const Statement& s) {
+  /// A mark at the head or the end of a loop, or at ELSE: what the other line does without it is stated nowhere.
+  static bool skipped_structure(const Statement& s) {
+    if (skipped_else(s)) return true;
     const auto* until = std::get_if<Until>(&s.node);  // its closing line asks
     if (until != nullptr && until->end_line.skip_mask != 0) return true;
     return s.line.skip_mask != 0 && (std::holds_alternative<While>(s.node) || std::holds_alternative<For>(s.node) ||
                                      std::holds_alternative<Loop>(s.node) || std::holds_alternative<Until>(s.node));
   }
-  void refused_loop(Statement&& s, Body& out) {
+  static bool skipped_else(const Statement& s) {
+    const auto* branch = std::get_if<If>(&s.node);
+    return branch != nullptr && branch->else_line.skip_mask != 0;
+  }
+  void refused_structure(Statement&& s, Body& out) {
+    const bool branch = skipped_else(s);
     refuse(s, editor_.program, editor_.context, "TRN-163",
-           "a line of a loop can be skipped: what the loop does then is stated nowhere",
-           "put a jump with the skip mark before the loop");
+           branch ? "the ELSE of this IF can be skipped: what is carried out then is stated nowhere"
+                  : "a line of a loop can be skipped: what the loop does then is stated nowhere",
+           branch ? "put the skip mark on the lines of the branch" : "put a jump with the skip mark before the loop");
     out.push_back(std::move(s));
   }
 

@@ -318,12 +318,12 @@ class ModalCalls {
     const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
     if (!callee) return;
     bool found = false;
-    for_each_statement(program_.routines[*callee].body, [&](const Statement& inner) {
-      each_target(inner, [&](const VarRef& v) {
-        const auto* segment = segment_of(program_, v);
-        found = found || (segment != nullptr && segment->scope == Scope::level && reads_first_(*callee, v));
-      });
-    });
+    const auto look = [&](const VarRef& v) {
+      const auto* segment = segment_of(program_, v);
+      found = found || (segment != nullptr && segment->scope == Scope::level && reads_first_(*callee, v));
+    };
+    for (const auto r : calls_.sharing_level(*callee))
+      for_each_statement(program_.routines[r].body, [&](const Statement& inner) { each_target(inner, look); });
     if (!found) return;
     context_.diagnostics.error("TRN-187", s.line.span,
                                "the repetitions of this block run the modal subprogram with the local parameters that "

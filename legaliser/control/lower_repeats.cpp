@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "ir/edit/whole_numbers.h"
 #include "legaliser/analysis/head_constants.h"
 #include "legaliser/control/called_labels.h"
 #include "legaliser/cycles/parts/cycle_parts.h"
@@ -104,11 +105,14 @@ class RepeatPass {
   }
 
   /// The part ends with the statement written last.
-  static bool ends_here(const Repeat& r, const Body& out) {
+  bool ends_here(const Repeat& r, const Body& out) const {
     if (r.last.text.empty() && !r.last.computed) return true;
     if (out.empty() || r.last.computed) return false;
-    const auto have = labels_on(out.back().line);
-    return std::any_of(have.begin(), have.end(), [&r](const LabelRef& l) { return same_label(l, r.last); });
+    const auto named = [&r](const Statement& s) {
+      const auto have = labels_on(s.line);
+      return std::any_of(have.begin(), have.end(), [&r](const LabelRef& l) { return same_label(l, r.last); });
+    };
+    return named(out.back()) && std::none_of(out.begin(), out.end() - 1, named);  // the first one counts
   }
 
   /// A repetition or a call with its count; several where the count is beyond the target's.
@@ -165,10 +169,11 @@ class RepeatPass {
                                         "make sure that it is never more, or write a loop");
   }
 
-  /// A count that only the run knows may be 0: the targets' counts begin with 1.
+  /// A count that only the run knows may be 0: the targets' counts begin with 1. Counts are rounded: 0.5 is 1.
   template <class Node>
   void put_guarded(Statement&& s, Body& out) {
     ExprPtr& count = std::get<Node>(s.node).count;
+    const bool whole = ir::is_whole(count);
     const LineInfo like = s.line;
     const LabelRef end = editor_.fresh_label();
     Body pieces;
@@ -179,7 +184,7 @@ class RepeatPass {
         count = variable(*t, Type::integer);
       }
     }
-    pieces.push_back(make_jump(like, end, binary(BinaryOp::lt, count, number(1))));
+    pieces.push_back(make_jump(like, end, binary(BinaryOp::lt, count, number(whole ? 1 : 0.5))));
     pieces.push_back(std::move(s));
     pieces.push_back(make_label(like, end, editor_.program));
     const std::size_t main = pieces.size() - 2;
@@ -269,7 +274,8 @@ class RepeatPass {
     return fresh;
   }
 
-  /// t = n; again: IF t <= 0 GOTO end; statement; t = t - 1; GOTO again; end:
+  /// t = n; again: IF t <= 0 GOTO end; statement; t = t - 1; GOTO again; end: (t < 0.5 where n may have a fraction,
+  /// which the control rounds)
   void counted(Statement&& s, const ExprPtr& count, Body& out) {
     const auto t = editor_.take(s.line);  // stays taken: the loop runs over it
     if (!t) {
@@ -280,7 +286,9 @@ class RepeatPass {
     const LabelRef again = editor_.fresh_label(), end = editor_.fresh_label();
     Body pieces;
     pieces.push_back(make_assign(like, *t, count));
-    Statement test = make_jump(like, end, binary(BinaryOp::le, variable(*t), number(0)));
+    const ExprPtr none_left = ir::is_whole(count) ? binary(BinaryOp::le, variable(*t), number(0))
+                                                  : binary(BinaryOp::lt, variable(*t), number(0.5));
+    Statement test = make_jump(like, end, none_left);
     set_label(test.line, again, editor_.program);
     pieces.push_back(std::move(test));
     pieces.push_back(std::move(s));

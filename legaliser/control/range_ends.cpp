@@ -3,7 +3,9 @@
 // condition, a point of a modal call) has the end behind it on a mark, which goes where it stayed one line.
 #include <algorithm>
 #include <map>
+#include <set>
 
+#include "ir/edit/lines.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/edit/editor.h"
 
@@ -17,14 +19,19 @@ class RangeEnds {
       : program_(program), routine_(routine), editor_(program, routine, context), uses_(label_uses(program, routine)) {}
 
   void run() {
-    for_each_statement(routine_.body, [this](const Statement& s) {
-      for (const auto& l : labels_on(s.line)) ++carriers_[{l.is_number, l.text}];
+    each_line(routine_.body, [this](const LineInfo& line) {
+      for (const auto& l : labels_on(line)) ++carriers_[{l.is_number, l.text}];
     });
     for (const auto& r : program_.routines) {
       for_each_statement(r.body, [this](const Statement& s) {
         modal_calls_ = modal_calls_ || std::holds_alternative<ModalCall>(s.node);
       });
     }
+    for_each_statement(routine_.body, [this](const Statement& s) {
+      const auto* r = std::get_if<Repeat>(&s.node);
+      if (r != nullptr && !r->has_program && r->search != Search::whole_first)
+        nearest_.insert({r->last.is_number, r->last.text});
+    });
     walk(routine_.body);
     for (const auto& [from, to] : moved_) redirect(from, to);
   }
@@ -38,6 +45,7 @@ class RangeEnds {
       while (end < body.size() && body[end].line.joined) ++end;
       if (end == i + 1) to_here(body[i], out);
       line(body, i, end, out);
+      behind_loop(out);
       i = end;
     }
     body = std::move(out);
@@ -49,15 +57,16 @@ class RangeEnds {
     const LineInfo like = body[begin].line;
     const auto labels = labels_on(like);
     const bool ends = std::any_of(labels.begin(), labels.end(), [this](const LabelRef& l) { return uses_.is_end(l); });
-    const bool grows = may_grow(body[end - 1]) && once(labels);
+    const bool grows = may_grow(body[end - 1]) && meant(labels);
     if (ends && grows) {
       put(body, begin, end, out);
       const LabelRef fresh = editor_.fresh_label();
       out.push_back(make_label(like, fresh, program_));
       for (const auto& l : labels) moved_.emplace_back(l, fresh);
+      pass(labels);
       return;
     }
-    if (ends && end - begin > 1 && once(labels)) {
+    if (ends && end - begin > 1 && meant(labels)) {
       const LabelRef fresh = editor_.fresh_label();
       body[end - 1].line.joined = false;
       set_label(body[end - 1].line, fresh, program_);
@@ -70,11 +79,53 @@ class RangeEnds {
       set_label(body[end - 1].line, labels[0], program_);
     }
     put(body, begin, end, out);
+    pass(labels);
   }
-  /// No other line has one of the labels.
-  [[nodiscard]] bool once(const std::vector<LabelRef>& labels) {
+  void pass(const std::vector<LabelRef>& labels) {
+    for (const auto& l : labels) passed_.insert({l.is_number, l.text});
+  }
+  /// Exits of a loop come to the line behind it. Written as jumps they must not pass over the end of a part that ends
+  /// with the loop.
+  void behind_loop(Body& out) {
+    Statement& s = out.back();
+    const LineInfo* line = loop_end(s);
+    if (line == nullptr || !has_exit(s)) return;
+    const auto labels = labels_on(*line);
+    const bool ends = std::any_of(labels.begin(), labels.end(), [this](const LabelRef& l) { return uses_.is_end(l); });
+    const bool here = ends && meant(labels);
+    pass(labels);
+    if (!here) return;
+    const LabelRef fresh = editor_.fresh_label();
+    for (const auto& l : labels) moved_.emplace_back(l, fresh);
+    out.push_back(make_label(*line, fresh, program_));
+  }
+  /// The closing line of a loop.
+  static const LineInfo* loop_end(const Statement& s) {
+    return std::visit(
+        [](const auto& node) -> const LineInfo* {
+          if constexpr (requires {
+                          node.body;
+                          node.end_line;
+                        })
+            return &node.end_line;
+          else
+            return nullptr;
+        },
+        s.node);
+  }
+  /// Some way leaves the loop by an exit, not one of a loop inside.
+  static bool has_exit(Statement& s) {
+    bool found = std::holds_alternative<Exit>(s.node);
+    each_body(s, [&found](Body& body) {
+      for (auto& inner : body) found = found || (loop_end(inner) == nullptr && has_exit(inner));
+    });
+    return found;
+  }
+  /// Each of the labels means this line: no other one has it, or this is the first and the first counts.
+  [[nodiscard]] bool meant(const std::vector<LabelRef>& labels) {
     return std::all_of(labels.begin(), labels.end(), [this](const LabelRef& l) {
-      return carriers_[{l.is_number, l.text}] == 1;
+      const auto key = std::make_pair(l.is_number, l.text);
+      return carriers_[key] == 1 || (passed_.count(key) == 0 && nearest_.count(key) == 0);
     });
   }
   static void put(Body& body, std::size_t begin, std::size_t end, Body& out) {
@@ -125,6 +176,8 @@ class RangeEnds {
   LabelUses uses_;
   std::vector<std::pair<LabelRef, LabelRef>> moved_;
   std::map<std::pair<bool, std::string>, int> carriers_;  ///< lines that carry a label
+  std::set<std::pair<bool, std::string>> passed_;         ///< labels of the lines so far
+  std::set<std::pair<bool, std::string>> nearest_;        ///< labels of which an end is the next one, not the first
   bool modal_calls_ = false;
 };
 

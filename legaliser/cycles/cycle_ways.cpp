@@ -188,7 +188,7 @@ bool CyclePass::refuses_axis_word(const Block& b, const Facts& facts) const {
 
 bool CyclePass::bare_point(const Block& b, const Facts& facts) const {
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
-  if (!plane || (has_modal_calls_ && !by_call_)) return false;
+  if (!plane || (has_modal_calls_ && !by_call_) || context_.target.cycle_each_call) return false;
   const AxisId w = plane_axes(*plane).w;
   if (!has_plane_word(b, w) || moves_along(b, w) || !b.motion.centers.empty() || b.motion.radius_given) return false;
   const bool rapid = context_.target_machine.option("cycle.positioning") == "rapid";

@@ -200,7 +200,8 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   ir::Program& program = *mains_.back();
   program.texts->hold(source);
   if (auto wrong = wrong_language(dialect_, *source, id, read)) {
-    if (!wrong->beside) said.clear();
+    foreign_ = !wrong->beside;
+    if (foreign_) said.clear();
     said.add(std::move(wrong->said));
   }
   note_faults(program, id, said, 0);

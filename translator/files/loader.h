@@ -45,6 +45,8 @@ class Loader {
                                frontends::ReadStats* stats = nullptr);
   const ir::Program* read_source(const SourcePtr& source, Diagnostics& diagnostics,
                                  frontends::ReadStats* stats = nullptr);
+  /// What was read last is no program of this dialect; that was said, and there is nothing to do with it.
+  [[nodiscard]] bool foreign() const { return foreign_; }
   /// The program that holds the routine, or nullptr: header number or name first, then the stem of the file.
   const ir::Program* find(const ir::RoutineName& name);
   /// Reads what a run has written under a name of the control; nullptr, and why: it can't be read.
@@ -93,7 +95,7 @@ class Loader {
   FileTable files_;
   std::vector<std::unique_ptr<ir::Program>> mains_;
   std::vector<Candidate> candidates_;
-  bool listed_ = false;
+  bool listed_ = false, foreign_ = false;
   bool by_callers_ = false;  ///< read_by_callers() has been done
   bool defined_ = false;
   std::vector<std::string> definition_places_;  ///< the libraries, without the folder of the program

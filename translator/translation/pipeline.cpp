@@ -96,6 +96,26 @@ std::vector<std::string> names_of_axes(const ir::Program& program, const machine
 
 }  // namespace
 
+namespace {
+
+/// A run that never begins.
+void refuse(const Diagnostic& why, RunResult& result, const MakeSink& make_sink) {
+  result.result.reason = interpreter::EndReason::error;
+  result.result.error_code = why.code;
+  result.result.error_text = why.message;
+  interpreter::Event end;
+  end.kind = interpreter::EventKind::end;
+  end.reason = interpreter::EndReason::error;
+  end.file = why.span.file;
+  end.line = why.span.line;
+  end.code = why.code;
+  end.text = why.message;
+  make_sink(result.files, result.axis_names)->on_event(end);
+  result.result.events = 1;
+}
+
+}  // namespace
+
 RunResult run(const Input& input, const RunOptions& options, const MakeSink& make_sink) {
   RunResult result;
   Reading reading;
@@ -116,6 +136,11 @@ RunResult run(const Input& input, const RunOptions& options, const MakeSink& mak
   Loader& loader = reading.loader();
   Diagnostics running;
   const ir::Program* program = &reading.read(result.diagnostics);
+  if (loader.foreign()) {
+    result.files = loader.files();
+    refuse(*first_error(result.diagnostics), result, make_sink);
+    return result;
+  }
   ir::Program defining;
   if (const auto& definitions = loader.definitions(); !definitions.empty()) {
     defining = *program;

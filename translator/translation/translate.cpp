@@ -119,7 +119,7 @@ class Translation {
   Translation(const TranslateOptions& options, TranslateResult& result) : options_(options), result_(result) {}
 
   bool open(const Input& input);
-  void read();
+  bool read();
   bool write();
   bool look_back();
   void prove();
@@ -165,11 +165,13 @@ bool Translation::open(const Input& input) {
   return true;
 }
 
-void Translation::read() {
+bool Translation::read() {
   frontends::ReadStats stats;
   source_ = reading_.read(result_.diagnostics, &stats);
   result_.lines = stats.lines;
   Loader& loader = reading_.loader();
+  result_.files = loader.files();
+  if (loader.foreign()) return false;
   join_libraries(source_, loader, result_.diagnostics);
   result_.diagnostics.append(loader.library_diagnostics());
   end_cycles();
@@ -186,6 +188,7 @@ void Translation::read() {
     std::stable_partition(work_.routines.begin(), work_.routines.end(),
                           [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
   }
+  return true;
 }
 
 /// A subprogram of another file selects another plane while a cycle of its caller is in force.
@@ -338,8 +341,7 @@ TranslateResult translate(const Input& input, const TranslateOptions& options) {
   TranslateResult result;
   Translation steps(options, result);
   if (!steps.open(input)) return result;
-  steps.read();
-  if (!steps.write() || !steps.look_back()) {
+  if (!steps.read() || !steps.write() || !steps.look_back()) {
     result.refused = true;
     result.outputs.clear();
     return result;
