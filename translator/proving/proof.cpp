@@ -86,8 +86,6 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
   return verdict;
 }
 
-constexpr std::string_view tool_radius = "TOOL_RADIUS";  ///< machine datum of a run, no variable of the program
-
 class Prover {
  public:
   /// `called`: they begin in the state of their caller, its zero point included.

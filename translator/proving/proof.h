@@ -15,6 +15,9 @@
 
 namespace cnctrans::translator {
 
+/// The radius of whatever tool is in use, as --set gives it: a datum of both machines, no variable of the program.
+inline constexpr std::string_view tool_radius = "TOOL_RADIUS";
+
 using Settings = std::vector<std::pair<std::string, std::string>>;  ///< NAME=VALUE, as of --set
 
 /// What --set gives to the source's variables, under the names that they have in the translation.

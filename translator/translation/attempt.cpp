@@ -1,12 +1,19 @@
 #include "translator/translation/attempt.h"
 
+#include <set>
+#include <utility>
+
+#include "legaliser/control/copies.h"
 #include "legaliser/uncalled.h"
 
 namespace cnctrans::translator {
 
 namespace {
 
-Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOptions write, bool assume) {
+using ir::passes::Copies;
+
+Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOptions write, bool assume,
+                const Copies& copies = {}) {
   Attempt out;
   const auto uncalled = assume ? ir::Uncalled::power_on : ir::Uncalled::unknown;
   const ir::LegaliseContext context{
@@ -20,6 +27,7 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
       nullptr,
       c.options.names};
   if (assume) ir::passes::tell_assumed_state(work, context);
+  ir::passes::write_copies(work, copies, context);
   if (!c.as_it_stands) ir::legalise(work, context);
   const bool refused = out.said.has_errors() && c.options.unsupported == backends::Unsupported::error;
   if (c.refused || refused) return out;  // the writer would only say the same again
@@ -29,17 +37,109 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
   return out;
 }
 
+/// Which repeated parts to write again so that nothing is refused, found by trying: the shortest part around a refused
+/// line first. A copy that frees nothing is not kept.
+class CopySearch {
+ public:
+  CopySearch(const AttemptContext& c, const ir::Program& program, const backends::WriteOptions& write, bool assume)
+      : c_(c), program_(program), write_(write), assume_(assume) {}
+
+  /// `best`: as it came out without copies; it stays so where some line is refused whatever is written again.
+  void mend(Attempt& best) {
+    constexpr std::size_t most_statements = 5000;
+    std::size_t statements = 0;
+    for (const auto& r : program_.routines)
+      ir::for_each_statement(r.body, [&statements](const ir::Statement&) { ++statements; });
+    if (statements > most_statements) return;
+    Attempt now = best;
+    while (now.said.has_errors()) {
+      if (!step(now)) return;
+    }
+    drop_needless(now);
+    best = std::move(now);
+  }
+
+ private:
+  using Lines = std::set<std::pair<FileId, std::uint32_t>>;
+  static std::vector<Span> refused(const Attempt& a) {
+    std::vector<Span> where;
+    for (const auto& d : a.said.all()) {
+      if (d.severity == Severity::error) where.push_back(d.span);
+    }
+    return where;
+  }
+  static Lines lines(const Attempt& a) {
+    Lines found;
+    for (const auto& s : refused(a)) found.emplace(s.file, s.line);
+    return found;
+  }
+
+  /// One more part is written again. False: no part is left that helps.
+  bool step(Attempt& now) {
+    ir::Program copy = program_;
+    const auto before = lines(now).size();
+    for (const auto& choice : ir::passes::copy_choices(copy, refused(now))) {
+      const auto have = chosen_.find(choice.repeat);
+      for (const auto way : choice.ways) {
+        if (have != chosen_.end() && have->second >= way) continue;
+        if (tries_++ == most_tries) return false;
+        Copies with = chosen_;
+        with[choice.repeat] = way;
+        Attempt a = attempt(c_, program_, write_, assume_, with);
+        const auto after = lines(a).size();
+        if (after > before || (after == before && way == ir::passes::Copying::first)) continue;
+        chosen_ = std::move(with);
+        now = std::move(a);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void drop_needless(Attempt& now) {
+    const Copies all = chosen_;
+    for (const auto& one : all) {
+      if (chosen_.size() == 1 || tries_++ >= most_tries) return;
+      Copies without = chosen_;
+      without.erase(one.first);
+      Attempt a = attempt(c_, program_, write_, assume_, without);
+      if (a.said.has_errors()) continue;
+      chosen_ = std::move(without);
+      now = std::move(a);
+    }
+  }
+
+  static constexpr int most_tries = 40;
+  const AttemptContext& c_;
+  const ir::Program& program_;
+  const backends::WriteOptions& write_;
+  bool assume_;
+  Copies chosen_;
+  int tries_ = 0;
+};
+
 }  // namespace
 
 Attempt attempt_both(const AttemptContext& c, ir::Program program, const backends::WriteOptions& write) {
   const std::string wanted = c.source_machine.option(ir::passes::uncalled_option, "when_needed");
   const bool uncalled = !c.as_it_stands && !ir::passes::uncalled_routines(program).empty();
-  if (!uncalled || wanted == "unknown") return attempt(c, std::move(program), write, false);
-  if (wanted == "power_on") return attempt(c, std::move(program), write, true);
-  Attempt first = attempt(c, program, write, false);
+  const bool assumed = uncalled && wanted == "power_on";
+  if (!(uncalled && wanted == "when_needed") && !ir::passes::repeats_parts(program))
+    return attempt(c, std::move(program), write, assumed);
+  Attempt first = attempt(c, program, write, assumed);
   if (!first.said.has_errors()) return first;
-  Attempt second = attempt(c, std::move(program), write, true);
-  return second.said.error_count() < first.said.error_count() ? std::move(second) : std::move(first);
+  bool assume = assumed;
+  if (uncalled && wanted != "unknown" && !assumed) {
+    Attempt second = attempt(c, program, write, true);
+    if (second.said.error_count() < first.said.error_count()) {
+      first = std::move(second);
+      assume = true;
+    }
+  }
+  if (!c.as_it_stands && !c.refused && first.said.has_errors() &&
+      c.options.unsupported == backends::Unsupported::error)
+    CopySearch(c, program, write, assume).mend(first);
+  return first;
 }
 
 }  // namespace cnctrans::translator

@@ -27,7 +27,8 @@ struct Attempt {
 
 /// The program as it must be for the target, written. Subprograms that nothing at hand calls start with nothing known;
 /// where that refuses the program, the state of power-on is taken for granted, with a warning (TRN-460), unless the
-/// option `call.uncalled_state` of the source's machine says otherwise.
+/// option `call.uncalled_state` of the source's machine says otherwise. Where a repeated part is refused in its states
+/// and not in each of them by itself, it is written again (TRN-710).
 Attempt attempt_both(const AttemptContext& context, ir::Program program, const backends::WriteOptions& write);
 
 }  // namespace cnctrans::translator

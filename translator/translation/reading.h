@@ -24,6 +24,9 @@ class Reading {
   /// Reads it; what it has to say goes to `diagnostics`.
   const ir::Program& read(Diagnostics& diagnostics, frontends::ReadStats* stats = nullptr);
 
+  /// The machine has this datum.
+  void give(const std::string& datum, double value) { profile_->data[datum] = value; }
+
   [[nodiscard]] const Dialect& dialect() const { return *dialect_; }
   [[nodiscard]] const SourcePtr& source() const { return source_; }
   [[nodiscard]] const machine::Profile& profile() const { return *profile_; }

@@ -160,6 +160,12 @@ bool Translation::open(const Input& input) {
   result_.lathe = source_profile.kind == machine::Kind::lathe;
   target_profile_ = choose_target(*to_, options_.target_machine, source_profile, &result_.error);
   if (!target_profile_) return false;
+  for (const auto& [name, value] : options_.run.set) {
+    const auto radius = name == tool_radius ? parse_decimal(value) : std::nullopt;
+    if (!radius) continue;
+    reading_.give(name, *radius);
+    target_profile_->data[name] = *radius;
+  }
   result_.source_machine = source_profile.name;
   result_.target_machine = target_profile_->name;
   return true;

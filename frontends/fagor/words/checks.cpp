@@ -105,7 +105,8 @@ void BlockLowerer::refuse_under_arc(const GWord& g) {
   }
 }
 
-/// An arc has both end coordinates, or an angle about its centre.
+/// An arc has both end coordinates, or an angle about its centre. The maker's own examples leave the one out that does
+/// not change.
 void BlockLowerer::check_arc_end() {
   const ir::Motion& m = out_->motion;
   if (m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius)) return;
@@ -114,8 +115,10 @@ void BlockLowerer::check_arc_end() {
   const auto given = std::count_if(m.coords.begin(), m.coords.end(),
                                    [&plane](const ir::CoordWord& c) { return c.axis == plane.u || c.axis == plane.v; });
   if (given != 1) return;
-  state_.error(block_fault, m.explicit_code ? m.code_pos : m.coords.front().pos,
-               "an arc with only one of its end coordinates [43]", "write both coordinates of the plane");
+  state_.warning("FAG-092", m.explicit_code ? m.code_pos : m.coords.front().pos,
+                 "an arc with only one of its end coordinates: the other axis ends where it began; some controls stop "
+                 "here instead [43]",
+                 "write both coordinates of the plane");
 }
 
 }  // namespace cnctrans::fagor
