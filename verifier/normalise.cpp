@@ -165,15 +165,21 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
   out.reserve(events.size());
   StateFilter filter;
   std::size_t stretch = 0;
-  const auto close_stretch = [&out, &stretch] {
-    // By kind; but how the spindle turns at the change of a tool, and behind it, are two things.
+  std::map<std::int64_t, std::string> senses;  // of the spindles, so far
+  const auto close_stretch = [&out, &stretch, &senses] {
+    // By kind; but how the spindle turns at the change of a tool, and behind it, are two things. A speed alone is not:
+    // `S1200 T2 M6` with the spindle running takes it before the change or behind it.
     std::vector<std::pair<int, const Event*>> ranked;
     const auto from = out.begin() + static_cast<std::ptrdiff_t>(stretch);
     bool changed = false;
     for (auto at = from; at != out.end(); ++at) {
       const Event& e = **at;
       changed = changed || (e.kind == EventKind::tool && e.change);
-      const bool behind = changed && e.kind == EventKind::spindle;
+      bool behind = false;
+      if (e.kind == EventKind::spindle) {
+        const std::string before = std::exchange(senses[e.number], std::string(e.state));
+        behind = changed && before != e.state;
+      }
       ranked.emplace_back(2 * static_cast<int>(behind ? EventKind::tool : e.kind) + (behind ? 1 : 0), &e);
     }
     std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -154,9 +154,8 @@ bool repeats_parts(const Program& program) {
 
 std::vector<CopyChoice> copy_choices(Program& program, const std::vector<Span>& where) {
   std::vector<RepeatedPart> all = parts(program);
-  std::stable_sort(all.begin(), all.end(), [](const RepeatedPart& a, const RepeatedPart& b) {
-    return a.last - a.first < b.last - b.first;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const RepeatedPart& a, const RepeatedPart& b) { return a.last - a.first < b.last - b.first; });
   std::vector<CopyChoice> choices;
   for (const auto& part : all) {
     const Body& body = program.routines[part.routine].body;

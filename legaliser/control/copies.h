@@ -1,5 +1,5 @@
-// Repeated parts written out again: a part that is carried out in several states (another place, another mirror, another
-// motion in force) may have to be said otherwise in each of them.
+// Repeated parts written out again: a part that is carried out in several states (another place, another mirror,
+// another motion in force) may have to be said otherwise in each of them.
 #pragma once
 
 #include <map>

@@ -136,8 +136,7 @@ Attempt attempt_both(const AttemptContext& c, ir::Program program, const backend
       assume = true;
     }
   }
-  if (!c.as_it_stands && !c.refused && first.said.has_errors() &&
-      c.options.unsupported == backends::Unsupported::error)
+  if (!c.as_it_stands && !c.refused && first.said.has_errors() && c.options.unsupported == backends::Unsupported::error)
     CopySearch(c, program, write, assume).mend(first);
   return first;
 }
