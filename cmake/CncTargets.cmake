@@ -32,12 +32,35 @@ if(CNCTRANS_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# cnc_unity(target): its sources in groups of eight, each compiled as one. Helpers of two files in an unnamed namespace must
-# not share a name for that (tools/check-names).
+# cnc_unity(target): the sources of each folder in groups of about eight, each compiled as one. Which group a file is in comes
+# from its own name, so that a new file makes one group anew and not all behind it. Helpers of two files in an unnamed
+# namespace must not share a name for that (tools/check-names).
 function(cnc_unity target)
-  if(CNCTRANS_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  if(NOT CNCTRANS_UNITY)
+    return()
   endif()
+  get_target_property(sources ${target} SOURCES)
+  set(folders)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder ${source} DIRECTORY)
+    list(APPEND folders ${folder})
+    list(APPEND "in_${folder}" ${source})
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  foreach(folder IN LISTS folders)
+    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} ${folder})
+    string(MAKE_C_IDENTIFIER "${name}" name)
+    list(LENGTH "in_${folder}" count)
+    math(EXPR groups "(${count} + 7) / 8")
+    foreach(source IN LISTS "in_${folder}")
+      get_filename_component(file ${source} NAME)
+      string(MD5 sum ${file})
+      string(SUBSTRING ${sum} 0 6 digits)
+      math(EXPR group "0x${digits} % ${groups}")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${group})
+    endforeach()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # cnc_library(folder LINK targets...): static library cnc_<folder with _> of folder/*.cpp (recursively).
