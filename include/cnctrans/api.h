@@ -18,7 +18,7 @@
 
 namespace cnctrans::api {
 
-/// Version of the library, as "0.1.0".
+/// Version of the library, as "0.2.0".
 CNCTRANS_API std::string version();
 
 /// A part-program language.

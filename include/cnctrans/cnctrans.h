@@ -27,7 +27,7 @@ typedef enum cnctrans_severity { CNCTRANS_NOTE = 0, CNCTRANS_WARNING = 1, CNCTRA
 typedef struct cnctrans_job cnctrans_job;
 typedef struct cnctrans_result cnctrans_result;
 
-/* "0.1.0" */
+/* "0.2.0" */
 CNCTRANS_API const char* cnctrans_version(void);
 
 /* Null when there is no memory. */
