@@ -31,7 +31,7 @@ struct CycleRow {
   std::string_view name;   ///< shape or pattern in the IR
   std::string_view title;  ///< behind the number in the editor
   bool called;             ///< CYCL CALL, M99 and M89 run it; false: the definition acts
-  std::array<CycleParameter, 22> parameters;
+  std::array<CycleParameter, 25> parameters;
 };
 
 // clang-format off
@@ -74,7 +74,7 @@ inline constexpr std::array cycle_rows{
                {204}, {366}, {385, false}, {439, false}}}},
     CycleRow{254, CycleKind::mill, ir::HoleKind::mill, "slot.ring", "CIRCULAR SLOT", true,
              {{{215}, {219}, {368}, {375}, {367}, {216}, {217}, {376}, {248}, {378}, {377}, {207}, {351}, {201}, {202},
-               {369}, {206}, {338}, {200}, {203}, {204}, {366}}}},
+               {369}, {206}, {338}, {200}, {203}, {204}, {366}, {385, false}, {439, false}}}},
     CycleRow{256, CycleKind::mill, ir::HoleKind::mill, "boss.rect", "RECTANGULAR STUD", true,
              {{{218}, {424}, {219}, {425}, {220}, {368}, {224}, {367}, {207}, {351}, {201}, {202}, {206}, {200}, {203},
                {204}, {370}, {437, false}}}},

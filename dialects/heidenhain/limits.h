@@ -21,6 +21,7 @@ inline constexpr std::int32_t call_depth = 8;     ///< CALL LBL; newer releases 
 inline constexpr std::size_t m_functions = 2;     ///< of one block
 inline constexpr double arc_tolerance = 0.016;    ///< mm
 inline constexpr double freed_distance = 0.2;     ///< mm: sideways, cycle 202
+inline constexpr double chip_break_feed = 3000;   ///< mm/min: of the lifts of cycle 205
 inline constexpr double rapid_stand_in = 99999;   ///< a feed that the programs write where they mean rapid
 inline constexpr std::size_t pattern_points = 9;  ///< POS1 to POS9 of PATTERN DEF
 

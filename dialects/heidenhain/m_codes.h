@@ -26,6 +26,8 @@ enum class MUse : std::uint8_t {
   contact_feed,      ///< M109, M110: F counts at the edge of the tool on arcs
   centre_feed,       ///< M111
   kept,              ///< no effect on the programmed path: kept as text
+  compensated,       ///< changes what the control makes of the programmed path: left out with a warning
+  frames_off,        ///< M142: no shift, mirror, rotation, scale is in force behind it
   path               ///< changes the path in a way that is not carried: refused
 };
 struct MRow {
@@ -57,8 +59,8 @@ inline constexpr std::array m_codes{
     MRow{91, machine::MMeaning::none, ir::Order::before, MUse::machine_position, "coordinates of the machine"},
     MRow{92, machine::MMeaning::none, ir::Order::before, MUse::maker_position, "coordinates from the maker's point"},
     MRow{94, machine::MMeaning::none, ir::Order::before, MUse::kept, "rotary display below 360 degrees"},
-    MRow{97, machine::MMeaning::none, ir::Order::after, MUse::path, "small steps of a compensated contour"},
-    MRow{98, machine::MMeaning::none, ir::Order::after, MUse::path, "open corners of a contour to their end"},
+    MRow{97, machine::MMeaning::none, ir::Order::after, MUse::compensated, "small steps of a compensated contour"},
+    MRow{98, machine::MMeaning::none, ir::Order::after, MUse::compensated, "open corners of a contour to their end"},
     MRow{99, machine::MMeaning::none, ir::Order::after, MUse::call_once, "cycle call"},
     MRow{101, machine::MMeaning::none, ir::Order::after, MUse::kept, "replacement tool"},
     MRow{102, machine::MMeaning::none, ir::Order::after, MUse::kept, "no replacement tool"},
@@ -75,8 +77,8 @@ inline constexpr std::array m_codes{
     MRow{116, machine::MMeaning::none, ir::Order::before, MUse::kept, "feed of rotary axes in mm/min"},
     MRow{117, machine::MMeaning::none, ir::Order::after, MUse::kept, "M116 off"},
     MRow{118, machine::MMeaning::none, ir::Order::before, MUse::kept, "handwheel beside the path"},
-    MRow{120, machine::MMeaning::none, ir::Order::before, MUse::path, "contour looked ahead under compensation"},
-    MRow{124, machine::MMeaning::none, ir::Order::before, MUse::path, "points near to one another left out"},
+    MRow{120, machine::MMeaning::none, ir::Order::before, MUse::compensated, "contour looked ahead under compensation"},
+    MRow{124, machine::MMeaning::none, ir::Order::before, MUse::compensated, "points near to one another left out"},
     MRow{126, machine::MMeaning::none, ir::Order::before, MUse::path, "rotary axes the shortest way"},
     MRow{127, machine::MMeaning::none, ir::Order::after, MUse::kept, "M126 off"},
     MRow{128, machine::MMeaning::none, ir::Order::before, MUse::path, "tip stays where it is when axes tilt"},
@@ -89,8 +91,8 @@ inline constexpr std::array m_codes{
     MRow{138, machine::MMeaning::none, ir::Order::before, MUse::path, "which axes tilt"},
     MRow{140, machine::MMeaning::none, ir::Order::before, MUse::retract, "back along the tool axis"},
     MRow{141, machine::MMeaning::none, ir::Order::before, MUse::kept, "probe not watched"},
-    MRow{142, machine::MMeaning::none, ir::Order::before, MUse::path, "modal program information is deleted"},
-    MRow{143, machine::MMeaning::none, ir::Order::before, MUse::path, "basic rotation is deleted"},
+    MRow{142, machine::MMeaning::none, ir::Order::before, MUse::frames_off, "modal program information is deleted"},
+    MRow{143, machine::MMeaning::none, ir::Order::before, MUse::kept, "basic rotation is deleted"},
     MRow{144, machine::MMeaning::none, ir::Order::before, MUse::path, "kinematics counted at the block's end"},
     MRow{145, machine::MMeaning::none, ir::Order::after, MUse::kept, "M144 off"},
     MRow{148, machine::MMeaning::none, ir::Order::before, MUse::kept, "tool leaves the contour on a stop"},

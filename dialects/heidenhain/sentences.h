@@ -26,6 +26,7 @@ enum class Sentence : std::uint8_t {
   plane,
   probe,
   pattern,
+  select_pattern,
   global_def,
   shift,      ///< TRANS DATUM
   approach,   ///< APPR
@@ -71,7 +72,7 @@ inline constexpr std::array sentences{
     SentenceRow{"DECLARE CONTOUR", Sentence::carried},
     SentenceRow{"CONTOUR DEF", Sentence::carried},
     SentenceRow{"SEL CONTOUR", Sentence::carried},
-    SentenceRow{"SEL PATTERN", Sentence::carried},
+    SentenceRow{"SEL PATTERN", Sentence::select_pattern},
     SentenceRow{"SEL TABLE", Sentence::carried},
     SentenceRow{"FUNCTION", Sentence::carried},
     SentenceRow{"LN", Sentence::carried},

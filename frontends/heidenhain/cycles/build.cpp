@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "dialects/heidenhain/limits.h"
@@ -38,6 +37,15 @@ Value magnitude(const Value& v) {
   return Value(ir::call(ir::Function::abs, {v.expr}));
 }
 
+ir::ExprPtr programmed_speed() {
+  ir::SystemRef ref;
+  ref.datum = ir::Datum::rpm;
+  ref.text = "S";
+  auto e = std::make_shared<ir::Expr>();
+  e->node = std::move(ref);
+  return e;
+}
+
 class CycleBuilder {
  public:
   CycleBuilder(const CycleDefinition& cycle, const CycleContext& context, Report& report)
@@ -55,6 +63,11 @@ class CycleBuilder {
                                                           : not_carried();
     else
       good = cycle_.old != nullptr ? old() : not_carried();
+    if (good && as_moves_ && !report_.refused()) {
+      *context_.moves = peck_moves(cycle_, context_);
+      if (context_.moves->empty()) refuse("with these pecks its parameters must be numbers");
+      return nullptr;
+    }
     if (!good || report_.refused() || skipped_) return nullptr;
     return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
   }
@@ -99,6 +112,11 @@ class CycleBuilder {
     hole_.reference = level(clearance, LevelBase::from_surface);
     hole_.bottom = level(depth, LevelBase::from_surface);
     hole_.retract = level(ir::add(surface, larger(q(204), clearance)), LevelBase::absolute);
+    return true;
+  }
+  /// The cycle is told by peck_moves().
+  bool as_moves() {
+    as_moves_ = true;
     return true;
   }
   bool feed_in(std::int16_t number = 206) {
@@ -189,14 +207,13 @@ class CycleBuilder {
     hole_.dwell_bottom = q(211);
     const Value peck = q(202), breaks = q(213), decrement = q(212);
     if (!feed_in() || !tip() || !feed_out()) return false;
-    if (!breaks.literal() || !decrement.literal()) return refuse("Q212 and Q213 must be numbers");
+    if (!breaks.literal() || !decrement.literal()) return as_moves();
     const bool stroke = one_stroke(peck) && breaks.is(0);
     if (stroke) {
       hole_.kind = HoleKind::bore;
       return true;
     }
-    if (!decrement.is(0)) return refuse("pecks that shrink by Q212 are not carried yet");
-    if (!rapid(208) && !q(208).is(0)) warn("the retract is in rapid, not at Q208");
+    if (!decrement.is(0) || !rapid(208)) return as_moves();
     hole_.has_feed_out = false;
     pecks(peck);
     if (breaks.is(0)) {
@@ -208,7 +225,7 @@ class CycleBuilder {
     const Value depth = q(201);
     const bool all = peck.literal() && depth.literal() && peck.number > 0 &&
                      std::ceil(std::abs(depth.number) / peck.number - 1e-9) - 1 <= breaks.number;
-    if (!all) return refuse("full retracts between chip breaks (Q213 below the number of pecks) are not carried yet");
+    if (!all) return as_moves();
     hole_.kind = HoleKind::peck_break;
     hole_.pecks.lift = q(256);
     return true;
@@ -217,23 +234,12 @@ class CycleBuilder {
     hole_.dwell_bottom = q(211);
     const Value peck = q(202), decrement = q(212), chip = q(257);
     if (!feed_in() || !tip()) return false;
-    if (!decrement.is(0)) return refuse("pecks that shrink by Q212 are not carried yet");
-    if (!q(379).is(0)) return refuse("a deeper starting point (Q379) is not carried yet");
-    if (!chip.is(0)) {
-      if (!one_stroke(peck)) return refuse("chip breaks (Q257) within pecks are not carried yet");
-      warn("the short lifts are at the feed of drilling, not at 3000 mm/min");
-      hole_.kind = HoleKind::peck_break;
-      pecks(chip);
-      hole_.pecks.lift = q(256);
-      return true;
-    }
-    if (!rapid(208)) warn("the retract is in rapid, not at Q208");
+    if (!decrement.is(0) || !q(379).is(0) || !chip.is(0)) return as_moves();
     if (one_stroke(peck)) {
-      hole_.kind = HoleKind::drill;
-      return true;
+      hole_.kind = rapid(208) ? HoleKind::drill : HoleKind::bore;
+      return rapid(208) || feed_out();
     }
-    if (!ir::equal(q(258), q(259)))
-      return refuse("Q258 and Q259 must be equal: a distance that changes is not carried");
+    if (!rapid(208) || !ir::equal(q(258), q(259))) return as_moves();
     pecks(peck);
     hole_.pecks.reapproach = q(258);
     return true;
@@ -249,7 +255,10 @@ class CycleBuilder {
     hole_.orient_first = true;
     hole_.orient_angle = q(336);
     const Value chip = q(257), factor = q(256), speed = q(403);
-    if (!speed.is(1)) return refuse("a faster way out (Q403) is not carried yet");
+    if (!speed.is(1)) {
+      hole_.has_speed_out = true;
+      hole_.speed_out = Value(ir::binary(ir::BinaryOp::multiply, programmed_speed(), ir::as_expr(speed)));
+    }
     if (chip.is(0) || one_stroke(chip)) return true;
     hole_.pecks.law = ir::PeckLaw::constant;
     hole_.pecks.first = chip;
@@ -304,7 +313,6 @@ class CycleBuilder {
           return v.is(0) || refuse("an allowance for the floor (Q369) is not carried here");
         }
         if (number == 376 && cycle_.number == 257) return true;  // where the approach begins
-        if (number == 368 && boss) return v.is(0) || refuse("an allowance for the side (Q368) is not carried here");
         word(row->parameter, v);
         return true;
       case Role::mill_half: word(row->parameter, half(v)); return true;
@@ -356,7 +364,10 @@ class CycleBuilder {
   /// All of them are counted from where the tool stands at the call.
   bool old() {
     const auto kind = cycle_.old->kind;
-    if (kind != OldKind::pecking && kind != OldKind::tapping && kind != OldKind::rigid_tapping) return not_carried();
+    const bool pocket = kind == OldKind::pocket || kind == OldKind::round_pocket;
+    if (kind == OldKind::slot) return refuse("the tool starts in the slot by its radius, which is not in the program");
+    if (!pocket && kind != OldKind::pecking && kind != OldKind::tapping && kind != OldKind::rigid_tapping)
+      return not_carried();
     const Value *distance = part(1), *depth = part(2);
     if (distance == nullptr || depth == nullptr) return refuse("the distance or the depth is missing");
     if (depth->literal() && depth->number > 0) return refuse("a positive depth works upward; that is not carried");
@@ -368,6 +379,7 @@ class CycleBuilder {
     hole_.surface = level(ir::negate(magnitude(*distance)), LevelBase::from_reference);
     hole_.bottom = level(ir::negate(magnitude(*depth)), LevelBase::from_surface);
     hole_.retract = level(Value(0), LevelBase::from_initial);
+    if (pocket) return old_pocket(kind == OldKind::round_pocket);
     const auto feed = [this](int n) {
       if (const Value* f = part(n)) {
         hole_.feed = *f;
@@ -404,74 +416,59 @@ class CycleBuilder {
     return true;
   }
 
+  [[nodiscard]] const OldPartValue::Letter* letter(int n, std::string_view address) const {
+    const auto it = cycle_.parts.find(n);
+    if (it == cycle_.parts.end()) return nullptr;
+    for (const auto& l : it->second.letters) {
+      if (l.address == address) return &l;
+    }
+    return nullptr;
+  }
+  /// 4 and 5: `PECKG -5 F80`, the sides or `RADIUS 30`, `F200 DR+ RADIUS 5`. The tool stands in the middle.
+  bool old_pocket(bool round) {
+    hole_.kind = HoleKind::mill;
+    hole_.mill.shape = round ? "pocket.circle" : "pocket.rect";
+    const int last = round ? 5 : 6;
+    const auto number = [&](int n) -> const Value* {  // the first one behind the words of the dialog
+      const auto it = cycle_.parts.find(n);
+      if (it == cycle_.parts.end()) return nullptr;
+      for (const auto& l : it->second.letters) {
+        if (l.has_value) return &l.value;
+      }
+      return nullptr;
+    };
+    const auto *peck = number(3), *first = number(4), *second = round ? first : number(5);
+    const auto *plunge = letter(3, "F"), *feed = letter(last, "F"), *sense = letter(last, "DR");
+    if (peck == nullptr || first == nullptr || second == nullptr || feed == nullptr || !feed->has_value)
+      return refuse("a size, the infeed or the feed is missing");
+    word("infeed", magnitude(*peck));
+    if (plunge != nullptr && plunge->has_value) word("plunge_feed", plunge->value);
+    word("mill_feed", feed->value);
+    word("sense", Value(sense != nullptr && sense->negative ? 2 : 3));
+    word("operation", Value(1));
+    if (round) {
+      word("radius", *first);
+    } else {
+      word("length", *first);
+      word("width", *second);
+      const auto* corner = letter(last, "RADIUS");
+      if (corner != nullptr && corner->has_value) word("corner", corner->value);
+    }
+    warn("the way of the passes is that of this program, the part is the same");
+    return true;
+  }
+
   const CycleDefinition& cycle_;
   const CycleContext& context_;
   Report& report_;
   ir::HoleCycle hole_;
-  bool skipped_ = false;
+  bool skipped_ = false, as_moves_ = false;
 };
-
-/// Without the noise that sines leave in the last places.
-double clean(double x) {
-  return std::round(x * 1e10) / 1e10 + 0.0;
-}
 
 }  // namespace
 
 ir::CyclePtr build_cycle(const CycleDefinition& cycle, const CycleContext& context, Report& report) {
   return CycleBuilder(cycle, context, report).build();
-}
-
-std::vector<PatternPoint> pattern_points(const CycleDefinition& cycle, Report& report) {
-  std::map<std::int16_t, double> n;
-  for (const auto& [number, v] : cycle.values) {
-    if (v.kind != QValue::Kind::value || !v.value.literal()) {
-      report.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + ": its parameters must be numbers",
-                  "cycle.pattern");
-      return {};
-    }
-    n[number] = v.value.number;
-  }
-  constexpr double most = 10'000;
-  const double degrees = std::numbers::pi / 180;
-  std::vector<PatternPoint> points;
-  if (cycle.number == 220) {
-    const double count = n[241], full = 360;
-    if (!(count >= 1) || count > most || count != std::floor(count)) {
-      report.refuse("HEI-018", {}, "cycle 220: Q241 is the number of machinings, 1 or more");
-      return {};
-    }
-    if (n[365] != 0) {
-      report.keep("HEI-018", {}, "cycle 220: the way along the circle (Q365=1) is not carried yet", "cycle.pattern");
-      return {};
-    }
-    double step = n[247];
-    const double span = n[246] - n[245];
-    if (step == 0) {
-      const bool round = std::abs(std::abs(span) - full) < 1e-9;
-      step = round ? std::copysign(full / count, span) : count > 1 ? span / (count - 1) : 0;
-    }
-    for (double k = 0; k < count; ++k) {
-      const double a = (n[245] + k * step) * degrees;
-      points.push_back({clean(n[216] + n[244] / 2 * std::cos(a)), clean(n[217] + n[244] / 2 * std::sin(a))});
-    }
-    return points;
-  }
-  const double columns = n[242], lines = n[243];
-  if (!(columns >= 1) || !(lines >= 1) || columns * lines > most || columns != std::floor(columns) ||
-      lines != std::floor(lines)) {
-    report.refuse("HEI-018", {}, "cycle 221: Q242 and Q243 are numbers of columns and lines, 1 or more");
-    return {};
-  }
-  const double c = std::cos(n[224] * degrees), s = std::sin(n[224] * degrees);
-  for (double j = 0; j < lines; ++j) {
-    for (double i = 0; i < columns; ++i) {
-      const double k = std::fmod(j, 2) == 0 ? i : columns - 1 - i;  // every other line backwards
-      const double x = k * n[237], y = j * n[238];
-      points.push_back({clean(n[225] + x * c - y * s), clean(n[226] + x * s + y * c)});
-    }
-  }
-  return points;
 }
 
 }  // namespace cnctrans::frontends::heidenhain

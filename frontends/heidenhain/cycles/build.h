@@ -11,15 +11,26 @@
 
 namespace cnctrans::frontends::heidenhain {
 
+/// A move along the tool axis, or a dwell.
+struct CycleMove {
+  enum class Kind : std::uint8_t { rapid, feed, dwell } kind = Kind::rapid;
+  double w = 0;       ///< absolute
+  double amount = 0;  ///< feed, or seconds
+};
 struct CycleContext {
   /// The value of a Q parameter at the call.
   std::function<ir::Value(std::int16_t)> value;
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: added to the surface
-  bool inch = false;               ///< the unit of the program; lengths of the control itself are mm
+  /// Where the cycle is no neutral one: its moves.
+  std::vector<CycleMove>* moves = nullptr;
+  bool inch = false;  ///< the unit of the program; lengths of the control itself are mm
 };
 
-/// Null: the cycle is skipped (depth 0), or was refused (see `report`).
+/// Null: the cycle is skipped (depth 0), was refused (see `report`), or is told by its moves.
 ir::CyclePtr build_cycle(const CycleDefinition& cycle, const CycleContext& context, Report& report);
+
+/// 203 and 205 with pecks that no neutral cycle has; empty: its parameters are not all numbers.
+std::vector<CycleMove> peck_moves(const CycleDefinition& cycle, const CycleContext& context);
 
 /// The points of 220 and 221 and their heights: every point is a pair of coordinates in the plane. Empty after a
 /// refusal.
@@ -27,5 +38,12 @@ struct PatternPoint {
   double u = 0, v = 0;
 };
 std::vector<PatternPoint> pattern_points(const CycleDefinition& cycle, Report& report);
+
+/// The points of PATTERN DEF in their order. Empty after a refusal.
+struct Place {
+  ir::Value u, v;
+  ir::Value height;  ///< added to the surface of the cycle
+};
+std::vector<Place> figure_places(const Pattern& pattern, Report& report);
 
 }  // namespace cnctrans::frontends::heidenhain

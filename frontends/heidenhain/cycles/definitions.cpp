@@ -140,6 +140,7 @@ bool Lowering::old_part(const syntax::Statement& s, std::int64_t number, int par
     letter.address = to_upper_ascii(w.address);
     letter.has_value = w.has_value;
     if (w.has_value) letter.value = value(w);
+    letter.negative = !w.has_value && w.number_text == "-";
     out.letters.push_back(std::move(letter));
   }
   return !report_.refused();
@@ -192,14 +193,13 @@ void Lowering::flush() {
 
 /// CYCL CALL, CYCL CALL POS X Y Z FMAX, CYCL CALL M3.
 bool Lowering::cycle_call(const syntax::Statement& s) {
-  bool positions = false;
+  bool positions = false, at_pattern = false;
   std::optional<ir::Value> height;
   for (const Word& w : block_->words) {
     if (iequals_ascii(w.address, "POS")) {
       positions = true;
     } else if (iequals_ascii(w.address, "PAT")) {
-      report_.keep("HEI-018", w.pos, "CYCL CALL PAT: patterns are not carried yet", "cycle.pattern");
-      return false;
+      at_pattern = true;
     } else if (const ir::AxisId axis = axis_of(w.address); positions && axis != ir::axis::none && w.has_value) {
       if (axis == static_cast<ir::AxisId>(tool_axis_))
         height = value(w);
@@ -223,8 +223,13 @@ bool Lowering::cycle_call(const syntax::Statement& s) {
                  "the tool is taken to stand above the surface: it goes in the plane first, then along its axis");
   }
   const bool moves = out_.has_motion;
+  if (at_pattern) {  // its feed or FMAX is that of the ways between the points
+    out_.motion.kind = rapid_ ? ir::MotionKind::rapid : ir::MotionKind::linear;
+    out_.motion.explicit_code = true;
+  }
   Item& item = put(std::move(out_));
   item.moves = moves;
+  item.at_pattern = at_pattern;
   item.call = positions ? CycleCall::ends : CycleCall::once;
   item.shift = std::move(height);
   return true;

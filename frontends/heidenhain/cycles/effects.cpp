@@ -1,11 +1,13 @@
 // Cycles that act where they are defined (reference 18, 19): datum shift, mirror, rotation, scale, dwell, orientation,
 // preset, and data that change no path.
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "base/text.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "frontends/heidenhain/state/term.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -106,20 +108,31 @@ void Lowering::frame_cycle(const CycleDefinition& cycle) {
         k.words = {frame_word(plane.u, *factor), frame_word(plane.v, *factor)};
       }
     } else {
-      bool centre = false, one = true;
+      bool one = true;
+      std::map<ir::AxisId, ir::Value> centre;
       for (const auto& [n, part] : cycle.parts) {
         for (const auto& l : part.letters) {
           const ir::AxisId axis = axis_of(l.address);
           if (axis != ir::axis::none && l.has_value) {
             k.words.push_back(frame_word(axis, l.value));
             one = one && l.value.is(1);
-          } else if (l.address.substr(0, 2) == "CC") {
-            centre = centre || !l.value.is(0);
+          } else if (l.address.size() == 3 && l.address.substr(0, 2) == "CC") {
+            centre[axis_of(std::string_view(l.address).substr(2))] = l.value;
           }
         }
       }
-      if (centre && !one)
-        return report_.keep("HEI-020", {}, "cycle 26 about a centre is not carried yet", "motion.transformation");
+      // f (p + t) = c + f (p - c) where t = (1 / f - 1) c.
+      ir::FrameChange inner = frame(FrameSlot::chain, FrameKind::translate, FrameCombine::replace);
+      for (const auto& w : k.words) {
+        const Term c = centre.count(w.axis) != 0 ? Term(centre[w.axis]) : Term(0), f(w.value);
+        const Term t = (Term(1) / f - Term(1)) * c;
+        if (!t.is(0)) inner.words.push_back(frame_word(w.axis, t.value()));
+      }
+      if (!inner.words.empty() || std::exchange(scaled_about_, false)) {
+        scaled_about_ = !inner.words.empty() && !one;
+        if (!scaled_about_) inner.words = {frame_word(plane.u, ir::Value(0)), frame_word(plane.v, ir::Value(0))};
+        add(std::move(inner));
+      }
       if (one) {
         k.words.clear();
         k.combine = FrameCombine::clear;

@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/text.h"
-#include "dialects/heidenhain/variables.h"
-#include "frontends/heidenhain/cycles/build.h"
+#include "frontends/heidenhain/program/cycle_calls.h"
 
 namespace cnctrans::frontends::heidenhain {
 
-namespace facts = dialects::heidenhain;
-
 namespace {
-
-/// What the control does besides in the block; on other controls it is a block of its own.
-ir::Statement behind(const ir::Statement& to, ir::StatementNode node) {
-  ir::Statement s;
-  s.line.span = to.line.span;
-  s.line.skip_mask = to.line.skip_mask;
-  s.node = std::move(node);
-  return s;
-}
 
 ir::Value pole_datum(bool first) {
   ir::SystemRef ref;
@@ -33,15 +20,15 @@ ir::Value pole_datum(bool first) {
 
 class Finisher {
  public:
-  Finisher(Lowering& lowering, const Flow& flow) : lowering_(lowering), flow_(flow), flat_(lowering.flat()) {}
+  Finisher(Lowering& lowering, const Flow& flow)
+      : lowering_(lowering), flow_(flow), flat_(lowering.flat()), cycles_(lowering, flow) {}
 
   void run(std::vector<std::vector<ir::Statement>>& out) {
     for (std::size_t i = 0; i < flat_.items.size(); ++i) {
       if (flat_.items[i].polar) poles_stay_ = true;
       if (flat_.items[i].by_pole) centre(i);
     }
-    link_globals();
-    find_stored();
+    cycles_.prepare();
     out.resize(flat_.items.size());
     for (std::size_t i = 0; i < flat_.items.size(); ++i) one(i, out[i]);
   }
@@ -129,238 +116,12 @@ class Finisher {
     return true;
   }
 
-  // --- cycles --------------------------------------------------------------------------------------------------------
-
-  [[nodiscard]] bool differs(std::int16_t q) const {
-    const QValue* first = nullptr;
-    for (const auto& c : flat_.cycles) {
-      const auto it = c.values.find(q);
-      if (c.row == nullptr || !c.row->called || it == c.values.end()) continue;
-      if (first != nullptr && !ir::equal(first->value, it->second.value)) return true;
-      first = &it->second;
-    }
-    return false;
-  }
-  /// PREDEF is the value of GLOBAL DEF, where the file has one only.
-  void link_globals() {
-    for (auto& c : flat_.cycles) {
-      for (auto& [q, v] : c.values) {
-        const auto it = lowering_.globals().find(q);
-        if (v.kind != QValue::Kind::linked || it == lowering_.globals().end()) continue;
-        const auto& all = it->second;
-        if (!std::all_of(all.begin(), all.end(), [&all](const auto& one) { return ir::equal(one, all.front()); }))
-          continue;
-        v.kind = QValue::Kind::value;
-        v.value = all.front();
-      }
-    }
-  }
-  /// Parameters whose Q the program itself uses, or that are computed: the definition sets them.
-  void find_stored() {
-    for (std::size_t i = 0; i < flat_.items.size(); ++i) {
-      several_ = several_ || (flat_.items[i].call != CycleCall::none && arrival(i).cycle == Arrival::several);
-    }
-    for (const auto& c : flat_.cycles) {
-      for (const auto& [q, v] : c.values) {
-        const bool used = lowering_.own_reads().count(q) != 0 || lowering_.own_writes().count(q) != 0;
-        if (used || !v.value.literal() || (several_ && differs(q))) stored_.insert(q);
-      }
-    }
-  }
-  void definition(const Item& item, std::vector<ir::Statement>& out) {
-    const CycleDefinition& cycle = flat_.cycles[static_cast<std::size_t>(item.index)];
-    ir::Assign assign;
-    for (const auto& [q, v] : cycle.values) {
-      if (stored_.count(q) == 0) continue;
-      ir::Assign::Item one;
-      one.target.space = facts::space_q;
-      one.target.index = ir::number(q);
-      one.value = ir::as_expr(v.value);
-      assign.items.push_back(std::move(one));
-    }
-    if (assign.items.empty()) return;
-    ir::Statement s = item.statement;
-    s.node = std::move(assign);
-    out.push_back(std::move(s));
-  }
-  [[nodiscard]] ir::Value parameter(const CycleDefinition& cycle, std::int16_t q, bool any) const {
-    const auto it = cycle.values.find(q);
-    if (it == cycle.values.end()) return ir::Value(0);
-    const bool variable = lowering_.own_writes().count(q) != 0 || !it->second.value.literal() || (any && differs(q));
-    return variable ? ir::Value(ir::numbered(facts::space_q, q)) : it->second.value;
-  }
-  /// The definition in force; null and a fault: which one that is can't be told.
-  const CycleDefinition* in_force(const Item& item, const Arrival& a) {
-    Report& report = lowering_.report();
-    report.start(item.statement.line.span);
-    if (!a.reached) return nullptr;
-    if (a.cycle == Arrival::none) {
-      report.refuse("HEI-017", {}, "a cycle is called, and no CYCL DEF stands before it", "define it in this file");
-      return nullptr;
-    }
-    if (a.outside && !std::exchange(outside_told_, true)) {
-      report.warn("HEI-017", {},
-                  "a program of another file runs between the definition of the cycle and its call: it is taken to "
-                  "define no other one (said once a file)");
-    }
-    if (a.cycle != Arrival::several) return &flat_.cycles[static_cast<std::size_t>(a.cycle)];
-    const CycleDefinition* first = nullptr;
-    for (const auto& c : flat_.cycles) {
-      if (c.row != nullptr ? !c.row->called : c.old != nullptr && !c.old->called) continue;
-      if ((first != nullptr && (first->number != c.number || c.row == nullptr)) || c.row == nullptr) {
-        report.refuse("HEI-017", {}, "which cycle is called here depends on the way to this block",
-                      "define the cycle right before its call");
-        return nullptr;
-      }
-      first = &c;
-    }
-    return first;
-  }
-  ir::CyclePtr cycle_at(const Item& item, const Arrival& a, const CycleDefinition* overlay) {
-    const CycleDefinition* cycle = in_force(item, a);
-    if (cycle == nullptr) return nullptr;
-    const bool any = a.cycle == Arrival::several;
-    if (a.overlaid && overlay == nullptr && heights_differ(*cycle)) {
-      lowering_.report().refuse("HEI-017", {},
-                                "cycle 220 or 221 has left other heights (Q200, Q203, Q204) for this cycle",
-                                "define the cycle again behind the pattern");
-      return nullptr;
-    }
-    CycleContext context;
-    context.shift = item.shift;
-    context.inch = lowering_.inch();
-    context.value = [&](std::int16_t q) {
-      const bool height = q == 200 || q == 203 || q == 204;
-      if (overlay == nullptr || !height) return parameter(*cycle, q, any);
-      return overlay->values.at(q).value;
-    };
-    return build_cycle(*cycle, context, lowering_.report());
-  }
-  [[nodiscard]] bool heights_differ(const CycleDefinition& cycle) const {
-    for (const auto& c : flat_.cycles) {
-      if (c.row == nullptr || c.row->kind != facts::CycleKind::pattern) continue;
-      for (const auto q : std::initializer_list<std::int16_t>{200, 203, 204}) {
-        const auto mine = cycle.values.find(q);
-        if (mine == cycle.values.end() || !ir::equal(mine->second.value, c.values.at(q).value)) return true;
-      }
-    }
-    return false;
-  }
-  /// Cycle 12: a program is the machining cycle.
-  bool program_call(Item& item, const Arrival& a, std::vector<ir::Statement>& out) {
-    const CycleDefinition* cycle =
-        a.reached && a.cycle >= 0 ? &flat_.cycles[static_cast<std::size_t>(a.cycle)] : nullptr;
-    if (cycle == nullptr || cycle->old == nullptr || cycle->old->kind != facts::OldKind::program) return false;
-    const auto part = cycle->parts.find(1);
-    std::string_view text = part == cycle->parts.end() ? std::string_view{} : std::string_view(part->second.text);
-    constexpr std::string_view word = "PGM";
-    if (iequals_ascii(text.substr(0, word.size()), word)) text.remove_prefix(word.size());
-    ir::CallRoutine routine;
-    routine.routine.text = program_name(text);
-    routine.level = ir::CallLevel::new_level;
-    if (item.shift || routine.routine.text.empty()) return false;
-    const auto* block = std::get_if<ir::Block>(&item.statement.node);
-    if (block != nullptr && block->empty()) {
-      item.statement.node = std::move(routine);
-      out.push_back(std::move(item.statement));
-      return true;
-    }
-    out.push_back(std::move(item.statement));
-    out.push_back(behind(out.back(), std::move(routine)));
-    return true;
-  }
-  void call(std::size_t i, std::vector<ir::Statement>& out) {
-    Item& item = flat_.items[i];
-    if (program_call(item, arrival(i), out)) return;
-    const ir::CyclePtr cycle = cycle_at(item, arrival(i), nullptr);
-    auto* block = std::get_if<ir::Block>(&item.statement.node);
-    if (cycle == nullptr) {
-      if (!lowering_.report().refused()) {  // depth 0, or never reached
-        out.push_back(std::move(item.statement));
-        return;
-      }
-      out.push_back(std::move(item.statement));
-      ir::Opaque o;
-      o.text = "CYCL CALL";
-      o.feature = lowering_.report().feature();
-      out.push_back(behind(out.back(), std::move(o)));
-      return;
-    }
-    ir::CycleDefine define;
-    define.cycle = cycle;
-    define.modal = false;
-    if (block != nullptr && block->empty()) {
-      block->actions.emplace_back().data = std::move(define);
-      out.push_back(std::move(item.statement));
-      return;
-    }
-    out.push_back(std::move(item.statement));
-    ir::Block run;
-    run.actions.emplace_back().data = std::move(define);
-    out.push_back(behind(out.back(), std::move(run)));
-  }
-  static ir::CoordWord coordinate(ir::AxisId axis, double v) {
-    ir::CoordWord c;
-    c.axis = axis;
-    c.mode = ir::WordMode::absolute;
-    c.value = ir::Value(v);
-    return c;
-  }
-  /// 220 and 221: to the second clearance, from point to point, the cycle at each.
-  void pattern(std::size_t i, std::vector<ir::Statement>& out) {
-    Item& item = flat_.items[i];
-    const CycleDefinition& own = flat_.cycles[static_cast<std::size_t>(item.index)];
-    const Arrival& a = arrival(i);
-    Report& report = lowering_.report();
-    const ir::CyclePtr cycle = cycle_at(item, a, &own);
-    const auto points = cycle ? pattern_points(own, report) : std::vector<PatternPoint>{};
-    if (cycle == nullptr || points.empty()) {
-      ir::Opaque o;
-      o.text = "CYCL DEF " + std::to_string(own.number);
-      o.feature = report.feature().empty() ? "cycle.pattern" : report.feature();
-      o.harmless = !report.refused();
-      item.statement.node = std::move(o);
-      out.push_back(std::move(item.statement));
-      return;
-    }
-    auto hole = std::get<ir::HoleCycle>(cycle->node);
-    const bool low = own.values.at(301).value.is(0);
-    if (low) hole.retract = hole.reference;
-    const auto plane = ir::plane_axes(a.plane == Arrival::several ? ir::Plane::xy : static_cast<ir::Plane>(a.plane));
-    const auto number = [&own](std::int16_t q) { return own.values.at(q).value.number; };
-    const double top = number(203) + std::max(number(204), number(200));
-    const auto rapid = [](std::vector<ir::CoordWord> words) {
-      ir::Block b;
-      b.has_motion = true;
-      b.motion.kind = ir::MotionKind::rapid;
-      b.motion.explicit_code = true;
-      b.motion.coords = std::move(words);
-      return b;
-    };
-    item.statement.node = rapid({coordinate(plane.w, top)});
-    out.push_back(std::move(item.statement));
-    const ir::Statement first = out.back();
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      ir::Block b = rapid({coordinate(plane.u, points[k].u), coordinate(plane.v, points[k].v)});
-      if (k == 0) {
-        ir::CycleDefine define;
-        define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{hole});
-        b.actions.emplace_back().data = std::move(define);
-      }
-      out.push_back(behind(first, std::move(b)));
-    }
-    ir::Block cancel;
-    cancel.actions.emplace_back().data = ir::CycleCancel{};
-    out.push_back(behind(first, std::move(cancel)));
-    if (low) out.push_back(behind(first, rapid({coordinate(plane.w, top)})));
-  }
-
   void one(std::size_t i, std::vector<ir::Statement>& out) {
     Item& item = flat_.items[i];
     const Arrival& a = arrival(i);
     const bool remark = !item.statement.line.comments.empty() || !item.statement.line.labels.empty();
     switch (item.kind) {
-      case ItemKind::cycle: definition(item, out); return;
+      case ItemKind::cycle: cycles_.definition(item, out); return;
       case ItemKind::pole:
         if (poles_stay_ ? pole_statement(item) : remark) out.push_back(std::move(item.statement));
         return;
@@ -373,7 +134,8 @@ class Finisher {
       out.push_back(std::move(item.statement));
       return;
     }
-    if (item.index >= 0) return pattern(i, out);
+    if (item.index >= 0) return cycles_.pattern(i, out);
+    if (item.at_pattern) return cycles_.at_points(i, out);
     const bool modal = item.moves && a.reached && a.modal == 1 && item.call == CycleCall::none;
     if (item.moves && a.reached && a.modal == Arrival::several) {
       Report& report = lowering_.report();
@@ -381,15 +143,15 @@ class Finisher {
       report.refuse("HEI-017", {}, "whether M89 is in force here depends on the way to this block",
                     "write M99 where the cycle shall run");
     }
-    if (modal || item.call != CycleCall::none) return call(i, out);
+    if (modal || item.call != CycleCall::none) return cycles_.call(i, out);
     out.push_back(std::move(item.statement));
   }
 
   Lowering& lowering_;
   const Flow& flow_;
   Flat& flat_;
-  bool poles_stay_ = false, several_ = false, outside_told_ = false;
-  std::set<std::int16_t> stored_;
+  CycleCalls cycles_;
+  bool poles_stay_ = false;
 };
 
 }  // namespace

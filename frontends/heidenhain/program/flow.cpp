@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontends/heidenhain/program/way.h"
+
 namespace cnctrans::frontends::heidenhain {
 
 namespace {
@@ -21,15 +23,12 @@ bool narrow(Arrival& a, const Arrival& b) {
   same(a.pole, b.pole);
   same(a.modal, b.modal);
   same(a.plane, b.plane);
+  same(a.pattern, b.pattern);
   a.moved = a.moved || b.moved;
   a.written = a.written || b.written;
   a.overlaid = a.overlaid || b.overlaid;
   a.outside = a.outside || b.outside;
   return !(a == before);
-}
-
-std::string key_of(const Item& i) {
-  return (i.number ? "N" : "T") + i.label;
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ Flow::Flow(const Flat& flat) : flat_(flat) {
   std::vector<int> called;
   for (std::size_t i = 0; i < flat.items.size(); ++i) {
     if (flat.items[i].kind != ItemKind::label) continue;
-    if (!labels_.emplace(key_of(flat.items[i]), static_cast<int>(i)).second) doubled_.push_back(static_cast<int>(i));
+    if (!labels_.emplace(label_key(flat.items[i]), static_cast<int>(i)).second) doubled_.push_back(static_cast<int>(i));
   }
   for (const Item& i : flat.items) {
     const int at = i.kind == ItemKind::call ? label(i) : -1;
@@ -53,7 +52,7 @@ Flow::Flow(const Flat& flat) : flat_(flat) {
 }
 
 int Flow::label(const Item& use) const {
-  const auto it = labels_.find(key_of(use));
+  const auto it = labels_.find(label_key(use));
   return it == labels_.end() ? -1 : it->second;
 }
 
@@ -115,12 +114,13 @@ Arrival Flow::after(int item, Arrival a) const {
     case ItemKind::program: a.outside = a.moved = a.written = true; return a;
     default: break;
   }
-  if (i.moves || i.index >= 0) a.moved = true;
+  if (i.pattern != Arrival::none) a.pattern = i.pattern;
+  if (i.moves || i.index >= 0 || i.at_pattern) a.moved = true;
   if (i.index >= 0) a.overlaid = true;  // 220 and 221 have heights of their own
   if (!i.writes.empty()) a.written = true;
   if (i.call == CycleCall::modal) {
     a.modal = 1;
-  } else if (i.call == CycleCall::ends || (i.call == CycleCall::once && i.moves)) {
+  } else if (i.call == CycleCall::ends || i.at_pattern || (i.call == CycleCall::once && i.moves)) {
     a.modal = 0;
   }
   if (const auto* b = std::get_if<ir::Block>(&i.statement.node)) {

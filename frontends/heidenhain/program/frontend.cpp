@@ -9,6 +9,7 @@
 #include "frontends/common/block_start.h"
 #include "frontends/heidenhain/program/cycle_feeds.h"
 #include "frontends/heidenhain/program/finish.h"
+#include "frontends/heidenhain/program/leads.h"
 #include "frontends/heidenhain/program/structure.h"
 #include "frontends/heidenhain/syntax/reader.h"
 #include "ir/analysis/dataflow.h"
@@ -68,6 +69,7 @@ class HeidenhainReader {
     program_.files.push_back(std::move(look));
     for (const SourceLine& l : lines) line(l);
     lowering_.flush();
+    write_leads(lowering_);
     const Flow flow(lowering_.flat());
     std::vector<std::vector<ir::Statement>> statements;
     finish_items(lowering_, flow, statements);

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "dialects/heidenhain/cycles.h"
+#include "dialects/heidenhain/leads.h"
 #include "dialects/heidenhain/old_cycles.h"
+#include "dialects/heidenhain/patterns.h"
 #include "ir/program.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -46,6 +48,7 @@ struct OldPartValue {
     std::string address;  ///< capitals; empty: a number alone
     ir::Value value;
     bool has_value = false;
+    bool negative = false;  ///< a minus without a number: DR-
   };
   std::vector<Letter> letters;
   std::string text;  ///< all of it
@@ -65,15 +68,40 @@ struct Pole {
   std::vector<bool> incremental;     ///< of each word: from the tool
 };
 
+/// APPR and DEP: the way onto a contour and off it (reference 6).
+struct Lead {
+  dialects::heidenhain::LeadForm form = dialects::heidenhain::LeadForm::tangent_line;
+  bool departure = false;
+  bool rapid = false;
+  ir::Value size;   ///< LEN or R
+  ir::Value angle;  ///< CCA
+  int side = 0;     ///< APPR: RL 1, RR -1, R0 0
+  Span where;
+};
+
+/// A figure of PATTERN DEF: `POS1 (X+25 Y+33.5 Z+0)`.
+struct Figure {
+  dialects::heidenhain::FigureKind kind = dialects::heidenhain::FigureKind::point;
+  std::map<std::string, ir::Value> words;  ///< by address
+};
+struct Pattern {
+  Span where;
+  std::vector<Figure> figures;
+};
+
 struct Item {
   ItemKind kind = ItemKind::plain;
   ir::Statement statement;
-  std::string label;     ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
-  bool number = false;   ///< `label` is a number
-  int index = -1;        ///< cycle: of the definition; pole: of the pole
-  bool moves = false;    ///< a positioning block
-  bool by_pole = false;  ///< the centre of its arc is CC
-  bool polar = false;    ///< its words are polar
+  std::string label;        ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
+  bool number = false;      ///< `label` is a number
+  int index = -1;           ///< cycle: of the definition; pole: of the pole
+  bool moves = false;       ///< a positioning block
+  bool by_pole = false;     ///< the centre of its arc is CC
+  bool polar = false;       ///< its words are polar
+  int lead = -1;            ///< of the APPR or DEP, before it is written out
+  int pattern = -1;         ///< PATTERN DEF, or (Arrival::several) a table of points
+  bool at_pattern = false;  ///< CYCL CALL PAT
+  std::optional<ir::Value> height;  ///< CYCL CALL PAT: of the tool, where it is known
   CycleCall call = CycleCall::none;
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
   std::vector<ir::VarRef> writes;  ///< variables
@@ -83,6 +111,8 @@ struct Flat {
   std::vector<Item> items;
   std::vector<CycleDefinition> cycles;
   std::vector<Pole> poles;
+  std::vector<Lead> leads;
+  std::vector<Pattern> patterns;
 };
 
 /// What the ways of the program bring to an item.
@@ -95,6 +125,7 @@ struct Arrival {
   bool written = false;   ///< a variable, since that CC
   int modal = 0;          ///< M89: 0 off, 1 on, several
   int plane = 0;          ///< ir::Plane, or several
+  int pattern = none;     ///< index of the PATTERN DEF in force
   bool overlaid = false;  ///< 220 or 221 ran since the definition
   bool outside = false;   ///< a program of another file ran since the definition
   bool operator==(const Arrival&) const = default;

@@ -60,6 +60,7 @@ class Lowering {
   bool assignment(const syntax::Statement& s);
   bool function(const syntax::Statement& s);
   bool jump(const syntax::Statement& s, ir::BinaryOp op);
+  bool circle(const syntax::Statement& s, bool four);
   bool sysread(const syntax::Statement& rest);
   /// Number or name of a label in the words of the line; texts: in quotes.
   bool label_name(const syntax::Expr* text, const Word* word, Item& item);
@@ -74,6 +75,7 @@ class Lowering {
   bool tool_def(const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
   bool pole();
+  bool lead(const syntax::Statement& s, bool departure);
   void axis_word(const Word& w, ir::AxisId axis, bool incremental);
   bool tail(const Word& w);
   bool remark(const Word& w);
@@ -90,6 +92,8 @@ class Lowering {
   bool words_of_the_line(CycleDefinition& cycle);
   bool old_part(const syntax::Statement& s, std::int64_t number, int part);
   bool cycle_call(const syntax::Statement& s);
+  bool pattern_def(const syntax::Statement& s);
+  bool figures(Pattern& pattern);
   void frame_cycle(const CycleDefinition& cycle);
   void effect(const CycleDefinition& cycle);
   bool pattern_cycle(const CycleDefinition& cycle);
@@ -117,12 +121,14 @@ class Lowering {
   int tool_axis_ = 2;                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
   std::optional<ir::Value> tool_feed_;  ///< F of the last TOOL CALL
   std::optional<ir::Value> orient_;     ///< cycle 13
+  bool scaled_about_ = false;           ///< cycle 26 has a centre
   bool shortest_ = false;               ///< M126
   bool feed_by_fu_ = false;             ///< the last F was FU
   bool per_rev_ = false;                ///< M136
   int waiting_ = -1;                    ///< the cycle definition that further lines complete
   bool waits_more_ = false;             ///< its last line ended with ~
   ir::LineInfo waiting_line_;
+  int pattern_ = -1;      ///< the PATTERN DEF that further lines complete
   bool swallow_ = false;  ///< further lines belong to a sentence that is kept as text
 
   // Of the line at hand
@@ -147,6 +153,10 @@ constexpr ir::AxisId axis_of(std::string_view address) {
   if (address.size() != 1) return ir::axis::none;
   const char c = address[0] >= 'a' ? static_cast<char>(address[0] - 'a' + 'A') : address[0];
   return ir::fixed_axis(c);
+}
+/// `IX` of the words IX and X.
+constexpr bool is_incremental(std::string_view address) {
+  return address.size() == 2 && (address[0] == 'I' || address[0] == 'i');
 }
 constexpr ir::Plane plane_of(int tool_axis) {
   return tool_axis == 0 ? ir::Plane::yz : tool_axis == 1 ? ir::Plane::zx : ir::Plane::xy;

@@ -1,4 +1,5 @@
 // Q parameters, formulas and FN functions (reference 12, 13).
+#include <array>
 #include <utility>
 
 #include "base/saturate.h"
@@ -6,6 +7,7 @@
 #include "dialects/heidenhain/functions.h"
 #include "dialects/heidenhain/variables.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "frontends/heidenhain/state/term.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -224,6 +226,46 @@ bool Lowering::sysread(const syntax::Statement& rest) {
   return true;
 }
 
+/// `Q20 = CDATA Q30`: centre and radius of the circle through the points Q30 Q31, Q32 Q33, Q34 Q35 (and Q36 Q37).
+bool Lowering::circle(const syntax::Statement& s, bool four) {
+  const bool good = s.args.size() == 2 && s.args[1].kind == ExprKind::call && s.args[1].text == "CDATA" &&
+                    s.args[1].args.size() == 1 && s.args[1].args[0].kind == ExprKind::variable;
+  if (!good) {
+    report_.refuse("HEI-013", s.pos, "FN " + s.text + " has another form", "write FN 23: Q20 = CDATA Q30");
+    return false;
+  }
+  if (four) report_.warn("HEI-013", s.pos, "FN 24: the fourth point is taken to lie on the circle of the other three");
+  const auto behind = [](const Expr& e, int k) {
+    Expr out = e;
+    out.args[0].number += k;
+    out.args[0].text.clear();
+    return out;
+  };
+  std::array<Term, 6> q;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const ir::ExprPtr e = variable(behind(s.args[1].args[0], static_cast<int>(k)), false);
+    if (!e) return false;
+    q[k] = Term(ir::Value(e));
+  }
+  const Pair p{q[0], q[1]}, a = Pair{q[2], q[3]} - p, b = Pair{q[4], q[5]} - p;
+  const Term area = Term(2) * (a.u * b.v - a.v * b.u);
+  const Term aa = a.u * a.u + a.v * a.v, bb = b.u * b.u + b.v * b.v;
+  const Pair d{(b.v * aa - a.v * bb) / area, (a.u * bb - b.u * aa) / area};
+  const std::array<Term, 3> results{p.u + d.u, p.v + d.v, d.length()};
+  for (std::size_t k = results.size(); k-- > 0;) {  // the radius first: it is of the points alone
+    ir::Assign::Item item;
+    item.pos = s.pos;
+    item.value = ir::as_expr(results[k].value());
+    if (!target(behind(s.args[0], static_cast<int>(k)), item.target)) return false;
+    ir::Assign assign;
+    Item& put_item = put(ir::Assign{});
+    put_item.writes.push_back(item.target);
+    assign.items.push_back(std::move(item));
+    put_item.statement.node = std::move(assign);
+  }
+  return true;
+}
+
 bool Lowering::function(const syntax::Statement& s) {
   const auto* row = facts::fn_row(saturate<std::int64_t>(parse_decimal(s.text).value_or(-1)));
   const auto wrong = [&] {
@@ -298,9 +340,7 @@ bool Lowering::function(const syntax::Statement& s) {
       put(std::move(b));
       return true;
     }
-    case FnUse::circle:
-      report_.keep("HEI-013", s.pos, "FN 23 and FN 24 are not carried yet", "language.statement");
-      return false;
+    case FnUse::circle: return circle(s, row->number == 24);
     case FnUse::kept: {
       const bool reads = row->number == 28;
       if (!reads)

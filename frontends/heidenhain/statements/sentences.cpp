@@ -95,6 +95,12 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
     return !report_.refused();
   }
   global_ = false;
+  const bool more_figures = pattern_ >= 0 && block.number.empty() && (s == nullptr || s->keyword == "~");
+  if (more_figures && !block.words.empty()) {
+    if (!figures(flat_.patterns[static_cast<std::size_t>(pattern_)]) || !goes_on) pattern_ = -1;
+    return !report_.refused();
+  }
+  pattern_ = -1;
   const bool part = s != nullptr && s->keyword == "CYCL DEF";
   if (!part) flush();
   if (swallow_ && block.number.empty() && (parameter || s == nullptr)) {
@@ -117,7 +123,7 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
   bool good = true;
   if (s != nullptr) {
     good = sentence(*s);
-    if (goes_on && waiting_ < 0) swallow_ = true;
+    if (goes_on && waiting_ < 0 && pattern_ < 0) swallow_ = true;
     if (waiting_ >= 0) waits_more_ = goes_on;
   } else if (block.words.empty()) {
     put(ir::Block{});
@@ -174,18 +180,19 @@ bool Lowering::sentence(const syntax::Statement& s) {
     case Sentence::declare_string:
       report_.keep("HEI-013", s.pos, "texts in QS parameters are not carried yet", "language.statement");
       return false;
-    case Sentence::approach:
-    case Sentence::departure:
-      report_.keep("HEI-018", s.pos, "`" + s.keyword + "`: the way to the contour is not carried yet",
-                   "motion.geometry", "write it as L and C");
-      return false;
+    case Sentence::approach: return lead(s, false);
+    case Sentence::departure: return lead(s, true);
     case Sentence::free_contour:
       report_.keep("HEI-018", s.pos, "free contours (" + s.keyword + ") are not carried yet", "motion.geometry");
       return false;
     case Sentence::global_def:
       global_ = true;
       return carried(s, true, "beside.data", "values for the cycles that say PREDEF; the sentence is kept as text");
-    case Sentence::pattern:
+    case Sentence::pattern: return pattern_def(s);
+    case Sentence::select_pattern:
+      carried(s, true, "beside.data", "the table of points is in a file of the control: CYCL CALL PAT can't be told");
+      flat_.items.back().pattern = Arrival::several;
+      return true;
     case Sentence::call_selected:
     case Sentence::select_program:
     case Sentence::carried:

@@ -67,6 +67,21 @@ void Lowering::machine_function(const Word& w) {
         report_.note("HEI-021", w.pos, name + " does not change the programmed path; it is left out");
       }
       return;
+    case MUse::compensated:
+      return report_.warn("HEI-009", w.pos,
+                          name + " acts on what the control makes of the programmed path; it is left out");
+    case MUse::frames_off:
+      for (const auto slot :
+           {ir::FrameSlot::shift, ir::FrameSlot::mirror, ir::FrameSlot::rotation, ir::FrameSlot::scale}) {
+        ir::FrameChange c;
+        c.slot = slot;
+        c.combine = ir::FrameCombine::clear;
+        if (slot == ir::FrameSlot::mirror) c.kind = ir::FrameKind::mirror;
+        if (slot == ir::FrameSlot::rotation) c.kind = ir::FrameKind::rotate;
+        if (slot == ir::FrameSlot::scale) c.kind = ir::FrameKind::scale;
+        put_action(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(c))});
+      }
+      return;
     case MUse::maker_position:
     case MUse::untilted:
       return report_.keep("HEI-009", w.pos, name + ": what the coordinates refer to is known to the machine only",

@@ -199,7 +199,7 @@ bool Lowering::path() {
     }
     if (w.has_value && !w.is_expression && w.number_text.empty() && slice(w).find("+-") != std::string_view::npos)
       report_.warn("HEI-023", w.pos, "`" + std::string(slice(w)) + "`: two signs are read as a minus");
-    const bool incremental = w.address.size() == 2 && (w.address[0] == 'I' || w.address[0] == 'i');
+    const bool incremental = is_incremental(w.address);
     const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
     if (axis != ir::axis::none && (w.has_value || form == Form::line)) {
       axis_word(w, axis, incremental);
@@ -370,7 +370,7 @@ bool Lowering::corner(const Word& first, ir::CornerKind kind) {
   }
   Item* before = flat_.items.empty() ? nullptr : &flat_.items.back();
   auto* block = before == nullptr ? nullptr : std::get_if<ir::Block>(&before->statement.node);
-  const bool follows = block != nullptr && before->kind == ItemKind::plain && before->moves &&
+  const bool follows = block != nullptr && before->kind == ItemKind::plain && before->moves && before->lead < 0 &&
                        before->call == CycleCall::none && block->motion.kind != ir::MotionKind::rapid;
   if (!follows) {
     report_.refuse("HEI-007", first.pos, "no path element stands right before the corner", {}, "motion.geometry");
@@ -393,7 +393,7 @@ bool Lowering::pole() {
   for (std::size_t i = 1; i < block_->words.size(); ++i) {
     const Word& w = block_->words[i];
     if (remark(w)) break;
-    const bool incremental = w.address.size() == 2 && (w.address[0] == 'I' || w.address[0] == 'i');
+    const bool incremental = is_incremental(w.address);
     const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
     if (axis == ir::axis::none || axis > ir::axis::z || !w.has_value) {
       report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing beside CC", {}, "block.word");

@@ -1,0 +1,126 @@
+// Pecks of 203 and 205 that no cycle of the IR has (reference 16.x): written as the moves that they are.
+#include <algorithm>
+#include <cmath>
+
+#include "dialects/heidenhain/limits.h"
+#include "frontends/heidenhain/cycles/build.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+
+namespace {
+
+constexpr double nothing = 1e-9;
+
+class PeckMoves {
+ public:
+  PeckMoves(const std::map<std::int16_t, double>& q, double shift, bool inch)
+      : q_(q), surface_(get(203) + shift), depth_(std::abs(get(201))), clear_(surface_ + get(200)), inch_(inch) {}
+
+  std::vector<CycleMove> universal() {
+    rapid(clear_);
+    double done = 0, stroke = get(202), breaks = 0;
+    bool out = false;
+    while (moves_.size() < most_moves) {
+      const double next = stroke <= nothing ? depth_ : std::min(done + stroke, depth_);
+      if (out) rapid(surface_ - done + get(200));
+      feed(surface_ - next, get(206));
+      done = next;
+      if (depth_ - done < nothing) break;
+      out = breaks >= get(213);
+      if (out) {
+        rapid(clear_);
+        dwell(get(210));
+        breaks = 0;
+      } else {
+        feed(surface_ - done + get(256), get(206));
+        ++breaks;
+      }
+      stroke = shrunk(stroke);
+    }
+    return end();
+  }
+  std::vector<CycleMove> pecking() {
+    rapid(clear_);
+    double done = std::max(0.0, get(379));
+    if (done > nothing) feed(surface_ - done + get(200), get(253));
+    std::vector<double> bottoms;
+    double stroke = get(202);
+    for (double at = done; depth_ - at > nothing && bottoms.size() < most_moves; stroke = shrunk(stroke)) {
+      at = stroke <= nothing ? depth_ : std::min(at + stroke, depth_);
+      bottoms.push_back(at);
+    }
+    const double entries = std::max(1.0, static_cast<double>(bottoms.size()) - 2);
+    for (std::size_t k = 0; k < bottoms.size(); ++k) {
+      if (k != 0) {
+        rapid(clear_);
+        const double stop = get(258) + (get(259) - get(258)) * static_cast<double>(k - 1) / entries;
+        rapid(surface_ - done + stop);
+      }
+      const double chip = get(257), lift = get(256);
+      for (double at = done + chip; chip > nothing && bottoms[k] - at > nothing && moves_.size() < most_moves;
+           at += chip) {
+        feed(surface_ - at, get(206));
+        feed(surface_ - at + lift, facts::chip_break_feed / (inch_ ? 25.4 : 1));
+      }
+      feed(surface_ - bottoms[k], get(206));
+      done = bottoms[k];
+    }
+    return end();
+  }
+
+ private:
+  static constexpr std::size_t most_moves = 20'000;
+  [[nodiscard]] double get(std::int16_t n) const {
+    const auto it = q_.find(n);
+    return it == q_.end() ? 0 : it->second;
+  }
+  [[nodiscard]] double shrunk(double stroke) const {
+    return get(212) > nothing ? std::max(stroke - get(212), std::max(get(205), nothing)) : stroke;
+  }
+  void add(CycleMove::Kind kind, double w, double amount) {
+    if (kind != CycleMove::Kind::dwell && has_ && std::abs(w - at_) < nothing) return;
+    if (kind != CycleMove::Kind::dwell) at_ = w;
+    has_ = has_ || kind != CycleMove::Kind::dwell;
+    constexpr double places = 1e10;
+    moves_.push_back({kind, std::round(w * places) / places + 0.0, amount});
+  }
+  void rapid(double w) { add(CycleMove::Kind::rapid, w, 0); }
+  void feed(double w, double f) { f >= facts::rapid_stand_in ? rapid(w) : add(CycleMove::Kind::feed, w, f); }
+  void dwell(double seconds) {
+    if (seconds > 0) add(CycleMove::Kind::dwell, at_, seconds);
+  }
+  std::vector<CycleMove> end() {
+    dwell(get(211));
+    feed(clear_, get(208) == 0 ? get(206) : get(208));
+    if (get(204) > get(200)) rapid(surface_ + get(204));
+    return std::move(moves_);
+  }
+
+  const std::map<std::int16_t, double>& q_;
+  double surface_, depth_, clear_;
+  bool inch_;
+  std::vector<CycleMove> moves_;
+  double at_ = 0;
+  bool has_ = false;
+};
+
+}  // namespace
+
+std::vector<CycleMove> peck_moves(const CycleDefinition& cycle, const CycleContext& context) {
+  std::map<std::int16_t, double> q;
+  for (const auto& [number, v] : cycle.values) {
+    const bool plain = v.kind == QValue::Kind::value || v.kind == QValue::Kind::rapid;
+    const ir::Value now = context.value(number);
+    if (!plain || !now.literal()) return {};
+    q[number] = now.number;
+  }
+  if (context.shift && !context.shift->literal()) return {};
+  const double shift = context.shift ? context.shift->number : 0;
+  if (q[201] >= 0) return {};
+  PeckMoves moves(q, shift, context.inch);
+  return cycle.number == 203 ? moves.universal() : moves.pecking();
+}
+
+}  // namespace cnctrans::frontends::heidenhain

@@ -1,0 +1,349 @@
+#include "frontends/heidenhain/program/cycle_calls.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/heidenhain/variables.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+
+namespace {
+
+/// What the control does besides in the block; on other controls it is a block of its own.
+ir::Statement behind(const ir::Statement& to, ir::StatementNode node) {
+  ir::Statement s;
+  s.line.span = to.line.span;
+  s.line.skip_mask = to.line.skip_mask;
+  s.node = std::move(node);
+  return s;
+}
+
+ir::CoordWord coordinate(ir::AxisId axis, ir::Value v) {
+  ir::CoordWord c;
+  c.axis = axis;
+  c.mode = ir::WordMode::absolute;
+  c.value = std::move(v);
+  return c;
+}
+ir::Block move(ir::MotionKind kind, std::vector<ir::CoordWord> words) {
+  ir::Block b;
+  b.has_motion = true;
+  b.motion.kind = kind;
+  b.motion.explicit_code = true;
+  b.motion.coords = std::move(words);
+  return b;
+}
+ir::PlaneAxes plane_at(const Arrival& a) {
+  return ir::plane_axes(a.plane == Arrival::several ? ir::Plane::xy : static_cast<ir::Plane>(a.plane));
+}
+ir::Opaque not_carried(std::string text, std::string_view feature, bool harmless = false) {
+  ir::Opaque o;
+  o.text = std::move(text);
+  o.feature = feature;
+  o.harmless = harmless;
+  return o;
+}
+
+}  // namespace
+
+void CycleCalls::prepare() {
+  link_globals();
+  find_stored();
+}
+
+bool CycleCalls::differs(std::int16_t q) const {
+  const QValue* first = nullptr;
+  for (const auto& c : flat_.cycles) {
+    const auto it = c.values.find(q);
+    if (c.row == nullptr || !c.row->called || it == c.values.end()) continue;
+    if (first != nullptr && !ir::equal(first->value, it->second.value)) return true;
+    first = &it->second;
+  }
+  return false;
+}
+/// PREDEF is the value of GLOBAL DEF, where the file has one only.
+void CycleCalls::link_globals() {
+  for (auto& c : flat_.cycles) {
+    for (auto& [q, v] : c.values) {
+      const auto it = lowering_.globals().find(q);
+      if (v.kind != QValue::Kind::linked || it == lowering_.globals().end()) continue;
+      const auto& all = it->second;
+      if (!std::all_of(all.begin(), all.end(), [&all](const auto& one) { return ir::equal(one, all.front()); }))
+        continue;
+      v.kind = QValue::Kind::value;
+      v.value = all.front();
+    }
+  }
+}
+/// Parameters whose Q the program itself uses, or that are computed: the definition sets them.
+void CycleCalls::find_stored() {
+  for (std::size_t i = 0; i < flat_.items.size(); ++i) {
+    several_ = several_ || (flat_.items[i].call != CycleCall::none && arrival(i).cycle == Arrival::several);
+  }
+  for (const auto& c : flat_.cycles) {
+    for (const auto& [q, v] : c.values) {
+      const bool used = lowering_.own_reads().count(q) != 0 || lowering_.own_writes().count(q) != 0;
+      if (used || !v.value.literal() || (several_ && differs(q))) stored_.insert(q);
+    }
+  }
+}
+void CycleCalls::definition(const Item& item, Statements& out) const {
+  const CycleDefinition& cycle = flat_.cycles[static_cast<std::size_t>(item.index)];
+  ir::Assign assign;
+  for (const auto& [q, v] : cycle.values) {
+    if (stored_.count(q) == 0) continue;
+    ir::Assign::Item one;
+    one.target.space = facts::space_q;
+    one.target.index = ir::number(q);
+    one.value = ir::as_expr(v.value);
+    assign.items.push_back(std::move(one));
+  }
+  if (assign.items.empty()) return;
+  ir::Statement s = item.statement;
+  s.node = std::move(assign);
+  out.push_back(std::move(s));
+}
+ir::Value CycleCalls::parameter(const CycleDefinition& cycle, std::int16_t q, bool any) const {
+  const auto it = cycle.values.find(q);
+  if (it == cycle.values.end()) return ir::Value(0);
+  const bool variable = lowering_.own_writes().count(q) != 0 || !it->second.value.literal() || (any && differs(q));
+  return variable ? ir::Value(ir::numbered(facts::space_q, q)) : it->second.value;
+}
+/// The definition in force; null and a fault: which one that is can't be told.
+const CycleDefinition* CycleCalls::in_force(const Item& item, const Arrival& a) {
+  Report& report = lowering_.report();
+  report.start(item.statement.line.span);
+  if (!a.reached) return nullptr;
+  if (a.cycle == Arrival::none) {
+    report.refuse("HEI-017", {}, "a cycle is called, and no CYCL DEF stands before it", "define it in this file");
+    return nullptr;
+  }
+  if (a.outside && !std::exchange(outside_told_, true)) {
+    report.warn("HEI-017", {},
+                "a program of another file runs between the definition of the cycle and its call: it is taken to "
+                "define no other one (said once a file)");
+  }
+  if (a.cycle != Arrival::several) return &flat_.cycles[static_cast<std::size_t>(a.cycle)];
+  const CycleDefinition* first = nullptr;
+  for (const auto& c : flat_.cycles) {
+    if (c.row != nullptr ? !c.row->called : c.old != nullptr && !c.old->called) continue;
+    if ((first != nullptr && (first->number != c.number || c.row == nullptr)) || c.row == nullptr) {
+      report.refuse("HEI-017", {}, "which cycle is called here depends on the way to this block",
+                    "define the cycle right before its call");
+      return nullptr;
+    }
+    first = &c;
+  }
+  return first;
+}
+/// Nothing: it was refused, or does nothing (depth 0).
+CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, const std::optional<ir::Value>& shift,
+                                            const CycleDefinition* overlay) {
+  Machining out;
+  const CycleDefinition* cycle = in_force(item, a);
+  if (cycle == nullptr) return out;
+  Report& report = lowering_.report();
+  const bool any = a.cycle == Arrival::several;
+  if (cycle->old != nullptr && cycle->old->kind == facts::OldKind::program) {
+    const auto part = cycle->parts.find(1);
+    std::string_view text = part == cycle->parts.end() ? std::string_view{} : std::string_view(part->second.text);
+    constexpr std::string_view word = "PGM";
+    if (iequals_ascii(text.substr(0, word.size()), word)) text.remove_prefix(word.size());
+    out.program = program_name(text);
+    if (overlay != nullptr || (shift && !shift->is(0)) || out.program.empty()) {
+      out.program.clear();
+      report.keep("HEI-018", {}, "cycle 12 (a program as a cycle) is not carried here", "cycle.pattern");
+    }
+    return out;
+  }
+  if (a.overlaid && overlay == nullptr && heights_differ(*cycle)) {
+    report.refuse("HEI-017", {}, "cycle 220 or 221 has left other heights (Q200, Q203, Q204) for this cycle",
+                  "define the cycle again behind the pattern");
+    return out;
+  }
+  CycleContext context;
+  context.shift = shift;
+  context.inch = lowering_.inch();
+  context.moves = &out.moves;
+  context.value = [&](std::int16_t q) {
+    const bool height = q == 200 || q == 203 || q == 204;
+    if (overlay == nullptr || !height) return parameter(*cycle, q, any);
+    return overlay->values.at(q).value;
+  };
+  out.cycle = build_cycle(*cycle, context, report);
+  return out;
+}
+
+bool CycleCalls::heights_differ(const CycleDefinition& cycle) const {
+  for (const auto& c : flat_.cycles) {
+    if (c.row == nullptr || c.row->kind != facts::CycleKind::pattern) continue;
+    for (const auto q : std::initializer_list<std::int16_t>{200, 203, 204}) {
+      const auto mine = cycle.values.find(q);
+      if (mine == cycle.values.end() || !ir::equal(mine->second.value, c.values.at(q).value)) return true;
+    }
+  }
+  return false;
+}
+/// Where the tool stands, behind the last statement. `axis`: of the tool.
+void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) {
+  const ir::Statement first = out.back();
+  if (!m.program.empty()) {
+    ir::CallRoutine routine;
+    routine.routine.text = m.program;
+    routine.level = ir::CallLevel::new_level;
+    out.push_back(behind(first, std::move(routine)));
+  }
+  if (m.cycle != nullptr) {
+    ir::CycleDefine define;
+    define.cycle = m.cycle;
+    define.modal = false;
+    ir::Block run;
+    run.actions.emplace_back().data = std::move(define);
+    out.push_back(behind(first, std::move(run)));
+  }
+  for (const CycleMove& step : m.moves) {
+    ir::Block b;
+    if (step.kind == CycleMove::Kind::dwell) {
+      ir::Dwell dwell;
+      dwell.value = ir::Value(step.amount);
+      b.actions.emplace_back().data = std::move(dwell);
+    } else {
+      const bool rapid = step.kind == CycleMove::Kind::rapid;
+      b = move(rapid ? ir::MotionKind::rapid : ir::MotionKind::linear, {coordinate(axis, ir::Value(step.w))});
+      ir::SetFeed feed{ir::Value(step.amount)};
+      feed.block_only = true;
+      if (!rapid) b.actions.emplace_back().data = std::move(feed);
+    }
+    out.push_back(behind(first, std::move(b)));
+  }
+}
+
+void CycleCalls::call(std::size_t i, Statements& out) {
+  Item& item = flat_.items[i];
+  const Machining m = machining(item, arrival(i), item.shift, nullptr);
+  auto* block = std::get_if<ir::Block>(&item.statement.node);
+  const bool alone = block != nullptr && block->empty();
+  const bool refused = !m.any() && lowering_.report().refused();
+  const std::string_view feature = lowering_.report().feature();
+  out.push_back(std::move(item.statement));
+  if (refused) {
+    out.push_back(behind(out.back(), not_carried("CYCL CALL", feature)));
+    return;
+  }
+  if (!m.any()) return;  // depth 0, or never reached
+  const std::size_t at = out.size();
+  put(m, plane_at(arrival(i)).w, out);
+  if (!alone || out.size() == at) return;
+  out[at].line = std::move(out[at - 1].line);
+  out.erase(out.begin() + static_cast<std::ptrdiff_t>(at) - 1);
+}
+
+void CycleCalls::at_points(std::size_t i, Statements& out) {
+  Item& item = flat_.items[i];
+  const Arrival& a = arrival(i);
+  Report& report = lowering_.report();
+  report.start(item.statement.line.span);
+  auto& block = std::get<ir::Block>(item.statement.node);
+  const bool rapid = block.motion.kind == ir::MotionKind::rapid;
+  block.motion.clear();
+  const auto refuse = [&](std::string_view text) {
+    if (!report.refused()) report.keep("HEI-029", {}, std::string(text), "cycle.pattern");
+    item.statement.node = not_carried("CYCL CALL PAT", report.feature());
+    out.push_back(std::move(item.statement));
+  };
+  if (!a.reached) return out.push_back(std::move(item.statement));
+  if (a.pattern < 0) return refuse("which PATTERN DEF is in force here is not known");
+  const auto places = figure_places(flat_.patterns[static_cast<std::size_t>(a.pattern)], report);
+  if (places.empty()) return refuse("the pattern has no points");
+  const bool level = std::all_of(places.begin(), places.end(),
+                                 [&](const Place& p) { return ir::equal(p.height, places.front().height); });
+  const auto plane = plane_at(a);
+  std::vector<Machining> each;
+  for (const Place& p : places) {
+    if (!level || each.empty()) each.push_back(machining(item, a, p.height, nullptr));
+    if (report.refused()) return refuse({});
+  }
+  if (!item.height && each.front().cycle != nullptr)
+    report.note("HEI-019", {},
+                "the height of the tool at the call is not known: between the points it is that of the cycle");
+  for (auto& m : each) raise(m, item.height);
+  out.push_back(std::move(item.statement));
+  const ir::Statement first = out.back();
+  const bool modal = level && each.front().cycle != nullptr;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    ir::Block b = move(rapid ? ir::MotionKind::rapid : ir::MotionKind::linear,
+                       {coordinate(plane.u, places[k].u), coordinate(plane.v, places[k].v)});
+    if (modal && k == 0) {
+      ir::CycleDefine define;
+      define.cycle = each.front().cycle;
+      b.actions.emplace_back().data = std::move(define);
+    }
+    out.push_back(behind(first, std::move(b)));
+    if (!modal) put(each[level ? 0 : k], plane.w, out);
+  }
+  if (!modal) return;
+  ir::Block cancel;
+  cancel.actions.emplace_back().data = ir::CycleCancel{};
+  out.push_back(behind(first, std::move(cancel)));
+}
+
+/// Between the points the tool goes where it stood at the call, if that is higher than the cycle's own way out.
+void CycleCalls::raise(Machining& m, const std::optional<ir::Value>& height) {
+  if (!height || !height->literal()) return;
+  if (!m.moves.empty() && m.moves.back().w < height->number)
+    m.moves.push_back({CycleMove::Kind::rapid, height->number, 0});
+  const auto* hole = m.cycle == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&m.cycle->node);
+  if (hole == nullptr || hole->retract.base != ir::LevelBase::absolute || !hole->retract.value.literal() ||
+      hole->retract.value.number >= height->number)
+    return;
+  ir::HoleCycle higher = *hole;
+  higher.retract.value = *height;
+  m.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(higher)});
+}
+
+/// 220 and 221: to the second clearance, from point to point, the cycle at each.
+void CycleCalls::pattern(std::size_t i, Statements& out) {
+  Item& item = flat_.items[i];
+  const CycleDefinition& own = flat_.cycles[static_cast<std::size_t>(item.index)];
+  const Arrival& a = arrival(i);
+  Report& report = lowering_.report();
+  const Machining m = machining(item, a, std::nullopt, &own);
+  const auto points = m.any() ? pattern_points(own, report) : std::vector<PatternPoint>{};
+  if (points.empty()) {
+    item.statement.node = not_carried("CYCL DEF " + std::to_string(own.number),
+                                      report.feature().empty() ? "cycle.pattern" : report.feature(), !report.refused());
+    out.push_back(std::move(item.statement));
+    return;
+  }
+  const bool low = own.values.at(301).value.is(0);
+  const auto plane = plane_at(a);
+  const auto number = [&own](std::int16_t q) { return own.values.at(q).value.number; };
+  const double top = number(203) + std::max(number(204), number(200));
+  item.statement.node = move(ir::MotionKind::rapid, {coordinate(plane.w, ir::Value(top))});
+  out.push_back(std::move(item.statement));
+  const ir::Statement first = out.back();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    ir::Block b = move(ir::MotionKind::rapid,
+                       {coordinate(plane.u, ir::Value(points[k].u)), coordinate(plane.v, ir::Value(points[k].v))});
+    if (k == 0 && m.cycle != nullptr) {
+      auto hole = std::get<ir::HoleCycle>(m.cycle->node);
+      if (low) hole.retract = hole.reference;
+      ir::CycleDefine define;
+      define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
+      b.actions.emplace_back().data = std::move(define);
+    }
+    out.push_back(behind(first, std::move(b)));
+    if (m.cycle == nullptr) put(m, plane.w, out);
+  }
+  if (m.cycle == nullptr) return;
+  ir::Block cancel;
+  cancel.actions.emplace_back().data = ir::CycleCancel{};
+  out.push_back(behind(first, std::move(cancel)));
+  if (low) out.push_back(behind(first, move(ir::MotionKind::rapid, {coordinate(plane.w, ir::Value(top))})));
+}
+
+}  // namespace cnctrans::frontends::heidenhain

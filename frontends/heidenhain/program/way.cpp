@@ -1,0 +1,273 @@
+#include "frontends/heidenhain/program/way.h"
+
+#include <algorithm>
+
+#include "ir/geometry/geometry.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace {
+
+constexpr double circle_tolerance = 0.016;  // MP7431
+
+bool is_arc(const ir::Motion& m) {
+  return m.kind == ir::MotionKind::arc_cw || m.kind == ir::MotionKind::arc_ccw;
+}
+const ir::CoordWord* word_of(const ir::Motion& m, ir::AxisId axis) {
+  for (const auto& c : m.coords) {
+    if (c.axis == axis) return &c;
+  }
+  return nullptr;
+}
+bool polar(const ir::Motion& m) {
+  return m.extra != nullptr && (m.extra->has_polar_angle || m.extra->has_polar_radius);
+}
+
+}  // namespace
+
+std::string label_key(const Item& item) {
+  return (item.number ? "N" : "T") + item.label;
+}
+
+Way::Way(const Flat& flat) : flat_(flat) {
+  for (const Item& i : flat.items) {
+    if (i.kind == ItemKind::call || i.kind == ItemKind::repeat || i.kind == ItemKind::jump)
+      targets_.insert(label_key(i));
+  }
+}
+
+void Way::forget() {
+  at_.fill(std::nullopt);
+  pole_.reset();
+  direction_.reset();
+}
+
+std::optional<Pair> Way::point() const {
+  const auto p = plane();
+  if (!at_[p.u] || !at_[p.v]) return std::nullopt;
+  return Pair{*at_[p.u], *at_[p.v]};
+}
+
+void Way::step(const Item& item) {
+  switch (item.kind) {
+    case ItemKind::label:
+      if (targets_.count(label_key(item)) == 0) return;
+      forget();
+      side_.reset();
+      cycle_ = -1;
+      return;
+    case ItemKind::pole: return set_pole(flat_.poles[static_cast<std::size_t>(item.index)]);
+    case ItemKind::cycle: cycle_ = item.index; return;
+    case ItemKind::jump:
+    case ItemKind::repeat: return;
+    case ItemKind::sub_end:
+    case ItemKind::call:
+    case ItemKind::program:
+    case ItemKind::end:
+      forget();
+      side_.reset();
+      return;
+    case ItemKind::plain: break;
+  }
+  if (!item.writes.empty()) {
+    cycle_ = -1;  // perhaps a parameter of it
+    for (auto& a : at_) {
+      if (a && !a->literal()) a.reset();
+    }
+    if (pole_ && !pole_->literal()) pole_.reset();
+    if (direction_ && !direction_->literal()) direction_.reset();
+  }
+  const auto* b = std::get_if<ir::Block>(&item.statement.node);
+  if (b == nullptr || item.index >= 0) {
+    const auto* o = std::get_if<ir::Opaque>(&item.statement.node);
+    if (item.index >= 0 || (o != nullptr && !o->harmless)) forget();
+    return;
+  }
+  for (const auto& a : b->actions) {
+    if (const auto* set = std::get_if<ir::ModalSet>(&a.data)) {
+      if (set->setting == ir::Setting::plane) plane_ = static_cast<ir::Plane>(set->value);
+      if (set->setting == ir::Setting::comp)
+        side_ = set->value == static_cast<std::uint8_t>(ir::CompSide::left)    ? 1
+                : set->value == static_cast<std::uint8_t>(ir::CompSide::right) ? -1
+                                                                               : 0;
+    }
+    const bool moves_frame = std::holds_alternative<ir::FrameOp>(a.data) ||
+                             std::holds_alternative<ir::WorkOffset>(a.data) ||
+                             std::holds_alternative<ir::SurfaceSet>(a.data);
+    if (moves_frame) forget();
+  }
+  if (b->has_motion) move(item);
+  if (item.call != CycleCall::none) call(item);
+}
+
+/// A cycle of Q parameters ends on its second clearance; between points the tool stays where it stood, if that is
+/// higher.
+void Way::call(const Item& item) {
+  const auto before = at_[plane().w];
+  if (item.at_pattern) forget();
+  at_[plane().w].reset();
+  const auto* cycle = cycle_ < 0 ? nullptr : &flat_.cycles[static_cast<std::size_t>(cycle_)];
+  if (cycle == nullptr || cycle->row == nullptr) return;
+  std::array<double, 3> q{};
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const auto it = cycle->values.find(std::array<std::int16_t, 3>{200, 203, 204}[k]);
+    if (it == cycle->values.end() || it->second.kind != QValue::Kind::value || !it->second.value.literal()) return;
+    q[k] = it->second.value.number;
+  }
+  if (item.shift) return;
+  double end = q[1] + std::max(q[0], q[2]);
+  if (item.at_pattern) {
+    if (!before || !before->literal()) return;
+    end = std::max(end, before->number());
+  }
+  at_[plane().w] = end;
+}
+
+void Way::move(const Item& item) {
+  const ir::Motion& m = std::get<ir::Block>(item.statement.node).motion;
+  rapid_ = m.kind == ir::MotionKind::rapid;
+  if (m.frame != ir::FrameUse::normal) {
+    for (const auto& c : m.coords) at_[c.axis].reset();
+    direction_.reset();
+    return;
+  }
+  const auto p = plane();
+  const auto end = end_of(m);
+  std::optional<Pair> to;
+  if (is_arc(m)) {
+    const auto centre = centre_of(item, end);
+    const Pair r = centre && end ? *end - *centre : Pair{};
+    if (centre && end && r.some())
+      to = m.kind == ir::MotionKind::arc_ccw ? r.left().unit() : (Term(-1) * r.left()).unit();
+    direction_ = to;
+  } else if (m.kind == ir::MotionKind::arc_tangent) {
+    const auto from = point();
+    if (from && end && direction_ && (*end - *from).some()) {  // mirrored at the chord
+      const Pair c = (*end - *from).unit();
+      const Term along = Term(2) * (c.u * direction_->u + c.v * direction_->v);
+      to = along * c - *direction_;
+    }
+    direction_ = to;
+  } else {
+    const auto way = chord(m);
+    if (!way || way->some()) direction_ = way ? std::optional(way->unit()) : std::nullopt;
+  }
+  for (const auto& c : m.coords) {
+    if (c.axis >= at_.size()) continue;
+    auto& a = at_[c.axis];
+    if (c.mode != ir::WordMode::incremental)
+      a = Term(c.value);
+    else if (a)
+      a = *a + Term(c.value);
+  }
+  at_[p.u] = end ? std::optional(end->u) : std::nullopt;
+  at_[p.v] = end ? std::optional(end->v) : std::nullopt;
+  if (end) return;
+  for (const ir::AxisId axis : {p.u, p.v}) {  // one of the two may be known
+    const auto* c = word_of(m, axis);
+    if (!polar(m) && c != nullptr && c->mode != ir::WordMode::incremental) at_[axis] = Term(c->value);
+  }
+}
+
+std::optional<Pair> Way::end_of(const ir::Motion& m) const {
+  const auto p = plane();
+  if (polar(m)) {
+    const auto from = point();
+    const auto& x = *m.extra;
+    if (!pole_) return std::nullopt;
+    const bool arc = is_arc(m);
+    const bool needs = !x.has_polar_radius || !x.has_polar_angle || x.polar_mode == ir::WordMode::incremental ||
+                       x.polar_angle_mode == ir::WordMode::incremental;
+    Term radius, angle;
+    if (needs) {
+      if (!from || !from->literal() || !pole_->literal()) return std::nullopt;
+      const Pair d = *from - *pole_;
+      radius = d.length();
+      angle = std::atan2(d.v.number(), d.u.number()) * 180 / std::numbers::pi;
+    }
+    const bool adds_angle = x.polar_angle_mode == ir::WordMode::incremental;
+    if (x.has_polar_radius && !arc)
+      radius = x.polar_mode == ir::WordMode::incremental ? radius + Term(x.polar_radius) : Term(x.polar_radius);
+    if (x.has_polar_angle) angle = adds_angle ? angle + Term(x.polar_angle) : Term(x.polar_angle);
+    return *pole_ + Pair{radius * angle.cosine(), radius * angle.sine()};
+  }
+  std::array<std::optional<Term>, 2> out;
+  for (const bool first : {true, false}) {
+    const ir::AxisId axis = first ? p.u : p.v;
+    const auto* c = word_of(m, axis);
+    auto& o = out[first ? 0 : 1];
+    if (c != nullptr && c->mode != ir::WordMode::incremental)
+      o = Term(c->value);
+    else if (at_[axis])
+      o = c == nullptr ? *at_[axis] : *at_[axis] + Term(c->value);
+  }
+  if (!out[0] || !out[1]) return std::nullopt;
+  return Pair{*out[0], *out[1]};
+}
+
+/// From the start to the end of a line; increments need no start.
+std::optional<Pair> Way::chord(const ir::Motion& m) const {
+  const auto p = plane();
+  const auto *u = word_of(m, p.u), *v = word_of(m, p.v);
+  const auto free = [](const ir::CoordWord* c) { return c == nullptr || c->mode == ir::WordMode::incremental; };
+  if (!polar(m) && free(u) && free(v))
+    return Pair{u == nullptr ? Term(0) : Term(u->value), v == nullptr ? Term(0) : Term(v->value)};
+  const auto from = point(), to = end_of(m);
+  if (!from || !to) return std::nullopt;
+  return *to - *from;
+}
+
+std::optional<Pair> Way::centre_of(const Item& item, const std::optional<Pair>& end) const {
+  const ir::Motion& m = std::get<ir::Block>(item.statement.node).motion;
+  if (item.by_pole) return pole_;
+  if (m.radius_given) {
+    const auto from = point();
+    if (!from || !end || !from->literal() || !end->literal() || !m.radius.literal()) return std::nullopt;
+    const auto c =
+        ir::geometry::centre_by_radius({from->u.number(), from->v.number()}, {end->u.number(), end->v.number()},
+                                       m.radius.number, m.kind == ir::MotionKind::arc_ccw, circle_tolerance);
+    return c ? std::optional(Pair{c->u, c->v}) : std::nullopt;
+  }
+  if (m.centers.size() != 2) return std::nullopt;
+  return Pair{Term(m.centers[0].value), Term(m.centers[1].value)};
+}
+
+std::optional<Pair> Way::start_direction(const Item& element) const {
+  const ir::Motion& m = std::get<ir::Block>(element.statement.node).motion;
+  if (is_arc(m)) {
+    const auto from = point();
+    const auto centre = centre_of(element, end_of(m));
+    if (!from || !centre) return std::nullopt;
+    const Pair r = *from - *centre;
+    if (!r.some()) return std::nullopt;
+    return m.kind == ir::MotionKind::arc_ccw ? r.left().unit() : (Term(-1) * r.left()).unit();
+  }
+  if (m.kind == ir::MotionKind::arc_tangent) return std::nullopt;
+  const auto way = chord(m);
+  return way && way->some() ? std::optional(way->unit()) : std::nullopt;
+}
+
+void Way::set_pole(const Pole& pole) {
+  const auto p = plane();
+  std::array<std::optional<Term>, 2> out;
+  const bool none = pole.words.empty();
+  bool all_incremental = !none;
+  for (const bool i : pole.incremental) all_incremental = all_incremental && i;
+  for (const bool first : {true, false}) {
+    const ir::AxisId axis = first ? p.u : p.v;
+    auto& o = out[first ? 0 : 1];
+    if (none || all_incremental) o = at_[axis];
+    if (!none && !all_incremental && pole_) o = first ? pole_->u : pole_->v;
+    for (std::size_t k = 0; k < pole.words.size(); ++k) {
+      if (pole.words[k].axis != axis) continue;
+      const Term value(pole.words[k].value);
+      if (!pole.incremental[k])
+        o = value;
+      else
+        o = at_[axis] ? std::optional(*at_[axis] + value) : std::nullopt;
+    }
+  }
+  pole_ = out[0] && out[1] ? std::optional(Pair{*out[0], *out[1]}) : std::nullopt;
+}
+
+}  // namespace cnctrans::frontends::heidenhain

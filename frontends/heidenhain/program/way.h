@@ -1,0 +1,57 @@
+// Where the tool is along the text, and in which direction the path leads, as far as the text alone says it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "frontends/heidenhain/state/flat.h"
+#include "frontends/heidenhain/state/term.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+class Way {
+ public:
+  explicit Way(const Flat& flat);
+
+  /// Over the next item.
+  void step(const Item& item);
+
+  [[nodiscard]] ir::PlaneAxes plane() const { return ir::plane_axes(plane_); }
+  /// In the plane; nullopt: not known here.
+  [[nodiscard]] std::optional<Pair> point() const;
+  [[nodiscard]] std::optional<Term> coordinate(ir::AxisId axis) const { return at_[axis]; }
+  [[nodiscard]] const std::optional<Pair>& pole() const { return pole_; }
+  /// Of the last element at its end, of length 1.
+  [[nodiscard]] const std::optional<Pair>& direction() const { return direction_; }
+  /// Of an element that begins here, of length 1. It does not move in the plane: nullopt.
+  [[nodiscard]] std::optional<Pair> start_direction(const Item& element) const;
+  /// The end of the block's motion in the plane.
+  [[nodiscard]] std::optional<Pair> end_of(const ir::Motion& motion) const;
+  /// RL 1, RR -1, R0 0; nullopt: not known here.
+  [[nodiscard]] std::optional<int> side() const { return side_; }
+  [[nodiscard]] bool rapid() const { return rapid_; }  ///< the last positioning block was FMAX
+
+ private:
+  void forget();
+  void move(const Item& item);
+  void call(const Item& item);
+  void set_pole(const Pole& pole);
+  [[nodiscard]] std::optional<Pair> centre_of(const Item& item, const std::optional<Pair>& end) const;
+  [[nodiscard]] std::optional<Pair> chord(const ir::Motion& m) const;
+
+  const Flat& flat_;
+  std::set<std::string> targets_;  ///< labels to which something leads
+  std::array<std::optional<Term>, 9> at_;
+  std::optional<Pair> pole_, direction_;
+  ir::Plane plane_ = ir::Plane::xy;
+  std::optional<int> side_ = 0;
+  bool rapid_ = false;
+  int cycle_ = -1;  ///< the definition of the text above
+};
+
+/// A number of a label and a name are different.
+std::string label_key(const Item& item);
+
+}  // namespace cnctrans::frontends::heidenhain
