@@ -248,6 +248,10 @@ class Analysis {
     if (id <= current_) first_dirty_ = std::min<std::size_t>(first_dirty_, id);  // else this sweep comes to it
   }
 
+  void mark_all(const std::vector<std::uint32_t>& ids) {
+    for (const auto id : ids) mark(id);
+  }
+
   void flow_to(std::uint32_t id, const Facts& f) {
     if (join(facts_[id], f)) mark(id);
   }
@@ -256,7 +260,7 @@ class Analysis {
     RoutineState& r = routines_[routine];
     r.entered = true;
     if (r.entry != 0) {
-      flow_to(r.entry, f);
+      if (join(facts_[r.entry], f)) mark(r.entry), mark_all(r.callers);
     } else {
       leave(routine, f);
     }
@@ -264,8 +268,7 @@ class Analysis {
 
   void leave(std::size_t routine, const Facts& f) {
     RoutineState& r = routines_[routine];
-    if (!join(r.at_exit, f)) return;
-    for (const auto caller : r.callers) mark(caller);
+    if (join(r.at_exit, f)) mark_all(r.callers);
   }
 
   /// A stretch under one switch is left out as a whole.
@@ -292,9 +295,8 @@ class Analysis {
       out = both;
     }
     if (!out.reachable) return;
-    if (const auto range = range_ends_.find(id); range != range_ends_.end() && join(range->second.facts, out)) {
-      for (const auto caller : range->second.callers) mark(caller);
-    }
+    if (const auto range = range_ends_.find(id); range != range_ends_.end() && join(range->second.facts, out))
+      mark_all(range->second.callers);
     const auto* end = std::get_if<End>(&s.node);
     for (const auto to : successors_[id]) {
       if (to != 0) {
@@ -354,6 +356,8 @@ class Analysis {
       }
     }
     take(f, at_exit, kept_changes(callee.routine, before, f));
+    const std::uint32_t start = callee.first == 0 && !count ? routines_[callee.routine].entry : 0;
+    if (start != 0) displace(f, before, program_.routines[callee.routine], facts_[start], framed_);
     if (!runs_at_least_once(count)) join(f, before);
     return true;
   }

@@ -1,6 +1,7 @@
 #include "ir/analysis/fact_set.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ir/cycles/pattern.h"
 
@@ -32,6 +33,44 @@ void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now) {
     if (!given) continue;
     const auto speed = value->literal() ? std::optional(value->number) : constant_value(value->expr);
     f.spindle = runs_now || f.spindle == speed ? speed : std::nullopt;
+  }
+}
+
+namespace {
+
+/// One after the other to its end, nothing of it under a switch.
+bool goes_straight(const Routine& routine) {
+  const Body& body = routine.body;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const auto& node = body[i].node;
+    const bool ends = std::holds_alternative<Return>(node) && i + 1 == body.size();
+    const bool passes = std::holds_alternative<Block>(node) || std::holds_alternative<Assign>(node) ||
+                        std::holds_alternative<Message>(node) || std::holds_alternative<Declare>(node);
+    if (body[i].line.skip_mask != 0 || !(ends || passes)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void displace(Facts& behind, const Facts& before, const Routine& routine, const Facts& entry,
+              const FrameReach& framed) {
+  if (before.cycle_active || !before.cycle_active_known || before.modal_call_runs() || !goes_straight(routine)) return;
+  // Carried out from two places that stand in no program.
+  constexpr std::array<double, 2> places{70001.25, 90007.75};
+  std::array<Facts, 2> ends{entry, entry};
+  for (std::size_t t = 0; t < ends.size(); ++t) {
+    ends[t].cycle_active = ends[t].cycle_is_hole = false;
+    ends[t].cycle_active_known = true;
+    ends[t].modal_call = Facts::in_modal_run;
+    ends[t].position.fill(places[t]);
+    for (const auto& s : routine.body) apply(s, ends[t], framed);
+  }
+  for (std::size_t i = 0; i < behind.position.size(); ++i) {
+    const auto &a = ends[0].position[i], &b = ends[1].position[i];
+    constexpr double steps = 1e7;  // in 1 mm: finer is noise of the arithmetic
+    if (!a || !b || !before.position[i] || std::fabs((*a - places[0]) - (*b - places[1])) > 1 / steps) continue;
+    behind.position[i] = std::round((*before.position[i] + *a - places[0]) * steps) / steps;
   }
 }
 

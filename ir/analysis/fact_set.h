@@ -50,6 +50,10 @@ bool is_tool_datum(Datum d);
 /// A cycle with speeds of its own leaves the last of them in force, once it has run.
 void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now);
 
+/// Behind a call of a routine that goes straight through its text: the places that follow from those before the call
+/// by its increments, though its callers stand at different ones. `entry`: what all its callers agree on.
+void displace(Facts& behind, const Facts& before, const Routine& routine, const Facts& entry, const FrameReach& framed);
+
 /// Which facts differ.
 FactSet differing(const Facts& a, const Facts& b);
 /// The facts of `from` that are in `set` replace those of `facts`.

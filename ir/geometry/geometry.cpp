@@ -191,16 +191,11 @@ double interior_angle(const Element& a, const Element& b) {
   return 180 - std::abs(std::atan2(cross(t, s), dot(t, s))) * degrees;
 }
 
-bool fillet(const Element& a, const Element& b, double radius, Fillet& out, std::string& error) {
+namespace {
+
+/// The circle on one side of both elements that touches them nearest to their corner. False: there is none.
+bool fillet_on(double side, const Element& a, const Element& b, double radius, Fillet& out) {
   const Vec t = a.end_direction(), s = b.start_direction();
-  const double turn = std::atan2(cross(t, s), dot(t, s)) * degrees;
-  out.none = std::abs(turn) < 1e-4;
-  if (out.none) return true;
-  if (std::abs(turn) > 180 - 1e-4) {
-    error = "the path turns back on itself";
-    return false;
-  }
-  const double side = turn > 0 ? 1 : -1;
   Points points{};
   const int n = intersections(offset_of(a, side, radius, t), offset_of(b, side, radius, s), points);
   double nearest = -1;
@@ -215,9 +210,26 @@ bool fillet(const Element& a, const Element& b, double radius, Fillet& out, std:
     out.to = to;
     out.centre = c;
   }
-  out.ccw = side > 0;
-  if (nearest < 0) error = "a radius of " + mm(radius) + " does not fit between the two elements";
+  if (nearest >= 0) out.ccw = side > 0;
   return nearest >= 0;
+}
+
+}  // namespace
+
+bool fillet(const Element& a, const Element& b, double radius, Fillet& out, std::string& error) {
+  const Vec t = a.end_direction(), s = b.start_direction();
+  const double turn = std::atan2(cross(t, s), dot(t, s)) * degrees;
+  out.none = std::abs(turn) < 1e-4;
+  if (out.none) return true;
+  if (std::abs(turn) >
+      180 - 1e-4) {  // two arcs that touch from outside: their bends say on which side the path goes on
+    if (fillet_on(1, a, b, radius, out) != fillet_on(-1, a, b, radius, out)) return true;
+    error = "the path turns back on itself";
+    return false;
+  }
+  if (fillet_on(turn > 0 ? 1 : -1, a, b, radius, out)) return true;
+  error = "a radius of " + mm(radius) + " does not fit between the two elements";
+  return false;
 }
 
 namespace {

@@ -32,6 +32,7 @@ bool runs_part(const Statement& s) {
 /// Leaves the frame alone, asks nothing of it, and goes on with the statement behind it.
 bool indifferent(const Statement* s) {
   if (s == nullptr) return true;
+  if (const auto* m = std::get_if<ModalCall>(&s->node)) return m->cycle || m->off;
   if (std::holds_alternative<Assign>(s->node) || std::holds_alternative<Message>(s->node) ||
       std::holds_alternative<Label>(s->node))
     return true;
@@ -72,9 +73,8 @@ void pass_by_repeats(ControlFlow& flow) {
   };
   const auto changes = [](const Statement* s) {
     if (s == nullptr) return false;
-    if (std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<ModalCall>(s->node) ||
-        std::holds_alternative<Opaque>(s->node))
-      return true;
+    if (const auto* m = std::get_if<ModalCall>(&s->node)) return !m->cycle && !m->off;
+    if (std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<Opaque>(s->node)) return true;
     const auto* b = std::get_if<Block>(&s->node);
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(),
                                        [](const Action& a) { return std::holds_alternative<FrameOp>(a.data); });
@@ -88,6 +88,15 @@ void pass_by_repeats(ControlFlow& flow) {
       if (changes(s)) return false;
       if (s != nullptr && std::holds_alternative<Repeat>(s->node) && !leaves_alone(range_of(i), depth + 1))
         return false;
+    }
+    return true;
+  };
+  const std::function<bool(const Range&, int)> nobody_looks = [&](const Range& range, int depth) {
+    if (range.first == 0 || depth > deepest) return false;
+    for (std::uint32_t i = range.first; i <= range.last; ++i) {
+      const Statement* s = flow.statements[i];
+      const bool repeat = s != nullptr && std::holds_alternative<Repeat>(s->node);
+      if (repeat ? !nobody_looks(range_of(i), depth + 1) : !indifferent(s)) return false;
     }
     return true;
   };
@@ -106,9 +115,7 @@ void pass_by_repeats(ControlFlow& flow) {
     const std::uint32_t first = range.first, last = range.last, next = id + 1;
     if (first == 0 || (id >= first && id <= last) || flow.statements[next] == nullptr) continue;
     if (!leads_to(exit_of(last), next) || !leaves_alone(range, 0)) continue;
-    const auto begin = flow.statements.begin();
-    if (first > 1 && leads_to(first - 1, first) &&
-        std::all_of(begin + first, begin + last + 1, indifferent))  // then nobody there looks at what holds here
+    if (first > 1 && leads_to(first - 1, first) && nobody_looks(range, 0))
       std::erase_if(flow.successors[id], [first, last](std::uint32_t n) { return n >= first && n <= last; });
     flow.successors[id].push_back(next);
     if (next != last + 1) behind[exit_of(last)].insert(next);

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "ir/analysis/flow_states.h"
+#include "legaliser/analysis/path_points.h"
+#include "legaliser/analysis/path_values.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/blocks.h"
 #include "legaliser/edit/editor.h"
@@ -17,14 +19,16 @@ namespace {
 
 class PolePass {
  public:
+  std::set<std::uint32_t> points_wanted;  ///< blocks (by id) that another pass needs as coordinates
   PolePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts) {
+      : program_(program), context_(context), facts_(facts), path_(facts, context.source_machine) {
     source_resets_ = context.source_machine.option("polar.plane_resets_pole") == "yes";
     target_resets_ = context.target_machine.option("polar.plane_resets_pole") == "yes";
     target_stays_ = context.target_machine.option("polar.pole_stays") == "yes";
     stays_ = context.source_machine.option("polar.pole_stays") == "yes";
     radius_stays_ = context.source_machine.option("polar.radius") == "programmed";
     target_radius_stays_ = context.target.polar && context.target_machine.option("polar.radius") == "programmed";
+    if (!context.target.tangential_ends) points_wanted = beside_tangential_ends(program);
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
   }
 
@@ -61,8 +65,10 @@ class PolePass {
     return !(a == before);
   }
 
-  void routine(Routine& r, const FlowStates<PolePass>& states, const FlowStates<RadiusDomain>& radii) {
+  void routine(Routine& r, const FlowStates<PolePass>& states, const FlowStates<RadiusDomain>& radii,
+               const FlowStates<PathValues>& values) {
     radii_ = &radii;
+    values_ = &values;
     uses_ = label_uses(program_, r);
     states_ = &states;
     modal_ = has_modal_calls(program_);  // any move may run a subprogram
@@ -129,6 +135,9 @@ class PolePass {
 
   void block(Statement& s, Block& b) {
     const Facts& facts = facts_.before(s);
+    as_point_ = points_wanted.count(s.id) != 0;
+    const auto* values = quiet_ ? nullptr : values_->before(s);
+    end_ = values != nullptr ? path_.polar_end(s, *values) : std::nullopt;
     plane_ = setting<Plane>(facts, Setting::plane);
     std::vector<Action> actions;
     std::string_view problem;
@@ -159,6 +168,10 @@ class PolePass {
     }
     b.actions = std::move(actions);
     polar_arc_done_ = is_polar_arc(b, facts);
+    const bool centred = follows_arc_ && b.has_motion && !b.motion.centers.empty();
+    const auto from = centred ? here(facts) : std::nullopt;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    const auto middle = from ? centre_of(b, facts, *from, *plane_, distance, context_.source_machine) : std::nullopt;
     const bool about = is_polar_line(b, facts) || (polar_arc_done_ && b.motion.centers.empty());
     const auto whole = factors(b, facts, Distance::absolute);
     if (about && pole_ && stale_ && !stays_ && whole) {  // the target's stayed behind
@@ -168,29 +181,27 @@ class PolePass {
       problem = "the pole, which stays in its place when the zero point moves,";
     if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts))
       problem = "the start or the centre of this arc by polar words";
+    const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
     if (is_polar_line(b, facts)) {
-      const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
       say_radius_ = (step != nullptr && !step->same) || (radius_stays_ && other_pole_);
       const bool takes_over = radius_stays_ && !b.motion.extra->has_polar_radius && !radius_;
       if (takes_over && problem.empty()) problem = "the radius that these polar words take over";
       const bool done = polar_words(b, facts);
       if (problem.empty() && !done && say_radius_ && !says_radius(b, facts))
         problem = "the distance from the pole that these polar words keep";
-      if (problem.empty() && !done && !stays_polar(b))
+      if (problem.empty() && !done && !stays_polar(b) && !by_values(b, facts))
         problem = "the pole of these polar words, or the point before them,";
     } else if (!polar_arc_done_) {
-      const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
       if (step != nullptr && !step->same && angle_alone(b)) problem = "the distance from the pole of this arc's end";
       follow_point(b, facts);
     }
     settle(s);
-    place = place.column == 0 ? b.motion.code_pos : place;
     if (!problem.empty() && !quiet_) {
       refuse(s, program_, context_, "TRN-316", std::string(problem) + " is not known here, and the target needs it",
-             "give the pole and the point before it as numbers", place);
+             "give the pole and the point before it as numbers", place.column == 0 ? b.motion.code_pos : place);
       return;
     }
-    if (follows_arc_ && b.has_motion && !b.motion.centers.empty()) pole_.reset();
+    if (centred) pole_ = middle;
   }
 
   /// What is kept is counted in the unit of the program.
@@ -271,7 +282,7 @@ class PolePass {
   [[nodiscard]] bool stays_polar(const Block& b) const {
     const auto& x = b.motion.extra;
     const bool turns = x && x->has_turns && !x->turns.is(0);
-    return context_.target.polar && (!turns || context_.target.helix_turns);
+    return context_.target.polar && !as_point_ && (!turns || context_.target.helix_turns);
   }
 
   /// An angle about the centre: with its radius every target has it, else axis words. False: not known.
@@ -287,7 +298,7 @@ class PolePass {
       if (absolute) radius_ = x.polar_radius;
       return true;
     }
-    return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra);
+    return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra) || by_values(b, facts);
   }
 
   /// An arc about the pole to an absolute angle: its radius is the distance of the point before, which may be a
@@ -319,24 +330,25 @@ class PolePass {
       m.extra = std::make_shared<const MotionExtra>(std::move(x));
       return true;
     }
-    const PlaneAxes axes = plane_axes(*plane_);
-    const auto word = [&](AxisId axis, Function wave, double from, double factor) {
-      CoordWord w;
-      w.axis = axis;
-      w.value = around(*r, *angle_, wave, from, factor);
-      m.coords.push_back(w);
-      CenterWord c;
-      c.axis = axis;
-      c.mode = CenterMode::absolute;
-      c.scale = WordScale::radius;
-      c.value = Value{from};
-      m.centers.push_back(c);
-    };
-    word(axes.u, Function::cos, pole_->u, f->u);
-    word(axes.v, Function::sin, pole_->v, f->v);
-    x.has_polar_angle = false;
-    x.polar_angle = Value{};
-    m.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    const Value u = around(*r, *angle_, Function::cos, pole_->u, 1),
+                v = around(*r, *angle_, Function::sin, pole_->v, 1);
+    write_end(b, {{u, v}, {Value{pole_->u}, Value{pole_->v}}, *r}, true, *plane_, f->u, f->v);
+    return true;
+  }
+
+  /// Where polar words lead as formulas in the program's variables. False: not known.
+  bool by_values(Block& b, const Facts& facts) {
+    const auto f = factors(b, facts, Distance::absolute);
+    if (!end_ || !plane_ || !f || setting_in<Distance>(b, facts, Setting::distance) != Distance::absolute) return false;
+    forget_point();
+    if (!stays_polar(b) || !b.motion.centers.empty()) {
+      write_end(b, *end_, polar_arc_done_, *plane_, f->u, f->v);
+      return true;
+    }
+    MotionExtra x = *b.motion.extra;
+    x.has_polar_radius = true;
+    x.polar_radius = end_->radius;
+    b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
     return true;
   }
 
@@ -439,30 +451,13 @@ class PolePass {
     const Point2 end{centre->u + r * std::cos(angle), centre->v + r * std::sin(angle)};
     forget_point();
     led_to({clean(end.u), clean(end.v)});
-    const PlaneAxes axes = plane_axes(*plane_);
     const bool inc = distance == Distance::incremental;
-    const auto word = [&](AxisId axis, double to, double from, double factor) {
-      CoordWord w;
-      w.axis = axis;
-      w.value = Value{clean((inc ? to - from : to) / factor)};
-      m.coords.push_back(w);
-    };
-    word(axes.u, end.u, start->u, f->u);
-    word(axes.v, end.v, start->v, f->v);
-    m.centers.clear();
-    for (const auto& [axis, offset] : {std::pair{axes.u, -d.u}, std::pair{axes.v, -d.v}}) {
-      CenterWord w;
-      w.axis = axis;
-      w.mode = CenterMode::from_start;
-      w.scale = WordScale::radius;
-      w.value = Value{offset};
-      m.centers.push_back(w);
-    }
+    const Point2 to = inc ? Point2{end.u - start->u, end.v - start->v} : end;
+    PathPoints::set_centre(m, *plane_, {start->u, start->v}, {centre->u, centre->v});
     if (x.has_turns && !context_.target.helix_turns && context_.target.helix_pitch)
       turns_to_pitch(x, b, facts, plane_axes(*plane_).w, {*start, end, *centre}, context_.source_machine);
-    x.has_polar_radius = x.has_polar_angle = false;
-    x.polar_radius = x.polar_angle = Value{};
-    m.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    m.extra = std::make_shared<const MotionExtra>(std::move(x));
+    write_end(b, {{Value{clean(to.u)}, Value{clean(to.v)}}, {}, {}}, false, *plane_, f->u, f->v);
     return true;
   }
 
@@ -475,6 +470,10 @@ class PolePass {
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   const FlowStates<RadiusDomain>* radii_ = nullptr;
+  const PathValues path_;
+  const FlowStates<PathValues>* values_ = nullptr;
+  std::optional<PolarEnd> end_;       ///< of the block at hand
+  bool as_point_ = false;             ///< the block at hand is of points_wanted
   bool set_ = false, stale_ = false;  ///< of State
   bool other_pole_ = false;           ///< since the last polar words of a line
   bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
@@ -491,9 +490,11 @@ void convert_poles(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   PolePass pass(program, context, facts);
   const FlowStates<PolePass> states(program, pass);
-  const RadiusDomain radius(facts);
+  const RadiusDomain radius(facts, pass.points_wanted);
   const FlowStates<RadiusDomain> radii(program, radius);
-  for (auto& r : program.routines) pass.routine(r, states, radii);
+  const PathValues path(facts, context.source_machine);
+  const FlowStates<PathValues> values(program, path);
+  for (auto& r : program.routines) pass.routine(r, states, radii, values);
 }
 
 }  // namespace cnctrans::ir::passes

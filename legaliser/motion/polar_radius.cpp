@@ -39,7 +39,9 @@ void RadiusDomain::transfer(const Statement& s, State& state) const {
   if (!b->has_motion || !b->motion.moves()) return;
   const Facts& facts = facts_.before(s);
   const auto& x = b->motion.extra;
-  if (is_polar_line(*b, facts))
+  if (written_out_.count(s.id) != 0)
+    state.same = false;
+  else if (is_polar_line(*b, facts))
     state.same = true;  // the pass says the radius where it has to
   else if (is_polar_arc(*b, facts))
     state.same = b->motion.centers.empty() && polar_absolute(*x, setting_in<Distance>(*b, facts, Setting::distance));

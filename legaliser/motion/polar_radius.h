@@ -2,6 +2,9 @@
 // the source keeps.
 #pragma once
 
+#include <cstdint>
+#include <set>
+
 #include "legaliser/analysis/facts.h"
 
 namespace cnctrans::ir::passes {
@@ -12,7 +15,9 @@ class RadiusDomain {
   struct State {
     bool same = false;  ///< the target's last radius is the present distance
   };
-  explicit RadiusDomain(const FactsOf& facts) : facts_(facts) {}
+  /// `written_out`: statements (by id) whose polar words become coordinates in any case.
+  RadiusDomain(const FactsOf& facts, const std::set<std::uint32_t>& written_out)
+      : facts_(facts), written_out_(written_out) {}
   [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return {}; }
   void transfer(const Statement& s, State& state) const;
   [[nodiscard]] static bool touches(const Routine& r);
@@ -25,6 +30,7 @@ class RadiusDomain {
 
  private:
   const FactsOf& facts_;
+  const std::set<std::uint32_t>& written_out_;
 };
 
 }  // namespace cnctrans::ir::passes

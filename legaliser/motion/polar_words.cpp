@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "ir/geometry/geometry.h"
+#include "ir/nesting.h"
 
 namespace cnctrans::ir::passes {
 
@@ -181,6 +182,34 @@ bool loses_point(const Block& b) {
     return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
            (d != nullptr && !leaves_point(*d));
   });
+}
+
+namespace {
+
+void look_beside(const Body& body, std::set<std::uint32_t>& found) {
+  std::uint32_t last = 0;
+  bool next = false;
+  for (const auto& s : body) {
+    for (const Body* inner : ir::detail::bodies_of(s)) {
+      if (inner != nullptr) look_beside(*inner, found);
+    }
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr || !b->has_motion || !b->motion.moves()) continue;
+    const bool here = std::any_of(b->actions.begin(), b->actions.end(),
+                                  [](const Action& a) { return std::holds_alternative<TangentialEnd>(a.data); });
+    if (here || next) found.insert(s.id);
+    if (here) found.insert(last);
+    next = here;
+    last = s.id;
+  }
+}
+
+}  // namespace
+
+std::set<std::uint32_t> beside_tangential_ends(const Program& program) {
+  std::set<std::uint32_t> found;
+  for (const auto& r : program.routines) look_beside(r.body, found);
+  return found;
 }
 
 bool has_modal_calls(const Program& program) {

@@ -40,10 +40,12 @@ TEST(Corner, LineAndArc) {
 }
 
 TEST(Corner, ArcAndArc) {
-  // Two circles of radius 10 about (0,0) and (20,0)... they touch at (10,0) with opposite directions there: no fillet.
+  // Two circles of radius 10 about (0,0) and (20,0) touch at (10,0), where the path turns back. The circle of radius 2
+  // that touches both from outside lies at distance 12 from their centres: (10, -sqrt(44)) = (10, -6.63325).
   EXPECT_THAT(lines_of("block rapid Y -10\nblock corner round 2, arc_ccw X 10 Y 0 centre Y 10\nblock arc_ccw X 20 Y "
                        "-10 centre X 10"),
-              ElementsAre("rapid Y-10", "ccw X10 Y0 c(0,0)", "end error RUN-016"));
+              ElementsAre("rapid Y-10", "ccw X8.33333 Y-5.52771 c(0,0)", "cw X11.66667 c(10,-6.63325)",
+                          "ccw X20 Y-10 c(20,0)"));
   // Half circle about (0,0) to (10,0), then the half circle about (15,0) upwards over the top, clockwise: directions +Y
   // both: smooth.
   EXPECT_THAT(

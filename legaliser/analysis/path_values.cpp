@@ -1,0 +1,390 @@
+#include "legaliser/analysis/path_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ir/known_number.h"
+#include "legaliser/analysis/words.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+constexpr int largest = 48;  ///< nodes of a formula that a person still reads
+
+/// A sum as the part that is computed and the number added to it.
+struct Sum {
+  ExprPtr rest;
+  double number = 0;
+};
+Sum sum_of(const Value& v) {
+  if (v.literal()) return {nullptr, v.number};
+  const auto* b = std::get_if<Binary>(&v.expr->node);
+  if (b == nullptr || (b->op != BinaryOp::add && b->op != BinaryOp::subtract)) return {v.expr, 0};
+  const auto left = constant_value(b->left), right = constant_value(b->right);
+  if (right) {
+    Sum s = sum_of(Value{b->left});
+    s.number += b->op == BinaryOp::add ? *right : -*right;
+    return s;
+  }
+  if (!left) return {v.expr, 0};
+  Sum s = sum_of(Value{b->right});
+  if (b->op == BinaryOp::subtract) {
+    if (s.rest) s.rest = unary(UnaryOp::negate, s.rest);
+    s.number = -s.number;
+  }
+  s.number += *left;
+  return s;
+}
+const ExprPtr* negated_in(const ExprPtr& e) {
+  const auto* u = std::get_if<Unary>(&e->node);
+  return u != nullptr && u->op == UnaryOp::negate ? &u->operand : nullptr;
+}
+Value plus(const ExprPtr& rest, double n) {
+  return rest ? add(Value{rest}, Value{n}) : Value{n};
+}
+Value difference(const Value& a, const Value& b);
+Value total(const Value& a, const Value& b) {
+  const Sum x = sum_of(a), y = sum_of(b);
+  const double n = x.number + y.number;
+  if (!x.rest || !y.rest) {
+    const ExprPtr& rest = x.rest ? x.rest : y.rest;
+    const ExprPtr* turned = rest ? negated_in(rest) : nullptr;
+    if (turned != nullptr && n != 0) return Value{binary(BinaryOp::subtract, number(n), *turned)};
+    return plus(rest, n);
+  }
+  if (const auto* turned = negated_in(y.rest)) return difference(Value{x.rest}, plus(*turned, -n));
+  return plus(binary(BinaryOp::add, x.rest, y.rest), n);
+}
+Value difference(const Value& a, const Value& b) {
+  const Sum x = sum_of(a), y = sum_of(b);
+  const double n = x.number - y.number;
+  if (!y.rest) return plus(x.rest, n);
+  if (x.rest && equal(x.rest, y.rest)) return Value{n};
+  if (const auto* turned = negated_in(y.rest)) return total(plus(x.rest, n), Value{*turned});
+  if (x.rest) return plus(binary(BinaryOp::subtract, x.rest, y.rest), n);
+  return n == 0 ? Value{unary(UnaryOp::negate, y.rest)} : Value{binary(BinaryOp::subtract, number(n), y.rest)};
+}
+Value magnitude(const Value& v) {
+  if (v.literal()) return Value{std::fabs(v.number)};
+  if (const auto* turned = negated_in(v.expr)) return magnitude(Value{*turned});
+  const auto* c = std::get_if<Call>(&v.expr->node);
+  if (c != nullptr && (c->function == Function::abs || c->function == Function::sqrt)) return v;
+  return Value{call(Function::abs, {v.expr})};
+}
+Value distance(const Value& du, const Value& dv) {
+  if (dv.is(0)) return magnitude(du);
+  if (du.is(0)) return magnitude(dv);
+  const auto square = [](const Value& v) {
+    if (v.literal()) return number(v.number * v.number);
+    const auto* c = std::get_if<Call>(&v.expr->node);
+    const ExprPtr& e = c != nullptr && c->function == Function::abs ? c->args.front() : v.expr;
+    return binary(BinaryOp::multiply, e, e);
+  };
+  if (du.literal() && dv.literal()) return Value{std::hypot(du.number, dv.number)};
+  return Value{call(Function::sqrt, {binary(BinaryOp::add, square(du), square(dv))})};
+}
+/// wave(angle) times the radius.
+Value leg(const Value& r, const Value& angle, Function wave) {
+  const auto q = known_number(angle);
+  if (!q) return Value{binary(BinaryOp::multiply, as_expr(r), call(wave, {angle.expr}))};
+  const double quarters = *q / 90;
+  if (quarters == std::floor(quarters)) {
+    constexpr std::array<int, 4> cosine{1, 0, -1, 0};
+    const auto quarter = static_cast<std::size_t>(quarters - 4 * std::floor(quarters / 4));
+    const int factor = cosine[wave == Function::cos ? quarter : (quarter + 3) % 4];
+    return factor == 0 ? Value{0.0} : factor > 0 ? r : negate(r);
+  }
+  const double radians = *q * std::numbers::pi / 180;
+  if (r.literal()) return Value{r.number * (wave == Function::cos ? std::cos(radians) : std::sin(radians))};
+  return Value{binary(BinaryOp::multiply, r.expr, call(wave, {number(*q)}))};
+}
+
+/// Short enough, and the same whenever it is computed while the variables are.
+bool sayable(const Value& v) {
+  if (v.literal()) return true;
+  int nodes = 0;
+  bool lasting = true;
+  walk(v.expr, [&](const ExprPtr& e) {
+    ++nodes;
+    lasting = lasting && !std::holds_alternative<SystemRef>(e->node);
+  });
+  return lasting && nodes <= largest;
+}
+std::optional<Value> kept(std::optional<Value> v) {
+  if (!v || !sayable(*v)) return std::nullopt;
+  v->text = {};
+  return v;
+}
+std::optional<Value> shared(const std::optional<Value>& a, const std::optional<Value>& b) {
+  return a && b && equal(*a, *b) ? a : std::nullopt;
+}
+bool differ(const std::optional<Value>& a, const std::optional<Value>& b) {
+  return a.has_value() != b.has_value() || (a && !equal(*a, *b));
+}
+void forget(std::optional<Value>& v, const VarRef& variable) {
+  if (v && v->expr && reads(v->expr, variable)) v.reset();
+}
+bool moves_coordinates(const Action& a) {
+  const auto* m = std::get_if<ModalSet>(&a.data);
+  return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+         (m != nullptr && m->setting == Setting::units);
+}
+
+}  // namespace
+
+PathValues::PathValues(const FactsOf& facts, const machine::Profile& machine)
+    : facts_(facts),
+      machine_(machine),
+      plane_resets_(machine.option("polar.plane_resets_pole") == "yes"),
+      follows_arc_(machine.option("polar.pole_follows_arc") == "yes"),
+      radius_stays_(machine.option("polar.radius") == "programmed") {}
+
+PathValues::State PathValues::start(const Routine& r, bool called) {
+  State state;
+  if (r.kind == RoutineKind::main && !called) state.pole = ValuePoint{Value{0.0}, Value{0.0}};
+  return state;
+}
+
+bool PathValues::join(State& a, const State& b) {
+  bool changed = false;
+  for (std::size_t i = 0; i < a.at.size(); ++i) {
+    const auto both = shared(a.at[i], b.at[i]);
+    changed = changed || differ(a.at[i], both);
+    a.at[i] = both;
+  }
+  if (a.pole && !(b.pole && equal(a.pole->u, b.pole->u) && equal(a.pole->v, b.pole->v))) {
+    a.pole.reset();
+    changed = true;
+  }
+  return changed;
+}
+
+void PathValues::crosses(const Statement& /*s*/, std::optional<std::size_t> /*callee*/, State& state) {
+  for (auto& v : state.at) {
+    if (v && !v->literal()) v.reset();
+  }
+  if (state.pole && !(state.pole->u.literal() && state.pole->v.literal())) state.pole.reset();
+}
+
+PathValues::Place PathValues::places(const Facts& facts, const State& state) const {
+  Place at = state.at;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (facts.position[i]) at[i] = Value{*facts.position[i]};
+  }
+  return at;
+}
+
+std::optional<Value> PathValues::place(const Statement& s, const State& before, AxisId axis) const {
+  return axis < before.at.size() ? places(facts_.before(s), before)[axis] : std::nullopt;
+}
+
+void PathValues::set_pole(const PoleSet& p, const Block& b, const Facts& facts, State& state) const {
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  const auto before = std::exchange(state.pole, std::nullopt);
+  if (!plane) return;
+  const PlaneAxes axes = plane_axes(*plane);
+  const Place at = places(facts, state);
+  const bool adds = p.at && p.at->combine == FrameCombine::add;
+  const bool from_here = !p.at || p.at->combine == FrameCombine::compose;
+  std::optional<Value> u, v;
+  if (from_here) {
+    u = at[axes.u], v = at[axes.v];
+  } else if (!adds && p.at->words.empty()) {
+    u = v = Value{0.0};
+  } else if (before) {
+    u = before->u, v = before->v;
+  }
+  if (p.at) {
+    for (const auto& w : p.at->words) {
+      auto* slot = w.axis == axes.u ? &u : w.axis == axes.v ? &v : nullptr;
+      if (slot == nullptr) continue;
+      const bool steps = adds || from_here;
+      const auto f = to_radius(w.axis, w.scale, steps ? Distance::incremental : Distance::absolute, b, facts, machine_);
+      if (!f || (steps && !*slot)) return;
+      const Value by = scale(w.value, *f);
+      *slot = kept(steps ? total(**slot, by) : by);
+    }
+  }
+  if (u && v) state.pole = ValuePoint{*u, *v};
+}
+
+void PathValues::actions(const Block& b, const Facts& facts, State& state) const {
+  for (const auto& a : b.actions) {
+    if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane) {
+      const bool other = setting<Plane>(facts, Setting::plane) != static_cast<Plane>(m->value);
+      if (plane_resets_)
+        state.pole = ValuePoint{Value{0.0}, Value{0.0}};
+      else if (other)
+        state.pole.reset();
+    }
+    if (const auto* p = std::get_if<PoleSet>(&a.data)) set_pole(*p, b, facts, state);
+    if (moves_coordinates(a)) state = {};
+  }
+}
+
+std::optional<ValuePoint> PathValues::centre(const Block& b, const Facts& facts, const State& state) const {
+  if (b.motion.centers.empty()) return state.pole;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  const auto mode = setting_in<Distance>(b, facts, Setting::distance);
+  if (!plane || !mode) return std::nullopt;
+  const PlaneAxes axes = plane_axes(*plane);
+  const Place at = places(facts, state);
+  std::optional<Value> u = at[axes.u], v = at[axes.v];
+  for (const auto& w : b.motion.centers) {
+    auto* slot = w.axis == axes.u ? &u : w.axis == axes.v ? &v : nullptr;
+    const bool absolute =
+        w.mode == CenterMode::absolute || (w.mode == CenterMode::follows_distance && mode == Distance::absolute);
+    const auto f =
+        to_radius(w.axis, w.scale, absolute ? Distance::absolute : Distance::incremental, b, facts, machine_);
+    if (slot == nullptr || !f || (!absolute && !*slot)) return std::nullopt;
+    const Value by = scale(w.value, *f);
+    *slot = kept(absolute ? by : total(**slot, by));
+  }
+  if (!u || !v) return std::nullopt;
+  return ValuePoint{*u, *v};
+}
+
+std::optional<PolarEnd> PathValues::end(const Block& b, const Facts& facts, const State& state) const {
+  if (!b.has_motion || !b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0)
+    return std::nullopt;
+  const MotionExtra& x = *b.motion.extra;
+  const auto kind = motion_in(b, facts);
+  const bool arc = kind == MotionKind::arc_cw || kind == MotionKind::arc_ccw;
+  const bool line = kind == MotionKind::linear || kind == MotionKind::rapid;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  const auto mode = setting_in<Distance>(b, facts, Setting::distance);
+  const auto counts = [mode](WordMode m) {
+    return m == WordMode::absolute || (m == WordMode::modal && mode == Distance::absolute);
+  };
+  if (!(arc || line) || !plane || !x.has_polar_angle || !counts(x.polar_angle_mode) || x.has_line_angle ||
+      x.has_angle || !x.through.empty() || (x.has_polar_radius && !counts(x.polar_mode)) ||
+      (line && (!b.motion.centers.empty() || (!x.has_polar_radius && radius_stays_))))
+    return std::nullopt;
+  const PlaneAxes axes = plane_axes(*plane);
+  const auto middle = centre(b, facts, state);
+  if (!middle) return std::nullopt;
+  PolarEnd found{{}, *middle, x.polar_radius};
+  if (!x.has_polar_radius) {
+    const Place at = places(facts, state);
+    if (!at[axes.u] || !at[axes.v]) return std::nullopt;
+    found.radius = distance(difference(*at[axes.u], middle->u), difference(*at[axes.v], middle->v));
+  }
+  const auto u = kept(total(middle->u, leg(found.radius, x.polar_angle, Function::cos)));
+  const auto v = kept(total(middle->v, leg(found.radius, x.polar_angle, Function::sin)));
+  if (!u || !v || !sayable(found.radius)) return std::nullopt;
+  found.radius.text = {};
+  found.to = {*u, *v};
+  return found;
+}
+
+std::optional<PolarEnd> PathValues::polar_end(const Statement& s, const State& before) const {
+  const auto& b = std::get<Block>(s.node);
+  State state = before;
+  actions(b, facts_.before(s), state);
+  return end(b, facts_.before(s), state);
+}
+
+std::optional<Value> PathValues::by_word(AxisId axis, const Block& b, const Facts& facts,
+                                         const std::optional<Value>& from) const {
+  const auto word = std::find_if(b.motion.coords.begin(), b.motion.coords.end(),
+                                 [axis](const CoordWord& c) { return c.axis == axis; });
+  if (word == b.motion.coords.end() || word->direction != RotaryDirection::as_value) return std::nullopt;
+  const auto mode = distance_of(*word, b, facts);
+  const auto f = to_radius(axis, word->scale, mode, b, facts, machine_);
+  if (!mode || !f || (*mode == Distance::incremental && !from)) return std::nullopt;
+  const Value by = scale(word->value, *f);
+  return kept(*mode == Distance::absolute ? by : total(*from, by));
+}
+
+void PathValues::block(const Statement& s, const Block& b, State& state) const {
+  const Facts& facts = facts_.before(s);
+  const bool moved_zero = std::any_of(b.actions.begin(), b.actions.end(), moves_coordinates);
+  const bool cycle = facts.cycle_active || !facts.cycle_active_known ||
+                     std::any_of(b.actions.begin(), b.actions.end(),
+                                 [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
+  const Place from = places(facts, state);
+  State behind = state;
+  actions(b, facts, behind);
+  const bool plain = !moved_zero && !cycle && b.has_motion && b.motion.frame == FrameUse::normal &&
+                     b.repeat_given == 0 && !(b.motion.extra && !b.motion.extra->computed.empty());
+  const auto polar = plain ? end(b, facts, behind) : std::nullopt;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  // The block is carried out from two places that are not in any program: where it leaves them alone, it does not move.
+  constexpr std::array<double, 2> places_tried{70001.25, 90007.75};
+  std::array<Facts, 2> tried{facts, facts};
+  for (std::size_t t = 0; t < tried.size(); ++t) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if (!facts.position[i]) tried[t].position[i] = places_tried[t] + static_cast<double>(i);
+    }
+    apply(s, tried[t]);
+  }
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto axis = static_cast<AxisId>(i);
+    auto& at = behind.at[i];
+    const auto &a = tried[0].position[i], &c = tried[1].position[i];
+    const bool stays = !facts.position[i] && a == places_tried[0] + static_cast<double>(i) &&
+                       c == places_tried[1] + static_cast<double>(i);
+    if (stays) continue;
+    if (polar && plane && (axis == plane_axes(*plane).u || axis == plane_axes(*plane).v))
+      at = axis == plane_axes(*plane).u ? polar->to.u : polar->to.v;
+    else if (a && a == c)
+      at = Value{*a};
+    else
+      at = plain ? by_word(axis, b, facts, from[i]) : std::nullopt;
+  }
+  if (follows_arc_ && b.has_motion && !b.motion.centers.empty()) {
+    State before = state;
+    actions(b, facts, before);
+    behind.pole = plain ? centre(b, facts, before) : std::nullopt;
+  }
+  state = std::move(behind);
+}
+
+void PathValues::transfer(const Statement& s, State& state) const {
+  if (const auto* b = std::get_if<Block>(&s.node)) return block(s, *b, state);
+  if (const auto* o = std::get_if<Opaque>(&s.node); o != nullptr && !o->harmless) return unknown(state);
+  if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->here) return unknown(state);
+  if (const auto* a = std::get_if<Assign>(&s.node)) {
+    for (const auto& i : a->items) {
+      if (i.to_system) return unknown(state);
+    }
+  }
+  each_target(s, [&state](const VarRef& v) {
+    for (auto& at : state.at) forget(at, v);
+    if (!state.pole) return;
+    std::optional<Value> pole_u = state.pole->u, pole_v = state.pole->v;
+    forget(pole_u, v);
+    forget(pole_v, v);
+    if (!pole_u || !pole_v) state.pole.reset();
+  });
+}
+
+void write_end(Block& b, const PolarEnd& end, bool arc, Plane plane, double fu, double fv) {
+  Motion& m = b.motion;
+  MotionExtra x = *m.extra;
+  const PlaneAxes axes = plane_axes(plane);
+  const bool about_pole = arc && m.centers.empty();
+  const auto word = [&](AxisId axis, const Value& to, const Value& middle, double factor) {
+    CoordWord w;
+    w.axis = axis;
+    w.value = scale(to, 1 / factor);
+    m.coords.push_back(w);
+    if (!about_pole) return;
+    CenterWord c;
+    c.axis = axis;
+    c.mode = CenterMode::absolute;
+    c.value = middle;
+    m.centers.push_back(c);
+  };
+  word(axes.u, end.to.u, end.centre.u, fu);
+  word(axes.v, end.to.v, end.centre.v, fv);
+  x.has_polar_radius = x.has_polar_angle = false;
+  x.polar_radius = x.polar_angle = Value{};
+  const bool more = x.has_turns || x.has_pitch || x.has_line_angle;
+  m.extra = more ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+}
+
+}  // namespace cnctrans::ir::passes
