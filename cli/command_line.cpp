@@ -196,6 +196,10 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
   add_colour(*explain, a);
   explain->footer("Example:\n  cnctrans explain TRN-091");
   CLI::App* profile = add_profile(app, a);
+  CLI::App* lsp = app.add_subcommand("lsp", "language server for editors (LSP 3.17 on standard input and output)");
+  lsp->add_flag("--stdio", a.stdio, "the way it always talks; for editors that say so");
+  lsp->add_option("--grammar", a.grammar, "print the TextMate grammar of a dialect, and no more");
+  lsp->footer("Example:\n  cnctrans lsp --grammar fagor > fagor.tmLanguage.json\nEditors start it: docs/editors.md.");
   CLI::App* man = app.add_subcommand("man", "print the manual page");
   man->footer("Example:\n  cnctrans man | man -l -");
   CLI::App* completion = app.add_subcommand("completion", "print a shell completion script");
@@ -209,6 +213,7 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
           {list, list_dialects},
           {explain, cli::explain},
           {profile, cli::profile},
+          {lsp, language_server},
           {man, nullptr},
           {completion, nullptr},
           {convert, cli::convert, Programs::from}};

@@ -47,6 +47,8 @@ struct Arguments {
   bool json = false;
   bool places = false;
   std::string shell;
+  bool stdio = false;
+  std::string grammar;  ///< lsp: print the TextMate grammar of a dialect
   std::string color = "auto";
   std::string code;                                    ///< explain
   std::string profile_action, profile_name, language;  ///< profile; `language`: only options that this control reads
@@ -66,5 +68,6 @@ int print_ir(const Arguments& a);
 int list_dialects(const Arguments& a);
 int explain(const Arguments& a);
 int profile(const Arguments& a);
+int language_server(const Arguments& a);
 
 }  // namespace cnctrans::cli

@@ -35,9 +35,9 @@ install(FILES machine/profile.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/c
 set(CNCTRANS_POLYCLIPPING_SOURCE "" CACHE FILEPATH "clipper.cpp, for the static program")
 if(CNCTRANS_POLYCLIPPING_SOURCE AND NOT CNCTRANS_SHARED)
   add_executable(cnctrans_static EXCLUDE_FROM_ALL $<TARGET_OBJECTS:cnctrans> packaging/fmt_static.cpp ${CNCTRANS_POLYCLIPPING_SOURCE})
-  add_dependencies(cnctrans_static cnctrans_library)
+  add_dependencies(cnctrans_static cnctrans_library cnc_lsp)
   target_include_directories(cnctrans_static SYSTEM PRIVATE ${CNCTRANS_POLYCLIPPING_INCLUDE}/polyclipping)
-  target_link_libraries(cnctrans_static PRIVATE ${CMAKE_BINARY_DIR}/lib/libcnctrans.a -static)
+  target_link_libraries(cnctrans_static PRIVATE $<TARGET_FILE:cnc_lsp> ${CMAKE_BINARY_DIR}/lib/libcnctrans.a -static)
 endif()
 
 set(CPACK_PACKAGE_NAME cnctrans)
