@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontends/heidenhain/program/free_contour.h"
 #include "frontends/heidenhain/program/way.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -43,6 +44,10 @@ class LeadWriter {
         write(items, i);
         continue;
       }
+      if (items[i].free >= 0) {
+        i = free_contour(items, i);
+        continue;
+      }
       if (items[i].at_pattern) {
         const auto height = way_.coordinate(way_.plane().w);
         if (height) items[i].height = height->value();
@@ -52,6 +57,67 @@ class LeadWriter {
   }
 
  private:
+  /// The elements from item `i` on, solved together. The last item that belongs to them.
+  std::size_t free_contour(std::vector<Item>& items, std::size_t i) {
+    std::vector<FreeElement> elements;
+    std::size_t last = i;
+    for (std::size_t k = i; k < items.size(); ++k) {
+      const auto* b = std::get_if<ir::Block>(&items[k].statement.node);
+      const auto* o = std::get_if<ir::Opaque>(&items[k].statement.node);
+      const bool beside =
+          items[k].kind == ItemKind::plain && ((b != nullptr && !b->has_motion) || (o != nullptr && o->harmless));
+      if (items[k].free < 0 && !beside && items[k].kind != ItemKind::pole) break;
+      if (items[k].free < 0) continue;
+      elements.push_back(flat_.elements[static_cast<std::size_t>(items[k].free)]);
+      last = k;
+      if (elements.back().closes) break;
+    }
+    FreeResult solved;
+    const auto start = way_.point();
+    const auto& d = way_.direction();
+    if (!start || !start->literal()) {
+      solved.error = "where the tool stands before the free contour is not known here";
+    } else {
+      std::optional<ir::geometry::Vec> direction;
+      if (d && d->literal()) direction = ir::geometry::Vec{d->u.number(), d->v.number()};
+      solved = solve_free_contour(elements, {start->u.number(), start->v.number()}, direction);
+    }
+    if (!solved.error.empty()) {
+      lowering_.report().start(elements[solved.at].where);
+      lowering_.report().keep("HEI-030", {}, solved.error, "motion.geometry", "write it as L and C");
+    }
+    std::size_t at = 0;
+    for (std::size_t k = i; k <= last; ++k) {
+      Item item = std::move(items[k]);
+      if (item.free >= 0) place(item, elements[at], solved, at), ++at;
+      put(std::move(item));
+    }
+    return last;
+  }
+  /// The item becomes the line or arc that was found for it.
+  void place(Item& item, const FreeElement& e, const FreeResult& solved, std::size_t at) const {
+    item.free = -1;
+    if (!solved.error.empty()) {
+      ir::Opaque o;
+      o.text = "FK";
+      o.feature = "motion.geometry";
+      item.statement.node = std::move(o);
+      item.moves = false;
+      item.call = CycleCall::none;
+      return;
+    }
+    const auto& found = solved.elements[at];
+    const auto plane = way_.plane();
+    auto& m = std::get<ir::Block>(item.statement.node).motion;
+    m.explicit_code = true;
+    m.kind = found.arc ? found.ccw ? ir::MotionKind::arc_ccw : ir::MotionKind::arc_cw
+             : e.rapid ? ir::MotionKind::rapid
+                       : ir::MotionKind::linear;
+    m.coords = {word(plane.u, Term(found.b.u).value()), word(plane.v, Term(found.b.v).value())};
+    if (found.arc)
+      m.centers = {centre_word(plane.u, Term(found.c.u).value()), centre_word(plane.v, Term(found.c.v).value())};
+  }
+
   void put(Item item) {
     way_.step(item);
     flat_.items.push_back(std::move(item));
@@ -304,7 +370,7 @@ class LeadWriter {
 
 void write_leads(Lowering& lowering) {
   const auto& flat = lowering.flat();
-  const bool needed = !flat.leads.empty() ||
+  const bool needed = !flat.leads.empty() || !flat.elements.empty() ||
                       std::any_of(flat.items.begin(), flat.items.end(), [](const Item& i) { return i.at_pattern; });
   if (needed) LeadWriter(lowering).run();
 }

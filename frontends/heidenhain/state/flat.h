@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dialects/heidenhain/cycles.h"
@@ -79,6 +80,16 @@ struct Lead {
   Span where;
 };
 
+/// FL, FLT, FC, FCT (reference 7.1).
+struct FreeElement {
+  bool arc = false, tangent = false, rapid = false;
+  bool begins = false, closes = false;  ///< CLSD+, CLSD-
+  int sense = 0;                        ///< DR: 1, -1
+  std::map<std::string, double> words;
+  std::optional<std::pair<double, double>> pole;  ///< FPOL
+  Span where;
+};
+
 /// A figure of PATTERN DEF: `POS1 (X+25 Y+33.5 Z+0)`.
 struct Figure {
   dialects::heidenhain::FigureKind kind = dialects::heidenhain::FigureKind::point;
@@ -98,6 +109,7 @@ struct Item {
   bool moves = false;       ///< a positioning block
   bool by_pole = false;     ///< the centre of its arc is CC
   bool polar = false;       ///< its words are polar
+  int free = -1;            ///< of the element of a free contour, before it is solved
   int lead = -1;            ///< of the APPR or DEP, before it is written out
   int pattern = -1;         ///< PATTERN DEF, or (Arrival::several) a table of points
   bool at_pattern = false;  ///< CYCL CALL PAT
@@ -112,6 +124,7 @@ struct Flat {
   std::vector<CycleDefinition> cycles;
   std::vector<Pole> poles;
   std::vector<Lead> leads;
+  std::vector<FreeElement> elements;
   std::vector<Pattern> patterns;
 };
 

@@ -75,6 +75,7 @@ class Lowering {
   bool tool_def(const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
   bool pole();
+  bool free_element(const syntax::Statement& s);
   bool lead(const syntax::Statement& s, bool departure);
   void axis_word(const Word& w, ir::AxisId axis, bool incremental);
   bool tail(const Word& w);
@@ -118,15 +119,16 @@ class Lowering {
   bool inch_ = false, began_ = false, ended_ = false;
 
   // Along the text
-  int tool_axis_ = 2;                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
-  std::optional<ir::Value> tool_feed_;  ///< F of the last TOOL CALL
-  std::optional<ir::Value> orient_;     ///< cycle 13
-  bool scaled_about_ = false;           ///< cycle 26 has a centre
-  bool shortest_ = false;               ///< M126
-  bool feed_by_fu_ = false;             ///< the last F was FU
-  bool per_rev_ = false;                ///< M136
-  int waiting_ = -1;                    ///< the cycle definition that further lines complete
-  bool waits_more_ = false;             ///< its last line ended with ~
+  int tool_axis_ = 2;                                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
+  std::optional<ir::Value> tool_feed_;                  ///< F of the last TOOL CALL
+  std::optional<ir::Value> orient_;                     ///< cycle 13
+  std::optional<std::pair<double, double>> free_pole_;  ///< FPOL
+  bool scaled_about_ = false;                           ///< cycle 26 has a centre
+  bool shortest_ = false;                               ///< M126
+  bool feed_by_fu_ = false;                             ///< the last F was FU
+  bool per_rev_ = false;                                ///< M136
+  int waiting_ = -1;                                    ///< the cycle definition that further lines complete
+  bool waits_more_ = false;                             ///< its last line ended with ~
   ir::LineInfo waiting_line_;
   int pattern_ = -1;      ///< the PATTERN DEF that further lines complete
   bool swallow_ = false;  ///< further lines belong to a sentence that is kept as text

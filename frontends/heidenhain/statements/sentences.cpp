@@ -182,9 +182,7 @@ bool Lowering::sentence(const syntax::Statement& s) {
       return false;
     case Sentence::approach: return lead(s, false);
     case Sentence::departure: return lead(s, true);
-    case Sentence::free_contour:
-      report_.keep("HEI-018", s.pos, "free contours (" + s.keyword + ") are not carried yet", "motion.geometry");
-      return false;
+    case Sentence::free_contour: return free_element(s);
     case Sentence::global_def:
       global_ = true;
       return carried(s, true, "beside.data", "values for the cycles that say PREDEF; the sentence is kept as text");

@@ -371,7 +371,8 @@ bool Lowering::corner(const Word& first, ir::CornerKind kind) {
   Item* before = flat_.items.empty() ? nullptr : &flat_.items.back();
   auto* block = before == nullptr ? nullptr : std::get_if<ir::Block>(&before->statement.node);
   const bool follows = block != nullptr && before->kind == ItemKind::plain && before->moves && before->lead < 0 &&
-                       before->call == CycleCall::none && block->motion.kind != ir::MotionKind::rapid;
+                       before->free < 0 && before->call == CycleCall::none &&
+                       block->motion.kind != ir::MotionKind::rapid;
   if (!follows) {
     report_.refuse("HEI-007", first.pos, "no path element stands right before the corner", {}, "motion.geometry");
     return false;
