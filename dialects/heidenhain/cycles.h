@@ -32,6 +32,7 @@ struct CycleRow {
   std::string_view title;  ///< behind the number in the editor
   bool called;             ///< CYCL CALL, M99 and M89 run it; false: the definition acts
   std::array<CycleParameter, 25> parameters;
+  bool on_contours = false;  ///< works on the labels of cycle 14 with the data of cycle 20
 };
 
 // clang-format off
@@ -108,16 +109,16 @@ inline constexpr std::array cycle_rows{
     CycleRow{20, CycleKind::data, ir::HoleKind::mill, "", "CONTOUR DATA", false,
              {{{1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}}}},
     CycleRow{21, CycleKind::mill, ir::HoleKind::mill, "pocket.entries", "PILOT DRILLING", true,
-             {{{10}, {11}, {13}}}},
+             {{{10}, {11}, {13}}}, true},
     CycleRow{22, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "ROUGH-OUT", true,
-             {{{10}, {11}, {12}, {18, false}, {19, false}, {208, false}, {401, false, 100}, {404, false}}}},
+             {{{10}, {11}, {12}, {18, false}, {19, false}, {208, false}, {401, false, 100}, {404, false}}}, true},
     CycleRow{23, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "FLOOR FINISHING", true,
-             {{{11}, {12}, {208, false}}}},
+             {{{11}, {12}, {208, false}}}, true},
     CycleRow{24, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "SIDE FINISHING", true,
-             {{{9}, {10}, {11}, {12}, {14}, {438, false, -1}}}},
+             {{{9}, {10}, {11}, {12}, {14}, {438, false, -1}}}, true},
     CycleRow{25, CycleKind::mill, ir::HoleKind::mill, "path", "CONTOUR TRAIN", true,
              {{{1}, {3}, {5}, {7}, {10}, {11}, {12}, {15}, {18, false}, {446, false, 0.01}, {447, false, 10},
-               {448, false, 2}}}},
+               {448, false, 2}}}, true},
     CycleRow{270, CycleKind::data, ir::HoleKind::mill, "", "CONTOUR TRAIN DATA", false,
              {{{390}, {391}, {392}, {393}, {394}}}},
 };

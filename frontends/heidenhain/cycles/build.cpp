@@ -282,6 +282,7 @@ class CycleBuilder {
   bool mill() {
     hole_.kind = HoleKind::mill;
     hole_.mill.shape = std::string(cycle_.row->name);
+    if (cycle_.row->on_contours) return area();
     switch (cycle_.number) {
       case 251:
       case 252:
@@ -302,6 +303,39 @@ class CycleBuilder {
     warn("the way of the passes is that of this program, the part is the same");
     return true;
   }
+  /// 22, 23 and 24 in one pocket of cycle 14.
+  bool area() {
+    const bool rough = cycle_.number == 22, floor = cycle_.number == 23;
+    if (!rough && !floor && cycle_.number != 24) return not_carried();
+    if (cycle_.labels.empty() || cycle_.values.count(1) == 0) return refuse("cycles 14 and 20 stand before it");
+    if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
+    for (const std::int16_t n : {1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12}) {
+      if (cycle_.values.count(n) != 0 && !q(n).literal()) return refuse("its parameters must be numbers");
+    }
+    const double top = q(5).number, bottom = top + q(1).number;
+    if (q(1).number >= 0) return refuse("a depth of 0 or above is not carried");
+    const double skin = std::abs(q(4).number);
+    hole_.surface = level(Value(floor && skin > 0 ? bottom + skin : top), LevelBase::absolute);
+    hole_.reference = level(Value(top + q(6).number), LevelBase::absolute);
+    hole_.bottom = level(Value(bottom), LevelBase::absolute);
+    hole_.retract = level(q(7), LevelBase::absolute);
+    word("operation", Value(rough || floor ? 1 : 2));
+    if (!floor) word("infeed", magnitude(q(10)));
+    word("plunge_feed", q(11));
+    word("mill_feed", q(12));
+    word("step_factor", half(q(2)));
+    if (rough || floor) word("wall_stock", q(3));
+    if (rough) word("floor_stock", q(4));
+    word("sense", Value(q(9).is(-1) ? 1 : 0));
+    word("outside", Value(1));
+    const auto coarse = cycle_.values.find(18);
+    if (coarse != cycle_.values.end() && !q(18).is(0)) return refuse("Q18 (a coarser tool was there) is not carried");
+    if (cycle_.values.count(14) != 0 && !q(14).is(0)) return refuse("Q14 (an allowance that stays) is not carried");
+    ir::cycles::put_contours(hole_, cycle_.areas[context_.area]);
+    warn("the way of the passes is that of this program, the part is the same");
+    return true;
+  }
+
   bool mill_word(std::int16_t number) {
     const auto* row = facts::find_q_word(number, cycle_.number);
     if (row == nullptr) return true;

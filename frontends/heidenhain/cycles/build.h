@@ -23,7 +23,8 @@ struct CycleContext {
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: added to the surface
   /// Where the cycle is no neutral one: its moves.
   std::vector<CycleMove>* moves = nullptr;
-  bool inch = false;  ///< the unit of the program; lengths of the control itself are mm
+  std::size_t area = 0;  ///< which of the pockets of cycle 14
+  bool inch = false;     ///< the unit of the program; lengths of the control itself are mm
 };
 
 /// Null: the cycle is skipped (depth 0), was refused (see `report`), or is told by its moves.

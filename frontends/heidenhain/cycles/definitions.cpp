@@ -175,6 +175,13 @@ void Lowering::flush() {
     o.feature = "cycle.hole";
     put(std::move(o));
   } else if (called) {
+    if (cycle.row != nullptr && cycle.row->on_contours) {
+      cycle.labels = contour_labels_;
+      if (contour_data_ >= 0) {
+        for (const auto& [q, v] : flat_.cycles[static_cast<std::size_t>(contour_data_)].values)
+          cycle.values.emplace(q, v);
+      }
+    }
     put(ItemKind::cycle, ir::Block{}).index = index;
   } else {
     effect(cycle);

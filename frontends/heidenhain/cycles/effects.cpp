@@ -164,6 +164,10 @@ void Lowering::effect(const CycleDefinition& cycle) {
       item.call = CycleCall::once;
       return;
     }
+    if (cycle.number == 20) {
+      contour_data_ = static_cast<int>(&cycle - flat_.cycles.data());
+      return;
+    }
     return report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet",
                         "cycle.milling");
   }
@@ -185,6 +189,15 @@ void Lowering::effect(const CycleDefinition& cycle) {
     }
     case OldKind::orientation:
       if (const ir::Value* angle = last_value(cycle, 1)) orient_ = *angle;
+      return;
+    case OldKind::contour:
+      contour_labels_.clear();
+      for (const auto& [n, part] : cycle.parts) {
+        for (const auto& l : part.letters) {
+          if (l.has_value && l.value.literal()) contour_labels_.push_back(shortest(l.value.number));
+        }
+      }
+      if (contour_labels_.empty()) report_.refuse("HEI-016", {}, "cycle 14 has no labels");
       return;
     case OldKind::tolerance:
       return report_.carry("HEI-021", {}, "cycle 32 smooths the path; the programmed path stays; kept as text",

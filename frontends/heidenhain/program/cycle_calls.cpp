@@ -175,6 +175,9 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
     return overlay->values.at(q).value;
   };
   out.cycle = build_cycle(*cycle, context, report);
+  for (context.area = 1; out.cycle != nullptr && context.area < cycle->areas.size(); ++context.area)
+    out.more.push_back(build_cycle(*cycle, context, report));
+  out.goes_back = !cycle->areas.empty();
   return out;
 }
 
@@ -197,9 +200,11 @@ void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) {
     routine.level = ir::CallLevel::new_level;
     out.push_back(behind(first, std::move(routine)));
   }
-  if (m.cycle != nullptr) {
+  std::vector<ir::CyclePtr> cycles = m.more;
+  if (m.cycle != nullptr) cycles.insert(cycles.begin(), m.cycle);
+  for (const auto& cycle : cycles) {
     ir::CycleDefine define;
-    define.cycle = m.cycle;
+    define.cycle = cycle;
     define.modal = false;
     ir::Block run;
     run.actions.emplace_back().data = std::move(define);
@@ -236,7 +241,15 @@ void CycleCalls::call(std::size_t i, Statements& out) {
   }
   if (!m.any()) return;  // depth 0, or never reached
   const std::size_t at = out.size();
-  put(m, plane_at(arrival(i)).w, out);
+  const auto plane = plane_at(arrival(i));
+  put(m, plane.w, out);
+  if (m.goes_back && item.place) {
+    ir::Statement back = behind(out.back(), move(ir::MotionKind::rapid, {coordinate(plane.u, item.place->first),
+                                                                         coordinate(plane.v, item.place->second)}));
+    out.push_back(std::move(back));
+  } else if (m.goes_back) {
+    lowering_.report().warn("HEI-019", {}, "the tool stays where the pocket ends: where it stood before is not known");
+  }
   if (!alone || out.size() == at) return;
   out[at].line = std::move(out[at - 1].line);
   out.erase(out.begin() + static_cast<std::ptrdiff_t>(at) - 1);

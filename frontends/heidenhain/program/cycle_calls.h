@@ -30,6 +30,8 @@ class CycleCalls {
   /// What runs at one place.
   struct Machining {
     ir::CyclePtr cycle;
+    std::vector<ir::CyclePtr> more;  ///< further pockets of cycle 14
+    bool goes_back = false;          ///< to where the tool stood in the plane
     std::vector<CycleMove> moves;
     std::string program;  ///< cycle 12
     [[nodiscard]] bool any() const { return cycle != nullptr || !moves.empty() || !program.empty(); }

@@ -26,7 +26,7 @@ class Finisher {
   void run(std::vector<std::vector<ir::Statement>>& out) {
     for (std::size_t i = 0; i < flat_.items.size(); ++i) {
       if (flat_.items[i].polar) poles_stay_ = true;
-      if (flat_.items[i].by_pole) centre(i);
+      if (flat_.items[i].by_pole && !(flat_.items[i].contour && !arrival(i).reached)) centre(i);
     }
     cycles_.prepare();
     out.resize(flat_.items.size());
@@ -120,6 +120,14 @@ class Finisher {
     Item& item = flat_.items[i];
     const Arrival& a = arrival(i);
     const bool remark = !item.statement.line.comments.empty() || !item.statement.line.labels.empty();
+    if (item.contour && !a.reached) {  // its lines are in the cycles that work on it
+      if (item.statement.line.comments.empty()) return;
+      item.statement.node = ir::Block{};
+      item.statement.line.number = {};
+      item.statement.line.labels.clear();
+      out.push_back(std::move(item.statement));
+      return;
+    }
     switch (item.kind) {
       case ItemKind::cycle: cycles_.definition(item, out); return;
       case ItemKind::pole:

@@ -48,6 +48,11 @@ class LeadWriter {
         i = free_contour(items, i);
         continue;
       }
+      if (items[i].call != CycleCall::none) {
+        const auto at =
+            items[i].moves ? way_.end_of(std::get<ir::Block>(items[i].statement.node).motion) : way_.point();
+        if (at) items[i].place = std::pair(at->u.value(), at->v.value());
+      }
       if (items[i].at_pattern) {
         const auto height = way_.coordinate(way_.plane().w);
         if (height) items[i].height = height->value();
@@ -370,8 +375,10 @@ class LeadWriter {
 
 void write_leads(Lowering& lowering) {
   const auto& flat = lowering.flat();
-  const bool needed = !flat.leads.empty() || !flat.elements.empty() ||
-                      std::any_of(flat.items.begin(), flat.items.end(), [](const Item& i) { return i.at_pattern; });
+  const bool needed =
+      !flat.leads.empty() || !flat.elements.empty() ||
+      std::any_of(flat.items.begin(), flat.items.end(), [](const Item& i) { return i.at_pattern; }) ||
+      std::any_of(flat.cycles.begin(), flat.cycles.end(), [](const auto& c) { return !c.labels.empty(); });
   if (needed) LeadWriter(lowering).run();
 }
 

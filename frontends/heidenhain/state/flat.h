@@ -13,6 +13,7 @@
 #include "dialects/heidenhain/leads.h"
 #include "dialects/heidenhain/old_cycles.h"
 #include "dialects/heidenhain/patterns.h"
+#include "ir/cycles/milling/mill_contour.h"
 #include "ir/program.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -61,7 +62,10 @@ struct CycleDefinition {
   std::int64_t number = 0;
   std::map<std::int16_t, QValue> values;
   std::map<int, OldPartValue> parts;
-  bool positive_depth_told = false;
+  std::vector<std::string> labels;  ///< cycle 14, of a cycle that works on contours
+  /// A pocket, and its islands behind it; mm.
+  std::vector<std::vector<ir::cycles::MillContour>> areas;
+  std::string area_fault;
 };
 
 struct Pole {
@@ -109,11 +113,13 @@ struct Item {
   bool moves = false;       ///< a positioning block
   bool by_pole = false;     ///< the centre of its arc is CC
   bool polar = false;       ///< its words are polar
+  bool contour = false;     ///< stands in a label of cycle 14
   int free = -1;            ///< of the element of a free contour, before it is solved
   int lead = -1;            ///< of the APPR or DEP, before it is written out
   int pattern = -1;         ///< PATTERN DEF, or (Arrival::several) a table of points
   bool at_pattern = false;  ///< CYCL CALL PAT
-  std::optional<ir::Value> height;  ///< CYCL CALL PAT: of the tool, where it is known
+  std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
+  std::optional<ir::Value> height;                       ///< CYCL CALL PAT: of the tool, where it is known
   CycleCall call = CycleCall::none;
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
   std::vector<ir::VarRef> writes;  ///< variables

@@ -123,6 +123,8 @@ class Lowering {
   std::optional<ir::Value> tool_feed_;                  ///< F of the last TOOL CALL
   std::optional<ir::Value> orient_;                     ///< cycle 13
   std::optional<std::pair<double, double>> free_pole_;  ///< FPOL
+  std::vector<std::string> contour_labels_;             ///< cycle 14
+  int contour_data_ = -1;                               ///< the definition of cycle 20
   bool scaled_about_ = false;                           ///< cycle 26 has a centre
   bool shortest_ = false;                               ///< M126
   bool feed_by_fu_ = false;                             ///< the last F was FU
