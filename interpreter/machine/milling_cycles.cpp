@@ -42,8 +42,7 @@ double BlockMachine::tool_radius() {
 bool BlockMachine::read_mill_contours(const ir::HoleCycle& hole) {
   mill_contours_.clear();
   const auto names = ir::cycles::contours_named(hole);
-  const auto& words = hole.mill.words;
-  if (names.empty() && std::any_of(words.begin(), words.end(), [](const auto& w) { return w.first == "contour"; })) {
+  if (names.empty() && ir::cycles::has_contours(hole)) {
     std::string error;
     auto travelled = ir::cycles::contours_in(hole, &error);
     if (!travelled) return failure_.fail(code::bad_cycle, error);

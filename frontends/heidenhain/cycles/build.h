@@ -23,6 +23,8 @@ struct CycleContext {
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: added to the surface
   /// Where the cycle is no neutral one: its moves.
   std::vector<CycleMove>* moves = nullptr;
+  /// The speed that is in force again behind the cycle, where it leaves another.
+  std::optional<ir::Value>* speed_after = nullptr;
   std::size_t area = 0;  ///< which of the pockets of cycle 14
   bool inch = false;     ///< the unit of the program; lengths of the control itself are mm
 };

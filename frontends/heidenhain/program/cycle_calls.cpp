@@ -169,6 +169,7 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   context.shift = shift;
   context.inch = lowering_.inch();
   context.moves = &out.moves;
+  context.speed_after = &out.speed_after;
   context.value = [&](std::int16_t q) {
     const bool height = q == 200 || q == 203 || q == 204;
     if (overlay == nullptr || !height) return parameter(*cycle, q, any);
@@ -209,6 +210,11 @@ void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) {
     ir::Block run;
     run.actions.emplace_back().data = std::move(define);
     out.push_back(behind(first, std::move(run)));
+  }
+  if (m.speed_after) {
+    ir::Block speed;
+    speed.actions.emplace_back().data = ir::SetSpindle{1, *m.speed_after};
+    out.push_back(behind(first, std::move(speed)));
   }
   for (const CycleMove& step : m.moves) {
     ir::Block b;
@@ -286,7 +292,7 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
   for (auto& m : each) raise(m, item.height);
   out.push_back(std::move(item.statement));
   const ir::Statement first = out.back();
-  const bool modal = level && each.front().cycle != nullptr;
+  const bool modal = level && each.front().cycle != nullptr && !each.front().speed_after;
   for (std::size_t k = 0; k < places.size(); ++k) {
     ir::Block b = move(rapid ? ir::MotionKind::rapid : ir::MotionKind::linear,
                        {coordinate(plane.u, places[k].u), coordinate(plane.v, places[k].v)});
@@ -342,7 +348,7 @@ void CycleCalls::pattern(std::size_t i, Statements& out) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     ir::Block b = move(ir::MotionKind::rapid,
                        {coordinate(plane.u, ir::Value(points[k].u)), coordinate(plane.v, ir::Value(points[k].v))});
-    if (k == 0 && m.cycle != nullptr) {
+    if (k == 0 && m.cycle != nullptr && !m.speed_after) {
       auto hole = std::get<ir::HoleCycle>(m.cycle->node);
       if (low) hole.retract = hole.reference;
       ir::CycleDefine define;
@@ -350,9 +356,9 @@ void CycleCalls::pattern(std::size_t i, Statements& out) {
       b.actions.emplace_back().data = std::move(define);
     }
     out.push_back(behind(first, std::move(b)));
-    if (m.cycle == nullptr) put(m, plane.w, out);
+    if (m.cycle == nullptr || m.speed_after) put(m, plane.w, out);
   }
-  if (m.cycle == nullptr) return;
+  if (m.cycle == nullptr || m.speed_after) return;
   ir::Block cancel;
   cancel.actions.emplace_back().data = ir::CycleCancel{};
   out.push_back(behind(first, std::move(cancel)));

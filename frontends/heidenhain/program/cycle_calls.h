@@ -30,6 +30,7 @@ class CycleCalls {
   /// What runs at one place.
   struct Machining {
     ir::CyclePtr cycle;
+    std::optional<ir::Value> speed_after;
     std::vector<ir::CyclePtr> more;  ///< further pockets of cycle 14
     bool goes_back = false;          ///< to where the tool stood in the plane
     std::vector<CycleMove> moves;

@@ -37,6 +37,11 @@ std::vector<NamedCycle> contours_named(const HoleCycle& cycle) {
   return out;
 }
 
+bool has_contours(const HoleCycle& cycle) {
+  const auto& words = cycle.mill.words;
+  return std::any_of(words.begin(), words.end(), [](const auto& w) { return is_contour_word(w.first); });
+}
+
 std::vector<RoutineName> contour_routines(const Cycle& cycle) {
   std::vector<RoutineName> out;
   const auto add = [&out](const NamedCycle& named) {

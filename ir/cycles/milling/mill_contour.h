@@ -29,6 +29,8 @@ bool is_contour_word(std::string_view word);
 /// The contours that the cycle names, with the words that profile_blocks() reads; a word `contour_role` begins each
 /// one where there are several.
 std::vector<NamedCycle> contours_named(const HoleCycle& cycle);
+/// It names contours, or has them as words.
+bool has_contours(const HoleCycle& cycle);
 /// Programs or subprograms that the cycle, of a lathe or a mill, takes contours from.
 std::vector<RoutineName> contour_routines(const Cycle& cycle);
 

@@ -81,6 +81,8 @@ class MillPath {
   void compensate(int side);
   void mill_arc(double p, double q, double cp, double cq, bool ccw);
   void mill_arc_to(double p, double q, double w, double cp, double cq, bool ccw);
+  /// The same at the feed of the way onto a thread.
+  void lead_arc_to(double p, double q, double w, double cp, double cq, bool ccw);
   /// The same with infeed at the plunge feed.
   void plunge_to(double p, double q, double w);
   void plunge_circle(double cp, double cq, double w, bool ccw);
@@ -117,6 +119,8 @@ bool long_holes(MillPath& path, std::string* error);
 bool ring_slots(MillPath& path, std::string* error);
 bool face(MillPath& path, std::string* error);
 bool boss(MillPath& path, bool circle, std::string* error);
+bool helix_bore(MillPath& path, std::string* error);
+bool helix_thread(MillPath& path, std::string* error);
 bool milled_thread(MillPath& path, std::string* error);
 bool chased_thread(MillPath& path, std::string* error);
 bool contour_path(MillPath& path, const std::vector<MillContour>* contours, std::string* error);

@@ -201,6 +201,13 @@ void MillPath::mill_arc_to(double p, double q, double w, double cp, double cq, b
   moves_.back().cv = cv;
   moves_.back().ccw = ccw;
 }
+void MillPath::lead_arc_to(double p, double q, double w, double cp, double cq, bool ccw) {
+  mill_arc_to(p, q, w, cp, cq, ccw);
+  if (get("lead_feed") <= 0) return;
+  moves_.back().has_feed = true;
+  moves_.back().feed = get("lead_feed");
+  moves_.back().feed_factor = 1;
+}
 void MillPath::plunge_arc_to(double p, double q, double w, double cp, double cq, bool ccw) {
   const auto [u, v] = to_plane(p, q);
   const auto [cu, cv] = to_plane(cp, cq);

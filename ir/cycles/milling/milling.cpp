@@ -55,6 +55,9 @@ constexpr std::array milling_parameters = {
     MillParameter{"diameter", length, "of a circle; the larger one of a thread"},
     MillParameter{"core", length, "the smaller diameter of a thread"},
     MillParameter{"pitch", length, "of a thread"},
+    MillParameter{"per_step", plain,
+                  "of a thread: 0 one turn, 1 turns over the whole depth, more: a turn every so many pitches"},
+    MillParameter{"lead_feed", feed, "onto the helix of a thread; left out or 0: mill_feed"},
     MillParameter{"external", plain, "1: the thread lies outside"},
     MillParameter{"side", plain, "of the contour: 40 the tool goes on it, 41 left, 42 right"},
     MillParameter{"approach", plain, "units 1 line, 2 quadrant, 3 semicircle; tens 1: in space"},
@@ -135,6 +138,11 @@ constexpr std::array shapes = {
               "holes where the roughing of such a pocket begins"},
     MillShape{"thread.mill", MillKind::thread, "u,v,diameter,core,pitch,mill_feed,sense,external",
               "thread milled on a helix"},
+    MillShape{"bore.helix", MillKind::helix_bore, "u,v,diameter,pitch,mill_feed,plunge_feed,sense",
+              "bore milled on a helix"},
+    MillShape{"thread.helix", MillKind::helix_thread,
+              "u,v,diameter,pitch,per_step,mill_feed,plunge_feed,lead_feed,sense,external",
+              "thread milled in turns of its pitch, led in and out from the middle"},
     MillShape{"thread.chased", MillKind::chased, "pitch,depth,last_pass,passes,starts,angle,radial,back",
               "thread by a single point along the tool axis"},
 };
@@ -230,6 +238,8 @@ std::optional<std::vector<MillMove>> expand(const MillNumbers& mill, const HoleN
     case MillKind::boss:
     case MillKind::round_boss: done = detail::boss(path, mill.shape->kind == MillKind::round_boss, error); break;
     case MillKind::thread: done = detail::milled_thread(path, error); break;
+    case MillKind::helix_bore: done = detail::helix_bore(path, error); break;
+    case MillKind::helix_thread: done = detail::helix_thread(path, error); break;
     case MillKind::chased: done = detail::chased_thread(path, error); break;
     case MillKind::face: done = detail::face(path, error); break;
     case MillKind::path: done = detail::contour_path(path, context.contours, error); break;

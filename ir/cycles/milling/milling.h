@@ -42,6 +42,8 @@ enum class MillKind : std::uint8_t {
   boss,
   round_boss,
   thread,
+  helix_bore,
+  helix_thread,  ///< by the pitch, from the middle
   path,
   contour_pocket,
   chased  ///< a thread by a single point, pass by pass along the tool axis

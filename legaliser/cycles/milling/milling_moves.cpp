@@ -389,7 +389,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   }
   cycles::pocket_habits([this](std::string_view name) { return context_.source_machine.option(name); }, context);
   std::vector<cycles::MillContour> contours;
-  if (!cycles::contours_named(c).empty()) {
+  if (cycles::has_contours(c)) {
     auto read = cycles::contours_in(c, error);
     if (!read) return std::nullopt;
     contours = *std::move(read);

@@ -1,0 +1,193 @@
+// Milling cycles -> neutral ones (reference 16, 17).
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "dialects/heidenhain/limits.h"
+#include "frontends/heidenhain/cycles/builder.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+using facts::Role;
+using ir::HoleKind;
+using ir::LevelBase;
+using ir::Value;
+
+bool CycleBuilder::mill() {
+  hole_.kind = HoleKind::mill;
+  hole_.mill.shape = std::string(cycle_.row->name);
+  if (cycle_.row->on_contours) return area();
+  if (cycle_.number == 208) return helix_bore();
+  if (cycle_.number == 262 || cycle_.number == 267) return helix_thread();
+  if (cycle_.number == 230 || cycle_.number == 232) return face();
+  switch (cycle_.number) {
+    case 251:
+    case 252:
+    case 253:
+    case 254:
+    case 256:
+    case 257: break;
+    default: return not_carried();
+  }
+  if (!levels()) return false;
+  if (skipped_) return true;
+  if (cycle_.number == 253) hole_.mill.shape = "pocket.rect";
+  for (const auto& p : cycle_.row->parameters) {
+    if (p.number != 0 && !mill_word(p.number)) return false;
+  }
+  if (cycle_.number == 253) word("corner", half(q(219)));
+  if (cycle_.number == 257 || cycle_.number == 256) word("variant", Value(1));
+  warn("the way of the passes is that of this program, the part is the same");
+  return true;
+}
+
+bool CycleBuilder::climb() {
+  const Value v = q(351);
+  if (!v.is(1) && !v.is(-1) && !v.is(0)) return refuse("Q351 must be +1, -1 or 0");
+  word("sense", Value(v.is(-1) ? 1 : 0));
+  return true;
+}
+
+bool CycleBuilder::helix_bore() {
+  if (!levels() || skipped_) return skipped_;
+  if (!only_value(206)) return false;
+  word("diameter", q(335));
+  word("pitch", q(334));
+  word("mill_feed", q(206));
+  word("plunge_feed", q(206));
+  return climb();
+}
+
+bool CycleBuilder::helix_thread() {
+  if (!levels() || skipped_) return skipped_;
+  if (!only_value(207) || !only_value(512) || (!only_value(253) && !rapid(253))) return false;
+  if (cycle_.number == 267 && !q(358).is(0)) return refuse("countersinking at the front (Q358) is not carried");
+  word("diameter", q(335));
+  word("pitch", q(239));
+  word("per_step", q(355));
+  word("mill_feed", q(207));
+  word("plunge_feed", q(253));
+  if (cycle_.values.count(512) != 0 && !q(512).is(0)) word("lead_feed", q(512));
+  if (cycle_.number == 267) word("external", Value(1));
+  warn("the start of the thread and the ways onto it and off it are those of this program");
+  return climb();
+}
+
+/// 230: one level in lines to and fro; 232: in levels, Q389 2 in lines one way.
+bool CycleBuilder::face() {
+  for (const auto& p : cycle_.row->parameters) {
+    if (p.number != 0 && !q(p.number).literal()) return refuse("its parameters must be numbers");
+  }
+  const bool multipass = cycle_.number == 230;
+  const double top = q(227).number, bottom = multipass ? top : q(386).number, width = q(219).number;
+  hole_.surface = level_of(Value(top), LevelBase::absolute);
+  hole_.bottom = level_of(Value(bottom), LevelBase::absolute);
+  hole_.reference = level_of(Value(top + q(200).number), LevelBase::absolute);
+  hole_.retract = level_of(Value(top + std::max(q(200).number, multipass ? 0 : q(204).number)), LevelBase::absolute);
+  word("u", q(225));
+  word("v", q(226));
+  word("length", q(218));
+  word("width", q(219));
+  word("mill_feed", q(207));
+  if (multipass) {
+    if (q(240).number < 1) return refuse("Q240 is the number of lines");
+    word("step", Value(std::abs(width) / q(240).number));
+    word("variant", Value(32));
+  } else {
+    if (bottom >= top) return refuse("the end (Q386) lies above the start (Q227)");
+    if (!q(369).is(0)) return refuse("a finishing pass (Q369) is not carried");
+    word("infeed", q(202));
+    word("step_factor", half(q(370)));
+    word("overrun", q(357));
+    word("variant", Value(q(389).is(2) ? 11 : 31));
+  }
+  warn("the way of the passes is that of this program, the part is the same");
+  return true;
+}
+
+/// 22, 23 and 24 in one pocket of cycle 14.
+bool CycleBuilder::area() {
+  const bool rough = cycle_.number == 22, floor = cycle_.number == 23;
+  if (!rough && !floor && cycle_.number != 24) return not_carried();
+  if (cycle_.labels.empty() || cycle_.values.count(1) == 0) return refuse("cycles 14 and 20 stand before it");
+  if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
+  for (const std::int16_t n : {1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12}) {
+    if (cycle_.values.count(n) != 0 && !q(n).literal()) return refuse("its parameters must be numbers");
+  }
+  const double top = q(5).number, bottom = top + q(1).number;
+  if (q(1).number >= 0) return refuse("a depth of 0 or above is not carried");
+  const double skin = std::abs(q(4).number);
+  hole_.surface = level_of(Value(floor && skin > 0 ? bottom + skin : top), LevelBase::absolute);
+  hole_.reference = level_of(Value(top + q(6).number), LevelBase::absolute);
+  hole_.bottom = level_of(Value(bottom), LevelBase::absolute);
+  hole_.retract = level_of(q(7), LevelBase::absolute);
+  word("operation", Value(rough || floor ? 1 : 2));
+  if (!floor) word("infeed", magnitude(q(10)));
+  word("plunge_feed", q(11));
+  word("mill_feed", q(12));
+  word("step_factor", half(q(2)));
+  if (rough || floor) word("wall_stock", q(3));
+  if (rough) word("floor_stock", q(4));
+  word("sense", Value(q(9).is(-1) ? 1 : 0));
+  word("outside", Value(1));
+  const auto coarse = cycle_.values.find(18);
+  if (coarse != cycle_.values.end() && !q(18).is(0)) return refuse("Q18 (a coarser tool was there) is not carried");
+  if (cycle_.values.count(14) != 0 && !q(14).is(0)) return refuse("Q14 (an allowance that stays) is not carried");
+  ir::cycles::put_contours(hole_, cycle_.areas[context_.area]);
+  warn("the way of the passes is that of this program, the part is the same");
+  return true;
+}
+
+bool CycleBuilder::mill_word(std::int16_t number) {
+  const auto* row = facts::find_q_word(number, cycle_.number);
+  if (row == nullptr) return true;
+  const Value v = q(number);
+  const bool boss = cycle_.number == 256 || cycle_.number == 257;
+  switch (row->role) {
+    case Role::mill:
+      if (cycle_.number == 254 && number == 369) {
+        if (v.is(0) || q(215).is(2)) return true;
+        if (!q(215).is(1)) return refuse("an allowance for the floor (Q369) is carried with roughing alone (Q215=1)");
+        hole_.bottom = level_of(ir::add(q(201), v), LevelBase::from_surface);
+        return true;
+      }
+      if (number == 376 && cycle_.number == 257) return true;  // where the approach begins
+      word(row->parameter, v);
+      return true;
+    case Role::mill_half: word(row->parameter, half(v)); return true;
+    case Role::mill_overlap:
+      if (!boss) word(row->parameter, half(v));
+      return true;
+    case Role::mill_climb:
+      if (!v.is(1) && !v.is(-1) && !v.is(0)) return refuse("Q351 must be +1, -1 or 0");
+      word(row->parameter, Value(v.is(-1) ? 1 : 0));
+      return true;
+    case Role::mill_feed_word:
+      if (!only_value(number)) return false;
+      word(row->parameter, v);
+      return true;
+    case Role::peck: word("infeed", v); return true;
+    case Role::feed:
+      if (!only_value(number)) return false;
+      word("plunge_feed", v);
+      return true;
+    case Role::place: {
+      const double centre = 0;
+      if (v.is(centre)) return true;
+      return refuse("Q367 other than 0: the tool does not stand in the middle; not carried yet");
+    }
+    case Role::plunge_way:
+      if (!v.is(0)) warn("the tool goes straight down, not on a helix or a ramp (Q366)");
+      return true;
+    case Role::pattern: word(row->parameter, v); return true;
+    case Role::other: {
+      const bool harmless = number == 439 || number == 437;
+      if (harmless && v.is(0)) return true;
+      return refuse("Q" + std::to_string(number) + " is not carried");
+    }
+    default: return true;  // levels
+  }
+}
+
+}  // namespace cnctrans::frontends::heidenhain
