@@ -40,13 +40,14 @@ std::string duration(double seconds) {
 int batch(const Arguments& a) {
   translator::BatchOptions options;
   if (!proved_options(a, options.translate)) return usage;
-  ir::NameMap names;
+  translator::Names names;
   if (!a.names.empty()) {
     std::string error;
     auto found = translator::read_names(a.names, a.from, a.to, &error);
     if (!found) return usage_error(a, error);
     names = *std::move(found);
     options.translate.names = &names;
+    if (!add_definitions(a, names, options.translate)) return usage;
   }
   if (!a.max_events) options.translate.run.max_events = events_each;
   options.translate.run.max_steps = std::min(a.max_steps, steps_each);

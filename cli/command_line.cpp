@@ -28,6 +28,7 @@ void add_colour(CLI::App& app, Arguments& a) {
 
 void add_reading(CLI::App& app, Arguments& a) {
   app.add_option("--machine", a.machine, "machine profile: a built-in name (fagor-lathe) or a JSON file");
+  app.add_option("--tools", a.tools, "tools of the job: CSV, JSON, or the tool table of a control (docs/tools.md)");
   app.add_option("--lib", a.libraries,
                  "folder where called programs and definitions are looked up, or a definition file (repeatable)")
       ->allow_extra_args(false);
@@ -57,6 +58,8 @@ void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--target-machine", a.target_machine, "machine profile of the target");
   app.add_option("--unsupported", a.unsupported, "what becomes of a construct without counterpart")
       ->check(one_of({"error", "warn", "comment"}));
+  app.add_flag("--draft", a.draft,
+               "write what can be translated as PART.draft.EXT: what is left to do stands at its head (status 4)");
   app.add_option("--numbering", a.numbering, "block numbers of the output: keep, none or renumber")
       ->check(one_of({"keep", "none", "renumber"}));
   app.add_option("--number-step", a.number_step, "step of renumbered blocks")->check(CLI::Range(1, 1000));
@@ -139,6 +142,42 @@ CLI::App* add_profile(CLI::App& app, Arguments& a) {
   return sub;
 }
 
+/// What survey and names have in common.
+void add_looking(CLI::App& app, Arguments& a) {
+  app.add_option("--from", a.from, "dialect of the programs");
+  app.add_option("--to", a.to, "dialect of the translation that is planned");
+  app.add_option("--machine", a.machine, "machine profile of the programs");
+  app.add_option("--lib", a.libraries, "folder with further programs that may be called (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--jobs", a.survey_jobs, "programs side by side; without it one a core")->check(CLI::Range(1, 1024));
+  app.add_flag("-q,--quiet", a.quiet, "no summary lines");
+}
+
+CLI::App* add_survey(CLI::App& app, Arguments& a) {
+  CLI::App* sub = app.add_subcommand("survey", "what is in a folder of programs, and what is missing to translate it");
+  add_looking(*sub, a);
+  sub->add_option("folder", a.inputs, "folder of the programs")->required()->type_name("DIR")->expected(1);
+  sub->add_option("--names", a.names, "file of names: what it answers is not missing");
+  sub->add_option("-o,--output", a.output,
+                  "folder for survey.html, programs.csv and missing.csv; or one file (.html, .csv)");
+  sub->footer(
+      "Example:\n  cnctrans survey --from sinumerik --to fagor old/ -o survey/\n"
+      "Exit status: 0 done, 1 not written, 2 wrong usage.");
+  return sub;
+}
+
+CLI::App* add_names(CLI::App& app, Arguments& a) {
+  CLI::App* sub =
+      app.add_subcommand("names", "the file of names with all that a folder of programs needs and nobody has");
+  add_looking(*sub, a);
+  sub->add_option("--stub", a.stub, "folder of the programs")->required()->type_name("DIR");
+  sub->add_option("-o,--output", a.output, "the file; answers that stand there stay. Without it standard output");
+  sub->footer(
+      "Example:\n  cnctrans names --stub old/ --from sinumerik --to fagor -o names.json\n"
+      "Exit status: 0 done, 1 not written, 2 wrong usage.");
+  return sub;
+}
+
 }  // namespace
 
 std::vector<Command> declare(CLI::App& app, Arguments& a) {
@@ -148,7 +187,7 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
       "Examples:\n  cnctrans --from fagor --to sinumerik part.pim -o PART.MPF\n"
       "  cnctrans --from num --to fagor *.xpi -o out/ --lib subs\n  cnctrans run --dialect fagor part.pim --trace - | "
       "head\n"
-      "Exit status: 0 written, 1 refused, 2 wrong usage, 3 the translation moves the machine otherwise.\n"
+      "Exit status: 0 written, 1 refused, 2 wrong usage, 3 the translation moves the machine otherwise, 4 a draft.\n"
       "Each command has options of its own: cnctrans run --help.");
   add_converting(app, a);
 
@@ -200,6 +239,8 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
   lsp->add_flag("--stdio", a.stdio, "the way it always talks; for editors that say so");
   lsp->add_option("--grammar", a.grammar, "print the TextMate grammar of a dialect, and no more");
   lsp->footer("Example:\n  cnctrans lsp --grammar fagor > fagor.tmLanguage.json\nEditors start it: docs/editors.md.");
+  CLI::App* survey = add_survey(app, a);
+  CLI::App* names = add_names(app, a);
   CLI::App* man = app.add_subcommand("man", "print the manual page");
   man->footer("Example:\n  cnctrans man | man -l -");
   CLI::App* completion = app.add_subcommand("completion", "print a shell completion script");
@@ -214,6 +255,8 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
           {explain, cli::explain},
           {profile, cli::profile},
           {lsp, language_server},
+          {survey, cli::survey},
+          {names, cli::names},
           {man, nullptr},
           {completion, nullptr},
           {convert, cli::convert, Programs::from}};

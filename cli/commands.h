@@ -13,12 +13,12 @@ namespace cnctrans::cli {
 class Messages;
 
 /// Exit statuses of the contract (docs/trace.md).
-enum Exit : int { ok = 0, refused = 1, usage = 2, limit_or_difference = 3 };
+enum Exit : int { ok = 0, refused = 1, usage = 2, limit_or_difference = 3, draft = 4 };
 
 /// What the command line says; every command reads the fields it has options for.
 struct Arguments {
   std::string from, to, dialect;
-  std::string machine, target_machine;
+  std::string machine, target_machine, tools;
   std::vector<std::string> libraries;
   std::vector<std::string> inputs;
   std::string output;
@@ -35,6 +35,7 @@ struct Arguments {
   bool verify = false, no_verify = false;
   bool explore = false;
   int replays = 100;
+  bool draft = false;
   bool annotate = false;
   bool no_origin = false;
   bool force = false;  ///< files that are not cnctrans's own are replaced
@@ -56,6 +57,8 @@ struct Arguments {
   unsigned jobs = 1, timeout = 300;                    ///< batch: processes side by side; seconds for a program
   std::string shard;                                   ///< batch: "K/N"
   bool again = false, collect = false;
+  unsigned survey_jobs = 0;      ///< survey, names: processes side by side; 0: one a core
+  std::string stub;              ///< names: folder of the programs
   Messages* messages = nullptr;  ///< stderr of the call; set by main()
 };
 
@@ -69,5 +72,7 @@ int list_dialects(const Arguments& a);
 int explain(const Arguments& a);
 int profile(const Arguments& a);
 int language_server(const Arguments& a);
+int survey(const Arguments& a);
+int names(const Arguments& a);
 
 }  // namespace cnctrans::cli

@@ -49,15 +49,18 @@ bool translate_options(const Arguments& a, translator::TranslateOptions& out) {
   out.machine = a.machine;
   out.target_machine = a.target_machine;
   out.libraries = a.libraries;
+  out.tools = a.tools;
   if (a.explore) out.further.explore = static_cast<std::size_t>(a.replays);
   out.annotate = a.annotate;
   out.origin = !a.no_origin;
+  out.draft = a.draft;
   out.number_step = a.number_step;
   const std::pair<std::string_view, std::string_view> words[] = {
       {"reader", a.reader}, {"unsupported", a.unsupported}, {"numbering", a.numbering},
       {"cycles", a.cycles}, {"structure", a.structure},     {"encoding", a.encoding},
       {"eol", a.eol}};
   for (const auto& [option, word] : words) translator::set_word(out, option, word);  // the command line was checked
+  if (a.draft) out.unsupported = backends::Unsupported::comment;
   out.run.max_events = translator::kept_events;
   return run_limits(a, out.run);
 }
@@ -77,12 +80,20 @@ bool proved_options(const Arguments& a, translator::TranslateOptions& out) {
   return true;
 }
 
+bool add_definitions(const Arguments& a, const translator::Names& names, translator::InputOptions& out) {
+  std::string error;
+  if (SourcePtr text = translator::definitions_of(names, a.from, a.names, &error)) out.definitions.push_back(text);
+  if (!error.empty()) usage_error(a, error);
+  return error.empty();
+}
+
 bool run_options(const Arguments& a, translator::RunOptions& out) {
   translator::TranslateOptions words;
   translator::set_word(words, "reader", a.reader);
   out.dialect = a.dialect;
   out.machine = a.machine;
   out.libraries = a.libraries;
+  out.tools = a.tools;
   out.reader = words.reader;
   return run_limits(a, out.run);
 }
@@ -112,8 +123,8 @@ int exit_of(const verifier::Verdict& verdict) {
 
 std::vector<std::string> machine_files(const Arguments& a) {
   std::vector<std::string> list;
-  for (const auto& machine : {a.machine, a.target_machine}) {
-    if (!machine.empty()) list.push_back(machine);
+  for (const auto& file : {a.machine, a.target_machine, a.tools}) {
+    if (!file.empty()) list.push_back(file);
   }
   return list;
 }

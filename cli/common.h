@@ -18,6 +18,8 @@ int exit_of(const verifier::Verdict& verdict);
 bool translate_options(const Arguments& a, translator::TranslateOptions& out);
 /// The same for a command that makes translations: with the proof that it is to have.
 bool proved_options(const Arguments& a, translator::TranslateOptions& out);
+/// The names that the machine defines by "sizes" of a names file. False, and the reason is said: its control has none.
+bool add_definitions(const Arguments& a, const translator::Names& names, translator::InputOptions& out);
 bool run_options(const Arguments& a, translator::RunOptions& out);
 /// Says on stderr why the call can't be done; the exit status for it.
 int usage_error(const Arguments& a, std::string_view message);

@@ -14,6 +14,7 @@
 #include "translator/report/report.h"
 #include "translator/stream/stream.h"
 #include "translator/stream/stream_proof.h"
+#include "translator/translation/draft.h"
 
 namespace cnctrans::cli {
 
@@ -47,7 +48,7 @@ void wrote(const Arguments& a, const std::string& path) {
 /// Where one output goes.
 fs::path target_path(const Arguments& a, const translator::OutputText& out) {
   if (is_folder(a.output)) return fs::path(a.output) / out.name;
-  if (out.main) return a.output;
+  if (out.main) return out.name.find(".draft.") == std::string::npos ? a.output : translator::draft_name(a.output);
   return fs::path(a.output).parent_path() / out.name;
 }
 
@@ -125,7 +126,7 @@ bool write_named(const Arguments& a, const std::string& path, std::string_view b
 class NamesFile {
  public:
   explicit NamesFile(const Arguments& a) : a_(a) {}
-  ir::NameMap map;
+  translator::Names names;
 
   /// False, and the reason is said: it is there and can't be used.
   bool read() {
@@ -137,15 +138,15 @@ class NamesFile {
       usage_error(a_, error);
       return false;
     }
-    map = *std::move(found);
-    before_ = map;
+    names = *std::move(found);
+    before_ = names.map;
     return true;
   }
   /// A file whose names are all there already is left as it is.
   [[nodiscard]] bool write() const {
-    if (a_.names.empty() || map == before_) return true;
+    if (a_.names.empty() || names.map == before_) return true;
     std::string error;
-    if (!write_file(a_.names, translator::names_text(map, a_.from, a_.to), &error)) {
+    if (!write_file(a_.names, translator::names_text(names, a_.from, a_.to), &error)) {
       not_written(a_, error);
       return false;
     }
@@ -259,6 +260,15 @@ class Proofs {
   std::vector<Line> lines_;
 };
 
+void tell_draft(const Arguments& a, const std::string& input, const translator::TranslateResult& result) {
+  const auto count = [](std::size_t n, const char* what) {
+    return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+  };
+  a.messages->say(Severity::warning, "CNC-DRAFT",
+                  input + ": a draft: " + count(result.to_do.size(), "thing") + " to do, " +
+                      count(result.untranslated.size(), "line") + " not translated");
+}
+
 /// The whole-program path: in memory, with calls, proved.
 int convert_whole(const Arguments& a, const translator::TranslateOptions& options, Job& job, ir::NameMap& names,
                   Proofs& proofs) {
@@ -279,6 +289,10 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
   job.take_names(result);
   if (!result.held_back) translator::add_names(names, result.names);
   proofs.add(input, options, result);
+  if (result.draft) {
+    tell_draft(a, input, result);
+    return draft;
+  }
   return result.held_back ? exit_of(result.verdict) : ok;
 }
 
@@ -379,7 +393,7 @@ std::optional<int> convert_stream(const Arguments& a, const translator::Translat
   const std::string& input = job.input();
   if (input == "-") return std::nullopt;  // it is in memory already
   if (options.annotate || options.names != nullptr || is_folder(a.output) || !a.report.empty()) return std::nullopt;
-  if (options.verify && options.strict) return std::nullopt;
+  if ((options.verify && options.strict) || options.draft || !options.tools.empty()) return std::nullopt;
   std::error_code ignored;
   if (fs::equivalent(a.output, input, ignored)) return std::nullopt;
   if (options.verify) return convert_stream_proved(a, options, job, proofs);
@@ -432,12 +446,13 @@ int convert(const Arguments& a) {
   Job job(a);
   NamesFile names(a);
   if (!names.read()) return usage;
-  if (!a.names.empty()) options.names = &names.map;
+  if (!a.names.empty()) options.names = &names.names;
+  if (!add_definitions(a, names.names, options)) return usage;
   Proofs proofs(a);
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     job.begin(i);
     const auto streamed = convert_stream(a, options, job, proofs);
-    status = std::max(status, streamed ? *streamed : convert_whole(a, options, job, names.map, proofs));
+    status = std::max(status, streamed ? *streamed : convert_whole(a, options, job, names.names.map, proofs));
   }
   if (!names.write()) status = std::max<int>(status, refused);
   proofs.say();

@@ -13,6 +13,7 @@
 #include "interpreter/program/interpreter.h"
 #include "legaliser/legalise.h"
 #include "translator/files/loader.h"
+#include "translator/files/names_file.h"
 #include "translator/files/registry.h"
 #include "translator/proving/proof.h"
 #include "verifier/compare.h"
@@ -42,8 +43,10 @@ class Input {
 /// How programs are found and read.
 struct InputOptions {
   std::string machine;                 ///< built-in name or file; empty: chosen
+  std::string tools;                   ///< file of tools for the machine; empty: those of its profile
   std::vector<std::string> libraries;  ///< folders and files
   std::vector<SourcePtr> texts;        ///< programs in memory that may be called; they come before every folder
+  std::vector<SourcePtr> definitions;  ///< in memory: they define names for every program of the machine
   frontends::Reader reader = frontends::Reader::scanner;
 };
 
@@ -53,6 +56,7 @@ struct TranslateOptions : InputOptions {
   backends::Unsupported unsupported = backends::Unsupported::error;
   backends::Numbering numbering = backends::Numbering::keep;
   std::int32_t number_step = 10;
+  bool draft = false;  ///< with Unsupported::comment: what is left to do stands at the head, in order
   bool annotate = false;
   bool origin = false;          ///< a remark at the head names the source's file and control
   bool verify = false;          ///< a proof is made; then:
@@ -66,8 +70,15 @@ struct TranslateOptions : InputOptions {
   bool raise_structure = false;      ///< jumps become structures where the target has them and it is provably the same
   std::optional<Encoding> encoding;  ///< of the output; else as the input
   std::optional<Eol> eol;
-  interpreter::Options run;            ///< limits, --set, --skip for the verification
-  const ir::NameMap* names = nullptr;  ///< names that are given; may be null
+  interpreter::Options run;      ///< limits, --set, --skip for the verification
+  const Names* names = nullptr;  ///< names that are given; may be null
+};
+
+/// Something that a draft leaves to a person.
+struct ToDo {
+  std::string code, message, hint;
+  std::vector<Span> places;
+  bool placeholder = false;  ///< a variable stands for it; the lines are translated
 };
 
 /// One file of the result, ready to be written: encoded, with line ends.
@@ -86,6 +97,9 @@ struct TranslateResult {
   bool refused = false;    ///< nothing may be written
   bool held_back = false;  ///< by the proof: the outputs may be looked at and not used
   std::vector<OutputText> outputs;
+  bool draft = false;  ///< asked for, and something is left to do
+  std::vector<ToDo> to_do;
+  std::vector<Span> untranslated;  ///< lines of the source that the outputs leave out
   Diagnostics diagnostics;
   FileTable files;
   bool verified = false;  ///< a verification ran

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -24,6 +25,14 @@ namespace cnctrans::backends {
 enum class Unsupported : std::uint8_t { error, warn, comment };
 enum class Numbering : std::uint8_t { keep, none, renumber };
 
+/// A line of the source that a draft leaves out: its number in the list of what is to be done, and whether the machine
+/// has to stop before it.
+struct ToDoLine {
+  std::size_t number = 0;
+  bool stop = true;
+};
+using ToDoLines = std::map<std::pair<FileId, std::uint32_t>, ToDoLine>;
+
 struct WriteOptions {
   const machine::Profile* profile = nullptr;  ///< of the target; never null when called
   Unsupported unsupported = Unsupported::error;
@@ -33,7 +42,9 @@ struct WriteOptions {
   bool annotate = false;                          ///< the source line as a comment beside its translation
   bool single_output = false;  ///< one file for everything: subprograms in the same file, or an archive
   bool files_apart = false;    ///< programs of other source files (a library) go to files of their own
-  std::string main_stem;       ///< file stem wanted for the main program (where legal)
+  bool draft = false;  ///< what is left out is a remark with its number in `to_do`; one stop before a run of such lines
+  ToDoLines to_do;
+  std::string main_stem;  ///< file stem wanted for the main program (where legal)
   /// Capitals: names of files and programs that other translations of the same job have already. The main program gets
   /// another one, with a note.
   std::set<std::string> taken;
@@ -52,6 +63,7 @@ struct OutputFile {
   std::string text;     ///< UTF-8 where the program's texts are, LF line ends; the translator encodes
   SourceMap map;
   bool main = false;
+  std::vector<Span> left_out;  ///< places of the source in whose stead a remark stands
 };
 
 /// Writes plain blocks of a straight-line program one by one; false: the block needs the whole-program writer.

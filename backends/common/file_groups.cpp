@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "ir/edit/outside.h"
+
 namespace cnctrans::backends {
 
 namespace {
@@ -37,7 +39,9 @@ void collect_called(const ir::Body& body, std::vector<const ir::RoutineName*>& o
 std::vector<std::size_t> file_order(const ir::Program& program, bool same_language) {
   const auto& routines = program.routines;
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < routines.size(); ++i) order.push_back(i);
+  for (std::size_t i = 0; i < routines.size(); ++i) {
+    if (!ir::is_outside(routines[i])) order.push_back(i);
+  }
   if (same_language || routines.empty() || routines[0].kind != ir::RoutineKind::main) return order;
   order = {0};
   std::set<std::size_t> seen{0};
@@ -46,12 +50,12 @@ std::vector<std::size_t> file_order(const ir::Program& program, bool same_langua
     collect_called(routines[order[at]].body, calls);
     for (const ir::RoutineName* called : calls) {
       for (std::size_t i = 0; i < routines.size(); ++i) {
-        if (routines[i].name == *called && seen.insert(i).second) order.push_back(i);
+        if (routines[i].name == *called && !ir::is_outside(routines[i]) && seen.insert(i).second) order.push_back(i);
       }
     }
   }
   for (std::size_t i = 0; i < routines.size(); ++i) {
-    if (seen.insert(i).second) order.push_back(i);
+    if (!ir::is_outside(routines[i]) && seen.insert(i).second) order.push_back(i);
   }
   return order;
 }

@@ -276,6 +276,7 @@ void ProgramWriter::finish_line() {
     if (blank_line_ && first_of_source_line_ && style_.blank_lines) emit(style_.blank_line, info_->span);
     return;
   }
+  if (!words.empty() && words != style_.blank_line) stopped_ = false;
   text += words;
   while (!text.empty() && (text.back() == ' ' || text.back() == '\n')) text.pop_back();
   if (only_head) {

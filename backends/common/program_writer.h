@@ -205,6 +205,7 @@ class ProgramWriter {
   [[nodiscard]] std::string line_head(bool numbered);
   [[nodiscard]] std::string line_comments();
   void emit_refusal();
+  void stop_before(bool wanted);
   /// The statement comes of a source block of which something has been left out.
   [[nodiscard]] bool part_of_refused(const ir::Statement& s) const;
   void refuse_rest();
@@ -237,6 +238,7 @@ class ProgramWriter {
   std::string refusal_code_;
   std::optional<Span> refused_block_;  ///< the source block that was left out last
   bool refusal_moves_ = true;
+  bool stopped_ = false;  ///< a draft: the machine stands since the last line that is translated
   bool rounding_noted_ = false;
 
   // place and state

@@ -49,12 +49,19 @@ void ProgramWriter::refuse_rest() {
 
 /// The remark stands in place of the line: number and labels stay, so that jumps still find it.
 void ProgramWriter::emit_refusal() {
-  const std::string code = std::exchange(refusal_code_, std::string{});
+  std::string code = std::exchange(refusal_code_, std::string{});
   if (options_.unsupported != Unsupported::error && refusal_moves_ && info_->span.known()) refused_block_ = info_->span;
   line_.clear();
   std::string source(trim(source_line(info_->span)));
   if (source.empty() && current_ != nullptr) {
     if (const auto* o = std::get_if<ir::Opaque>(&current_->node)) source = std::string(trim(o->text));
+  }
+  if (refusal_moves_ && info_->span.known() && !files_.empty()) files_.back().left_out.push_back(info_->span);
+  if (options_.draft) {
+    const auto item = options_.to_do.find({info_->span.file, info_->span.line});
+    const bool known = item != options_.to_do.end();
+    if (known) code = "TO DO " + std::to_string(item->second.number) + ':';
+    stop_before(refusal_moves_ && (!known || item->second.stop));
   }
   std::string text = line_head(true);
   refusal_code_.clear();
@@ -63,10 +70,18 @@ void ProgramWriter::emit_refusal() {
   const std::size_t comments = text.size();
   text += comment("!! " + code + ' ' + source, remark, false, nullptr);
   emit_remark(text, comments, info_->span);
-  if (options_.unsupported == Unsupported::comment && refusal_moves_) {
+  if (options_.unsupported == Unsupported::comment && refusal_moves_ && !options_.draft) {
     first_of_source_line_ = false;
     emit(line_head(true) + m_word(0), info_->span);
   }
+}
+
+/// The machine stops before the first line of a run that is left out, and where a jump leads into it.
+void ProgramWriter::stop_before(bool wanted) {
+  if (!wanted || (stopped_ && !is_join(*info_))) return;
+  emit(line_head(true) + m_word(0), info_->span);
+  first_of_source_line_ = false;
+  stopped_ = true;
 }
 
 void ProgramWriter::remark_line(const ir::LineInfo& info) {

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "dialects/heidenhain/functions.h"
 #include "dialects/heidenhain/limits.h"
+#include "ir/edit/outside.h"
 
 namespace cnctrans::backends::heidenhain {
 
@@ -115,7 +116,8 @@ void Writer::write_routine(std::size_t index) {
 
 std::optional<std::size_t> Writer::callee(const ir::CallRoutine& c) const {
   for (std::size_t i = 0; i < program().routines.size(); ++i) {
-    if (program().routines[i].name == c.routine && program().routines[i].kind == ir::RoutineKind::sub) return i;
+    const ir::Routine& r = program().routines[i];
+    if (r.name == c.routine && r.kind == ir::RoutineKind::sub && !ir::is_outside(r)) return i;
   }
   return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/asked.h"
 #include "dialects/sinumerik/limits.h"
+#include "ir/edit/outside.h"
 #include "ir/edit/search.h"
 
 namespace cnctrans::backends::sinumerik {
@@ -128,14 +129,16 @@ void Writer::write_program() {
   angles_ = !same_dialect() && threads_have_angles();
   const auto& routines = program().routines;
   const bool was_archive = same_dialect() && !program().files.empty() && program().files.front().archive;
-  const bool archive = was_archive || (options().single_output && routines.size() > 1);
+  const auto here = std::count_if(routines.begin(), routines.end(), [](const auto& r) { return !ir::is_outside(r); });
+  const bool archive = was_archive || (options().single_output && here > 1);
   bool first = true;
   for (std::size_t i = 0; i < routines.size(); ++i) {
     const ir::Routine& r = routines[i];
+    if (ir::is_outside(r)) continue;
     const bool main = r.kind == ir::RoutineKind::main;
     const std::string extension = main ? "MPF" : "SPF";
     const std::string name = main ? free_stem(main_name(), "." + extension) : sub_name(r.name);
-    const bool bundle = archive && routines.size() > 1;
+    const bool bundle = archive && here > 1;
     if (!archive || first) open_file(name + '.' + (bundle ? "ARC" : extension), main || first);
     if (archive) {
       const bool own_header = same_dialect() && !r.attributes.empty();

@@ -110,19 +110,19 @@ std::optional<std::vector<ir::cycles::MillMove>> BlockMachine::milling_by_assume
   }
   if (same) return std::nullopt;  // with every tool: it is not the radius
   *error =
-      "the passes of a milling cycle depend on the radius of the tool, which is not known: give it in the profile's "
-      "\"tools\" or by --set TOOL_RADIUS=5";
+      "the passes of a milling cycle depend on the radius of the tool, which is not known: give it with --tools FILE, "
+      "in the profile's \"tools\" or by --set TOOL_RADIUS=5";
   return std::nullopt;
 }
 
 void BlockMachine::tell_radii(Diagnostics& diagnostics) const {
   for (const auto& a : assumed_radii_) {
     const std::string tool = a.tool != 0 ? " T" + std::to_string(a.tool) : "";
-    diagnostics.warning(code::radius_assumed, a.where,
-                        "nobody gives the radius of the tool" + tool +
-                            ": the passes of this milling cycle are those of a tool of radius " + shortest(a.radius) +
-                            " mm",
-                        "give it in the profile's \"tools\" or by --set TOOL_RADIUS=" + shortest(a.radius));
+    diagnostics.warning(
+        code::radius_assumed, a.where,
+        "nobody gives the radius of the tool" + tool +
+            ": the passes of this milling cycle are those of a tool of radius " + shortest(a.radius) + " mm",
+        "give it with --tools FILE, in the profile's \"tools\" or by --set TOOL_RADIUS=" + shortest(a.radius));
   }
 }
 
@@ -132,8 +132,8 @@ bool BlockMachine::run_milling() {
   const auto need = ir::cycles::needs_radius(mill_);
   if (context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::lead)
     assume("TOOL_RADIUS", 0,
-           "the way onto the contour and off it is counted from the tool's edge: give the radius in the profile's "
-           "\"tools\" or by --set TOOL_RADIUS=5");
+           "the way onto the contour and off it is counted from the tool's edge: give the radius with --tools FILE, in "
+           "the profile's \"tools\" or by --set TOOL_RADIUS=5");
   std::string error;
   const bool unknown = context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::moves;
   const auto moves =

@@ -54,7 +54,8 @@ bool BlockMachine::find_pocket_entries() {
   if (context.tool_radius <= 0)
     return failure_.fail(code::bad_cycle,
                          "the places of the drilling depend on the radius of the roughing tool, which "
-                         "is not known: give it in the profile's \"tools\" or by --set TOOL_RADIUS=5");
+                         "is not known: give it with --tools FILE, in the profile's \"tools\" or by --set "
+                         "TOOL_RADIUS=5");
   std::string error;
   const auto points = ir::cycles::pocket_entries(mill_, context, &error);
   if (points.empty()) return failure_.fail(code::bad_cycle, error);

@@ -1,5 +1,8 @@
 // Faults that are visible without running: what control can reach is followed from the start of the main program.
+#include <algorithm>
 #include <map>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "interpreter/program/routines.h"
@@ -24,11 +27,11 @@ class Checker {
   Checker(const ir::Program& program, const Options& options, Diagnostics& diagnostics)
       : program_(program), routines_(program, options, nullptr), diagnostics_(diagnostics) {}
 
-  void run() {
+  std::vector<ir::RoutineName> run() {
     auto* main = routines_.main();
     if (main == nullptr) {
       diagnostics_.error(code::no_program, {}, "there is no program to run");
-      return;
+      return {};
     }
     reach(*main, 0);
     while (!work_.empty()) {
@@ -38,6 +41,7 @@ class Checker {
     }
     for (auto* flow : routines_.all_of_main()) unreached(*flow);
     limits();
+    return tell_missing();
   }
 
  private:
@@ -167,10 +171,27 @@ class Checker {
   }
 
   void missing_routine(const ir::Statement& s, const ir::RoutineName& name) {
-    const bool program = !name.text.empty() && name.text.find_first_not_of("0123456789") == std::string::npos;
-    diagnostics_.error(code::unknown_routine, s.line.span,
-                       (program ? "there is no program " : "there is no subprogram ") + routine_text(name),
-                       "name the folder it is in with --lib");
+    const auto has = [&name](const Missing& m) { return m.name == name; };
+    auto it = std::find_if(missing_.begin(), missing_.end(), has);
+    if (it == missing_.end()) it = missing_.insert(missing_.end(), {name, s.line.span, 0});
+    const auto place = [](const Span& at) { return std::tuple(at.file, at.line, at.column); };
+    if (place(s.line.span) < place(it->first)) it->first = s.line.span;
+    ++it->calls;
+  }
+
+  /// One error for each routine, where it is called first.
+  std::vector<ir::RoutineName> tell_missing() const {
+    std::vector<ir::RoutineName> names;
+    for (const auto& m : missing_) {
+      const bool program = !m.name.text.empty() && m.name.text.find_first_not_of("0123456789") == std::string::npos;
+      const std::string more = m.calls > 1 ? "; " + std::to_string(m.calls) + " blocks call it" : std::string();
+      diagnostics_.error(code::unknown_routine, m.first,
+                         (program ? "there is no program " : "there is no subprogram ") + routine_text(m.name) + more,
+                         "name the folder it is in with --lib; a translation can do without where a file of names says "
+                         "how it is called (--names)");
+      names.push_back(m.name);
+    }
+    return names;
   }
 
   /// The run may write the program before it calls it.
@@ -238,13 +259,20 @@ class Checker {
   Diagnostics& diagnostics_;
   std::map<Flow*, std::vector<bool>> seen_;
   std::vector<const Flow*> order_;  ///< as they are reached first
+  struct Missing {
+    ir::RoutineName name;
+    Span first;
+    std::size_t calls = 0;
+  };
+  std::vector<Missing> missing_;
   std::vector<std::pair<Flow*, std::uint32_t>> work_;
 };
 
 }  // namespace
 
-void check_program(const ir::Program& program, const Options& options, Diagnostics& diagnostics) {
-  Checker(program, options, diagnostics).run();
+std::vector<ir::RoutineName> check_program(const ir::Program& program, const Options& options,
+                                           Diagnostics& diagnostics) {
+  return Checker(program, options, diagnostics).run();
 }
 
 }  // namespace cnctrans::interpreter

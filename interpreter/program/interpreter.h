@@ -94,6 +94,8 @@ class BlockRunner {
 };
 
 /// Statically visible faults: jumps and ranges to labels that are not there, calls of unknown routines, bad nesting.
-void check_program(const ir::Program& program, const Options& options, Diagnostics& diagnostics);
+/// The routines that are called and that nobody has: one error each, at the first call.
+std::vector<ir::RoutineName> check_program(const ir::Program& program, const Options& options,
+                                           Diagnostics& diagnostics);
 
 }  // namespace cnctrans::interpreter

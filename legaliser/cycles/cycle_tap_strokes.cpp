@@ -68,7 +68,9 @@ void CyclePass::position(Statement&& s, Body& out) {
 
 void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
   refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + why,
-         "give the cycle's words and the place before it as numbers");
+         why.find("radius of the tool") != std::string::npos || why.find("which tool") != std::string::npos
+             ? "give the radius of the tool: --tools FILE, the profile's \"tools\", or --set TOOL_RADIUS=5"
+             : "give the cycle's words and the place before it as numbers");
   late_.clear();
   out.push_back(std::move(s));
 }

@@ -1,5 +1,7 @@
 #include "legaliser/names/variable_use.h"
 
+#include <algorithm>
+
 #include "legaliser/data/written_data.h"
 
 #include "base/saturate.h"
@@ -44,11 +46,12 @@ VariableUse::VariableUse(const Program& program, const LegaliseContext& context)
           if (i.to_system && !left_out(i.system)) system(i.system);
         }
       }
-      say_missing(s);
+      note_missing(s);
       const auto* c = std::get_if<CallRoutine>(&s.node);
       if (c != nullptr && c->level == CallLevel::new_level) levels = true;
     });
   }
+  say_lacking();
 }
 
 void VariableUse::dimensions(const Declare& d, std::size_t routine) {
@@ -67,17 +70,28 @@ void VariableUse::system(const SystemRef& ref) {
   missing_[std::string(ref.text)].insert(name_of_datum(ref, program_));
 }
 
-void VariableUse::say_missing(const Statement& s) {
+void VariableUse::note_missing(const Statement& s) {
   for (const auto& [kind, names] : missing_) {
     const std::size_t more = names.size() - 1;
-    context_.diagnostics.error(
-        "TRN-122", s.line.span,
+    const std::string what =
         "the target has no counterpart of " + quoted(*names.begin()) +
-            (more == 0 ? "" : " and of " + std::to_string(more) + " more that " + quoted(kind) + " asks for here"),
+        (more == 0 ? "" : " and of " + std::to_string(more) + " more that " + quoted(kind) + " asks for here");
+    const auto same = [&what](const Lacking& l) { return l.what == what; };
+    auto it = std::find_if(lacking_.begin(), lacking_.end(), same);
+    if (it == lacking_.end()) it = lacking_.insert(lacking_.end(), {what, s.line.span, 0});
+    ++it->blocks;
+  }
+  missing_.clear();
+}
+
+void VariableUse::say_lacking() const {
+  for (const auto& l : lacking_) {
+    context_.diagnostics.error(
+        "TRN-122", l.first,
+        l.what + (l.blocks > 1 ? "; " + std::to_string(l.blocks) + " blocks need it" : std::string()),
         "say what stands for it on the target in a file of names (--names, \"data\"), or replace it by a variable or a "
         "fixed value");
   }
-  missing_.clear();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -40,8 +40,16 @@ struct VariableUse {
   void note(const VarRef& v, std::size_t routine, const LineInfo& line);
   void dimensions(const Declare& d, std::size_t routine);
   void system(const SystemRef& ref);
-  /// Says what the statement reads or writes and the target has not: once for each kind of datum, with their number.
-  void say_missing(const Statement& s);
+  /// What the statement reads or writes and the target has not: one for each kind of datum, with their number.
+  void note_missing(const Statement& s);
+  /// One error for each, where it is needed first.
+  void say_lacking() const;
+  struct Lacking {
+    std::string what;
+    Span first;
+    std::size_t blocks = 0;
+  };
+  std::vector<Lacking> lacking_;
   std::map<std::string, std::set<std::string>> missing_;  ///< of the statement: names by kind
   const Program& program_;
   const LegaliseContext& context_;

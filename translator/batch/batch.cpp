@@ -58,6 +58,7 @@ std::string job_sum(const BatchOptions& o) {
                                  t.eol ? static_cast<int>(*t.eol) : -1, t.run.max_events);
   for (const auto& l : t.libraries) text += "|" + l;
   if (t.names != nullptr) text += "|" + names_text(*t.names, t.from, t.to);
+  if (!t.tools.empty()) text += "|tools " + t.tools;
   if (!t.origin) text += "|no origin";
   text += fmt::format("|proof {} {} {} {} {}", t.verify, t.strict, t.further.skips, t.further.explore,
                       t.further.time ? t.further.time->count() : 0);
@@ -92,6 +93,7 @@ std::string first_error(const TranslateResult& result) {
 std::string status_of(const TranslateResult& result, bool readable) {
   if (!result.error.empty()) return "unreadable";
   if (result.refused) return "refused";
+  if (result.draft) return "draft";
   if (!result.verified || !readable) return "written";
   switch (result.verdict.status) {
     case verifier::Status::verified: return "verified";
@@ -249,7 +251,7 @@ class Batch {
     r.detail = one_line(std::move(r.detail));
     for (FileId i = 1; i < result.files.size(); ++i) note_read(result.files.name(i), r);
     note_read((in / program).string(), r);
-    for (const auto& machine : {t.machine, t.target_machine}) note_read(machine, r);
+    for (const auto& file : {t.machine, t.target_machine, t.tools}) note_read(file, r);
     const bool bad = result.held_back && r.status != "no motion";
     std::vector<FileToWrite> files;
     for (const auto& out : result.outputs) files.push_back({bad ? out.name + ".unverified" : out.name, out.bytes});

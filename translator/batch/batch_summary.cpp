@@ -94,7 +94,7 @@ constexpr std::string_view style = R"(body{font:15px/1.4 sans-serif;margin:2em;m
 table{border-collapse:collapse;margin:.5em 0 1.5em}th,td{border:1px solid #bbb;padding:.2em .6em;text-align:left;
 vertical-align:top}th{background:#eee}.bar{height:1.2em;display:flex;max-width:60em}.bar span{display:block}
 .verified,.within{background:#4a9d5b}.written{background:#7aa7d0}.no{background:#bbb}.not,.left{background:#d9a441}
-.differs,.crashed,.timed{background:#c0392b}.refused{background:#e0c060}.unreadable{background:#a0785a}
+.differs,.crashed,.timed{background:#c0392b}.refused,.draft{background:#e0c060}.unreadable{background:#a0785a}
 td.s{color:#000;white-space:nowrap})";
 
 std::string_view first_word(std::string_view status) {
@@ -104,9 +104,9 @@ std::string_view first_word(std::string_view status) {
 }  // namespace
 
 const std::vector<std::string>& batch_statuses() {
-  static const std::vector<std::string> all{"verified",       "within tolerance", "written",   "no motion",
-                                            "not replayable", "differs",          "refused",   "unreadable",
-                                            "crashed",        "timed out",        "left alone"};
+  static const std::vector<std::string> all{"verified",       "within tolerance", "written",    "no motion",
+                                            "not replayable", "differs",          "refused",    "unreadable",
+                                            "crashed",        "timed out",        "left alone", "draft"};
   return all;
 }
 

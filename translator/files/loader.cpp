@@ -213,10 +213,13 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
 const std::vector<const ir::Program*>& Loader::definitions() {
   if (defined_) return definitions_;
   defined_ = true;
+  std::vector<SourcePtr> sources;
   for (const auto& path : definition_files(dialect_, definition_places_)) {
     std::string error;
-    const SourcePtr source = SourceText::open(path, &error);
-    if (!source) continue;
+    if (SourcePtr source = SourceText::open(path, &error)) sources.push_back(std::move(source));
+  }
+  sources.insert(sources.end(), definition_texts_.begin(), definition_texts_.end());
+  for (const SourcePtr& source : sources) {
     Diagnostics said;
     const frontends::ReadOptions options{reader_, &profile_};
     own_definitions_.push_back(

@@ -60,6 +60,8 @@ class Loader {
   FileTable& files() { return files_; }
   /// Files of the libraries that define names for every program of the machine; read when first asked for.
   const std::vector<const ir::Program*>& definitions();
+  /// A text in memory defines names as well.
+  void define(const SourcePtr& text) { definition_texts_.push_back(text); }
   /// Definitions that another loader has read, in the place of own ones.
   void use_definitions(const Loader& other);
   /// The error that reading gave for one of these lines (see interpreter::Options::fault). Errors on lines without a
@@ -99,6 +101,7 @@ class Loader {
   bool by_callers_ = false;  ///< read_by_callers() has been done
   bool defined_ = false;
   std::vector<std::string> definition_places_;  ///< the libraries, without the folder of the program
+  std::vector<SourcePtr> definition_texts_;
   std::vector<std::unique_ptr<ir::Program>> own_definitions_;
   std::vector<const ir::Program*> definitions_;
   std::vector<const ir::Program*> called_;

@@ -33,6 +33,12 @@ std::string sinumerik_file(std::string_view name, bool /*lathe*/) {
   return std::string(typed ? name.substr(0, name.size() - type) : name) + '.' + std::string(extension);
 }
 
+std::string sinumerik_definition(std::string_view name, const std::vector<std::int64_t>& sizes) {
+  std::string list;
+  for (const auto n : sizes) list += (list.empty() ? "" : ",") + std::to_string(n);
+  return "DEF CHAN REAL " + std::string(name) + (list.empty() ? "" : '[' + list + ']');
+}
+
 }  // namespace
 
 const std::vector<Dialect>& dialects() {
@@ -79,7 +85,8 @@ const std::vector<Dialect>& dialects() {
        frontends::sinumerik::make_frontend(),
        backends::sinumerik::make_backend(),
        {"def"},
-       sinumerik_file},
+       sinumerik_file,
+       sinumerik_definition},
       {"heidenhain",
        "Heidenhain iTNC 530",
        {"h"},

@@ -1,6 +1,7 @@
 // The dialects the house knows: one line each in registry.cpp.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,6 +40,8 @@ struct Dialect {
   std::vector<std::string_view> definition_extensions{};
   /// The file that holds what a program has written under a name of the control; null: no program writes files.
   std::string (*written_file)(std::string_view name, bool lathe) = nullptr;
+  /// A line of a definition file that defines a number, or an array of them; null: no machine defines names.
+  std::string (*definition)(std::string_view name, const std::vector<std::int64_t>& sizes) = nullptr;
 };
 
 /// All dialects in the order `cnctrans dialects` lists them.

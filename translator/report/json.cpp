@@ -74,12 +74,25 @@ Json not_compared(const verifier::LeftOut& l) {
   return out;
 }
 
+Json to_do_json(const Report& r) {
+  Json list = Json::array();
+  for (const auto& item : r.to_do) {
+    Json places = Json::array();
+    for (const Span& s : item.places) places.push_back({{"file", r.files.name(s.file)}, {"line", s.line}});
+    list.push_back({{"code", item.code}, {"what", item.message}, {"decide", item.hint}, {"places", std::move(places)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string report_data(const Report& r, bool with_paths) {
   Json counts;
   const auto n = r.counts();
-  for (std::size_t i = 0; i < n.size(); ++i) counts[std::string(name(static_cast<LineStatus>(i)))] = n[i];
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const auto status = static_cast<LineStatus>(i);
+    if (n[i] != 0 || status != LineStatus::untranslated) counts[std::string(name(status))] = n[i];
+  }
   Json verdict{{"status", r.verdict}, {"events", r.events}, {"moves", r.moves}, {"max_length", r.max_length}};
   if (r.replays > 1) verdict.update({{"replays", r.replays}, {"ways", r.ways}, {"ways_taken", r.ways_taken}});
   if (r.blocks != 0) verdict.update({{"blocks", r.blocks}, {"replayed", r.replayed}});
@@ -107,6 +120,7 @@ std::string report_data(const Report& r, bool with_paths) {
          {"diagnostics", Json::parse(render_json(r.diagnostics, r.files))},
          {"sources", files_json(r.sources)},
          {"targets", files_json(r.targets)}};
+  if (!r.to_do.empty()) j["to_do"] = to_do_json(r);
   if (with_paths) {
     j["source_path"] = path_json(r.source_path);
     j["target_path"] = path_json(r.target_path);

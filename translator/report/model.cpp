@@ -153,7 +153,7 @@ void mark_diagnostics(Report& r, const std::vector<std::size_t>& file_index) {
 
 std::string_view name(LineStatus s) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(LineStatus::count_)> names{
-      "blank", "exact", "folded", "noted", "review", "refused"};
+      "blank", "exact", "folded", "noted", "review", "untranslated", "refused"};
   return names[static_cast<std::size_t>(s)];
 }
 
@@ -182,6 +182,11 @@ Report make_report(const std::string& path, const TranslateOptions& options, con
   for (std::size_t i = 0; i < std::min(written.size(), r.targets.size()); ++i) r.targets[i].name = to_utf8(written[i]);
   link_lines(r, result, source_index);
   mark_diagnostics(r, source_index);
+  for (const Span& s : result.untranslated) {
+    if (s.file >= source_index.size()) continue;
+    if (ReportLine* l = line_at(r.sources, {source_index[s.file], s.line})) l->status = LineStatus::untranslated;
+  }
+  r.to_do = result.to_do;
   r.verdict = result.refused ? "refused" : "not asked";
   if (!result.refused) r.verdict_text = proof_text(result, result.target_files);
   if (result.verified) {

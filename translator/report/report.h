@@ -13,12 +13,13 @@ namespace cnctrans::translator {
 
 /// What became of a source line; the gravest diagnostic on it decides.
 enum class LineStatus : std::uint8_t {
-  blank,    ///< nothing on it
-  exact,    ///< stands in the translation, nothing to say
-  folded,   ///< no line of its own in the translation (a header, or words that went into another block)
-  noted,    ///< a note
-  review,   ///< a warning: someone has to look
-  refused,  ///< an error: not carried
+  blank,         ///< nothing on it
+  exact,         ///< stands in the translation, nothing to say
+  folded,        ///< no line of its own in the translation (a header, or words that went into another block)
+  noted,         ///< a note
+  review,        ///< a warning: someone has to look
+  untranslated,  ///< left out of a draft: a remark stands in its place
+  refused,       ///< an error: not carried
   count_
 };
 std::string_view name(LineStatus s);
@@ -66,6 +67,7 @@ struct Report {
   std::optional<ReportPlace> differs_source, differs_target;
   std::vector<ReportFile> sources, targets;
   std::vector<ReportMove> source_path, target_path;
+  std::vector<ToDo> to_do;  ///< of a draft
   Diagnostics diagnostics;
   FileTable files;  ///< that the diagnostics point into
 

@@ -77,6 +77,26 @@ void add_diagnostics(std::string& out, const Report& r) {
     out += fmt::format("| | {} | {} | {} more of this code | |\n", severity_text(more.severity), code, more.count);
 }
 
+std::string lines_text(const ToDo& item) {
+  std::string text;
+  std::uint32_t last = 0;
+  for (const Span& s : item.places) {
+    if (s.line == 0 || s.line == last) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(s.line);
+    last = s.line;
+  }
+  return text;
+}
+
+void add_to_do(std::string& out, const Report& r) {
+  out += "\n## To do\n\n| | code | times | lines | what | to decide |\n|---|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < r.to_do.size(); ++i) {
+    const ToDo& item = r.to_do[i];
+    out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", i + 1, item.code, item.places.size(), lines_text(item),
+                       cell(item.message), cell(item.hint));
+  }
+}
+
 }  // namespace
 
 std::string report_markdown(const Report& r) {
@@ -87,8 +107,11 @@ std::string report_markdown(const Report& r) {
          "```\n\n## Lines of the source\n\n";
   out += "| status | lines |\n|---|---|\n";
   const auto n = r.counts();
-  for (std::size_t i = 0; i < n.size(); ++i)
-    out += fmt::format("| {} | {} |\n", name(static_cast<LineStatus>(i)), n[i]);
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const auto status = static_cast<LineStatus>(i);
+    if (n[i] != 0 || status != LineStatus::untranslated) out += fmt::format("| {} | {} |\n", name(status), n[i]);
+  }
+  if (!r.to_do.empty()) add_to_do(out, r);
   out += "\n## What has to be known\n\n";
   add_diagnostics(out, r);
   if (!r.targets.empty()) {

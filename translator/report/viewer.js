@@ -324,6 +324,16 @@
     });
     if (!data.diagnostics.length) table.insertRow().insertCell().textContent = 'Nothing: every line was carried as it is.';
   }
+  function decisions() {
+    if (!data.to_do) return;
+    byId('todo').hidden = false;
+    data.to_do.forEach(function (item, i) {
+      var row = byId('decisions').insertRow(), lines = [];
+      item.places.forEach(function (p) { if (lines.indexOf(p.line) < 0) lines.push(p.line); });
+      [i + 1, item.code, item.places.length + ' times, lines ' + lines.join(', '), item.what, item.decide]
+        .forEach(function (text) { row.insertCell().textContent = text; });
+    });
+  }
   function differences() {
     [['source', data.verdict.source_place], ['target', data.verdict.target_place]].forEach(function (pair) {
       var row = pair[1] && rows[pair[0]][key(pair[1])];
@@ -337,6 +347,7 @@
   }
 
   head();
+  decisions();
   messages();
   fill('source', data.sources);
   fill('target', data.targets);

@@ -121,8 +121,8 @@ RunResult run(const Input& input, const RunOptions& options, const MakeSink& mak
   Reading reading;
   if (!reading.open(input, options.dialect, options, &result.error)) return result;
   const machine::Profile& profile = reading.profile();
-  if (options.may_stream && !input.in_memory() && added_axes(profile).empty() && options.run.set.empty() &&
-      can_reopen(input.path())) {
+  if (options.may_stream && options.tools.empty() && !input.in_memory() && added_axes(profile).empty() &&
+      options.run.set.empty() && can_reopen(input.path())) {
     FileTable files;
     const auto counter = make_sink(files, {});
     StreamRun streamed = run_stream(input.path(), reading.dialect(), profile, options, *counter, files);

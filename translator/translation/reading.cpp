@@ -1,6 +1,7 @@
 #include "translator/translation/reading.h"
 
 #include "translator/files/readable.h"
+#include "translator/files/tool_file.h"
 
 namespace cnctrans::translator {
 
@@ -12,7 +13,13 @@ bool Reading::open(const Input& input, const std::string& dialect, const InputOp
   in_memory_ = input.in_memory();
   profile_ = choose_profile(*dialect_, options.machine, source_.get(), error);
   if (!profile_) return false;
+  if (!options.tools.empty()) {
+    const auto file = read_tools(options.tools, profile_->kind == machine::Kind::lathe, error);
+    if (!file) return false;
+    put_tools(file->tools, *profile_);
+  }
   loader_.emplace(*dialect_, *profile_, options.reader, options.libraries, options.texts);
+  for (const auto& text : options.definitions) loader_->define(text);
   return true;
 }
 

@@ -17,6 +17,8 @@
 #include "translator/pipeline.h"
 #include "translator/proving/proof.h"
 #include "translator/translation/attempt.h"
+#include "translator/translation/draft.h"
+#include "translator/translation/outside_calls.h"
 #include "translator/translation/reading.h"
 #include "translator/translation/written.h"
 
@@ -134,6 +136,8 @@ class Translation {
   /// In its own language for its own machine a program is legal as it stands.
   [[nodiscard]] bool as_it_stands() const;
   void check_calls();
+  void settle_calls();
+  Attempt draft(const AttemptContext& context, backends::WriteOptions write);
   void end_cycles();
 
   const TranslateOptions& options_;
@@ -145,7 +149,11 @@ class Translation {
   ir::Program work_;    ///< as the passes get it
   ir::LegaliseReport names_;
   std::optional<ReadBack> back_;
-  bool left_out_ = false;  ///< there were errors, written over as asked
+  std::vector<ir::RoutineName> missing_;  ///< routines that are called, that nobody has and the names say nothing of
+  std::vector<std::vector<Span>> missing_calls_;  ///< where each of them is called
+  std::vector<Outside> outside_;                  ///< those that they say something of
+  bool by_number_ = false;                        ///< the target calls by number
+  bool left_out_ = false;                         ///< there were errors, written over as asked
 };
 
 bool Translation::open(const Input& input) {
@@ -158,6 +166,7 @@ bool Translation::open(const Input& input) {
   if (!reading_.open(input, options_.from, options_, &result_.error)) return false;
   const machine::Profile& source_profile = reading_.profile();
   result_.lathe = source_profile.kind == machine::Kind::lathe;
+  by_number_ = !to_->backend->capabilities().named_routines;
   target_profile_ = choose_target(*to_, options_.target_machine, source_profile, &result_.error);
   if (!target_profile_) return false;
   for (const auto& [name, value] : options_.run.set) {
@@ -193,8 +202,19 @@ bool Translation::read() {
     // The main program comes first, wherever its archive has it.
     std::stable_partition(work_.routines.begin(), work_.routines.end(),
                           [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
+    settle_calls();
   }
   return true;
+}
+
+/// Calls of what is not at hand: as the file of names says, or as text.
+void Translation::settle_calls() {
+  missing_calls_ = mark_missing_calls(work_, missing_);
+  if (options_.names == nullptr) return;
+  const auto has = [this](const ir::RoutineName& name) { return reading_.loader().find(name) != nullptr; };
+  outside_ = outside_calls(source_, *options_.names, by_number_, has);
+  settle_outside(work_, outside_, result_.diagnostics);
+  pass_over_outside(source_, outside_);
 }
 
 /// A subprogram of another file selects another plane while a cycle of its caller is in force.
@@ -215,11 +235,11 @@ void Translation::check_calls() {
   outside.routines.emplace_back().kind = ir::RoutineKind::sub;
   checks.library = [&](const ir::RoutineName& name) {
     const ir::Program* found = loader.find(name);
-    const bool named = found == nullptr && options_.names != nullptr && options_.names->given(name) != nullptr;
+    const bool named = found == nullptr && options_.names != nullptr && answered(name, *options_.names, by_number_);
     return named ? &outside : found;
   };
   Diagnostics found;
-  interpreter::check_program(source_, checks, found);
+  missing_ = interpreter::check_program(source_, checks, found);
   result_.diagnostics.append(same_language() ? as_warnings(found) : found);
 }
 
@@ -247,9 +267,10 @@ bool Translation::write() {
   write.files_apart = options_.files_apart;
   write.main_stem = source.stem();
   write.taken = options_.taken;
-  if (options_.names != nullptr) name_program(*options_.names, work_, write);
-  Attempt written = attempt_both({*to_, reading_.profile(), *target_profile_, options_, as_it_stands(), refused()},
-                                 std::move(work_), write);
+  if (options_.names != nullptr) name_program(options_.names->map, work_, write);
+  const AttemptContext context{*to_, reading_.profile(), *target_profile_, options_, as_it_stands(), refused()};
+  Attempt written =
+      options_.draft && !same_language() ? draft(context, write) : attempt_both(context, std::move(work_), write);
   result_.diagnostics.append(written.said);
   result_.files = reading_.loader().files();
   if (refused()) return false;
@@ -257,7 +278,7 @@ bool Translation::write() {
   result_.names = names_.names;
   for (auto& f : written.files) {
     if (f.main) result_.names.programs[source.stem()] = f.program.empty() ? f.name : f.program;
-    OutputText out{f.name, f.program, {}, std::move(f.map), f.main};
+    OutputText out{result_.draft ? draft_name(f.name) : f.name, f.program, {}, std::move(f.map), f.main};
     out.bytes =
         encode_output(f.text, options_.encoding.value_or(source.encoding()), options_.eol.value_or(source.main_eol()),
                       source.has_bom() && same_language() && !options_.encoding, result_.diagnostics);
@@ -267,10 +288,37 @@ bool Translation::write() {
   return true;
 }
 
+/// The first attempt tells what is left to do, the second has it at its head.
+Attempt Translation::draft(const AttemptContext& context, backends::WriteOptions write) {
+  Diagnostics said;
+  auto placeholders = put_placeholders(work_, {to_->backend->capabilities_for(*target_profile_),
+                                               reading_.profile(),
+                                               *target_profile_,
+                                               {},
+                                               said,
+                                               nullptr,
+                                               nullptr,
+                                               options_.names != nullptr ? &options_.names->map : nullptr});
+  result_.diagnostics.append(said);
+  write.draft = true;
+  Attempt first = attempt_both(context, work_, write);
+  std::vector<Span> left_out;
+  for (const auto& f : first.files) left_out.insert(left_out.end(), f.left_out.begin(), f.left_out.end());
+  result_.untranslated = lines_of(std::move(left_out));
+  result_.to_do =
+      to_do_of(std::move(placeholders), result_.diagnostics, first.said, missing_calls_, result_.untranslated);
+  result_.draft = !result_.to_do.empty();
+  if (!result_.draft) return first;
+  write.to_do = to_do_lines(result_.to_do, work_);
+  put_to_do(work_, result_.to_do, result_.untranslated.size(), reading_.source()->name());
+  return attempt_both(context, std::move(work_), write);
+}
+
 bool Translation::look_back() {
   const bool look = !same_language() && result_.diagnostics.error_count() == 0;
   if ((look || options_.verify) && readable(*to_)) {
     back_.emplace(read_back(result_.outputs, *to_, *target_profile_, same_language() ? &reading_.loader() : nullptr));
+    if (options_.names != nullptr) pass_over_outside(back_->program, outside_, *options_.names);
     if (look) check_written(result_.outputs, *back_, result_.diagnostics);
   }
   (void)names_differ(result_.outputs, result_.diagnostics);
@@ -288,9 +336,11 @@ void Translation::prove() {
     result_.held_back = options_.strict;
     return;
   }
-  if (left_out_ && !options_.strict) {
+  if (left_out_ && (!options_.strict || result_.draft)) {
     result_.verdict.status = verifier::Status::not_replayable;
-    result_.verdict.reason = "what --unsupported leaves out is missing in the translation";
+    result_.verdict.reason = result_.draft
+                                 ? "a draft: " + std::to_string(result_.to_do.size()) + " things are to be done"
+                                 : "what --unsupported leaves out is missing in the translation";
     return;
   }
   const auto target_settings = [this](const Settings& set) {

@@ -315,7 +315,7 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
       if (std::none_of(written_.begin(), written_.end(), like) &&
           std::none_of(machine.data.begin(), machine.data.end(), like))
         continue;
-      return *error = "which tool is in use is not known here", std::nullopt;
+      return *error = "which tool is in use, and its radius, is not known here", std::nullopt;
     }
     const bool in_mm = name == "TOOL_RADIUS" || machine.option("machine_data.units") != "modal";
     const double scale = in_mm ? 1 : length_unit;
@@ -332,7 +332,7 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
   }
   if (radius_written_) return *error = "the program writes the radius of its tools", std::nullopt;
   if (!machine.tools.empty()) {
-    if (!site.tool) return *error = "which tool is in use is not known here", std::nullopt;
+    if (!site.tool) return *error = "which tool is in use, and its radius, is not known here", std::nullopt;
     const auto tool =
         std::find_if(machine.tools.begin(), machine.tools.end(), [&](const auto& t) { return t.number == *site.tool; });
     if (tool != machine.tools.end() && tool->radius > 0) return tool->radius;
@@ -438,7 +438,9 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
         "the way onto the contour and off it is counted from the tool's middle, not from its edge: the source's "
         "machine "
         "profile does not give the radius of the tool",
-        "give the radius in the profile's \"tools\"; the tool plunges nearer to the contour by its radius");
+        "give it with --tools FILE, in the profile's \"tools\" or by --set TOOL_RADIUS=5; the tool plunges nearer to "
+        "the "
+        "contour by its radius");
   }
   if (!incremental) end_ = End{writer.u, writer.v, it->second.after};
   return Explosion{std::move(writer.blocks), writer.w};
