@@ -27,7 +27,7 @@ std::pair<FileId, std::uint32_t> line_of(const Span& at) {
 
 /// Letters, digits and _ of the name of a datum.
 std::string plain_name(const std::string& datum) {
-  std::string name = "TODO_";
+  std::string name(placeholder_mark);
   for (const char c : datum) {
     const bool plain = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     if (plain)
@@ -264,8 +264,10 @@ void put_to_do(ir::Program& work, const std::vector<ToDo>& list, std::size_t lin
                                  [](const ir::Routine& r) { return r.kind == ir::RoutineKind::main; });
   ir::Body& body = (main != work.routines.end() ? *main : work.routines.front()).body;
   std::vector<std::string> texts{"DRAFT of " + to_ascii(std::filesystem::path(source).filename().string(), nullptr) +
-                                 ": " + std::to_string(lines) + (lines == 1 ? " line is" : " lines are") +
-                                 " not translated. Not to be run before all that follows is done"};
+                                 (lines == 0   ? ": every line is translated"
+                                  : lines == 1 ? ": 1 line is not translated"
+                                               : ": " + std::to_string(lines) + " lines are not translated") +
+                                 ". Not to be run before all that follows is done"};
   constexpr std::size_t most = 40;
   for (std::size_t i = 0; i < std::min(list.size(), most); ++i) {
     texts.push_back("TO DO " + std::to_string(i + 1) + ", " + places_text(list[i].places) + ": " + list[i].message);

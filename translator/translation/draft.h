@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "translator/pipeline.h"
 
 namespace cnctrans::translator {
+
+/// How the names of such variables begin.
+inline constexpr std::string_view placeholder_mark = "TODO_";
 
 /// Machine data that nobody places on the target and that the program reads become variables that a person sets: its
 /// conditions and loops keep their form. One error and one thing to do for each.

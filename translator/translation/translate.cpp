@@ -276,6 +276,8 @@ bool Translation::write() {
   if (refused()) return false;
   names_ = std::move(written.names);
   result_.names = names_.names;
+  if (result_.draft)  // what stands for data in a draft is no name that stays
+    std::erase_if(result_.names.variables, [](const auto& v) { return v.first.starts_with(placeholder_mark); });
   for (auto& f : written.files) {
     if (f.main) result_.names.programs[source.stem()] = f.program.empty() ? f.name : f.program;
     OutputText out{result_.draft ? draft_name(f.name) : f.name, f.program, {}, std::move(f.map), f.main};
@@ -339,7 +341,8 @@ void Translation::prove() {
   if (left_out_ && (!options_.strict || result_.draft)) {
     result_.verdict.status = verifier::Status::not_replayable;
     result_.verdict.reason = result_.draft
-                                 ? "a draft: " + std::to_string(result_.to_do.size()) + " things are to be done"
+                                 ? "a draft: " + std::to_string(result_.to_do.size()) +
+                                       (result_.to_do.size() == 1 ? " thing is" : " things are") + " to be done"
                                  : "what --unsupported leaves out is missing in the translation";
     return;
   }
