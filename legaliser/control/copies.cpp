@@ -152,6 +152,16 @@ bool repeats_parts(const Program& program) {
   return found;
 }
 
+namespace {
+
+bool shares(const RepeatedPart& a, const RepeatedPart& b) {
+  const auto holds = [](const RepeatedPart& part, std::size_t at) { return at >= part.first && at <= part.last; };
+  return a.routine == b.routine && a.repeat != b.repeat && a.first <= b.last && b.first <= a.last &&
+         !holds(a, b.repeat) && !holds(b, a.repeat);
+}
+
+}  // namespace
+
 std::vector<CopyChoice> copy_choices(Program& program, const std::vector<Span>& where) {
   std::vector<RepeatedPart> all = parts(program);
   std::stable_sort(all.begin(), all.end(),
@@ -167,7 +177,10 @@ std::vector<CopyChoice> copy_choices(Program& program, const std::vector<Span>& 
                          });
     });
     if (!asked) continue;
-    CopyChoice choice{place_of(program, part), {}};
+    CopyChoice choice{place_of(program, part), {}, {}};
+    for (const auto& other : all) {
+      if (other.passes < most_passes && shares(part, other)) choice.shared.push_back(place_of(program, other));
+    }
     if (part.passes > 1) choice.ways.push_back(Copying::first);
     if (part.passes < most_passes) choice.ways.push_back(Copying::each);
     choices.push_back(std::move(choice));

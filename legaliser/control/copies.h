@@ -26,6 +26,7 @@ bool repeats_parts(const Program& program);
 struct CopyChoice {
   Span repeat;
   std::vector<Copying> ways;  ///< the one with less text first
+  std::vector<Span> shared;   ///< other Repeats of the same statements, one not inside of the other
 };
 std::vector<CopyChoice> copy_choices(Program& program, const std::vector<Span>& where);
 

@@ -12,6 +12,7 @@
 #include "legaliser/analysis/feed_units.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/frames/frame_state.h"
+#include "legaliser/motion/path_values.h"
 #include "machine/data_at_rest.h"
 
 namespace cnctrans::ir::passes {
@@ -94,6 +95,11 @@ class KnownData {
               ref.text + " is " + shortest(*value) + " here on every path: written as the number");
         return number(*value);
       }
+    }
+    if (const auto formula = place(s, ref)) {
+      context_.diagnostics.note("TRN-132", word_span(s.line.span, e->pos),
+                                ref.text + " follows from the words before it here: written as their formula");
+      return formula->expr;
     }
     const auto own = context_.target.data_form ? context_.target.data_form(ref) : std::nullopt;
     if (!own) return e;
@@ -235,6 +241,22 @@ class KnownData {
     return *facts.position[a] * (*mode == DiameterMode::radius ? 1 : 2);
   }
 
+  /// The programmed position as a formula in the program's variables, which this statement leaves alone.
+  std::optional<Value> place(const Statement& s, const SystemRef& ref) {
+    const auto* spec = context_.source_machine.axis(ref.axis);
+    if (ref.datum != Datum::programmed_position || spec == nullptr || spec->diameter) return std::nullopt;
+    if (!path_) path_.emplace(program_, facts_, context_);
+    const auto* state = path_->states.before(s);
+    auto found = state != nullptr ? path_->values.place(s, *state, ref.axis) : std::nullopt;
+    if (!found || found->literal()) return std::nullopt;
+    const auto* a = std::get_if<Assign>(&s.node);
+    if (a == nullptr || a->items.size() > 1)
+      each_target(s, [&found](const VarRef& v) {
+        if (found && reads(found->expr, v)) found.reset();
+      });
+    return found;
+  }
+
   [[nodiscard]] std::optional<double> order(AxisId a) const {
     const auto& axes = context_.source_machine.axes;
     const auto at = std::find_if(axes.begin(), axes.end(), [a](const machine::AxisSpec& x) { return x.id == a; });
@@ -278,8 +300,19 @@ class KnownData {
     return bits;
   }
 
+  struct Path {
+    Path(const Program& program, const FactsOf& facts, const LegaliseContext& context)
+        : frames(program, facts, context.source_machine, context),
+          values(facts, context.source_machine, frames),
+          states(program, values) {}
+    FrameSteps frames;
+    PathValues values;
+    FlowStates<PathValues> states;
+  };
+
   const Program& program_;
   const LegaliseContext& context_;
+  std::optional<Path> path_;  ///< where a position is asked for
   const CallGraph calls_;
   const Routine* routine_ = nullptr;
   FactsOf facts_;

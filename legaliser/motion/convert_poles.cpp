@@ -5,10 +5,10 @@
 
 #include "ir/analysis/flow_states.h"
 #include "legaliser/analysis/path_points.h"
-#include "legaliser/analysis/path_values.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/blocks.h"
 #include "legaliser/edit/editor.h"
+#include "legaliser/motion/path_values.h"
 #include "legaliser/motion/polar_radius.h"
 #include "legaliser/motion/polar_words.h"
 #include "legaliser/passes.h"
@@ -20,8 +20,9 @@ namespace {
 class PolePass {
  public:
   std::set<std::uint32_t> points_wanted;  ///< blocks (by id) that another pass needs as coordinates
-  PolePass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program), context_(context), facts_(facts), path_(facts, context.source_machine) {
+  PolePass(Program& program, const LegaliseContext& context, const FactsOf& facts, const FrameSteps& frames,
+           const PathValues& path)
+      : program_(program), context_(context), facts_(facts), frames_(frames), path_(path) {
     source_resets_ = context.source_machine.option("polar.plane_resets_pole") == "yes";
     target_resets_ = context.target_machine.option("polar.plane_resets_pole") == "yes";
     target_stays_ = context.target_machine.option("polar.pole_stays") == "yes";
@@ -137,6 +138,7 @@ class PolePass {
     const Facts& facts = facts_.before(s);
     as_point_ = points_wanted.count(s.id) != 0;
     const auto* values = quiet_ ? nullptr : values_->before(s);
+    led_.stands(values != nullptr ? path_.numbers(s, *values) : FrameSteps::Place{});
     end_ = values != nullptr ? path_.polar_end(s, *values) : std::nullopt;
     plane_ = setting<Plane>(facts, Setting::plane);
     std::vector<Action> actions;
@@ -154,7 +156,7 @@ class PolePass {
       }
       if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::units)
         in_other_units(setting<Units>(facts, Setting::units), static_cast<Units>(m->value));
-      if (zero_counts() && moves_zero(a) && set_) stale_ = true;
+      if (zero_counts() && moves_zero(a) && set_ && frames_.moves_zero(s)) stale_ = true;
       if (const auto* p = std::get_if<PoleSet>(&a.data)) {
         place = a.pos;
         forget_radius();
@@ -170,8 +172,8 @@ class PolePass {
     polar_arc_done_ = is_polar_arc(b, facts);
     const bool centred = follows_arc_ && b.has_motion && !b.motion.centers.empty();
     const auto from = centred ? here(facts) : std::nullopt;
-    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-    const auto middle = from ? centre_of(b, facts, *from, *plane_, distance, context_.source_machine) : std::nullopt;
+    const auto mode = setting_in<Distance>(b, facts, Setting::distance);
+    const auto middle = from ? centre_of(b, facts, *from, *plane_, mode, context_.source_machine) : std::nullopt;
     const bool about = is_polar_line(b, facts) || (polar_arc_done_ && b.motion.centers.empty());
     const auto whole = factors(b, facts, Distance::absolute);
     if (about && pole_ && stale_ && !stays_ && whole) {  // the target's stayed behind
@@ -222,10 +224,7 @@ class PolePass {
     const bool moves = b.has_motion && b.motion.moves();
     if (loses_point(b) || (moves && !plain)) return forget_point();
     if (!moves) return;
-    if (touches_plane(b, plane_axes(*plane_))) {
-      radius_.reset();
-      angle_.reset();
-    }
+    if (touches_plane(b, plane_axes(*plane_))) radius_.reset(), angle_.reset();
     led_.follow(b, facts, context_.source_machine);
   }
 
@@ -233,8 +232,7 @@ class PolePass {
   bool plane_code(std::vector<Action>& actions) {
     const bool at_zero = pole_ && pole_->u == 0 && pole_->v == 0;
     if (source_resets_) before(State{Point2{}});
-    if (!context_.target.polar) return true;
-    if (source_resets_ == target_resets_ || at_zero) return true;
+    if (!context_.target.polar || source_resets_ == target_resets_ || at_zero) return true;
     if (!pole_) return false;
     actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, 1, 1)}));
     return true;
@@ -325,9 +323,7 @@ class PolePass {
     angle_ = q;
     angle_->text = {};
     if (stays_polar(b)) {
-      x.has_polar_radius = true;
-      x.polar_radius = *r;
-      m.extra = std::make_shared<const MotionExtra>(std::move(x));
+      say_polar_radius(m, *r);
       return true;
     }
     const Value u = around(*r, *angle_, Function::cos, pole_->u, 1),
@@ -345,10 +341,7 @@ class PolePass {
       write_end(b, *end_, polar_arc_done_, *plane_, f->u, f->v);
       return true;
     }
-    MotionExtra x = *b.motion.extra;
-    x.has_polar_radius = true;
-    x.polar_radius = end_->radius;
-    b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
+    say_polar_radius(b.motion, end_->radius);
     return true;
   }
 
@@ -445,19 +438,22 @@ class PolePass {
     const bool absolute = polar_absolute(x.polar_angle_mode, distance);
     if (!start || !centre || !f || !distance || !x.polar_angle.literal()) return false;
     const Point2 d{start->u - centre->u, start->v - centre->v};
-    const double turn = absolute ? 0 : std::atan2(d.v, d.u);
-    const double angle = turn + x.polar_angle.number * std::numbers::pi / 180;
+    const double angle = (absolute ? 0 : std::atan2(d.v, d.u)) + x.polar_angle.number * std::numbers::pi / 180;
     const double r = std::hypot(d.u, d.v);
     const Point2 end{centre->u + r * std::cos(angle), centre->v + r * std::sin(angle)};
+    const bool inc = distance == Distance::incremental;
+    const bool about = !inc && led_.only_stands(plane_axes(*plane_), facts);
+    constexpr double last_places = 0.002;  // mm: a full circle, or none
+    if (about && std::hypot(end.u - start->u, end.v - start->v) < last_places) return false;
     forget_point();
     led_to({clean(end.u), clean(end.v)});
-    const bool inc = distance == Distance::incremental;
     const Point2 to = inc ? Point2{end.u - start->u, end.v - start->v} : end;
-    PathPoints::set_centre(m, *plane_, {start->u, start->v}, {centre->u, centre->v});
+    about ? m.centers.clear() : PathPoints::set_centre(m, *plane_, {start->u, start->v}, {centre->u, centre->v});
     if (x.has_turns && !context_.target.helix_turns && context_.target.helix_pitch)
       turns_to_pitch(x, b, facts, plane_axes(*plane_).w, {*start, end, *centre}, context_.source_machine);
     m.extra = std::make_shared<const MotionExtra>(std::move(x));
-    write_end(b, {{Value{clean(to.u)}, Value{clean(to.v)}}, {}, {}}, false, *plane_, f->u, f->v);
+    write_end(b, {{Value{clean(to.u)}, Value{clean(to.v)}}, {Value{centre->u}, Value{centre->v}}, {}}, about, *plane_,
+              f->u, f->v);
     return true;
   }
 
@@ -470,7 +466,8 @@ class PolePass {
   std::optional<Value> radius_, angle_;  ///< of that point about the pole
   const FlowStates<PolePass>* states_ = nullptr;
   const FlowStates<RadiusDomain>* radii_ = nullptr;
-  const PathValues path_;
+  const FrameSteps& frames_;
+  const PathValues& path_;
   const FlowStates<PathValues>* values_ = nullptr;
   std::optional<PolarEnd> end_;       ///< of the block at hand
   bool as_point_ = false;             ///< the block at hand is of points_wanted
@@ -488,11 +485,12 @@ class PolePass {
 void convert_poles(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !uses_polar(program)) return;
   const FactsOf facts(program, context);
-  PolePass pass(program, context, facts);
+  const FrameSteps frames(program, facts, context.target_machine, context);
+  const PathValues path(facts, context.source_machine, frames);
+  PolePass pass(program, context, facts, frames, path);
   const FlowStates<PolePass> states(program, pass);
   const RadiusDomain radius(facts, pass.points_wanted);
   const FlowStates<RadiusDomain> radii(program, radius);
-  const PathValues path(facts, context.source_machine);
   const FlowStates<PathValues> values(program, path);
   for (auto& r : program.routines) pass.routine(r, states, radii, values);
 }

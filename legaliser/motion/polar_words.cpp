@@ -47,6 +47,13 @@ void drop_modes_in_force(Block& b, const Facts& facts) {
   b.motion.extra = std::make_shared<const MotionExtra>(std::move(extra));
 }
 
+void say_polar_radius(Motion& m, const Value& radius) {
+  MotionExtra x = *m.extra;
+  x.has_polar_radius = true;
+  x.polar_radius = radius;
+  m.extra = std::make_shared<const MotionExtra>(std::move(x));
+}
+
 bool says_radius(const Block& b, const Facts& facts) {
   const MotionExtra& x = *b.motion.extra;
   return x.has_polar_radius && polar_absolute(x.polar_mode, setting_in<Distance>(b, facts, Setting::distance));
@@ -131,8 +138,11 @@ void LedPoint::set(const PlaneAxes& axes, Point2 to) {
 }
 
 std::optional<Point2> LedPoint::at(const PlaneAxes& axes, const Facts& facts) const {
-  const auto u = at_[axes.u] ? at_[axes.u] : facts.position[axes.u];
-  const auto v = at_[axes.v] ? at_[axes.v] : facts.position[axes.v];
+  const auto one = [&](AxisId axis) {
+    if (at_[axis]) return at_[axis];
+    return facts.position[axis] ? facts.position[axis] : stands_[axis];
+  };
+  const auto u = one(axes.u), v = one(axes.v);
   return u && v ? std::optional(Point2{*u, *v}) : std::nullopt;
 }
 

@@ -48,6 +48,8 @@ PolarModes polar_modes(const MotionExtra& x, std::optional<Distance> distance);
 /// Polar words of a mode of their own that is in force anyway lose it.
 void drop_modes_in_force(Block& b, const Facts& facts);
 
+/// The polar words of the motion get a radius.
+void say_polar_radius(Motion& m, const Value& radius);
 /// The block says the radius by itself, whatever was before.
 bool says_radius(const Block& b, const Facts& facts);
 
@@ -78,6 +80,13 @@ class LedPoint {
  public:
   void set(const PlaneAxes& axes, Point2 to);
   [[nodiscard]] std::optional<Point2> at(const PlaneAxes& axes, const Facts& facts) const;
+  /// Where the tool stands by another analysis, if nothing else knows it.
+  void stands(const std::array<std::optional<double>, axis::count_max>& at) { stands_ = at; }
+  /// Nothing else does: passes behind this one will not know it either.
+  [[nodiscard]] bool only_stands(const PlaneAxes& axes, const Facts& facts) const {
+    const auto known = [&](AxisId axis) { return at_[axis] || facts.position[axis]; };
+    return !known(axes.u) || !known(axes.v);
+  }
   /// A change of the unit.
   void scale(double factor);
   /// Over a block without polar words.
@@ -85,6 +94,7 @@ class LedPoint {
 
  private:
   std::array<std::optional<double>, 3> at_{};  ///< X, Y, Z
+  std::array<std::optional<double>, axis::count_max> stands_{};
 };
 /// The block moves in the plane.
 bool touches_plane(const Block& b, const PlaneAxes& axes);

@@ -78,22 +78,41 @@ class CopySearch {
   bool step(Attempt& now) {
     ir::Program copy = program_;
     const auto before = lines(now).size();
-    for (const auto& choice : ir::passes::copy_choices(copy, refused(now))) {
+    const auto choices = ir::passes::copy_choices(copy, refused(now));
+    for (const auto& choice : choices) {
       const auto have = chosen_.find(choice.repeat);
       for (const auto way : choice.ways) {
         if (have != chosen_.end() && have->second >= way) continue;
         if (tries_++ == most_tries) return false;
         Copies with = chosen_;
         with[choice.repeat] = way;
-        Attempt a = attempt(c_, program_, write_, assume_, with);
-        const auto after = lines(a).size();
-        if (after > before || (after == before && way == ir::passes::Copying::first)) continue;
-        chosen_ = std::move(with);
-        now = std::move(a);
-        return true;
+        if (better(std::move(with), before, way == ir::passes::Copying::each, now)) return true;
       }
     }
+    return together(choices, before, now);
+  }
+
+  /// All the Repeats of the same statements at once: a state that one of them leaves is that of the next one.
+  bool together(const std::vector<ir::passes::CopyChoice>& choices, std::size_t before, Attempt& now) {
+    for (const auto& choice : choices) {
+      if (choice.shared.empty() || choice.ways.empty() || choice.ways.back() != ir::passes::Copying::each) continue;
+      Copies with = chosen_;
+      with[choice.repeat] = ir::passes::Copying::each;
+      for (const auto& other : choice.shared) with[other] = ir::passes::Copying::each;
+      if (with == chosen_) continue;
+      if (tries_++ == most_tries) return false;
+      if (better(std::move(with), before, true, now)) return true;
+    }
     return false;
+  }
+
+  bool better(Copies with, std::size_t before, bool equal_will_do, Attempt& now) {
+    Attempt a = attempt(c_, program_, write_, assume_, with);
+    const auto after = lines(a).size();
+    if (after > before || (after == before && !equal_will_do)) return false;
+    chosen_ = std::move(with);
+    now = std::move(a);
+    return true;
   }
 
   void drop_needless(Attempt& now) {

@@ -2,12 +2,15 @@
 // numbers here, so that the arcs they stand for can be written out.
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "base/tiny.h"
 #include "ir/geometry/geometry.h"
 #include "legaliser/analysis/path_points.h"
 #include "legaliser/edit/blocks.h"
 #include "legaliser/edit/editor.h"
+#include "legaliser/motion/path_values.h"
+#include "legaliser/motion/polar_words.h"
 #include "legaliser/passes.h"
 
 namespace cnctrans::ir::passes {
@@ -20,6 +23,24 @@ class TangentPass {
  public:
   TangentPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
       : program_(program), context_(context), facts_(facts), points_(context, facts) {}
+
+  /// Points behind a change of the frame are no facts, but follow from the frames.
+  void begin_where_values_say(const std::set<std::uint32_t>& statements) {
+    const FrameSteps frames(program_, facts_, context_.target_machine, context_);
+    const PathValues path(facts_, context_.source_machine, frames);
+    const FlowStates<PathValues> values(program_, path);
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        const auto* state = b != nullptr && statements.count(s.id) != 0 ? values.before(s) : nullptr;
+        const auto plane =
+            state != nullptr ? setting_in<Plane>(*b, facts_.before(s), Setting::plane) : std::optional<Plane>();
+        if (!plane || moves_frames(*b)) return;
+        const auto u = path.place(s, *state, plane_axes(*plane).u), v = path.place(s, *state, plane_axes(*plane).v);
+        if (u && v && u->literal() && v->literal()) points_.begins_at(s, {u->number, v->number});
+      });
+    }
+  }
 
   void routine(Routine& r) {
     uses_ = label_uses(program_, r);
@@ -203,6 +224,8 @@ class TangentPass {
 void write_out_tangents(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   TangentPass pass(program, context, facts);
+  const auto wanted = context.target.tangential_ends ? std::set<std::uint32_t>{} : beside_tangential_ends(program);
+  if (!wanted.empty()) pass.begin_where_values_say(wanted);
   for (auto& r : program.routines) pass.routine(r);
 }
 

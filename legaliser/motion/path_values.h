@@ -7,6 +7,7 @@
 
 #include "ir/analysis/flow_states.h"
 #include "legaliser/analysis/facts.h"
+#include "legaliser/frames/frame_steps.h"
 
 namespace cnctrans::ir::passes {
 
@@ -27,7 +28,7 @@ class PathValues {
     std::array<std::optional<Value>, axis::count_max> at{};  ///< in the work frame; radius
     std::optional<ValuePoint> pole;
   };
-  PathValues(const FactsOf& facts, const machine::Profile& machine);
+  PathValues(const FactsOf& facts, const machine::Profile& machine, const FrameSteps& frames);
 
   static State start(const Routine& r, bool called);
   void transfer(const Statement& s, State& state) const;
@@ -39,13 +40,15 @@ class PathValues {
 
   /// Of a block whose polar angle counts from the zero direction; `before`: what holds before it.
   [[nodiscard]] std::optional<PolarEnd> polar_end(const Statement& s, const State& before) const;
+  /// The places before the statement that are numbers.
+  [[nodiscard]] FrameSteps::Place numbers(const Statement& s, const State& before) const;
   /// A number from the dataflow, else the formula.
   [[nodiscard]] std::optional<Value> place(const Statement& s, const State& before, AxisId axis) const;
 
  private:
   using Place = std::array<std::optional<Value>, axis::count_max>;
   [[nodiscard]] Place places(const Facts& facts, const State& state) const;
-  void actions(const Block& b, const Facts& facts, State& state) const;
+  void actions(const Statement& s, State& state) const;
   void set_pole(const PoleSet& p, const Block& b, const Facts& facts, State& state) const;
   [[nodiscard]] std::optional<ValuePoint> centre(const Block& b, const Facts& facts, const State& state) const;
   [[nodiscard]] std::optional<PolarEnd> end(const Block& b, const Facts& facts, const State& state) const;
@@ -55,7 +58,8 @@ class PathValues {
 
   const FactsOf& facts_;
   const machine::Profile& machine_;
-  bool plane_resets_ = false, follows_arc_ = false, radius_stays_ = false;
+  const FrameSteps& frames_;
+  bool plane_resets_ = false, follows_arc_ = false, radius_stays_ = false, pole_stays_ = false;
 };
 
 /// The polar words of a block as coordinates and, for an arc about the pole, its centre; `fu`, `fv`: radius of one unit

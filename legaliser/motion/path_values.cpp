@@ -1,4 +1,4 @@
-#include "legaliser/analysis/path_values.h"
+#include "legaliser/motion/path_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +127,13 @@ bool differ(const std::optional<Value>& a, const std::optional<Value>& b) {
 void forget(std::optional<Value>& v, const VarRef& variable) {
   if (v && v->expr && reads(v->expr, variable)) v.reset();
 }
+FrameSteps::Place numbers_of(const std::array<std::optional<Value>, axis::count_max>& values) {
+  FrameSteps::Place place{};
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (values[i] && values[i]->literal()) place[i] = values[i]->number;
+  }
+  return place;
+}
 bool moves_coordinates(const Action& a) {
   const auto* m = std::get_if<ModalSet>(&a.data);
   return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
@@ -135,12 +142,14 @@ bool moves_coordinates(const Action& a) {
 
 }  // namespace
 
-PathValues::PathValues(const FactsOf& facts, const machine::Profile& machine)
+PathValues::PathValues(const FactsOf& facts, const machine::Profile& machine, const FrameSteps& frames)
     : facts_(facts),
       machine_(machine),
+      frames_(frames),
       plane_resets_(machine.option("polar.plane_resets_pole") == "yes"),
       follows_arc_(machine.option("polar.pole_follows_arc") == "yes"),
-      radius_stays_(machine.option("polar.radius") == "programmed") {}
+      radius_stays_(machine.option("polar.radius") == "programmed"),
+      pole_stays_(machine.option("polar.pole_stays") == "yes") {}
 
 PathValues::State PathValues::start(const Routine& r, bool called) {
   State state;
@@ -177,6 +186,10 @@ PathValues::Place PathValues::places(const Facts& facts, const State& state) con
   return at;
 }
 
+FrameSteps::Place PathValues::numbers(const Statement& s, const State& before) const {
+  return numbers_of(places(facts_.before(s), before));
+}
+
 std::optional<Value> PathValues::place(const Statement& s, const State& before, AxisId axis) const {
   return axis < before.at.size() ? places(facts_.before(s), before)[axis] : std::nullopt;
 }
@@ -211,7 +224,18 @@ void PathValues::set_pole(const PoleSet& p, const Block& b, const Facts& facts, 
   if (u && v) state.pole = ValuePoint{*u, *v};
 }
 
-void PathValues::actions(const Block& b, const Facts& facts, State& state) const {
+void PathValues::actions(const Statement& s, State& state) const {
+  const auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
+  if (std::any_of(b.actions.begin(), b.actions.end(), moves_coordinates)) {
+    const auto place = frames_.seen(s, numbers_of(places(facts, state)));
+    for (std::size_t i = 0; i < place.size(); ++i)
+      state.at[i] = place[i] ? std::optional(Value{*place[i]}) : std::nullopt;
+    const bool frames_only = std::none_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+      return moves_coordinates(a) && !std::holds_alternative<FrameOp>(a.data);
+    });
+    if (!frames_only || (pole_stays_ && frames_.moves_zero(s))) state.pole.reset();
+  }
   for (const auto& a : b.actions) {
     if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane) {
       const bool other = setting<Plane>(facts, Setting::plane) != static_cast<Plane>(m->value);
@@ -221,7 +245,6 @@ void PathValues::actions(const Block& b, const Facts& facts, State& state) const
         state.pole.reset();
     }
     if (const auto* p = std::get_if<PoleSet>(&a.data)) set_pole(*p, b, facts, state);
-    if (moves_coordinates(a)) state = {};
   }
 }
 
@@ -275,6 +298,12 @@ std::optional<PolarEnd> PathValues::end(const Block& b, const Facts& facts, cons
   const auto u = kept(total(middle->u, leg(found.radius, x.polar_angle, Function::cos)));
   const auto v = kept(total(middle->v, leg(found.radius, x.polar_angle, Function::sin)));
   if (!u || !v || !sayable(found.radius)) return std::nullopt;
+  const Place at = places(facts, state);
+  const auto beside = [](const std::optional<Value>& a, const Value& end) {
+    constexpr double last_places = 0.002;  // mm
+    return a && a->literal() && end.literal() && std::fabs(a->number - end.number) < last_places;
+  };
+  if (arc && beside(at[axes.u], *u) && beside(at[axes.v], *v)) return std::nullopt;  // a full circle, or none
   found.radius.text = {};
   found.to = {*u, *v};
   return found;
@@ -282,8 +311,9 @@ std::optional<PolarEnd> PathValues::end(const Block& b, const Facts& facts, cons
 
 std::optional<PolarEnd> PathValues::polar_end(const Statement& s, const State& before) const {
   const auto& b = std::get<Block>(s.node);
+  if (std::any_of(b.actions.begin(), b.actions.end(), moves_coordinates)) return std::nullopt;
   State state = before;
-  actions(b, facts_.before(s), state);
+  actions(s, state);
   return end(b, facts_.before(s), state);
 }
 
@@ -305,28 +335,32 @@ void PathValues::block(const Statement& s, const Block& b, State& state) const {
   const bool cycle = facts.cycle_active || !facts.cycle_active_known ||
                      std::any_of(b.actions.begin(), b.actions.end(),
                                  [](const Action& a) { return std::holds_alternative<CycleDefine>(a.data); });
-  const Place from = places(facts, state);
   State behind = state;
-  actions(b, facts, behind);
+  actions(s, behind);
+  const Place from = moved_zero ? behind.at : places(facts, state);
   const bool plain = !moved_zero && !cycle && b.has_motion && b.motion.frame == FrameUse::normal &&
                      b.repeat_given == 0 && !(b.motion.extra && !b.motion.extra->computed.empty());
-  const auto polar = plain ? end(b, facts, behind) : std::nullopt;
+  const State middle = behind;
+  const auto polar = plain ? end(b, facts, middle) : std::nullopt;
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
   // The block is carried out from two places that are not in any program: where it leaves them alone, it does not move.
   constexpr std::array<double, 2> places_tried{70001.25, 90007.75};
   std::array<Facts, 2> tried{facts, facts};
+  Statement moves = s;
+  if (moved_zero) std::erase_if(std::get<Block>(moves.node).actions, moves_coordinates);
+  const auto numbered = [&](std::size_t i) { return !moved_zero && facts.position[i]; };
   for (std::size_t t = 0; t < tried.size(); ++t) {
     for (std::size_t i = 0; i < from.size(); ++i) {
-      if (!facts.position[i]) tried[t].position[i] = places_tried[t] + static_cast<double>(i);
+      if (!numbered(i)) tried[t].position[i] = places_tried[t] + static_cast<double>(i);
     }
-    apply(s, tried[t]);
+    apply(moves, tried[t]);
   }
   for (std::size_t i = 0; i < from.size(); ++i) {
     const auto axis = static_cast<AxisId>(i);
     auto& at = behind.at[i];
     const auto &a = tried[0].position[i], &c = tried[1].position[i];
-    const bool stays = !facts.position[i] && a == places_tried[0] + static_cast<double>(i) &&
-                       c == places_tried[1] + static_cast<double>(i);
+    const bool stays =
+        !numbered(i) && a == places_tried[0] + static_cast<double>(i) && c == places_tried[1] + static_cast<double>(i);
     if (stays) continue;
     if (polar && plane && (axis == plane_axes(*plane).u || axis == plane_axes(*plane).v))
       at = axis == plane_axes(*plane).u ? polar->to.u : polar->to.v;
@@ -335,11 +369,8 @@ void PathValues::block(const Statement& s, const Block& b, State& state) const {
     else
       at = plain ? by_word(axis, b, facts, from[i]) : std::nullopt;
   }
-  if (follows_arc_ && b.has_motion && !b.motion.centers.empty()) {
-    State before = state;
-    actions(b, facts, before);
-    behind.pole = plain ? centre(b, facts, before) : std::nullopt;
-  }
+  if (follows_arc_ && b.has_motion && !b.motion.centers.empty())
+    behind.pole = plain ? centre(b, facts, middle) : std::nullopt;
   state = std::move(behind);
 }
 
