@@ -1,6 +1,7 @@
 // Cycles that act where they are defined (reference 18, 19): datum shift, mirror, rotation, scale, dwell, orientation,
 // preset, and data that change no path.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -65,12 +66,20 @@ void Lowering::frame_cycle(const CycleDefinition& cycle) {
         const ir::AxisId axis = axis_of(incremental ? std::string_view(l.address).substr(1) : l.address);
         if (axis == ir::axis::none || !l.has_value) return wrong("cycle 7 takes axes with their shift");
         if (!has_axis(axis)) return wrong("cycle 7: the machine has no axis " + l.address);
+        if (tilt_) {
+          if (!shift_in_tilt(axis, l.value, incremental)) return wrong("cycle 7 in a tilted plane shifts X, Y and Z");
+          continue;
+        }
         (incremental ? added : absolute).words.push_back(frame_word(axis, l.value));
       }
     }
+    if (tilt_) return put_tilt();
     if (!absolute.words.empty()) add(std::move(absolute));
     if (!added.words.empty()) add(std::move(added));
     if (b.actions.empty()) return wrong("cycle 7 shifts nothing");
+  } else if (tilt_) {
+    return report_.keep("HEI-022", {}, "mirror, rotation and scale in a tilted plane are not carried",
+                        "motion.transformation");
   } else if (cycle.old->kind == OldKind::mirror) {
     ir::FrameChange m = frame(FrameSlot::mirror, FrameKind::mirror, FrameCombine::replace);
     for (const auto& [n, part] : cycle.parts) {
@@ -203,13 +212,21 @@ void Lowering::effect(const CycleDefinition& cycle) {
       return report_.carry("HEI-021", {}, "cycle 32 smooths the path; the programmed path stays; kept as text",
                            "beside.compensation");
     case OldKind::working_plane: {
-      bool tilts = false;
+      std::array<ir::Value, 3> angles;
       for (const auto& [n, part] : cycle.parts) {
-        for (const auto& l : part.letters) tilts = tilts || (l.has_value && !l.value.is(0));
+        for (const auto& l : part.letters) {
+          const ir::AxisId axis = axis_of(l.address);
+          if (!l.has_value) continue;
+          if (axis >= ir::axis::a && axis <= ir::axis::c) {
+            angles[axis - ir::axis::a] = l.value;
+          } else {
+            return report_.keep("HEI-022", {},
+                                "cycle 19 with F or DIST moves the rotary axes: to where is known to the machine only",
+                                "motion.transformation");
+          }
+        }
       }
-      if (tilts) return report_.keep("HEI-022", {}, "tilted planes are not carried yet", "motion.transformation");
-      return report_.carry("HEI-021", {}, "cycle 19 without angles: no tilted plane is in force; kept as text",
-                           "motion.transformation");
+      return tilt(angles);
     }
     default:
       report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet", "cycle.milling");
@@ -219,6 +236,9 @@ void Lowering::effect(const CycleDefinition& cycle) {
 /// TRANS DATUM AXIS X+10: the slot of cycle 7.
 void Lowering::trans_datum(const syntax::Statement& s) {
   const auto& words = block_->words;
+  if (tilt_)
+    return report_.keep("HEI-022", s.pos, "TRANS DATUM in a tilted plane is not carried", "motion.transformation",
+                        "write cycle 7");
   ir::FrameChange c = frame(ir::FrameSlot::shift, ir::FrameKind::translate, ir::FrameCombine::replace_named);
   if (words.empty() || iequals_ascii(words[0].address, "TABLE"))
     return report_.keep("HEI-020", s.pos, "a row of the datum table: the table is known to the machine only",

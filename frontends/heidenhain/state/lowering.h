@@ -98,6 +98,10 @@ class Lowering {
   void frame_cycle(const CycleDefinition& cycle);
   void effect(const CycleDefinition& cycle);
   bool pattern_cycle(const CycleDefinition& cycle);
+  bool plane(const syntax::Statement& s);
+  void tilt(std::array<ir::Value, 3> angles);
+  void put_tilt();
+  bool shift_in_tilt(ir::AxisId axis, const ir::Value& v, bool adds);
   void trans_datum(const syntax::Statement& s);
 
   // Items
@@ -125,12 +129,19 @@ class Lowering {
   std::optional<std::pair<double, double>> free_pole_;  ///< FPOL
   std::vector<std::string> contour_labels_;             ///< cycle 14
   int contour_data_ = -1;                               ///< the definition of cycle 20
-  bool scaled_about_ = false;                           ///< cycle 26 has a centre
-  bool shortest_ = false;                               ///< M126
-  bool feed_by_fu_ = false;                             ///< the last F was FU
-  bool per_rev_ = false;                                ///< M136
-  int waiting_ = -1;                                    ///< the cycle definition that further lines complete
-  bool waits_more_ = false;                             ///< its last line ended with ~
+  /// The plane that is turned, and the shift behind the turn.
+  struct Tilt {
+    std::array<ir::Value, 3> angles;
+    std::map<ir::AxisId, ir::Value> shift;
+  };
+  std::optional<Tilt> tilt_;
+  bool rotary_moved_ = false;  ///< a rotary axis stood in a block above
+  bool scaled_about_ = false;  ///< cycle 26 has a centre
+  bool shortest_ = false;      ///< M126
+  bool feed_by_fu_ = false;    ///< the last F was FU
+  bool per_rev_ = false;       ///< M136
+  int waiting_ = -1;           ///< the cycle definition that further lines complete
+  bool waits_more_ = false;    ///< its last line ended with ~
   ir::LineInfo waiting_line_;
   int pattern_ = -1;      ///< the PATTERN DEF that further lines complete
   bool swallow_ = false;  ///< further lines belong to a sentence that is kept as text

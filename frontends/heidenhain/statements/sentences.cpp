@@ -169,14 +169,7 @@ bool Lowering::sentence(const syntax::Statement& s) {
       report_.keep("HEI-013", s.pos, "a probing cycle is kept as text: what it measures is known to the machine only",
                    "motion.probe");
       return false;
-    case Sentence::plane: {
-      const bool resets = !block_->words.empty() && iequals_ascii(block_->words.front().address, "RESET");
-      const bool stays = !block_->words.empty() && iequals_ascii(block_->words.back().address, "STAY");
-      if (resets && stays)
-        return carried(s, true, "motion.transformation", "no tilted plane is in force: PLANE RESET is kept as text");
-      report_.keep("HEI-022", s.pos, "tilted planes are not carried yet", "motion.transformation");
-      return false;
-    }
+    case Sentence::plane: return plane(s);
     case Sentence::declare_string:
       report_.keep("HEI-013", s.pos, "texts in QS parameters are not carried yet", "language.statement");
       return false;

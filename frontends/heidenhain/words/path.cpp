@@ -63,6 +63,7 @@ void Lowering::axis_word(const Word& w, ir::AxisId axis, bool incremental) {
   c.mode = incremental ? ir::WordMode::incremental : ir::WordMode::modal;  // absolute is in force always
   c.value = value(w);
   c.pos = w.pos;
+  rotary_moved_ = rotary_moved_ || ir::is_rotary_letter(axis);
   if (shortest_ && ir::is_rotary_letter(axis) && !incremental) c.direction = ir::RotaryDirection::shortest;
 }
 

@@ -1,0 +1,226 @@
+// Tilted planes (reference 18.7, 18.8, 18.10): cycle 19 and PLANE. The plane is turned about the datum in force; shifts
+// behind it move the turned system.
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "base/text.h"
+#include "dialects/heidenhain/tilts.h"
+#include "frontends/heidenhain/state/lowering.h"
+#include "ir/geometry/frame_angles.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace facts = dialects::heidenhain;
+using facts::TiltForm;
+
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+using Vector = std::array<double, 3>;
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) out[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return out;
+}
+Matrix about(std::size_t axis, double degrees) {
+  const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  Matrix m{};
+  m[axis][axis] = 1;
+  m[u][u] = m[v][v] = c;
+  m[u][v] = -s;
+  m[v][u] = s;
+  return m;
+}
+Vector cross_of(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// Of length 1; false: it has none.
+bool unit(Vector& a) {
+  const double l = std::hypot(a[0], a[1], a[2]);
+  if (l < 1e-9) return false;
+  for (double& x : a) x /= l;
+  return true;
+}
+/// X axis `x` as far as it lies across the normal `z`.
+std::optional<Matrix> frame_of(Vector x, Vector z) {
+  if (!unit(z)) return std::nullopt;
+  const double along = x[0] * z[0] + x[1] * z[1] + x[2] * z[2];
+  for (std::size_t i = 0; i < 3; ++i) x[i] -= along * z[i];
+  if (!unit(x)) return std::nullopt;
+  const Vector y = cross_of(z, x);
+  Matrix m{};
+  for (std::size_t i = 0; i < 3; ++i) m[i] = {x[i], y[i], z[i]};
+  return m;
+}
+}  // namespace
+
+/// The frame of the tilt and of the shift behind it.
+void Lowering::put_tilt() {
+  const auto frame = [](ir::FrameKind kind, ir::FrameCombine combine) {
+    ir::FrameChange c;
+    c.slot = ir::FrameSlot::chain;
+    c.kind = kind;
+    c.combine = combine;
+    return c;
+  };
+  ir::Block b;
+  const auto add = [&b](ir::FrameChange c) {
+    b.actions.emplace_back().data = ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(c))};
+  };
+  ir::FrameChange turn = frame(ir::FrameKind::rotate, ir::FrameCombine::replace);
+  for (const ir::AxisId axis : {ir::axis::x, ir::axis::y, ir::axis::z}) {
+    ir::FrameWord w;
+    w.axis = axis;
+    if (tilt_) w.value = tilt_->angles[axis];
+    turn.words.push_back(std::move(w));
+  }
+  add(std::move(turn));
+  if (tilt_ && !tilt_->shift.empty()) {
+    ir::FrameChange shift = frame(ir::FrameKind::translate, ir::FrameCombine::compose);
+    for (const auto& [axis, v] : tilt_->shift) {
+      ir::FrameWord w;
+      w.axis = axis;
+      w.value = v;
+      shift.words.push_back(std::move(w));
+    }
+    add(std::move(shift));
+  }
+  put(std::move(b));
+}
+
+/// Behind the tilt: the shift of the turned system.
+bool Lowering::shift_in_tilt(ir::AxisId axis, const ir::Value& v, bool adds) {
+  if (axis > ir::axis::z) return false;
+  const auto it = tilt_->shift.find(axis);
+  tilt_->shift[axis] = adds && it != tilt_->shift.end() ? ir::add(it->second, v) : v;
+  return true;
+}
+
+void Lowering::tilt(std::array<ir::Value, 3> angles) {
+  if (scaled_about_)
+    return report_.keep("HEI-022", {}, "a tilted plane beside cycle 26 about a centre is not carried",
+                        "motion.transformation");
+  bool any = false;
+  for (const auto& a : angles) any = any || !a.is(0);
+  if (!any && !tilt_) {
+    return report_.carry("HEI-021", {}, "no tilted plane is in force: kept as text", "motion.transformation");
+  }
+  tilt_.reset();
+  if (any) tilt_ = Tilt{angles, {}};
+  put_tilt();
+  if (!any || (!angles[0].is(0) && !angles[1].is(0))) return;
+  // Q120 to Q122: of axes that turn as the spatial angles say.
+  for (std::int64_t k = 0; k < 3; ++k) {
+    ir::Assign::Item item;
+    item.target.space = 0;
+    item.target.index = ir::number(static_cast<double>(120 + k));
+    item.value = ir::as_expr(angles[static_cast<std::size_t>(k)]);
+    ir::Assign assign;
+    Item& put_item = put(ir::Assign{});
+    put_item.writes.push_back(item.target);
+    assign.items.push_back(std::move(item));
+    put_item.statement.node = std::move(assign);
+  }
+}
+
+bool Lowering::plane(const syntax::Statement& s) {
+  const auto& words = block_->words;
+  const facts::TiltRow* row = words.empty() ? nullptr : facts::find_tilt(to_upper_ascii(words[0].address));
+  if (row == nullptr) {
+    report_.refuse("HEI-022", s.pos,
+                   "PLANE is followed by SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
+    return false;
+  }
+  std::map<std::string, ir::Value> given;
+  bool stays = false, turns = false, literal = true;
+  for (std::size_t i = 1; i < words.size() && !report_.refused(); ++i) {
+    std::string address = to_upper_ascii(words[i].address);
+    const Word* number = &words[i];
+    if (address == "P" && number->has_value && i + 1 < words.size()) {  // P1X+20 is two words
+      address += shortest(number->number) + to_upper_ascii(words[i + 1].address);
+      number = &words[++i];
+    }
+    stays = stays || address == "STAY";
+    turns = turns || address == "TURN" || address == "MOVE";
+    if (stays || turns) continue;  // what follows says how the axes are moved
+    if (!number->has_value || !facts::in_words(row->words, address)) {
+      report_.refuse("HEI-002", words[i].pos,
+                     "`" + std::string(slice(words[i])) + "` means nothing in PLANE " + std::string(row->word), {},
+                     "block.word");
+      return false;
+    }
+    given[address] = value(*number);
+    literal = literal && given[address].literal();
+  }
+  if (report_.refused()) return false;
+  const auto get = [&given](const char* name) {
+    const auto it = given.find(name);
+    return it == given.end() ? ir::Value(0) : it->second;
+  };
+  const auto refuse = [&](std::string text) {
+    report_.keep("HEI-022", s.pos, std::move(text), "motion.transformation");
+    return false;
+  };
+  if (!stays && row->form != TiltForm::reset)
+    return refuse("TURN and MOVE position the rotary axes: to where is known to the machine only");
+  if (!stays && (rotary_moved_ || row->form != TiltForm::reset))
+    return refuse("PLANE RESET moves the rotary axes back: how is known to the machine only");
+  if (!literal && row->form != TiltForm::spatial) return refuse("its angles must be numbers");
+  const auto n = [&get](const char* name) { return get(name).number; };
+  std::optional<Matrix> m;
+  std::array<ir::Value, 3> angles;
+  switch (row->form) {
+    case TiltForm::spatial: angles = {get("SPA"), get("SPB"), get("SPC")}; break;
+    case TiltForm::axial: angles = {get("A"), get("B"), get("C")}; break;
+    case TiltForm::reset: break;
+    case TiltForm::relative: {
+      if (!tilt_) {
+        angles = {get("SPA"), get("SPB"), get("SPC")};
+        break;
+      }
+      Matrix before = about(0, 0);
+      for (const std::size_t axis : {std::size_t{2}, std::size_t{1}, std::size_t{0}}) {
+        if (!tilt_->angles[axis].literal()) return refuse("the plane before it is not known by numbers");
+        before = product(before, about(axis, tilt_->angles[axis].number));
+      }
+      m = product(before, product(about(2, n("SPC")), product(about(1, n("SPB")), about(0, n("SPA")))));
+      break;
+    }
+    case TiltForm::euler:
+      m = product(about(2, n("EULPR")), product(about(0, n("EULNU")), about(2, n("EULROT"))));
+      break;
+    case TiltForm::vector:
+      m = frame_of({n("BX"), n("BY"), n("BZ")}, {n("NX"), n("NY"), n("NZ")});
+      if (!m) return refuse("the vectors give no plane");
+      break;
+    case TiltForm::points: {
+      const Vector p{n("P1X"), n("P1Y"), n("P1Z")};
+      const Vector x{n("P2X") - p[0], n("P2Y") - p[1], n("P2Z") - p[2]};
+      const Vector y{n("P3X") - p[0], n("P3Y") - p[1], n("P3Z") - p[2]};
+      m = frame_of(x, cross_of(x, y));
+      if (!m) return refuse("the points give no plane");
+      break;
+    }
+    case TiltForm::projected: return refuse("which way the projected angles turn is not known for sure");
+  }
+  if (m) {
+    constexpr double places = 1e10;
+    const auto column = [&m](std::size_t k) { return std::array<double, 3>{(*m)[0][k], (*m)[1][k], (*m)[2][k]}; };
+    const ir::Turns a = ir::turns_of(column(0), column(1), column(2));
+    for (std::size_t i = 0; i < 3; ++i) angles[i] = ir::Value(std::round(a[i] * places) / places + 0.0);
+  }
+  const std::size_t before = flat_.items.size();
+  tilt(angles);
+  if (flat_.items.size() == before && !report_.refused()) put(ir::Block{});
+  return !report_.refused();
+}
+
+}  // namespace cnctrans::frontends::heidenhain
