@@ -65,6 +65,26 @@ constexpr const FunctionRow* find_function(ir::Function function) {
   return nullptr;
 }
 
+/// Functions of texts: `SUBSTR ( SRC_QS10 BEG2 LEN4 )`; the words in the order of the neutral function.
+struct TextFunctionRow {
+  std::string_view word;
+  ir::Function function;
+  std::string_view words;  ///< one blank between two
+};
+inline constexpr std::array text_functions{
+    TextFunctionRow{"TOCHAR", ir::Function::to_string, "DAT DECIMALS"},
+    TextFunctionRow{"TONUMB", ir::Function::to_number, "SRC_"},
+    TextFunctionRow{"SUBSTR", ir::Function::substring, "SRC_ BEG LEN"},
+    TextFunctionRow{"INSTR", ir::Function::index_of, "SRC_ SEA_ BEG"},
+    TextFunctionRow{"STRLEN", ir::Function::string_length, "SRC_"},
+};
+constexpr const TextFunctionRow* find_text_function(std::string_view word) {
+  for (const auto& f : text_functions) {
+    if (f.word == word) return &f;
+  }
+  return nullptr;
+}
+
 /// FN n.
 enum class FnUse : std::uint8_t {
   assign,   ///< Q = a

@@ -44,8 +44,7 @@ inline std::vector<ir::VariableSpace> spaces() {
   list[space_qr].segments.push_back({0, qr_max, ir::Scope::global, true, false, false});
   list[space_qs].prefix = "QS";
   list[space_qs].type = ir::Type::string;
-  list[space_qs].starts_at_zero = true;
-  list[space_qs].segments.push_back({0, qs_max, ir::Scope::global, true, false, false});
+  list[space_qs].scope = ir::Scope::global;
   return list;
 }
 

@@ -7,6 +7,7 @@ blockNumber : NUMBER;
 
 content
   : VARIABLE EQUALS expression   # assignment   // Q5 = Q1 * (SIN Q2 + 4); also a parameter of a cycle: Q201=-15
+  | WORD WORD VARIABLE EQUALS expression   # declaration   // DECLARE STRING QS10 = "text"
   | VARIABLE EQUALS WORD sign* (NUMBER | VARIABLE)?   # named   // a parameter of a cycle: Q206=FAUTO, Q207=FZ0.1
   | FN NUMBER COLON function     # fn
   | STAR ~(COMMENT)*             # outline      // * - text: a heading

@@ -80,6 +80,7 @@ class HeidenhainReader {
     main.name.text = lowering_.name().empty() ? to_upper_ascii(source_->stem()) : lowering_.name();
     program_.unit_hint = lowering_.inch() ? ir::Units::inch : ir::Units::metric;
     build_routines(lowering_, flow, std::move(statements), std::move(main), program_);
+    declare_texts();
     if (!lowering_.began() && !lines.empty()) {
       diagnostics_.warning("HEI-014", Span{file_, 1, 1, 1, 1}, "the file does not begin with BEGIN PGM: millimetres",
                            "write BEGIN PGM NAME MM");
@@ -90,6 +91,18 @@ class HeidenhainReader {
   }
 
  private:
+  void declare_texts() {
+    if (lowering_.texts().empty()) return;
+    ir::Declare d;
+    d.type = ir::Type::string;
+    d.space = facts::space_qs;
+    for (const auto& name : lowering_.texts()) d.items.push_back({name, {}, {}});
+    ir::Statement s;
+    s.line.span = Span{file_, 1, 1, 1, 1};
+    s.node = std::move(d);
+    auto& body = program_.routines[0].body;
+    body.insert(body.begin(), std::move(s));
+  }
   void line(const SourceLine& l) {
     ++stats_.lines;
     std::string_view text = l.text;

@@ -40,6 +40,8 @@ class Lowering {
   [[nodiscard]] const std::set<std::int64_t>& own_writes() const { return writes_; }
   /// Values that GLOBAL DEF gives to a parameter, in the order of the text.
   [[nodiscard]] const std::map<std::int16_t, std::vector<ir::Value>>& globals() const { return globals_; }
+  /// Texts that the file uses: QS10.
+  [[nodiscard]] const std::set<std::string>& texts() const { return texts_; }
   std::string_view keep(std::string text) { return program_.keep(std::move(text)); }
   [[nodiscard]] bool inch() const { return inch_; }
   [[nodiscard]] bool began() const { return began_; }
@@ -117,6 +119,7 @@ class Lowering {
   Report report_;
   Flat flat_;
   std::set<std::int64_t> reads_, writes_;
+  std::set<std::string> texts_;
   std::map<std::int16_t, std::vector<ir::Value>> globals_;
   bool global_ = false;  ///< lines of a GLOBAL DEF are being read
   std::string name_;

@@ -56,10 +56,63 @@ ir::ExprPtr Lowering::variable(const Expr& e, bool written) {
     if (facts::is_control_q(number)) return ir::at(datum(ir::Datum::other, "Q" + std::to_string(number)), e.pos);
     (written ? writes_ : reads_).insert(number);
   }
-  return ir::at(ir::numbered(*space, number, *space == facts::space_qs ? ir::Type::string : ir::Type::real), e.pos);
+  if (*space == facts::space_qs) {  // texts are kept by name
+    ir::VarRef ref;
+    ref.space = *space;
+    ref.name = "QS" + std::to_string(number);
+    texts_.insert(ref.name);
+    return ir::at(ir::variable(std::move(ref), ir::Type::string), e.pos);
+  }
+  return ir::at(ir::numbered(*space, number), e.pos);
 }
 
+/// `SUBSTR ( SRC_QS10 BEG2 LEN4 )`: the words in the brackets are named.
 ir::ExprPtr Lowering::text_function(const Expr& e) {
+  const auto* row = facts::find_text_function(e.text);
+  const auto word = [&](std::string_view name) -> ir::ExprPtr {
+    for (const Expr& a : e.args) {
+      if (a.kind == ExprKind::call && a.text == name && a.args.size() == 1) return expression(a.args[0]);
+    }
+    return nullptr;
+  };
+  if (row != nullptr) {
+    std::vector<ir::ExprPtr> args;
+    bool good = true;
+    std::string_view rest = row->words;
+    while (!rest.empty()) {
+      const std::string_view name = rest.substr(0, rest.find(' '));
+      args.push_back(word(name));
+      good = good && args.back() != nullptr;
+      rest.remove_prefix(std::min(name.size() + 1, rest.size()));
+    }
+    if (!good && !report_.refused())
+      report_.refuse("HEI-013", e.pos, "`" + e.text + "` needs the words " + std::string(row->words));
+    if (report_.refused()) return nullptr;
+    const bool text = row->function == ir::Function::substring || row->function == ir::Function::to_string;
+    if (row->function == ir::Function::to_string) {  // DECIMALS
+      const auto places = ir::constant_value(args[1]);
+      if (!places || *places != 0) {
+        report_.keep("HEI-013", e.pos, "TOCHAR with decimals is not carried: how the control writes them is not known",
+                     "language.statement");
+        return nullptr;
+      }
+      args = {ir::call(ir::Function::round, {args[0]})};
+    }
+    ir::ExprPtr value = ir::call(row->function, args);
+    if (text) {
+      auto typed = std::make_shared<ir::Expr>(*value);
+      typed->type = ir::Type::string;
+      value = std::move(typed);
+    }
+    if (row->function == ir::Function::index_of) {  // not found: the length of the text
+      const ir::ExprPtr none = ir::binary(ir::BinaryOp::lt, value, ir::number(0));
+      const ir::ExprPtr length = ir::call(ir::Function::string_length, {args[0]});
+      value = ir::binary(ir::BinaryOp::add, value,
+                         ir::binary(ir::BinaryOp::multiply, none,
+                                    ir::binary(ir::BinaryOp::add, length, ir::number(1))));
+    }
+    return ir::at(value, e.pos);
+  }
   report_.keep("HEI-013", e.pos, "`" + e.text + "`: functions of texts are not carried yet", "language.statement");
   return nullptr;
 }
@@ -79,13 +132,17 @@ ir::ExprPtr Lowering::expression(const Expr& e) {
     case ExprKind::binary: {
       ir::ExprPtr a = expression(e.args[0]), b = expression(e.args[1]);
       if (!a || !b) return nullptr;
-      if (e.text == facts::concat_operator) return text_function(e);
+      if (e.text == facts::concat_operator) {
+        auto joined = std::make_shared<ir::Expr>(*ir::binary(ir::BinaryOp::concat, std::move(a), std::move(b)));
+        joined->type = ir::Type::string;
+        return ir::at(joined, e.pos);
+      }
       const auto* op = facts::find_operator(e.text);
       if (op == nullptr) break;
       return ir::at(ir::binary(op->op, std::move(a), std::move(b)), e.pos);
     }
     case ExprKind::call: {
-      if (e.args.size() != 1) return text_function(e);
+      if (e.args.size() != 1 || facts::find_text_function(e.text) != nullptr) return text_function(e);
       if (e.text == facts::negate_word || facts::find_function(e.text) != nullptr || e.text == facts::fraction_word ||
           e.text == facts::sign_word) {
         ir::ExprPtr x = expression(e.args[0]);
@@ -120,12 +177,12 @@ bool Lowering::target(const Expr& e, ir::VarRef& out) {
 bool Lowering::assignment(const syntax::Statement& s) {
   ir::Assign::Item item;
   item.pos = s.pos;
-  if (s.args[0].text == "QS") {
-    report_.keep("HEI-013", s.pos, "texts in QS parameters are not carried yet", "language.statement");
-    return false;
-  }
   item.value = expression(s.args[1]);
   if (!target(s.args[0], item.target) || !item.value) return false;
+  if ((s.args[0].text == "QS") != (item.value->type == ir::Type::string)) {
+    report_.refuse("HEI-013", s.pos, "a text belongs into a parameter QS, a number into Q, QL or QR");
+    return false;
+  }
   ir::Assign assign;
   Item& put_item = put(ir::Assign{});
   put_item.writes.push_back(item.target);

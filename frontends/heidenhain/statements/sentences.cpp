@@ -171,7 +171,7 @@ bool Lowering::sentence(const syntax::Statement& s) {
       return false;
     case Sentence::plane: return plane(s);
     case Sentence::declare_string:
-      report_.keep("HEI-013", s.pos, "texts in QS parameters are not carried yet", "language.statement");
+      report_.refuse("HEI-013", s.pos, "DECLARE STRING is followed by a parameter QS, `=` and a text");
       return false;
     case Sentence::approach: return lead(s, false);
     case Sentence::departure: return lead(s, true);

@@ -337,6 +337,11 @@ bool LineBuilder::block(HeidenhainParser::BlockContext& tree) {
     if (!items(s->item())) return false;
   } else if (auto* a = dynamic_cast<HeidenhainParser::AssignmentContext*>(content)) {
     assign(variable(a->VARIABLE()->getSymbol()), expression(*a->expression()), pos(*a));
+  } else if (auto* d = dynamic_cast<HeidenhainParser::DeclarationContext*>(content)) {
+    const bool declares = iequals_ascii(slice(d->WORD(0)->getSymbol()), "DECLARE") &&
+                          iequals_ascii(slice(d->WORD(1)->getSymbol()), "STRING");
+    if (!declares) return fail(pos(*d), "`" + std::string(slice(*d)) + "` is no sentence");
+    assign(variable(d->VARIABLE()->getSymbol()), expression(*d->expression()), pos(*d));
   } else if (auto* n = dynamic_cast<HeidenhainParser::NamedContext*>(content)) {
     Expr name;
     name.kind = ExprKind::name;
