@@ -107,9 +107,9 @@ ir::ExprPtr Lowering::text_function(const Expr& e) {
     if (row->function == ir::Function::index_of) {  // not found: the length of the text
       const ir::ExprPtr none = ir::binary(ir::BinaryOp::lt, value, ir::number(0));
       const ir::ExprPtr length = ir::call(ir::Function::string_length, {args[0]});
-      value = ir::binary(ir::BinaryOp::add, value,
-                         ir::binary(ir::BinaryOp::multiply, none,
-                                    ir::binary(ir::BinaryOp::add, length, ir::number(1))));
+      value =
+          ir::binary(ir::BinaryOp::add, value,
+                     ir::binary(ir::BinaryOp::multiply, none, ir::binary(ir::BinaryOp::add, length, ir::number(1))));
     }
     return ir::at(value, e.pos);
   }

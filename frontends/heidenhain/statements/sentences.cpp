@@ -137,6 +137,7 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
   ir::Opaque o;
   o.text = std::string(trim(text));
   o.feature = report_.feature().empty() ? "text.unread" : std::string(report_.feature());
+  o.harmless = report_.harmless();
   put(std::move(o));
   return false;
 }
