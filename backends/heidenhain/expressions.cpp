@@ -26,7 +26,7 @@ bool Expressions::is_plain(const ir::ExprPtr& e) {
 std::string Expressions::operand_of_fn(const ir::ExprPtr& e) {
   if (!is_plain(e)) problem(e, "an operand of a condition is a number or a parameter here");
   std::string text = print(e);
-  return text.empty() || text.front() == '-' ? text : '+' + text;
+  return text.empty() || text.front() == '-' || text.front() == '+' ? text : '+' + text;
 }
 
 std::string Expressions::variable(const ir::ExprPtr& e, const ir::VarRef& v) {

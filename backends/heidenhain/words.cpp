@@ -9,12 +9,17 @@ namespace cnctrans::backends::heidenhain {
 using ir::Setting;
 
 std::string Writer::amount(const ir::Value& value, WordPos pos) {
-  return value.literal() ? number_text(value) : expression_text(value.expr, pos);
+  if (value.literal()) return number_text(value);
+  const auto* minus = std::get_if<ir::Unary>(&value.expr->node);
+  const auto& one = minus != nullptr && minus->op == ir::UnaryOp::negate ? minus->operand : value.expr;
+  if (!std::holds_alternative<ir::VarRef>(one->node) && !std::holds_alternative<ir::SystemRef>(one->node))
+    refuse(no_word, pos, "a word holds a number or one parameter here", "compute it in a parameter before the block");
+  return expression_text(value.expr, pos);
 }
 
 std::string Writer::signed_amount(const ir::Value& value, WordPos pos) {
   std::string text = amount(value, pos);
-  return text.empty() || text.front() == '-' ? text : '+' + text;
+  return text.empty() || text.front() == '-' || text.front() == '+' ? text : '+' + text;
 }
 
 std::string Writer::word(std::string_view address, const ir::Value& value, WordPos pos) {

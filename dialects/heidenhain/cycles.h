@@ -61,7 +61,7 @@ inline constexpr std::array cycle_rows{
              {{{200}, {201}, {239}, {203}, {204}, {257}, {256}, {336}, {403, false, 1}}}},
     CycleRow{240, CycleKind::hole, ir::HoleKind::drill, "", "CENTERING", true,
              {{{200}, {343}, {201}, {344}, {206}, {211}, {203}, {204}}}},
-    CycleRow{241, CycleKind::carried, ir::HoleKind::drill, "", "SINGLE-LIP D.H.DRLNG", true,
+    CycleRow{241, CycleKind::hole, ir::HoleKind::drill, "", "SINGLE-LIP D.H.DRLNG", true,
              {{{200}, {201}, {206}, {211}, {203}, {204}, {379}, {253}, {208}, {426}, {427}, {428}, {429}, {430},
                {435, false}}}},
     CycleRow{251, CycleKind::mill, ir::HoleKind::mill, "pocket.rect", "RECTANGULAR POCKET", true,

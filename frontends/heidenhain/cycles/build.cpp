@@ -173,6 +173,7 @@ bool CycleBuilder::hole() {
     case 207: return tap();
     case 209: return tap_in_pecks();
     case 240: return centre();
+    case 241: return as_moves();
     default: return not_carried();
   }
 }

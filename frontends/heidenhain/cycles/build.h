@@ -11,11 +11,11 @@
 
 namespace cnctrans::frontends::heidenhain {
 
-/// A move along the tool axis, or a dwell.
+/// A move along the tool axis, or what is done between two.
 struct CycleMove {
-  enum class Kind : std::uint8_t { rapid, feed, dwell } kind = Kind::rapid;
-  double w = 0;       ///< absolute
-  double amount = 0;  ///< feed, or seconds
+  enum class Kind : std::uint8_t { rapid, feed, dwell, spindle, function } kind = Kind::rapid;
+  double w = 0;       ///< absolute; spindle: 3, 4 or 5 as the M functions
+  double amount = 0;  ///< feed, seconds, rev/min, or the number of the M function
 };
 struct CycleContext {
   /// The value of a Q parameter at the call.
@@ -32,7 +32,7 @@ struct CycleContext {
 /// Null: the cycle is skipped (depth 0), was refused (see `report`), or is told by its moves.
 ir::CyclePtr build_cycle(const CycleDefinition& cycle, const CycleContext& context, Report& report);
 
-/// 203 and 205 with pecks that no neutral cycle has; empty: its parameters are not all numbers.
+/// 241, 203 and 205 with pecks that no neutral cycle has; empty: its parameters are not all numbers.
 std::vector<CycleMove> peck_moves(const CycleDefinition& cycle, const CycleContext& context);
 
 /// The points of 220 and 221 and their heights: every point is a pair of coordinates in the plane. Empty after a

@@ -1,4 +1,4 @@
-// Pecks of 203 and 205 that no cycle of the IR has (reference 16.x): written as the moves that they are.
+// 241, and pecks of 203 and 205 that no cycle of the IR has (reference 16.x): written as the moves that they are.
 #include <algorithm>
 #include <cmath>
 
@@ -70,7 +70,32 @@ class PeckMoves {
     return end();
   }
 
+  /// Slowly into the hole that is there already, then at the speed of drilling (241).
+  std::vector<CycleMove> single_lip() {
+    rapid(clear_);
+    spindle(get(426), get(427));
+    const double start = std::max(0.0, get(379));
+    if (start > nothing) feed(surface_ - start + get(200), get(253));
+    spindle(3, get(428));
+    function(get(429));
+    if (get(435) > nothing && get(435) < depth_) {
+      feed(surface_ - get(435), get(206));
+      dwell(get(211));
+    }
+    feed(surface_ - depth_, get(206));
+    dwell(get(211));
+    function(get(430));
+    spindle(get(426), get(427));
+    feed(clear_, get(208) == 0 ? get(206) : get(208));
+    if (get(204) > get(200)) rapid(surface_ + get(204));
+    return std::move(moves_);
+  }
+
  private:
+  void spindle(double code, double speed) { moves_.push_back({CycleMove::Kind::spindle, code, speed}); }
+  void function(double code) {
+    if (code > 0) moves_.push_back({CycleMove::Kind::function, 0, code});
+  }
   static constexpr std::size_t most_moves = 20'000;
   [[nodiscard]] double get(std::int16_t n) const {
     const auto it = q_.find(n);
@@ -120,7 +145,7 @@ std::vector<CycleMove> peck_moves(const CycleDefinition& cycle, const CycleConte
   const double shift = context.shift ? context.shift->number : 0;
   if (q[201] >= 0) return {};
   PeckMoves moves(q, shift, context.inch);
-  return cycle.number == 203 ? moves.universal() : moves.pecking();
+  return cycle.number == 241 ? moves.single_lip() : cycle.number == 203 ? moves.universal() : moves.pecking();
 }
 
 }  // namespace cnctrans::frontends::heidenhain

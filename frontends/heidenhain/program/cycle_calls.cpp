@@ -193,7 +193,7 @@ bool CycleCalls::heights_differ(const CycleDefinition& cycle) const {
   return false;
 }
 /// Where the tool stands, behind the last statement. `axis`: of the tool.
-void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) {
+void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) const {
   const ir::Statement first = out.back();
   if (!m.program.empty()) {
     ir::CallRoutine routine;
@@ -218,7 +218,15 @@ void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) {
   }
   for (const CycleMove& step : m.moves) {
     ir::Block b;
-    if (step.kind == CycleMove::Kind::dwell) {
+    if (step.kind == CycleMove::Kind::spindle) {
+      using ir::SpindleState;
+      b.actions.emplace_back().data = ir::SetSpindle{1, ir::Value(step.amount)};
+      b.actions.emplace_back().data = ir::SpindleRun{1, step.w == 3   ? SpindleState::cw
+                                                        : step.w == 4 ? SpindleState::ccw
+                                                                      : SpindleState::off};
+    } else if (step.kind == CycleMove::Kind::function) {
+      b.actions.push_back(lowering_.function_action(step.amount));
+    } else if (step.kind == CycleMove::Kind::dwell) {
       ir::Dwell dwell;
       dwell.value = ir::Value(step.amount);
       b.actions.emplace_back().data = std::move(dwell);
@@ -313,7 +321,7 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
 /// Between the points the tool goes where it stood at the call, if that is higher than the cycle's own way out.
 void CycleCalls::raise(Machining& m, const std::optional<ir::Value>& height) {
   if (!height || !height->literal()) return;
-  if (!m.moves.empty() && m.moves.back().w < height->number)
+  if (!m.moves.empty() && m.moves.back().kind == CycleMove::Kind::rapid && m.moves.back().w < height->number)
     m.moves.push_back({CycleMove::Kind::rapid, height->number, 0});
   const auto* hole = m.cycle == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&m.cycle->node);
   if (hole == nullptr || hole->retract.base != ir::LevelBase::absolute || !hole->retract.value.literal() ||

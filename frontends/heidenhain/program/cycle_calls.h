@@ -47,7 +47,7 @@ class CycleCalls {
   Machining machining(const Item& item, const Arrival& a, const std::optional<ir::Value>& shift,
                       const CycleDefinition* overlay);
   static void raise(Machining& m, const std::optional<ir::Value>& height);
-  static void put(const Machining& m, ir::AxisId axis, Statements& out);
+  void put(const Machining& m, ir::AxisId axis, Statements& out) const;
 
   Lowering& lowering_;
   const Flow& flow_;

@@ -301,7 +301,6 @@ class LeadWriter {
         one.statement.line = {};
         one.statement.line.span = item.statement.line.span;
         one.statement.line.skip_mask = item.statement.line.skip_mask;
-        one.statement.line.joined = true;
       }
       one.moves = true;
       ir::Block b;
@@ -342,7 +341,6 @@ class LeadWriter {
     Item end;
     end.statement.line.span = item.statement.line.span;
     end.statement.line.skip_mask = item.statement.line.skip_mask;
-    end.statement.line.joined = true;
     ir::Block b;
     b.actions.emplace_back().data = comp_off();
     end.statement.node = std::move(b);

@@ -43,6 +43,8 @@ class Lowering {
   /// Texts that the file uses: QS10.
   [[nodiscard]] const std::set<std::string>& texts() const { return texts_; }
   std::string_view keep(std::string text) { return program_.keep(std::move(text)); }
+  /// What an M function does that a cycle has as a parameter.
+  [[nodiscard]] ir::Action function_action(double code) const;
   [[nodiscard]] bool inch() const { return inch_; }
   [[nodiscard]] bool began() const { return began_; }
   [[nodiscard]] bool ended() const { return ended_; }

@@ -268,8 +268,16 @@ bool Lowering::sysread(const syntax::Statement& rest) {
   const bool of_tool = *id == 50;
   auto value = datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
   if (of_tool) {  // of a tool that a number or a parameter names
-    report_.keep("HEI-027", rest.pos, "FN 18: data of the tool table are known to the machine only", "machine.tools");
-    return false;
+    const auto at = text.find("IDX");
+    const auto named = at == std::string::npos ? std::nullopt : variable_behind(at);
+    const ir::ExprPtr tool = idx ? ir::number(static_cast<double>(*idx)) : named ? variable(*named, false) : nullptr;
+    if (!tool) {
+      report_.keep("HEI-027", rest.pos, "FN 18: IDX must name a tool", "machine.tools");
+      return false;
+    }
+    auto row_data = std::make_shared<ir::Expr>(*value);
+    std::get<ir::SystemRef>(row_data->node).args = {tool};
+    value = std::move(row_data);
   }
   ir::Assign::Item item;
   item.pos = rest.pos;

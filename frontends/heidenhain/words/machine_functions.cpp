@@ -28,6 +28,24 @@ facts::MRow row_of(const machine::Profile& profile, std::int64_t code) {
 
 }  // namespace
 
+ir::Action Lowering::function_action(double code) const {
+  using machine::MMeaning;
+  const facts::MRow row = row_of(profile_, saturate<std::int64_t>(code));
+  ir::Action a;
+  const auto coolant = row.meaning == MMeaning::coolant_flood    ? ir::CoolantState::flood
+                       : row.meaning == MMeaning::coolant_mist   ? ir::CoolantState::mist
+                       : row.meaning == MMeaning::coolant_second ? ir::CoolantState::second
+                                                                 : ir::CoolantState::off;
+  if (coolant != ir::CoolantState::off || row.meaning == MMeaning::coolant_off) {
+    a.data = ir::Coolant{coolant};
+  } else {
+    ir::MachineFunction f;
+    f.code = saturate<std::int32_t>(code);
+    a.data = std::move(f);
+  }
+  return a;
+}
+
 void Lowering::machine_function(const Word& w) {
   const double n = w.number;
   const auto code = saturate<std::int64_t>(n);
