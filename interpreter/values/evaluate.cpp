@@ -56,17 +56,14 @@ double Evaluator::number(ExprId id) {
       Place p;
       auto* space = const_cast<NumberedSpace*>(static_cast<const NumberedSpace*>(n.what));
       if (failure_.set || !variables_.place(*space, index, p)) return 0;
-      const bool top = p.level == nullptr || p.level->depth == 0;
-      const auto& set = p.level == nullptr ? space->set[p.index] : p.level->set[space->level_base + p.index];
-      if (set == 0 && top) variables_.note_unset(*space, p.index);
+      variables_.note_read(p);
       return Variables::number(p);
     }
     case Kind::local:
     case Kind::global_name: {
       Place p;
       if (!node_place(n, p)) return 0;
-      if (n.kind == Kind::global_name && p.named != nullptr && p.named->set[p.index] == 0)
-        variables_.note_unset(*p.named);
+      variables_.note_read(p);
       if (p.named == nullptr || !p.named->is_text()) return Variables::number(p);
       failure_.fail(code::wrong_type, "variable " + p.named->name + " holds a text where a number is needed");
       return 0;

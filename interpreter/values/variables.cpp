@@ -227,6 +227,19 @@ void Variables::note_unset(const NamedVariable& v) {
   if (std::find(read_first_.begin(), read_first_.end(), v.name) == read_first_.end()) read_first_.push_back(v.name);
 }
 
+void Variables::note_read(const Place& p) {
+  if (p.named != nullptr) {
+    if (p.named->set[p.index] != 0) return;
+    // What a routine calls its own is no global, though the caller's may be meant by it.
+    if (std::any_of(globals_.begin(), globals_.end(), [&p](const auto& v) { return &v == p.named; }))
+      note_unset(*p.named);
+  } else if (p.level != nullptr) {
+    if (p.level->set[p.space->level_base + p.index] == 0 && p.level->depth == 0) note_unset(*p.space, p.index);
+  } else if (p.space->set[p.index] == 0) {
+    note_unset(*p.space, p.index);
+  }
+}
+
 void Variables::push_level() {
   std::unique_ptr<Level> level;
   if (spare_.empty()) {

@@ -129,6 +129,8 @@ class Variables {
   /// A value is used that nothing has given: variable `n` of a space, a named one.
   void note_unset(const NumberedSpace& space, std::uint32_t n);
   void note_unset(const NamedVariable& v);
+  /// The same of whatever is read at this place, also through a parameter by reference.
+  void note_read(const Place& p);
   [[nodiscard]] const std::vector<std::string>& read_first() const { return read_first_; }
 
   void push_level();

@@ -93,7 +93,8 @@ class Transfer {
     const auto row = x.off ? std::optional(0.0) : known_number(x.index);
     std::optional<std::int32_t> offset;
     if (row && std::fabs(*row) < 1e6) offset = saturate<std::int32_t>(std::round(*row));
-    if (!offset || offset != f_.work_offset || framed_.rows_change) forget_positions();
+    // What holds before any is selected is no more known to be without an offset than the target's start is.
+    if (!offset || offset == 0 || offset != f_.work_offset || framed_.rows_change) forget_positions();
     f_.work_offset = offset;
   }
   /// Presetting says where the tool is; any other frame change moves the coordinates under it.

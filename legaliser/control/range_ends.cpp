@@ -144,7 +144,7 @@ class RangeEnds {
 
   /// A statement that the target may say with several.
   [[nodiscard]] bool may_grow(const Statement& s) const {
-    if (std::holds_alternative<Block>(s.node)) return modal_calls_;
+    if (const auto* b = std::get_if<Block>(&s.node)) return modal_calls_ || action_in<CycleDefine>(*b) != nullptr;
     if (const auto* i = std::get_if<If>(&s.node)) {
       const bool jump = i->then_body.size() == 1 && std::holds_alternative<Jump>(i->then_body[0].node);
       return !jump || !i->else_body.empty();

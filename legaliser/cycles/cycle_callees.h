@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "legaliser/cycles/parts/spindle_ways.h"
 #include "legaliser/legalise.h"
 
 namespace cnctrans::ir::passes {
@@ -27,6 +28,7 @@ struct CycleCallees {
   };
   std::vector<std::unique_ptr<Copy>> copies;
   int made = 0;
+  std::optional<SpindleWays> spindle;  ///< of the source
   /// Definitions whose cycle goes on behind the end of their routine, and the target has none in force there.
   std::set<std::uint32_t> left_off;
   std::set<std::uint32_t> bound_taps;  ///< definitions of taps whose pitch a new F or S would change

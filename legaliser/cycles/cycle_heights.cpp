@@ -1,4 +1,5 @@
 // The height from which a cycle starts, where the controls go another way to its planes.
+#include "ir/known_number.h"
 #include "legaliser/cycles/cycle_pass.h"
 
 namespace cnctrans::ir::passes {
@@ -57,6 +58,22 @@ bool CyclePass::follow_height(const Block& b, const Facts& facts) {
   active_->native = nullptr;
   lacking_ = true;
   return true;
+}
+
+bool CyclePass::moves_coordinates(const Statement& s) const {
+  if (const auto* a = std::get_if<Assign>(&s.node)) {
+    return std::any_of(a->items.begin(), a->items.end(), [](const Assign::Item& i) {
+      return i.to_system && (i.system.datum == Datum::work_offset || (i.value && i.value->type == Type::frame));
+    });
+  }
+  const auto* b = std::get_if<Block>(&s.node);
+  return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [&](const Action& a) {
+           if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
+             const auto in_force = facts_.before(s).work_offset;
+             return !in_force || (w->off ? 0.0 : known_number(w->index)) != *in_force;
+           }
+           return std::holds_alternative<FrameOp>(a.data);
+         });
 }
 
 void CyclePass::leave_height(const Statement& s) {

@@ -114,6 +114,8 @@ class CyclePass {
   [[nodiscard]] bool gives_back(bool reachable) const;  ///< a subprogram, a modal call that it leaves in force
   void leave_while_off(const Statement& s) const;
   void leave_off() const;  ///< an end of the routine, perhaps with a cycle in force that the target has not
+  /// The block is a point of whichever hole cycle may be in force: its moves are not along the tool alone.
+  [[nodiscard]] bool may_be_point(const Block& b, const Facts& facts) const;
   /// A block or a call under a cycle that another routine defines, perhaps.
   void note_foreign(const Statement& s, const Facts& facts) const;
   /// It changes the plane that a hole of such a cycle goes back to, and the target's cycle names it. True: refused.
@@ -167,12 +169,14 @@ class CyclePass {
     ran_.reset();
     const auto* source = std::get_if<Block>(&seen.node);
     branch_before_first_point(s);
+    const bool moved = moves_coordinates(s);
     lower(std::move(s), out);
     late_.clear();  // of a refused block
     then_.clear();
     for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
     const auto* b = std::get_if<Block>(&seen.node);
     if (!ran_ && active_ && b != nullptr && !position_only(*b) && triggers(*b, facts_.before(seen))) ran_ = active_;
+    if (moved && active_) active_->height = active_->defined_at = std::nullopt;
     std::optional<double> initial;
     if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
@@ -415,6 +419,8 @@ class CyclePass {
   /// The tool leaves the height at which the cycle was defined, which only the run knows: a cycle of the target that
   /// begins anew would take the present one for it. True: the target's own one has changed.
   bool follow_height(const Block& b, const Facts& facts);
+  /// Heights from before count in other coordinates behind it.
+  [[nodiscard]] bool moves_coordinates(const Statement& s) const;
   void leave_height(const Statement& s);  ///< one that a loop or a called routine carries out
 
   // --- written out ----------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 // Patterns under the cycle in force: in the words of the target, as points, or as a loop over them.
+#include <algorithm>
 #include <utility>
 
 #include "legaliser/cycles/cycle_pass.h"
@@ -37,6 +38,16 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
   if (!points) {
     refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
            "give the pattern's words and the place before it as numbers");
+    out.push_back(std::move(s));
+    return;
+  }
+  // The cycle is another program part's: a way of its own to a point would run it in between.
+  const bool own_ways = std::any_of(points->begin(), points->end(), [](const Statement& p) {
+    const auto* block = std::get_if<Block>(&p.node);
+    return block != nullptr && !block->actions.empty();
+  });
+  if (!active_ && own_ways && facts.reachable && (facts.cycle_active || !facts.cycle_active_known)) {
+    refuse_other_ways(s);
     out.push_back(std::move(s));
     return;
   }

@@ -171,7 +171,7 @@ bool CyclePass::sure(const Facts& facts) const {
 
 bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
   const bool moves = b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
-  if (!facts.reachable || (!moves && !(by_call_ && disturbs_call(b)))) return false;
+  if (!facts.reachable || (!moves && !((by_call_ || has_modal_calls_) && disturbs_call(b)))) return false;
   if (facts.cycle_from == Facts::several_cycles)
     return (!enters_unsure_ && !definitions_.empty()) || (!by_call_ && refuses_axis_word(b, facts));
   // One that a called routine has left in force: a modal call would run at words and moves that are no points.
@@ -245,6 +245,13 @@ void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& c
   }
 }
 
+bool CyclePass::may_be_point(const Block& b, const Facts& facts) const {
+  if (pattern_in(b) != nullptr) return true;
+  if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  return !plane || has_plane_word(b, plane_axes(*plane).w) || turns_to_point(b, context_.source_machine);
+}
+
 void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
   if (!facts.reachable || surely_active_) return;
   const auto* modal = std::get_if<ModalCall>(&s.node);
@@ -255,14 +262,14 @@ void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
   if (callee && (again || (facts.cycle_from != 0 && (!active_ || !sure(facts))))) callees_.entered.insert(*callee);
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr || facts.cycle_from == 0 || definitions_.count(facts.cycle_from) != 0) return;
-  const bool moves = b->has_motion && b->motion.moves();
-  const bool point = moves && hole_point(*b, facts) != HolePoint::no;
+  const bool point = may_be_point(*b, facts);
   if (point) callees_.points.emplace_back(s.line.span, facts.cycle_from);
   const bool feed = std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
     return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
   });
   if (feed) callees_.feeds.emplace_back(s.line.span, facts.cycle_from);
-  if (!by_call_ || active_ || point || !disturbs_call(*b)) return;
+  const bool moves = b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal;
+  if (!by_call_ || active_ || point || !(moves || disturbs_call(*b))) return;
   for (std::size_t i = 0; i < program_.routines.size(); ++i) {
     if (&program_.routines[i] == &editor_.routine) callees_.disturbed.emplace_back(i, s.line.span);
   }
@@ -316,11 +323,13 @@ void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) c
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   const auto callee = callee_of(call);
   if (!by_call_ || !active_->native || hole == nullptr || !callee) return;
-  bool ended = false, beside = false, turns = false;
+  bool beside = false, turns = false;
   for_each_statement(program_.routines[*callee].body, [&](const Statement& inner) {
     const auto* b = std::get_if<Block>(&inner.node);
-    if (b == nullptr || ended || active_->trigger != CycleTrigger::plane_axis_word) return;
+    if (b == nullptr || active_->trigger != CycleTrigger::plane_axis_word) return;
     const Facts& facts = facts_.before(inner);
+    bool ended = !facts.reachable || (facts.cycle_active_known && facts.cycle_from != active_->from &&
+                                      facts.cycle_from != Facts::several_cycles);
     for (const auto& a : b->actions) {
       ended = ended || std::holds_alternative<CycleDefine>(a.data) || std::holds_alternative<CycleCancel>(a.data);
       const auto* m = std::get_if<ModalSet>(&a.data);

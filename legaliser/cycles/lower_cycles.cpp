@@ -176,7 +176,8 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-  const auto sense = sense_.surely() == SpindleState::off ? SpindleState::off : sense_.or_off();
+  auto sense = sense_.surely() == SpindleState::off ? SpindleState::off : sense_.or_off();
+  if (callees_.spindle && callees_.spindle->turns_on_some_way(s)) sense.reset();
   std::string error, differs;
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;
@@ -458,6 +459,7 @@ static void carry_out_noting(Program& program, const LegaliseContext& context, S
   std::set<std::uint32_t> profiles;
   std::vector<ProfileUse> uses;
   CycleCallees callees;
+  callees.spindle.emplace(program);
   for (auto& r : program.routines) {
     CyclePass pass(program, r, context, facts, feeds, callees, stale);
     pass.run();

@@ -64,6 +64,11 @@ class KnownFramePass {
            setting<Units>(facts_.before(s), Setting::units) == Units::metric;
   }
 
+  /// What is not known before is not known to be the same behind.
+  [[nodiscard]] static bool stays(const PlanarFrame& before, const PlanarFrame& after) {
+    return before.known() && before == after;
+  }
+
   [[nodiscard]] bool sayable(const Statement& s) const {
     const KnownFrames* before = states_.before(s);
     if (before == nullptr) return !speaks_of_frames(s, program_);
@@ -92,7 +97,7 @@ class KnownFramePass {
       if (!frame) continue;
       if (state.lost || (item.to_system && !plain_row(item, state))) return false;
       const PlanarFrame after = domain_.inner(state, selected(s));
-      if (!(before == after) && !writable(after, s)) return false;
+      if (!stays(before, after) && !writable(after, s)) return false;
     }
     return true;
   }
@@ -106,7 +111,7 @@ class KnownFramePass {
       if (std::holds_alternative<WorkOffset>(a.data)) chosen = selects(a);
       if (was_plain && domain_.plain(state)) continue;
       const PlanarFrame after = domain_.inner(state, chosen);
-      if (!(before == after) && !writable(after, s)) return false;
+      if (!stays(before, after) && !writable(after, s)) return false;
     }
     return !b.has_motion || b.motion.frame == FrameUse::normal || domain_.plain(state);
   }

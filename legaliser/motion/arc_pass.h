@@ -16,6 +16,8 @@ namespace cnctrans::ir::passes {
 
 /// Warns of arcs right behind a mirror or a rotation whose centre the target wants absolute.
 void check_first_arcs(const Program& program, const LegaliseContext& context, const FactsOf& facts);
+/// Refuses arcs whose radius differs between their ends by more than the target takes.
+void check_radii(const Program& program, const LegaliseContext& context, const FactsOf& facts);
 
 class ArcPass {
  public:

@@ -7,6 +7,7 @@ namespace cnctrans::ir::passes {
 
 void convert_arcs(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
+  check_radii(program, context, facts);
   ArcPass pass(program, context, facts);
   for (auto& r : program.routines) pass.routine(r);
   check_first_arcs(program, context, facts);

@@ -1,6 +1,8 @@
 // The first move behind a change of mirror or rotation is an arc with its centre from the start: some controls ask for
 // the absolute centre there (equivalences 17.4).
+#include "base/text.h"
 #include "ir/analysis/flow_states.h"
+#include "legaliser/analysis/path_points.h"
 #include "legaliser/motion/arc_pass.h"
 
 namespace cnctrans::ir::passes {
@@ -84,6 +86,29 @@ void check_first_arcs(const Program& program, const LegaliseContext& context, co
           "an arc is the first move behind a change of mirror or rotation, and its centre counts from its start: this "
           "control asks for an absolute centre there",
           "give the centre absolute in the source, or move to the start of the arc again before it");
+    });
+  }
+}
+
+void check_radii(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
+  const double most = context.target_machine.arc_tolerance;
+  if (most >= context.source_machine.arc_tolerance) return;
+  const PathPoints points(context, facts);
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !b->has_motion || b->motion.centers.empty()) return;
+      const auto path = points.path_of(s);
+      if (!path || !path->e.arc) return;
+      const auto& e = path->e;
+      const double unit = setting_in<Units>(*b, facts.before(s), Setting::units) == Units::inch ? 25.4 : 1;
+      const double off = std::abs(geometry::length(e.a - e.c) - geometry::length(e.b - e.c)) * unit;
+      if (off <= most || off > context.source_machine.arc_tolerance) return;
+      context.diagnostics.error("TRN-317", s.line.span,
+                                "the radius of this arc differs by " + rounded(off, 4) +
+                                    " mm between its start and its end; the source's control takes that, the target " +
+                                    rounded(most, 4) + " mm at most",
+                                "correct its end or its centre, or write the arc by its radius");
     });
   }
 }

@@ -359,6 +359,14 @@ class VariableMap {
       if (!program_.spaces[key.first].starts_at_zero || !starts_old(to)) continue;
       if (reads(main, VarRef{key.first, {}, number(static_cast<double>(key.second)), {}})) list.push_back(to);
     }
+    for (const auto& [key, to] : named_places_) {
+      if (!starts_old(to) || !only_declared(program_, key) || !reads(main, VarRef{key.first, key.second, nullptr, {}}))
+        continue;
+      for (std::int64_t k = 0; k < use_.named.at(key).elements(); ++k) {
+        list.push_back(to);
+        list.back().index = number(constant_value(to.index).value_or(0) + static_cast<double>(k));
+      }
+    }
     return list;
   }
 

@@ -94,4 +94,25 @@ void VariableUse::say_lacking() const {
   }
 }
 
+bool only_declared(const Program& program, const std::pair<SpaceId, std::string>& key) {
+  bool declared = false, given = false;
+  Span line;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (const auto* d = std::get_if<Declare>(&s.node); d != nullptr && d->space == key.first) {
+        for (const auto& item : d->items) {
+          if (item.name != key.second) continue;
+          declared = true;
+          given = given || !item.initial.empty();
+          line = s.line.span;
+        }
+      }
+      const auto* a = std::get_if<Assign>(&s.node);
+      if (a == nullptr || !declared || s.line.span.file != line.file || s.line.span.line != line.line) return;
+      for (const auto& item : a->items) given = given || item.target.name == key.second;
+    });
+  }
+  return declared && !given;
+}
+
 }  // namespace cnctrans::ir::passes

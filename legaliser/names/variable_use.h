@@ -55,4 +55,7 @@ struct VariableUse {
   const LegaliseContext& context_;
 };
 
+/// A declaration makes the variable, and neither it nor anything else in its line gives a value: it starts at 0.
+bool only_declared(const Program& program, const std::pair<SpaceId, std::string>& key);
+
 }  // namespace cnctrans::ir::passes

@@ -10,6 +10,7 @@
 #include "frontends/common/block_start.h"
 #include "frontends/sinumerik/frames/face_radius.h"
 #include "frontends/sinumerik/frames/geometry_axes.h"
+#include "frontends/sinumerik/program/codes_seen.h"
 #include "frontends/sinumerik/state/context.h"
 #include "frontends/sinumerik/state/statements.h"
 #include "frontends/sinumerik/state/words.h"
@@ -83,34 +84,13 @@ void set_unit_hint(ir::Program& program) {
   }
 }
 
-/// Which of these words may stand in the file, in one look at its text.
-struct CodesSeen {
-  bool css = false;              ///< G96, G961, G962
-  bool per_rev = false;          ///< G95, G96, G97
-  bool other_feed = false;       ///< G93, G94, G961, G971 and their like
-  std::array<bool, 3> planes{};  ///< by ir::Plane
-  explicit CodesSeen(std::string_view text) {
-    for (std::size_t i = text.find_first_of("Gg"); i != std::string_view::npos; i = text.find_first_of("Gg", i + 1)) {
-      const std::string_view digits = text.substr(i + 1, 2);
-      css = css || digits == "96";
-      const bool longer = i + 3 < text.size() && text[i + 3] >= '0' && text[i + 3] <= '9';
-      per_rev = per_rev || (!longer && (digits == "95" || digits == "96" || digits == "97"));
-      other_feed =
-          other_feed || (digits.size() == 2 && digits[0] == '9' && (longer || digits[1] == '3' || digits[1] == '4'));
-      if (digits == "17") planes[static_cast<std::size_t>(ir::Plane::xy)] = true;
-      if (digits == "18") planes[static_cast<std::size_t>(ir::Plane::zx)] = true;
-      if (digits == "19") planes[static_cast<std::size_t>(ir::Plane::yz)] = true;
-    }
-  }
-};
-
 class FileReading {
  public:
   FileReading(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
               ReadStats& stats)
       : source_(source),
         machine_(*options.profile),
-        context_{machine_, file, program_, diagnostics, {}, ir::MotionKind::linear, {}, {}, 0},
+        context_{{}, machine_, file, program_, diagnostics, {}, ir::MotionKind::linear, {}, {}, 0},
         words_(context_),
         statements_(context_, words_),
         reader_(options.reader),
@@ -125,6 +105,7 @@ class FileReading {
     const CodesSeen seen(source_->text());
     context_.uses_css = seen.css;
     context_.more_feeds = seen.per_rev && seen.other_feed;
+    context_.more_units = machine_.profile->power_on.units == ir::Units::metric ? seen.inch : seen.metric;
     for (std::size_t p = 0; p < seen.planes.size(); ++p) {
       const bool first = p == static_cast<std::size_t>(machine_.profile->power_on.plane);
       context_.more_planes = context_.more_planes || (seen.planes[p] && !first);
@@ -150,6 +131,7 @@ class FileReading {
   void begin_routine(std::string_view name, bool sub);
   void end_routine();
   void take(const SourceLine& line);
+  void take_block(LineReader::Result result);
   void take_header(const syntax::Block& block, const SourceLine& line);
   void next_file();
   void take_words(const syntax::Block& block, ir::LineInfo info);
@@ -372,6 +354,14 @@ void FileReading::take(const SourceLine& source_line) {
   fresh_ = false;
   if (!block_.labels.empty()) context_.interrupt_lasting();
   ++stats_.blocks;
+  context_.skippable = block_.skip_mask != 0;
+  if (!context_.skippable) return take_block(result);
+  const TextState before = context_;
+  take_block(result);
+  context_.may_be_left_out(before);
+}
+
+void FileReading::take_block(LineReader::Result result) {
   if (result == LineReader::Result::unread) return unread(block_, info_);
   if (result == LineReader::Result::plain) return take_words(block_, info_);
   if (statements_.lower(block_, info_) || context_.only_kept()) ++stats_.blocks_read;
@@ -383,7 +373,7 @@ class LineStream final : public StreamReader {
  public:
   LineStream(FileId file, const ReadOptions& options, std::string_view name)
       : machine_(*options.profile),
-        context_{machine_, file, program_, unused_, {}, options.profile->power_on.motion, {}, {}, 0},
+        context_{{}, machine_, file, program_, unused_, {}, options.profile->power_on.motion, {}, {}, 0},
         words_(context_),
         reader_(options.reader) {
     fill_frame(program_, *options.profile);
@@ -417,7 +407,10 @@ class LineStream final : public StreamReader {
     if (node == nullptr) node = &out.node.emplace<ir::Block>();
     fill_line_info(block_, context_.line, out.line);
     if (!unused_.empty()) unused_.clear();
+    std::optional<TextState> before;
+    if (block_.skip_mask != 0) before = context_;
     const bool ok = words_.lower(block_, *node);
+    if (before) context_.may_be_left_out(*before);
     if (!unused_.empty()) diagnostics.append(unused_);
     if (!ok || words_.tail() == Tail::subprogram_end || default_offset(*node)) return StreamLine::needs_program;
     return words_.tail() == Tail::program_end ? StreamLine::program_end : StreamLine::statement;

@@ -34,6 +34,25 @@ ir::AxisId MachineFacts::axis(std::string_view name) const {
   return ir::axis::none;
 }
 
+void TextState::may_be_left_out(const TextState& before) {
+  units_called = units_called || units_by_text != before.units_by_text;
+  words_in_inches = words_in_inches || before.words_in_inches;
+  thread_start.join(before.thread_start);
+  corner_feed.join(before.corner_feed);
+  speed_limit.join(before.speed_limit);
+  css_limit.join(before.css_limit);
+  const auto same = [](auto& value, const auto& other) {
+    if (value != other) value.reset();
+  };
+  same(plane, before.plane);
+  same(css, before.css);
+  same(per_rev, before.per_rev);
+  same(inclined, before.inclined);
+  same(carrier.chosen, before.carrier.chosen);
+  carrier.unsure = carrier.unsure || carrier.data != before.carrier.data;
+  if (tool.state != before.tool.state || tool.vector != before.tool.vector) tool.state = ToolDirection::State::unsure;
+}
+
 void FileContext::beyond_r_parameters(WordPos pos) {
   if (!first_time("R parameters")) return;
   warning("SIN-050", pos,

@@ -65,6 +65,10 @@ class LastingWord {
   }
   /// The word no longer holds.
   void cancel() { state_ = State::none; }
+  /// The block that was read last may be left out: what held before it may hold as well.
+  void join(const LastingWord& before) {
+    if (state_ != before.state_ || (state_ == State::known && value_ != before.value_)) state_ = State::unsure;
+  }
   /// The program may come from elsewhere.
   void interrupt() {
     interrupted_ = true;
@@ -116,7 +120,35 @@ struct ToolDirection {
   }
 };
 
-struct FileContext {
+/// What holds by the text read so far, in its order. Behind a label, a jump, a structure or a call it tells less.
+struct TextState {
+  std::optional<ir::Units> units_by_text{};  ///< of the program; none: the caller's
+  bool words_in_inches = false;              ///< G70: lengths of words, not those of data
+  bool units_called = false;   ///< what is in force may be other than `units_by_text`: a call stands behind, a label
+  LastingWord thread_start{};  ///< SF= in force
+  LastingWord corner_feed{};   ///< FRCM= in force
+  LastingWord speed_limit{};   ///< G26 S of the master spindle
+  LastingWord css_limit{};     ///< LIMS= of the master spindle
+  /// TRAANG in force: the angle of the inclined axis in degrees; none: it does not tell.
+  std::optional<double> inclined{};
+  ToolDirection tool{};
+  /// Tool carriers (TCARR): their data and which one is chosen.
+  struct Carrier {
+    std::map<std::int32_t, std::map<int, double>> data{};  ///< $TC_CARRn[m], by m and n
+    bool unsure = false;                                   ///< data that the text does not tell
+    std::optional<std::int32_t> chosen{};                  ///< 0: none
+    bool turned = false;                                   ///< PAROT has turned the coordinates before in the text
+  };
+  Carrier carrier{};
+  std::optional<ir::Plane> plane{};  ///< in force; none: it does not tell
+  std::optional<bool> css{};         ///< constant cutting speed in force; none: it does not tell
+  std::optional<bool> per_rev{};     ///< feed per revolution in force; none: it does not tell
+
+  /// The block that was read last has a skip mark: what it says holds behind it or not. `before`: this, before it.
+  void may_be_left_out(const TextState& before);
+};
+
+struct FileContext : TextState {
   MachineFacts& machine;
   FileId file;
   ir::Program& program;
@@ -132,16 +164,11 @@ struct FileContext {
   std::set<std::string, std::less<>> read_names{};     ///< variables of the routine read so far, capitals
   std::set<std::string, std::less<>> unknown_names{};  ///< of those, the ones that the machine has given a value
 
-  std::optional<ir::Units> units_by_text{};  ///< of the program, in the order of the text; none: the caller's
-  bool words_in_inches = false;              ///< G70: lengths of words, not those of data
-  bool units_called = false;                 ///< a call stands behind the code that `units_by_text` is from
-  std::uint8_t master_spindle = 1;           ///< SETMS, in the order of the text
-  bool offset_chosen = true;                 ///< a D was written since the last T, in the order of the text
+  bool skippable = false;           ///< the block being read has a skip mark
+  bool more_units = false;          ///< the file has codes of other units than those of power-on
+  std::uint8_t master_spindle = 1;  ///< SETMS, in the order of the text
+  bool offset_chosen = true;        ///< a D was written since the last T, in the order of the text
 
-  LastingWord thread_start{};  ///< SF= in force
-  LastingWord corner_feed{};   ///< FRCM= in force
-  LastingWord speed_limit{};   ///< G26 S of the master spindle
-  LastingWord css_limit{};     ///< LIMS= of the master spindle
   /// `own` is set to `value`; what counts is the lower one of it and `other` (14.7).
   ir::Value lower_limit(LastingWord& own, LastingWord& other, const ir::Value& value, WordPos pos);
   /// A label, a jump, a structure or a call: what holds may come from elsewhere.
@@ -151,6 +178,7 @@ struct FileContext {
     speed_limit.interrupt();
     css_limit.interrupt();
     if (more_planes) plane.reset();
+    units_called = units_called || more_units;
     if (uses_css) css.reset();
     if (more_feeds) per_rev.reset();
     inclined.reset();
@@ -160,32 +188,17 @@ struct FileContext {
     contours = {};
   }
 
-  /// TRAANG in force, in the order of the text: the angle of the inclined axis in degrees; none: it does not tell.
-  std::optional<double> inclined{};
   std::optional<ir::DiameterMode> diameter{};  ///< written last, in the order of the text; none: that of power-on
   bool increments = false;                     ///< G91 was written
-  ToolDirection tool{};
-  /// Tool carriers (TCARR): their data and which one is chosen, in the order of the text.
-  struct Carrier {
-    std::map<std::int32_t, std::map<int, double>> data{};  ///< $TC_CARRn[m], by m and n
-    bool unsure = false;                                   ///< data that the text does not tell
-    std::optional<std::int32_t> chosen{};                  ///< 0: none
-    bool turned = false;                                   ///< PAROT has turned the coordinates before in the text
-  };
-  Carrier carrier{};
   [[nodiscard]] std::optional<double> carrier_datum(int number) const;
   [[nodiscard]] std::optional<std::array<double, 3>> table_turn(std::string& why) const;
-  bool framed = false;               ///< the program may have put a frame of its own, beside that of the tool
-  bool tool_frame = false;           ///< the frame of the tool or of a swivelled plane is in force
-  bool other_plane = false;          ///< G18 or G19 was written
-  std::optional<ir::Plane> plane{};  ///< in force, in the order of the text; none: it does not tell
-  bool more_planes = false;          ///< the file has codes of several planes
-  bool uses_css = false;             ///< G96 or G961 stands in the file
-  std::optional<bool> css{};  ///< constant cutting speed in force, in the order of the text; none: it does not tell
-
-  std::optional<bool> per_rev{};  ///< feed per revolution in force, in the order of the text; none: it does not tell
-  bool more_feeds = false;        ///< the file has codes of feeds per revolution and of others
-  bool words_of_tool = false;     ///< FZ= or SVC= is in force: it counts for the tool of its block
+  bool framed = false;         ///< the program may have put a frame of its own, beside that of the tool
+  bool tool_frame = false;     ///< the frame of the tool or of a swivelled plane is in force
+  bool other_plane = false;    ///< G18 or G19 was written
+  bool more_planes = false;    ///< the file has codes of several planes
+  bool uses_css = false;       ///< G96 or G961 stands in the file
+  bool more_feeds = false;     ///< the file has codes of feeds per revolution and of others
+  bool words_of_tool = false;  ///< FZ= or SVC= is in force: it counts for the tool of its block
 
   /// Tables of contours that the text tells, and as bits the columns of them that no text tells.
   std::map<std::string, unsigned, std::less<>> prepared{};

@@ -161,8 +161,10 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
   if (h.retract.given && h.retract.base == h.reference.base && equal(h.retract.value, h.reference.value)) {
     h.approach_by_retract = false;  // both are one plane
   }
-  // An approach over the retract level is no detour when the tool stands there, or higher levels follow one line.
   const auto w = cycle_axis(h, b, facts);
+  // Cycles that each point calls know no plane: they go along Z.
+  if (context.target.cycle_each_call && w != axis::z) return std::nullopt;
+  // An approach over the retract level is no detour when the tool stands there, or higher levels follow one line.
   const bool literal = h.retract.given && h.retract.base == LevelBase::absolute && h.retract.value.literal();
   const auto height = initial ? initial : w ? facts.position[*w] : std::nullopt;
   const bool straight = literal && height && std::fabs(*height - h.retract.value.number) < 1e-9;

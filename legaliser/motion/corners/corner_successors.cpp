@@ -14,12 +14,41 @@ using namespace geometry;
 
 namespace {
 
-enum class Going : std::uint8_t {
-  stands,   ///< surely goes nowhere
-  perhaps,  ///< moves in the plane or stands, by values that only the run knows
-  along,    ///< moves in the plane
-  apart     ///< moves outside of the plane alone
-};
+/// Whether the word moves its axis; nullopt: not known here.
+std::optional<bool> moves_axis(const CoordWord& c, const Block& b, const Facts& facts, const LegaliseContext& context) {
+  const auto d = distance_of(c, b, facts);
+  if (!c.value.literal() || !d) return std::nullopt;
+  if (*d == Distance::incremental) return !c.value.is(0);
+  const auto& at = facts.position[c.axis];
+  const auto f = to_radius(c.axis, c.scale, d, b, facts, context.source_machine);
+  if (!at || !f) return std::nullopt;
+  return std::abs(*at - c.value.number * *f) > same_point;
+}
+
+}  // namespace
+
+Going going_of(const Statement& s, const LegaliseContext& context, const FactsOf& facts, const PathPoints& points) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !b->has_motion || !b->motion.moves()) return Going::stands;
+  const Motion& m = b->motion;
+  const Facts& known = facts.before(s);
+  const auto plane = setting_in<Plane>(*b, known, Setting::plane);
+  if (!plane || m.extra || !m.centers.empty() || m.radius_given) return Going::along;
+  const auto axes = plane_axes(*plane);
+  if (const auto path = points.path_of(s); path && (path->e.arc || length(path->e.b - path->e.a) > same_point))
+    return Going::along;
+  Going step = Going::stands;
+  for (const auto& c : m.coords) {
+    const auto moved = moves_axis(c, *b, known, context);
+    const bool inside = c.axis == axes.u || c.axis == axes.v;
+    if (inside && moved == true) return Going::along;
+    if (inside && !moved) step = Going::perhaps;
+    if (!inside && moved != false && step == Going::stands) step = Going::apart;
+  }
+  return step;
+}
+
+namespace {
 
 /// A domain of FlowStates: the corners (ids of their blocks) that wait for the element behind them, on some way.
 class WaitingCorners {
@@ -46,26 +75,7 @@ class WaitingCorners {
     return a.size() != before;
   }
 
-  [[nodiscard]] Going step_of(const Statement& s) const {
-    const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr || !b->has_motion || !b->motion.moves()) return Going::stands;
-    const Motion& m = b->motion;
-    const Facts& facts = facts_.before(s);
-    const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
-    if (!plane || m.extra || !m.centers.empty() || m.radius_given) return Going::along;
-    const auto axes = plane_axes(*plane);
-    if (const auto path = points_.path_of(s); path && (path->e.arc || length(path->e.b - path->e.a) > same_point))
-      return Going::along;
-    Going step = Going::stands;
-    for (const auto& c : m.coords) {
-      const auto moved = moves(c, *b, facts);
-      const bool inside = c.axis == axes.u || c.axis == axes.v;
-      if (inside && moved == true) return Going::along;
-      if (inside && !moved) step = Going::perhaps;
-      if (!inside && moved != false && step == Going::stands) step = Going::apart;
-    }
-    return step;
-  }
+  [[nodiscard]] Going step_of(const Statement& s) const { return going_of(s, context_, facts_, points_); }
 
  private:
   static bool has_corner(const Statement& s) {
@@ -75,17 +85,6 @@ class WaitingCorners {
              return c != nullptr && !c->modal && !c->value.is(0);
            });
   }
-  /// Whether the word moves its axis; nullopt: not known here.
-  [[nodiscard]] std::optional<bool> moves(const CoordWord& c, const Block& b, const Facts& facts) const {
-    const auto d = distance_of(c, b, facts);
-    if (!c.value.literal() || !d) return std::nullopt;
-    if (*d == Distance::incremental) return !c.value.is(0);
-    const auto& at = facts.position[c.axis];
-    const auto f = to_radius(c.axis, c.scale, d, b, facts, context_.source_machine);
-    if (!at || !f) return std::nullopt;
-    return std::abs(*at - c.value.number * *f) > same_point;
-  }
-
   const LegaliseContext& context_;
   const FactsOf& facts_;
   PathPoints points_;

@@ -9,6 +9,14 @@
 
 namespace cnctrans::ir::passes {
 
+enum class Going : std::uint8_t {
+  stands,   ///< surely goes nowhere
+  perhaps,  ///< moves in the plane or stands, by values that only the run knows
+  along,    ///< moves in the plane
+  apart     ///< moves outside of the plane alone
+};
+Going going_of(const Statement& s, const LegaliseContext& context, const FactsOf& facts, const PathPoints& points);
+
 struct CornerEnds {
   bool followed = false;    ///< on some way a move in the plane, or something that may make one
   std::vector<Span> alone;  ///< where another move or the end of the program comes first

@@ -237,6 +237,10 @@ class CornerPass {
   /// A straight move of known ends that goes nowhere, in the plane or (`anywhere`) at all.
   [[nodiscard]] bool stays(const Statement& s, bool anywhere) const {
     const auto path = points_.path_of(s);
+    if (const auto* m = std::get_if<Block>(&s.node); !path && m != nullptr && m->has_motion && m->motion.moves()) {
+      const Going going = going_of(s, context_, facts_, points_);
+      return going == Going::stands || (!anywhere && going == Going::apart);
+    }
     if (!path || path->e.arc || length(path->e.b - path->e.a) > same_point) return false;
     if (!anywhere) return true;
     const auto& b = std::get<Block>(s.node);

@@ -201,12 +201,20 @@ class TangentPass {
     if (entry)
       points_.set_end(std::get<Block>(s.node).motion, arc.plane, lead.from);
     else
-      points_.set_end(std::get<Block>(next->node).motion, arc.plane, after->e.b);
+      begin_next(*next, *after, lead.to);
     context_.diagnostics.note("TRN-336", word_span(s.line.span, tangential_pos_),
                               "the tangential entry or exit is written as an arc of its own");
     block.actions = take_after(std::get<Block>(s.node));
     last_ = arc;
     return made(s.line, std::move(block));
+  }
+
+  /// The element behind an exit begins where its arc ends.
+  void begin_next(Statement& next, const Path& as_written, Vec from) {
+    auto& m = std::get<Block>(next.node).motion;
+    points_.set_end(m, as_written.plane, as_written.e.b);
+    if (as_written.e.arc && !m.radius_given) PathPoints::set_centre(m, as_written.plane, from, as_written.e.c);
+    points_.begins_at(next, from);
   }
 
   Program& program_;
