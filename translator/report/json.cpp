@@ -1,5 +1,6 @@
 // The report for tools: JSON of our own (docs/report.md) and SARIF 2.1.0.
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/uri.h"
@@ -34,7 +35,12 @@ Json files_json(const std::vector<ReportFile>& files) {
 
 Json path_json(const std::vector<ReportMove>& path) {
   Json list = Json::array();
-  for (const auto& m : path) list.push_back({{"kind", m.kind}, {"at", place_json(m.place)}, {"points", m.points}});
+  for (const auto& m : path) {
+    Json move{{"kind", m.kind}, {"at", place_json(m.place)}, {"points", m.points}};
+    if (m.tool != 0) move["tool"] = m.tool;
+    if (m.seconds != 0) move["seconds"] = std::round(m.seconds * 1000) / 1000;
+    list.push_back(std::move(move));
+  }
   return list;
 }
 

@@ -50,11 +50,51 @@ void add_arc(const Event& e, const std::array<double, 3>& from, std::vector<doub
   }
 }
 
+double length_of(const std::vector<double>& points) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 5 < points.size(); i += 3)
+    sum += std::hypot(points[i + 3] - points[i], points[i + 4] - points[i + 1], points[i + 5] - points[i + 2]);
+  return sum;
+}
+
+/// What a move's time depends on beside its feed.
+struct Turning {
+  double speed = 0, limit = 0;  ///< rev/min, or m/min as a constant cutting speed
+  bool css = false;
+
+  void take(const Event& e) {
+    if (e.state == "off" || e.state == "oriented") return;
+    speed = e.value;
+    css = e.css;
+    limit = e.has_limit ? e.limit : 0;
+  }
+  [[nodiscard]] double rpm(double radius) const {
+    if (!css) return speed;
+    const double free = 1000 * speed / (2 * std::numbers::pi * std::max(std::abs(radius), 0.01));
+    return limit > 0 ? std::min(free, limit) : free;
+  }
+};
+
+double seconds_of(const Event& e, const std::vector<double>& points, const Turning& spindle) {
+  if (e.kind == EventKind::rapid) return 0;
+  const double length = length_of(points), radius = (points[0] + points[points.size() - 3]) / 2;
+  const double per_rev = e.kind == EventKind::thread ? e.pitch : e.feed;
+  double per_minute = e.feed;
+  if (e.kind == EventKind::thread || e.feed_mode == ir::FeedMode::per_rev) per_minute = per_rev * spindle.rpm(radius);
+  if (e.kind != EventKind::thread && e.feed_mode == ir::FeedMode::inverse_time) per_minute = e.feed * length;
+  return per_minute > 0 ? length / per_minute * 60 : 0;
+}
+
 /// The start point is where the first move ends: where the machine stands before is not the program's matter.
 std::vector<ReportMove> path_of(const std::vector<Event>& events, const std::vector<std::size_t>& file_index) {
   std::vector<ReportMove> path;
   std::optional<std::array<double, 3>> at;
+  Turning spindle;
+  std::int32_t tool = 0;
   for (const Event& e : events) {
+    if (e.kind == EventKind::spindle && e.number == 1) spindle.take(e);
+    if (e.kind == EventKind::tool && e.change) tool = e.number;
+    if (e.kind == EventKind::dwell && !e.revolutions && !path.empty()) path.back().seconds += e.amount;
     if (!is_move(e.kind)) continue;
     const auto to = xyz(e.to);
     if (at) {
@@ -65,6 +105,8 @@ std::vector<ReportMove> path_of(const std::vector<Event>& events, const std::vec
       } else {
         move.points.insert(move.points.end(), to.begin(), to.end());
       }
+      move.tool = tool;
+      move.seconds = seconds_of(e, move.points, spindle);
       path.push_back(std::move(move));
     }
     at = to;

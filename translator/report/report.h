@@ -45,6 +45,8 @@ struct ReportMove {
   std::string_view kind;  ///< rapid, linear, arc, thread, probe
   ReportPlace place;
   std::vector<double> points;
+  std::int32_t tool = 0;  ///< that is in the spindle; 0: not known
+  double seconds = 0;     ///< at its feed, with the dwells behind it; 0: a rapid, or not known
 };
 
 struct Report {

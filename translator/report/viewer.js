@@ -57,7 +57,7 @@
   var scene = new THREE.Scene(), camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
   var box = new THREE.Box3(), target = new THREE.Vector3(), size = 100, zoom = 1;
   var angles = { around: lathe ? 0 : -Math.PI / 4, up: lathe ? 0 : Math.PI / 5 };
-  var lines = {}, highlight = null, renderer = null, flat = null;
+  var lines = {}, highlight = null, tool = null, renderer = null, flat = null;
 
   function segments(moves, keep) {
     var out = [];
@@ -124,7 +124,7 @@
       var p = object.geometry.attributes.position.array;
       g.strokeStyle = '#' + object.material.color.getHexString();
       g.globalAlpha = object.material.opacity;
-      g.lineWidth = object === highlight ? 3 : 1.2;
+      g.lineWidth = object === highlight ? 3 : object === tool ? 2 : 1.2;
       g.setLineDash(object.material.isLineDashedMaterial ? [6, 4] : []);
       g.beginPath();
       for (var i = 0; i + 5 < p.length; i += 6) {
@@ -142,19 +142,45 @@
     } else {
       drawFlat(view);
     }
+    triad(view);
+    scale(view);
+  }
+
+  // ---- axes and scale ---------------------------------------------------------------------------------------------
+  function triad(view) {
+    var names = lathe ? [['Z', 1, 0, 0], ['X', 0, 1, 0]] : [['X', 1, 0, 0], ['Y', 0, 1, 0], ['Z', 0, 0, 1]];
+    var unit = view.h / (camera.top - camera.bottom), at = [target.x, target.y, target.z], o = screen(at, view), out = '';
+    names.forEach(function (n) {
+      var e = screen([at[0] + n[1] / unit * 24, at[1] + n[2] / unit * 24, at[2] + n[3] / unit * 24], view);
+      var x = 30 + e[0] - o[0], y = 34 + e[1] - o[1];
+      out += '<line x1="30" y1="34" x2="' + x + '" y2="' + y + '" stroke="#57606a"/><text x="' + (x + 2) + '" y="' + y + '" fill="#1f2328">' + n[0] + '</text>';
+    });
+    byId('triad').innerHTML = out;
+  }
+  function scale(view) {
+    var unit = view.h / (camera.top - camera.bottom), most = 120 / unit, power = Math.pow(10, Math.floor(Math.log10(most)));
+    var length = [5, 2, 1].map(function (n) { return n * power; }).find(function (n) { return n <= most; }) || power;
+    byId('scale').style.width = length * unit + 'px';
+    byId('scale').firstChild.textContent = +length.toPrecision(1) + ' mm';
   }
 
   // ---- choosing ---------------------------------------------------------------------------------------------------
   function clearPicked() {
     document.querySelectorAll('.picked').forEach(function (e) { e.classList.remove('picked'); });
-    if (highlight) { scene.remove(highlight); highlight.geometry.dispose(); highlight = null; }
+    [highlight, tool].forEach(function (object) { if (object) { scene.remove(object); object.geometry.dispose(); } });
+    highlight = tool = null;
+  }
+  // Scrolls the text, never the page: who steps along the path keeps the drawing before the eyes.
+  function reveal(row) {
+    var text = row.parentNode, top = row.getBoundingClientRect().top - text.getBoundingClientRect().top;
+    if (top < 0 || top > text.clientHeight - 40) text.scrollTop += top - text.clientHeight / 3;
   }
   function mark(side, places, scroll) {
     places.forEach(function (place, i) {
       var row = rows[side][place];
       if (!row) return;
       row.classList.add('picked');
-      if (scroll && i === 0) row.scrollIntoView({ block: 'nearest' });
+      if (scroll && i === 0) reveal(row);
     });
   }
   // Of the lines on the other side (a cycle has as many as it has moves) the one that makes the same move.
@@ -185,9 +211,20 @@
       });
     });
     if (positions.length) highlight = add(positions, colours.picked, { order: 9 });
+    if (only) tool = cross(side, only.index);
     byId('move').textContent = describe(side, place, others, only);
+    if (only && chosen) chosen(side, only.index);
     draw();
   }
+  // A cross where the tool stands behind the move.
+  function cross(side, index) {
+    var move = paths[side][index], p = point(move, move.points.length - 3), arm = size / 45 / Math.sqrt(zoom), out = [];
+    [[1, 0, 0], [0, 1, 0], [0, 0, 1]].forEach(function (d) {
+      out.push(p[0] - arm * d[0], p[1] - arm * d[1], p[2] - arm * d[2], p[0] + arm * d[0], p[1] + arm * d[1], p[2] + arm * d[2]);
+    });
+    return add(out, 0x1f2328, { order: 10 });
+  }
+  var chosen = null;  // who wants to know which move was picked
   function describe(side, place, others, only) {
     var a = side === 'source' ? [place] : others, b = side === 'source' ? others : [place];
     function list(places) {
@@ -230,10 +267,27 @@
 
   // ---- controls ---------------------------------------------------------------------------------------------------
   function listen(canvas) {
-    var down = null;
-    canvas.addEventListener('mousedown', function (e) { down = { x: e.clientX, y: e.clientY, moved: false, pan: e.button !== 0 || e.shiftKey }; });
+    var down = null, fingers = {}, spread = 0;
+    function apart() {
+      var ids = Object.keys(fingers), a = fingers[ids[0]], b = fingers[ids[1]];
+      return Math.hypot(a.x - b.x, a.y - b.y);
+    }
+    canvas.addEventListener('pointerdown', function (e) {
+      fingers[e.pointerId] = { x: e.clientX, y: e.clientY };
+      if (Object.keys(fingers).length === 2) { spread = apart(); down = null; return; }
+      down = { x: e.clientX, y: e.clientY, moved: false, pan: e.button !== 0 || e.shiftKey };
+      if (e.isTrusted) canvas.setPointerCapture(e.pointerId);
+    });
     canvas.addEventListener('contextmenu', function (e) { e.preventDefault(); });
-    window.addEventListener('mousemove', function (e) {
+    window.addEventListener('pointermove', function (e) {
+      if (fingers[e.pointerId]) fingers[e.pointerId] = { x: e.clientX, y: e.clientY };
+      if (Object.keys(fingers).length === 2) {  // two fingers: larger, smaller
+        var now = apart();
+        if (spread > 0) zoom = Math.max(0.05, Math.min(500, zoom * now / spread));
+        spread = now;
+        draw();
+        return;
+      }
       if (!down) return;
       var dx = e.clientX - down.x, dy = e.clientY - down.y;
       if (!down.moved && Math.abs(dx) + Math.abs(dy) < 4) return;
@@ -248,12 +302,15 @@
       }
       draw();
     });
-    window.addEventListener('mouseup', function (e) {
-      if (down && !down.moved && e.target === canvas) {
-        var r = canvas.getBoundingClientRect();
-        pickAt(e.clientX - r.left, e.clientY - r.top);
-      }
-      down = null;
+    ['pointerup', 'pointercancel'].forEach(function (name) {
+      window.addEventListener(name, function (e) {
+        delete fingers[e.pointerId];
+        if (name === 'pointerup' && down && !down.moved && e.target === canvas) {
+          var r = canvas.getBoundingClientRect();
+          pickAt(e.clientX - r.left, e.clientY - r.top);
+        }
+        down = null;
+      });
     });
     canvas.addEventListener('wheel', function (e) {
       e.preventDefault();
@@ -309,6 +366,16 @@
       byId('counts').appendChild(b);
     });
   }
+  // A message stands behind its line too: its code, and all of it when the mouse rests there.
+  function atLine(d) {
+    var f = Math.max(data.sources.findIndex(function (s) { return s.name === d.file; }), 0), row = rows.source[f + ':' + d.line];
+    if (!row) return;
+    var note = document.createElement('span');
+    note.className = 'note ' + (d.severity === 'note' ? 'plain' : d.severity);
+    note.textContent = d.code;
+    note.title = d.message + (d.hint ? '\n' + d.hint : '');
+    row.appendChild(note);
+  }
   function messages() {
     var table = byId('diagnostics');
     data.diagnostics.forEach(function (d) {
@@ -316,6 +383,7 @@
       [[d.line || '', ''], [d.severity, d.severity], [d.code, ''], [d.message + (d.more ? ' (' + d.more + ' more)' : ''), ''], [d.hint || '', '']]
         .forEach(function (c) { var cell = row.insertCell(); cell.textContent = c[0]; cell.className = c[1]; });
       if (!d.line) return;
+      atLine(d);
       row.dataset.line = d.line;
       row.addEventListener('click', function () {
         var f = data.sources.findIndex(function (s) { return s.name === d.file; });
@@ -348,9 +416,9 @@
 
   head();
   decisions();
-  messages();
   fill('source', data.sources);
   fill('target', data.targets);
+  messages();
   build();
   differences();
   var canvas = canvasOf();
@@ -360,8 +428,14 @@
   draw();
   window.addEventListener('resize', draw);
   window.addEventListener('beforeprint', draw);
-  // For tests: the place of the middle of a move on the screen.
   window.report = {
+    data: data,
+    lathe: lathe,
+    path: function (side) { return paths[side]; },
+    pick: function (side, index) { pickLine(side, key(paths[side][index].at), true, { side: side, index: index }); },
+    none: function () { clearPicked(); byId('move').textContent = ''; draw(); },
+    onPick: function (f) { chosen = f; },
+    // For tests, from here on: the place of the middle of a move on the screen.
     moves: function (side) { return paths[side].length; },
     place: function (side, index) { return key(paths[side][index].at); },
     middle: function (side, index) {
