@@ -171,7 +171,7 @@ void append_text(std::string& out, const Diagnostic& d, const FileTable& files, 
   fmt::format_to(std::back_inserter(out), "{}{}{} {}: {}{}\n", colour ? colour_of(d.severity) : "",
                  severity_text(d.severity), plain, d.code, printable(d.message), plain);
   const SourceText* const source = files.source(d.span.file);
-  if (source != nullptr && d.span.known() && d.span.line <= source->lines().size())
+  if (source != nullptr && d.span.known() && d.span.line <= source->last_line())
     append_source_line(out, d.span, source->line_text(d.span.line), source->encoding(), colour);
   if (!d.hint.empty()) out += "  hint: " + printable(d.hint) + '\n';
 }

@@ -118,6 +118,17 @@ std::shared_ptr<const SourceText> SourceText::from_string(std::string name, std:
   return s;
 }
 
+std::shared_ptr<const SourceText> SourceText::from_lines(std::string name, std::string bytes,
+                                                         std::vector<std::uint32_t> numbers, std::uint32_t last) {
+  std::shared_ptr<SourceText> s(new SourceText);  // the constructor is private
+  s->name_ = std::move(name);
+  s->owned_ = std::move(bytes);
+  s->numbers_ = std::move(numbers);
+  s->last_ = last;
+  s->set_bytes(s->owned_);
+  return s;
+}
+
 SourceText::~SourceText() {
   if (map_ != nullptr) ::munmap(map_, map_size_);
 }
@@ -159,13 +170,20 @@ const std::vector<SourceLine>& SourceText::lines() const {
     lines_.reserve(rest.size() / 24 + 1);
     SourceLine line;
     while (take_line(rest, line)) lines_.push_back(line);
+    for (std::size_t i = 0; i < numbers_.size(); ++i) lines_[i].number = numbers_[i];
   });
   return lines_;
 }
 
+std::uint32_t SourceText::last_line() const {
+  return numbers_.empty() ? static_cast<std::uint32_t>(lines().size()) : last_;
+}
+
 std::string_view SourceText::line_text(std::uint32_t number) const {
   const auto& all = lines();
-  return number >= 1 && number <= all.size() ? all[number - 1].text : std::string_view{};
+  const auto it = std::lower_bound(all.begin(), all.end(), number,
+                                   [](const SourceLine& l, std::uint32_t n) { return l.number < n; });
+  return it != all.end() && it->number == number ? it->text : std::string_view{};
 }
 
 FileId FileTable::add(SourcePtr source) {

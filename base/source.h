@@ -31,6 +31,9 @@ class SourceText {
   /// Opens a file; nullptr and a message in `error` when it can't be read.
   static std::shared_ptr<const SourceText> open(const std::string& path, std::string* error);
   static std::shared_ptr<const SourceText> from_string(std::string name, std::string bytes);
+  /// Some lines of a text, in its order: `numbers` says which ones (1-based, ascending), `last` how many there are.
+  static std::shared_ptr<const SourceText> from_lines(std::string name, std::string bytes,
+                                                      std::vector<std::uint32_t> numbers, std::uint32_t last);
 
   ~SourceText();
   SourceText(const SourceText&) = delete;
@@ -44,8 +47,11 @@ class SourceText {
   [[nodiscard]] bool has_bom() const { return has_bom_; }
   [[nodiscard]] Encoding encoding() const { return encoding_; }  ///< UTF-8 when valid, else Windows-1252
   [[nodiscard]] Eol main_eol() const { return eol_; }            ///< of the first line that has one
-  /// All lines of `text()`; built at the first call (safe from several threads).
+  /// All lines of `text()`; built at the first call (safe from several threads). Lines may be left out (from_lines):
+  /// `number` tells which one it is, not the place in the list.
   [[nodiscard]] const std::vector<SourceLine>& lines() const;
+  /// Number of the last line, 0 when there is none.
+  [[nodiscard]] std::uint32_t last_line() const;
 
   /// One line, empty when there is no such line (1-based).
   [[nodiscard]] std::string_view line_text(std::uint32_t number) const;
@@ -61,6 +67,8 @@ class SourceText {
   bool has_bom_ = false;
   Encoding encoding_ = Encoding::utf8;
   Eol eol_ = Eol::lf;
+  std::vector<std::uint32_t> numbers_;  ///< of the lines; empty: all are here
+  std::uint32_t last_ = 0;              ///< where some are not
   mutable std::vector<SourceLine> lines_;
   mutable std::once_flag lines_once_;
 };

@@ -79,29 +79,6 @@ void read_and_run_blocks(benchmark::State& state) {
 }
 BENCHMARK(read_and_run_blocks);
 
-void read_and_write_blocks(benchmark::State& state) {
-  const frontends::ReadOptions options{frontends::Reader::scanner, &setup().source};
-  ir::Statement statement;
-  std::string out;
-  for (auto _ : state) {
-    const auto reader = setup().from->frontend->stream(1, options, "bench.pim");
-    backends::WriteOptions write;
-    write.profile = &setup().target;
-    const auto writer = setup().to->backend->stream(write);
-    Diagnostics diagnostics;
-    out.clear();
-    std::uint32_t number = 0;
-    for (const auto& l : setup().lines) {
-      reader->read(SourceLine{l, ++number, Eol::lf, true}, statement, diagnostics);
-      if (number == 1) writer->begin(reader->frame(), out);
-      writer->write(statement, out, diagnostics);
-    }
-    benchmark::DoNotOptimize(out.data());
-  }
-  count(state);
-}
-BENCHMARK(read_and_write_blocks);
-
 }  // namespace
 
 BENCHMARK_MAIN();

@@ -228,6 +228,12 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
                                      "Exit status: 0 no errors, 1 errors (it is printed all the same), 2 wrong usage.");
   ir->add_flag("--json", a.json, "as JSON");
   ir->add_flag("--places", a.places, "with source places");
+  ir->get_option("program")->required(false);
+  ir->add_option("--to", a.to, "the program as it is rewritten for this language");
+  ir->add_option("--target-machine", a.target_machine, "built-in name or profile file of the target machine");
+  ir->add_option("--after", a.after_pass, "with --to: behind this pass (docs/passes.md)");
+  ir->add_option("--pass", a.only_pass, "with --to: this pass alone");
+  ir->add_flag("--passes", a.list_passes, "list the passes in their order");
   CLI::App* list = app.add_subcommand("dialects", "list the dialects and built-in machines");
   list->add_flag("-q,--quiet", a.quiet, "dialects only");
   CLI::App* explain = app.add_subcommand("explain", "what a code of a message means, and what to do about it");

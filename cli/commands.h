@@ -47,6 +47,8 @@ struct Arguments {
   std::string trace, vars, written;
   bool json = false;
   bool places = false;
+  std::string after_pass, only_pass;
+  bool list_passes = false;
   std::string shell;
   bool stdio = false;
   std::string grammar;  ///< lsp: print the TextMate grammar of a dialect

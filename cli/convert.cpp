@@ -5,15 +5,15 @@
 #include <memory>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "base/sum.h"
 #include "base/text.h"
 #include "cli/common.h"
-#include "cli/stdout_sink.h"
 #include "translator/files/names_file.h"
 #include "translator/files/written_files.h"
+#include "translator/folding/unfolding.h"
 #include "translator/report/report.h"
-#include "translator/stream/stream.h"
-#include "translator/stream/stream_proof.h"
 #include "translator/translation/draft.h"
 
 namespace cnctrans::cli {
@@ -159,21 +159,71 @@ class NamesFile {
   ir::NameMap before_;
 };
 
+/// The outputs of a translation, with the lines that a folded text leaves out.
+class Outputs {
+ public:
+  Outputs(const translator::TranslateResult& result, const translator::Unfolding* unfolding)
+      : result_(result), unfolding_(unfolding) {}
+
+  [[nodiscard]] const translator::TranslateResult& result() const { return result_; }
+  [[nodiscard]] bool folded(std::size_t i) const { return unfolding_ != nullptr && unfolding_->folded(i); }
+  /// The whole text of one. False: the sink, or the source has changed meanwhile.
+  [[nodiscard]] bool write(std::size_t i, const translator::TextSink& sink) const {
+    return folded(i) ? unfolding_->write(i, result_.outputs[i].bytes, sink) : sink(result_.outputs[i].bytes);
+  }
+
+ private:
+  const translator::TranslateResult& result_;
+  const translator::Unfolding* unfolding_;
+};
+
+/// A long file, written beside its place until it may stand there.
+std::shared_ptr<AtomicFile> write_beside(const fs::path& path, const Outputs& outputs, std::size_t i, std::string& sum,
+                                         std::string* error) {
+  std::error_code ignored;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), ignored);
+  auto file = std::make_shared<AtomicFile>(path.string());
+  Sum adding;
+  const auto sink = [&](std::string_view piece) {
+    adding.add(piece);
+    return file->write(piece, error);
+  };
+  if (!file->open(error)) return nullptr;
+  if (!outputs.write(i, sink)) {
+    if (error->empty()) *error = "the program was changed while it was translated";
+    return nullptr;
+  }
+  sum = adding.text();
+  return file;
+}
+
 /// The files of the translation, all of one folder. False, and the reason is said: one of them can't be written, and
 /// none is.
-bool write_files(const Arguments& a, const translator::TranslateResult& result, const Job& job) {
+bool write_files(const Arguments& a, const Outputs& outputs, const Job& job) {
+  const translator::TranslateResult& result = outputs.result();
   const fs::path output(a.output), place = is_folder(a.output) ? output : output.parent_path();
   std::vector<translator::FileToWrite> files;
   std::vector<std::string> why;
-  for (const auto& out : result.outputs) {
+  std::string error;
+  for (std::size_t i = 0; i < result.outputs.size(); ++i) {
+    const auto& out = result.outputs[i];
     const fs::path path = target_path(a, out);
     if (job.reads(path, result.files)) why.push_back(path.string() + " is read by this job and is not written over");
-    files.push_back({path.filename().string() + (result.held_back ? ".unverified" : ""), out.bytes, out.program,
-                     out.main && !is_folder(a.output)});
+    auto& file = files.emplace_back();
+    file.name = path.filename().string() + (result.held_back ? ".unverified" : "");
+    file.bytes = out.bytes;
+    file.program = out.program;
+    file.named = out.main && !is_folder(a.output);
+    if (!outputs.folded(i) || !why.empty()) continue;
+    const auto beside = write_beside(place / file.name, outputs, i, file.sum, &error);
+    if (!beside) {
+      not_written(a, error);
+      return false;
+    }
+    file.put_in_place = [beside](std::string* fault) { return beside->commit(fault); };
   }
   WrittenFiles folder(place, is_stream(a.output) ? WrittenFiles::Use::look : WrittenFiles::Use::write);
   if (why.empty()) why = folder.conflicts(files, job.origin());
-  std::string error;
   if (!say_conflicts(a, why, result.files)) {
     refuse(a, job.input());
     return false;
@@ -186,15 +236,17 @@ bool write_files(const Arguments& a, const translator::TranslateResult& result, 
   return true;
 }
 
-int write_outputs(const Arguments& a, const translator::TranslateResult& result, const Job& job) {
-  if (!a.output.empty() && a.output != "-") return write_files(a, result, job) ? ok : refused;
-  if (result.held_back) {
+int write_outputs(const Arguments& a, const Outputs& outputs, const Job& job) {
+  if (!a.output.empty() && a.output != "-") return write_files(a, outputs, job) ? ok : refused;
+  if (outputs.result().held_back) {
     a.messages->say(Severity::note, "CNC-WRITTEN",
                     "cnctrans: the translation is not printed; -o FILE keeps it as FILE.unverified, --no-verify "
                     "writes it without proof");
     return ok;
   }
-  for (const auto& out : result.outputs) write_all(stdout, out.bytes);
+  for (std::size_t i = 0; i < outputs.result().outputs.size(); ++i) {
+    if (!outputs.write(i, [](std::string_view text) { return write_all(stdout, text); })) break;
+  }
   return stdout_arrived() ? ok : refused;
 }
 
@@ -230,22 +282,18 @@ class Proofs {
   explicit Proofs(const Arguments& a) : a_(a) {}
 
   void add(const std::string& input, const translator::TranslateOptions& options,
-           const translator::TranslateResult& result) {
+           const translator::TranslateResult& result, std::uint64_t left_out) {
     if (!result.verified) return;
     const FileTable targets = targets_as_written(a_, result);
     a_.messages->add(result.target_diagnostics, targets);
-    const std::string text = input + ": " + translator::proof_text(result, targets);
+    std::string text = input + ": " + translator::proof_text(result, targets);
+    if (left_out != 0 && result.verdict.good())
+      text += fmt::format("; {} more plain lines are written as those of their form that were replayed", left_out);
     if (result.verdict.good()) {
       if (!a_.quiet || options.strict) lines_.push_back({Severity::note, text});
     } else {
       lines_.push_back({result.held_back ? Severity::error : Severity::warning, text});
     }
-  }
-  void verified(const std::string& input, const verifier::Verdict& verdict) {
-    if (!a_.quiet) lines_.push_back({Severity::note, input + ": " + verifier::describe(verdict, {}, {})});
-  }
-  void not_proved(const std::string& input, const std::string& why) {
-    lines_.push_back({Severity::warning, input + ": not proved: " + why});
   }
   void say() const {
     for (const auto& line : lines_) a_.messages->say(line.severity, "CNC-VERDICT", line.text);
@@ -269,15 +317,15 @@ void tell_draft(const Arguments& a, const std::string& input, const translator::
                       count(result.untranslated.size(), "line") + " not translated");
 }
 
-/// The whole-program path: in memory, with calls, proved.
-int convert_whole(const Arguments& a, const translator::TranslateOptions& options, Job& job, ir::NameMap& names,
-                  Proofs& proofs) {
+int convert_one(const Arguments& a, const translator::TranslateOptions& options, Job& job, ir::NameMap& names,
+                Proofs& proofs) {
   const std::string& input = job.input();
   translator::TranslateOptions with = options;
   with.taken = job.names();
   with.single_output = a.output.empty() || a.output == "-";
   with.files_apart = is_folder(a.output);
-  const auto result = translator::translate(input_of(a, input), with);
+  const auto folded = input == "-" ? nullptr : translator::translate_folded(input, with);
+  const auto result = folded ? std::move(folded->result) : translator::translate(input_of(a, input), with);
   if (!result.error.empty()) return usage_error(a, result.error);
   a.messages->add(result.diagnostics, result.files);
   if (!a.report.empty() && !write_report(a, options, job, result)) return refused;
@@ -285,144 +333,16 @@ int convert_whole(const Arguments& a, const translator::TranslateOptions& option
     refuse(a, input);
     return refused;
   }
-  if (const int status = write_outputs(a, result, job); status != ok) return status;
+  if (const int status = write_outputs(a, {result, folded ? folded->unfolding.get() : nullptr}, job); status != ok)
+    return status;
   job.take_names(result);
   if (!result.held_back) translator::add_names(names, result.names);
-  proofs.add(input, options, result);
+  proofs.add(input, options, result, folded ? folded->text.lines_left_out() : 0);
   if (result.draft) {
     tell_draft(a, input, result);
     return draft;
   }
   return result.held_back ? exit_of(result.verdict) : ok;
-}
-
-/// The file of -o, written piece by piece: like every output it stands in the list, and only where it may.
-class OutputFile {
- public:
-  OutputFile(const Arguments& a, const Job& job) : a_(a), job_(job), file_(a.output) {}
-
-  bool open(std::string* error) { return file_.open(error); }
-  bool write(std::string_view piece, std::string* error) {
-    sum_.add(piece);
-    return file_.write(piece, error);
-  }
-  /// False: why not is said.
-  bool commit() {
-    std::string error;
-    if (!is_stream(a_.output)) {
-      WrittenFiles folder(fs::path(a_.output).parent_path());
-      const translator::FileToWrite file{fs::path(a_.output).filename().string(), {}, {}, true};
-      if (!say_conflicts(a_, folder.conflicts(file, sum_.text(), job_.origin()), {})) {
-        refuse(a_, job_.input());
-        return false;
-      }
-      folder.add(file, sum_.text(), job_.origin());
-    }
-    if (file_.commit(&error)) return true;
-    not_written(a_, error);
-    return false;
-  }
-
- private:
-  const Arguments& a_;
-  const Job& job_;
-  AtomicFile file_;
-  Sum sum_;
-};
-
-/// A straight-line file of this size is still proved as a whole program where a proof in step can't be made: that takes
-/// memory (docs/verify.md).
-constexpr std::uintmax_t replayed_bytes = 2'000'000;
-
-using Spool = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-/// The text of a spool goes to where the call wants it. False: it can't be written; that is said.
-bool write_spool(const Arguments& a, std::FILE* spool, const Job& job) {
-  const bool to_stdout = a.output.empty() || a.output == "-";
-  std::string error = "the standard output could not be written";
-  OutputFile file(a, job);
-  bool good = to_stdout || file.open(&error);
-  std::string buffer(1U << 18U, '\0');
-  std::rewind(spool);
-  while (good) {
-    const std::string_view piece(buffer.data(), std::fread(buffer.data(), 1, buffer.size(), spool));
-    if (piece.empty()) break;
-    good = to_stdout ? write_all(stdout, piece) : file.write(piece, &error);
-  }
-  good = good && std::ferror(spool) == 0 && (!to_stdout || stdout_arrived());
-  if (!good) {
-    not_written(a, error);
-    return false;
-  }
-  return to_stdout || file.commit();
-}
-
-/// The stream with its proof: what it writes is put aside until both texts have been replayed in step.
-std::optional<int> convert_stream_proved(const Arguments& a, const translator::TranslateOptions& options,
-                                         const Job& job, Proofs& proofs) {
-  const std::string& input = job.input();
-  const Spool spool(std::tmpfile(), &std::fclose);
-  if (!spool) return std::nullopt;
-  ProgressLine progress(input);
-  translator::TranslateOptions with = options;
-  with.verify = false;
-  const auto keep = [&spool](std::string_view text) { return write_all(spool.get(), text); };
-  const auto result = translator::translate_stream(input, with, keep, [&progress](double part) { progress(part); });
-  if (result.outcome != translator::StreamOutcome::done || std::fflush(spool.get()) != 0) return std::nullopt;
-  const std::string text = "/proc/self/fd/" + std::to_string(::fileno(spool.get()));
-  const auto proof = translator::prove_stream(input, text, options);
-  std::error_code ignored;
-  const bool small = fs::file_size(input, ignored) <= replayed_bytes;
-  const bool proved = proof.proved == translator::StreamProved::yes;
-  if (!proved && (small || proof.proved == translator::StreamProved::no)) return std::nullopt;
-  if (!write_spool(a, spool.get(), job)) return refused;
-  a.messages->add(result.diagnostics, result.files);
-  if (!a.output.empty() && a.output != "-") wrote(a, a.output);
-  if (proved) {
-    proofs.verified(input, proof.verdict);
-  } else {
-    proofs.not_proved(input,
-                      "a file of more than 2 MB that can't be replayed line by line; --verify replays it in memory");
-  }
-  return ok;
-}
-
-/// Tries the stream; nullopt: the whole-program path must do it.
-std::optional<int> convert_stream(const Arguments& a, const translator::TranslateOptions& options, const Job& job,
-                                  Proofs& proofs) {
-  const std::string& input = job.input();
-  if (input == "-") return std::nullopt;  // it is in memory already
-  if (options.annotate || options.names != nullptr || is_folder(a.output) || !a.report.empty()) return std::nullopt;
-  if ((options.verify && options.strict) || options.draft || !options.tools.empty()) return std::nullopt;
-  std::error_code ignored;
-  if (fs::equivalent(a.output, input, ignored)) return std::nullopt;
-  if (options.verify) return convert_stream_proved(a, options, job, proofs);
-  ProgressLine progress(input);
-  const auto tell = [&progress](double part) { progress(part); };
-  const bool to_stdout = a.output.empty() || a.output == "-";
-  std::string error;
-  translator::StreamResult result;
-  if (to_stdout) {
-    StdoutSink sink;
-    if (!sink.good()) return std::nullopt;
-    result = translator::translate_stream(
-        input, options, [&sink](std::string_view t) { return sink.write(t); }, tell);
-    const bool kept = result.outcome == translator::StreamOutcome::done;
-    if (!(kept ? sink.commit() : sink.discard())) {
-      not_written(a, "the standard output could not be written");
-      return refused;
-    }
-  } else {
-    OutputFile file(a, job);
-    if (!file.open(&error)) return std::nullopt;
-    const auto sink = [&](std::string_view t) { return file.write(t, &error); };
-    result = translator::translate_stream(input, options, sink, tell);
-    if (result.outcome == translator::StreamOutcome::done && !file.commit()) return refused;
-  }
-  if (result.outcome != translator::StreamOutcome::done) return std::nullopt;
-  a.messages->add(result.diagnostics, result.files);
-  if (!to_stdout) wrote(a, a.output);
-  return ok;
 }
 
 }  // namespace
@@ -451,8 +371,7 @@ int convert(const Arguments& a) {
   Proofs proofs(a);
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     job.begin(i);
-    const auto streamed = convert_stream(a, options, job, proofs);
-    status = std::max(status, streamed ? *streamed : convert_whole(a, options, job, names.names.map, proofs));
+    status = std::max(status, convert_one(a, options, job, names.names.map, proofs));
   }
   if (!names.write()) status = std::max<int>(status, refused);
   proofs.say();

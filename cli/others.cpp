@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <fmt/format.h>
+
 #include "base/text.h"
 #include "cli/common.h"
 #include "ir/text/text.h"
+#include "legaliser/pipeline/pipeline.h"
 #include "translator/files/readable.h"
 
 namespace cnctrans::cli {
@@ -47,10 +50,46 @@ int check(const Arguments& a) {
   return status;
 }
 
-int print_ir(const Arguments& a) {
-  translator::RunOptions options;
-  if (!run_options(a, options)) return usage;
+namespace {
+
+int list_passes() {
+  std::string text;
+  for (const ir::Pass& pass : ir::pipeline()) text += fmt::format("{:<24} {}\n", pass.name, pass.summary);
+  write_all(stdout, text);
+  return ok;
+}
+
+/// The program on its way to another control.
+int print_legalised(const Arguments& a) {
+  translator::TranslateOptions options;
   if (a.inputs.size() != 1) return usage_error(a, "ir takes one program");
+  if (!translate_options(a, options)) return usage;
+  if (!a.only_pass.empty() && !a.after_pass.empty()) return usage_error(a, "--after and --pass exclude each other");
+  const std::string& wanted = a.only_pass.empty() ? a.after_pass : a.only_pass;
+  if (!wanted.empty() && !ir::is_pass(wanted))
+    return usage_error(a, "no pass is called '" + wanted + "'; cnctrans ir --passes lists them");
+  std::string text;
+  options.from = a.dialect;
+  options.verify = false;
+  options.only_pass = a.only_pass;
+  options.behind_pass = [&](std::string_view pass, const ir::Program& program) {
+    if (wanted.empty() || pass == wanted) text = ir::to_text(program, {a.places});
+  };
+  const auto result = translator::translate(input_of(a, a.inputs.front()), options);
+  if (!result.error.empty()) return usage_error(a, result.error);
+  a.messages->add(result.diagnostics, result.files);
+  write_all(stdout, text);
+  return result.refused ? refused : ok;
+}
+
+}  // namespace
+
+int print_ir(const Arguments& a) {
+  if (a.list_passes) return list_passes();
+  if (!a.to.empty()) return print_legalised(a);
+  translator::RunOptions options;
+  if (a.inputs.size() != 1) return usage_error(a, "ir takes one program");
+  if (!run_options(a, options)) return usage;
   std::string error;
   const auto* dialect = translator::find_readable(a.dialect, &error);
   if (dialect == nullptr) return usage_error(a, error);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -28,7 +29,11 @@ struct LegaliseOptions {
   bool goes_on = false;          ///< the translation is written although blocks are refused: they are left out
   bool cycle_remarks = true;     ///< above the moves that a cycle becomes stand its words in the source, as a comment
   Uncalled uncalled = Uncalled::unknown;  ///< what is taken to hold where a subprogram that nothing calls begins
+  std::string_view only;                  ///< this pass alone; empty: all
 };
+
+/// Gets the program behind each pass.
+using BehindPass = std::function<void(std::string_view pass, const Program& program)>;
 
 /// What became of a name of the source, for the head comment and the report.
 struct Renamed {
@@ -51,20 +56,15 @@ struct LegaliseContext {
   /// Texts of the block numbers that the source has (their first characters); null: all numbers are the source's.
   const std::set<const char*>* source_numbers = nullptr;
   const NameMap* names = nullptr;  ///< names that are given; may be null
+  BehindPass behind_pass = {};     ///< may be empty
 };
 
 /// Runs all passes in order. False when an error was reported.
 bool legalise(Program& program, const LegaliseContext& context);
 
-/// Names of the passes in order, for `cnctrans ir --passes` and tests; run one by name.
-std::vector<std::string_view> pass_names();
+/// A pass of the table (pipeline/pipeline.h) has this name.
+bool is_pass(std::string_view name);
+/// Runs one pass of the table.
 bool run_pass(std::string_view name, Program& program, const LegaliseContext& context);
-
-/// The passes that look at one block and the modal state before it only (for streams), in order.
-std::vector<std::string_view> block_local_passes();
-
-/// For streams: true when no pass would touch this block (plain motion in forms the target has). Cheap: no allocation.
-/// Without the target's machine a block that moves and switches something besides is not plain.
-bool plain_legal(const Block& block, const Capabilities& target, const machine::Profile* machine = nullptr);
 
 }  // namespace cnctrans::ir

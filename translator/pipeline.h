@@ -29,8 +29,10 @@ class Input {
  public:
   Input(std::string path) : path_(std::move(path)) {}  // NOLINT(google-explicit-constructor): a path is an input
   Input(SourcePtr text) : text_(std::move(text)) {}    // NOLINT(google-explicit-constructor): so is a text
+  /// A file whose text is at hand.
+  Input(std::string path, SourcePtr text) : path_(std::move(path)), text_(std::move(text)) {}
 
-  [[nodiscard]] bool in_memory() const { return text_ != nullptr; }
+  [[nodiscard]] bool in_memory() const { return text_ != nullptr && path_.empty(); }
   [[nodiscard]] const std::string& path() const { return path_; }  ///< empty for a text
   /// nullptr, and why in `error`: it can't be read.
   SourcePtr open(std::string* error) const;
@@ -50,9 +52,12 @@ struct InputOptions {
   frontends::Reader reader = frontends::Reader::scanner;
 };
 
+class FoldedText;
+
 struct TranslateOptions : InputOptions {
-  std::string from, to;        ///< registry names
-  std::string target_machine;  ///< as `machine`
+  const FoldedText* folded = nullptr;  ///< the program is the folded text of a file; may be null
+  std::string from, to;                ///< registry names
+  std::string target_machine;          ///< as `machine`
   backends::Unsupported unsupported = backends::Unsupported::error;
   backends::Numbering numbering = backends::Numbering::keep;
   std::int32_t number_step = 10;
@@ -72,6 +77,8 @@ struct TranslateOptions : InputOptions {
   std::optional<Eol> eol;
   interpreter::Options run;      ///< limits, --set, --skip for the verification
   const Names* names = nullptr;  ///< names that are given; may be null
+  std::string only_pass;         ///< of the legaliser; empty: all
+  ir::BehindPass behind_pass{};  ///< gets the program behind each pass; may be empty
 };
 
 /// Something that a draft leaves to a person.
@@ -93,9 +100,16 @@ struct OutputText {
 /// The proof that a translation gets without being asked.
 void prove_as_usual(TranslateOptions& options);
 
+/// What a program does that its text was not folded for.
+struct Unfit {
+  std::set<std::uint64_t> numbers;  ///< it jumps to these blocks
+  bool whole = false;               ///< any line may matter
+};
+
 struct TranslateResult {
-  bool refused = false;    ///< nothing may be written
-  bool held_back = false;  ///< by the proof: the outputs may be looked at and not used
+  std::optional<Unfit> unfit;  ///< of a folded text: nothing else counts
+  bool refused = false;        ///< nothing may be written
+  bool held_back = false;      ///< by the proof: the outputs may be looked at and not used
   std::vector<OutputText> outputs;
   bool draft = false;  ///< asked for, and something is left to do
   std::vector<ToDo> to_do;

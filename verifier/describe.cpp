@@ -13,8 +13,7 @@ namespace {
 
 std::string source_line_text(const FileTable& files, FileId file, std::uint32_t line) {
   const SourceText* source = files.source(file);
-  if (source == nullptr || line == 0 || line > source->lines().size()) return {};
-  return std::string(source->lines()[line - 1].text);
+  return source != nullptr ? std::string(source->line_text(line)) : std::string();
 }
 
 /// Said with a good verdict too: feeds that could not be compared.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -48,8 +47,6 @@ struct WriteOptions {
   /// Capitals: names of files and programs that other translations of the same job have already. The main program gets
   /// another one, with a note.
   std::set<std::string> taken;
-  /// Of a stream: does a word of its own carry out a tool change somewhere in the program? Empty: nobody knows.
-  std::function<bool()> changes_tools = {};
   [[nodiscard]] bool is_taken(std::string_view name) const { return taken.count(to_upper_ascii(name)) != 0; }
 };
 
@@ -66,20 +63,6 @@ struct OutputFile {
   std::vector<Span> left_out;  ///< places of the source in whose stead a remark stands
 };
 
-/// Writes plain blocks of a straight-line program one by one; false: the block needs the whole-program writer.
-class StreamWriter {
- public:
-  virtual ~StreamWriter() = default;
-  virtual void begin(const ir::Program& frame, std::string& out) = 0;
-  virtual bool write(const ir::Statement& statement, std::string& out, Diagnostics& diagnostics) = 0;
-  virtual void end(std::string& out) = 0;
-  /// Numbers with at most so many places (no plus sign) are written as the source has them, and a line depends on
-  /// nothing but its statement; -1: not so.
-  [[nodiscard]] virtual int places_kept() const { return -1; }
-  /// What was written last counts only if what comes next is of a certain kind: every line must be shown to write().
-  [[nodiscard]] virtual bool waits() const { return false; }
-};
-
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -92,7 +75,6 @@ class Backend {
   /// Writes a legal program (one that passed legalisation for `capabilities()`).
   virtual std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                         Diagnostics& diagnostics) const = 0;
-  virtual std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const = 0;
 };
 
 }  // namespace cnctrans::backends

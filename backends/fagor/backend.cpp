@@ -2,7 +2,6 @@
 
 #include "backends/fagor/capabilities.h"
 #include "backends/fagor/file_labels.h"
-#include "backends/fagor/stream.h"
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "dialects/fagor/axis_exchange.h"
@@ -94,7 +93,6 @@ class FagorBackend : public Backend {
     }
     return Writer(relabelled ? *relabelled : program, options, style, diagnostics).write();
   }
-  std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override { return make_stream(options); }
 };
 
 }  // namespace

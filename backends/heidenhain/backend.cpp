@@ -8,14 +8,6 @@
 namespace cnctrans::backends::heidenhain {
 namespace {
 
-/// Rapid, tool and labels of a block depend on others: every program goes through the whole-program writer.
-class NoPlainBlocks final : public StreamWriter {
- public:
-  void begin(const ir::Program& /*frame*/, std::string& /*out*/) override {}
-  bool write(const ir::Statement& /*s*/, std::string& /*out*/, Diagnostics& /*d*/) override { return false; }
-  void end(std::string& /*out*/) override {}
-};
-
 class HeidenhainBackend final : public Backend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return dialect_name; }
@@ -27,9 +19,6 @@ class HeidenhainBackend final : public Backend {
     const std::int64_t step = options.numbering == Numbering::renumber ? options.number_step : 1;
     for (OutputFile& f : files) f.text = numbered_blocks(f.text, step);
     return files;
-  }
-  [[nodiscard]] std::unique_ptr<StreamWriter> stream(const WriteOptions& /*options*/) const override {
-    return std::make_unique<NoPlainBlocks>();
   }
 };
 

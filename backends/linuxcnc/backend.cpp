@@ -7,14 +7,6 @@
 namespace cnctrans::backends::linuxcnc {
 namespace {
 
-/// No block is plain enough: every program goes through the whole-program writer.
-class NoStream final : public StreamWriter {
- public:
-  void begin(const ir::Program& /*frame*/, std::string& /*out*/) override {}
-  bool write(const ir::Statement& /*s*/, std::string& /*out*/, Diagnostics& /*d*/) override { return false; }
-  void end(std::string& /*out*/) override {}
-};
-
 class LinuxCnc final : public Backend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return style.dialect; }
@@ -25,9 +17,6 @@ class LinuxCnc final : public Backend {
   std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                 Diagnostics& diagnostics) const override {
     return Writer(program, options, diagnostics).write();
-  }
-  [[nodiscard]] std::unique_ptr<StreamWriter> stream(const WriteOptions& /*options*/) const override {
-    return std::make_unique<NoStream>();
   }
 };
 

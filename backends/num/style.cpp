@@ -256,24 +256,4 @@ bool native_hole(const ir::HoleCycle& c) {
          (chips || p.dwell.is(0)) && p.lift.is(0) && !p.lift_rapid;
 }
 
-PlainTable plain_words(const machine::Profile& profile) {
-  PlainTable t = plain_table(style(), profile);
-  t.center_mode = centre_from_start(profile) ? ir::CenterMode::from_start : ir::CenterMode::follows_distance;
-  t.radius_major = false;
-  t.end_program = "M02";
-  t.work_offset_off = "G53";
-  if (profile.option("stop.spindle") == "stops") t.stops[0] = "M12";  // M00 stops the spindle as well
-  t.work_offsets[1] = "G54";
-  t.dwell = "G4 F";
-  // Inch words have more places: the whole-program path writes them.
-  t.settings[static_cast<std::size_t>(Setting::units)][code_value(ir::Units::inch)] = {};
-  // The sign of such an axis is its direction: positions have to be looked at.
-  const std::string modulo =
-      profile.option(facts::option::rotary_modulo, facts::option_default(facts::option::rotary_modulo));
-  for (ir::AxisId axis = 0; axis < t.axes.size(); ++axis) {
-    if (ir::is_rotary_letter(axis) && modulo.find(t.axes[axis]) != std::string::npos) t.axes[axis] = {};
-  }
-  return t;
-}
-
 }  // namespace cnctrans::backends::num

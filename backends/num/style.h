@@ -2,7 +2,6 @@
 #pragma once
 
 #include "backends/common/expression_printer.h"
-#include "backends/common/stream_writer.h"
 #include "backends/common/style.h"
 #include "legaliser/capabilities.h"
 #include "machine/profile.h"
@@ -23,6 +22,5 @@ bool later_family(const machine::Profile& profile);
 bool native_hole(const ir::HoleCycle& cycle);
 /// A pocket that G45 says with its own words.
 bool native_pocket(const ir::HoleCycle& cycle);
-PlainTable plain_words(const machine::Profile& profile);
 
 }  // namespace cnctrans::backends::num

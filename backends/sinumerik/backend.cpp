@@ -1,7 +1,6 @@
 #include "backends/sinumerik/backend.h"
 
 #include "backends/common/comments.h"
-#include "backends/common/stream_writer.h"
 #include "backends/sinumerik/capabilities.h"
 #include "backends/sinumerik/tables.h"
 #include "backends/sinumerik/writer.h"
@@ -10,35 +9,6 @@
 
 namespace cnctrans::backends::sinumerik {
 namespace {
-
-class Stream final : public PlainStreamWriter {
- public:
-  using PlainStreamWriter::PlainStreamWriter;
-
- protected:
-  void header(const ir::Program& frame, std::string& out) override {
-    const ir::Routine* main = frame.main();
-    if (main == nullptr || main->title.empty() || same_dialect()) return;
-    out += comment(trim(main->title), style.comment, false, nullptr);
-    out += '\n';
-  }
-};
-
-PlainTable table(const machine::Profile& profile) {
-  PlainTable t = plain_table(style, profile);
-  // Without constant cutting speed, which is not plain, the feed codes stand for themselves.
-  auto& feed = t.settings[static_cast<std::size_t>(Setting::feed_mode)];
-  for (const ir::FeedMode m : {ir::FeedMode::per_minute, ir::FeedMode::per_rev, ir::FeedMode::inverse_time}) {
-    feed[code_value(m)] = feed_code(m, ir::SpindleMode::rpm);
-  }
-  t.radius = "CR=";
-  t.work_offset_off = "G500";
-  t.work_offsets = {"", "G54", "G55", "G56", "G57"};
-  t.end_program = "M30";
-  t.dwell = "G4 F";
-  t.select_changes_too = profile.option("sinumerik.tool_change", "m6") == "immediate";
-  return t;
-}
 
 std::optional<ir::passes::AxisExchange> exchange(const ir::Program& program, const ir::Statement& s) {
   return cnctrans::sinumerik::geometry_exchange(s, program.axis_names);
@@ -70,9 +40,6 @@ class Sinumerik final : public Backend {
     if (program.dialect != style.dialect || !exchanges_axes(program))
       return Writer(program, options, diagnostics).write();
     return Writer(with_written_axes(program), options, diagnostics).write();
-  }
-  [[nodiscard]] std::unique_ptr<StreamWriter> stream(const WriteOptions& options) const override {
-    return std::make_unique<Stream>(style, options, table(*options.profile));
   }
 };
 

@@ -66,8 +66,16 @@ struct FreeNumber {
   bool zero = false;        ///< also 0
   std::uint8_t whole = 0;   ///< at most so many digits before the point
   std::uint8_t places = 0;  ///< and behind it
+  std::uint32_t most = 0;   ///< of a whole number: the largest; 0: what its digits allow
 };
 using FreeNumbers = std::array<FreeNumber, 26>;  ///< by letter, capitals
+
+/// The words of lines that say nothing but where to go: motion codes G0 to G3, and addresses whose numbers are alike.
+struct PlainWords {
+  FreeNumbers numbers{};
+  bool radius_word = false;        ///< CR=5: the radius of an arc, alike as long as it is positive
+  std::uint32_t other_blocks = 0;  ///< block numbers above it are something else to the target; 0: none is
+};
 
 /// Reads a straight-line program line by line. Views in `out` point into the line given.
 class StreamReader {
@@ -78,9 +86,6 @@ class StreamReader {
   [[nodiscard]] virtual std::string_view end_word() const = 0;
   /// After the last line (`lines` of them): what is to be said of the program as a whole.
   [[nodiscard]] virtual StreamEnd end(std::uint32_t lines, Diagnostics& diagnostics) = 0;
-  [[nodiscard]] virtual FreeNumbers free_numbers() const { return {}; }
-  /// What plain lines change and the reading of later ones depends on, as one number; 0: this reader does not say.
-  [[nodiscard]] virtual std::uint64_t modal_key() const { return 0; }
   /// The program frame so far: title, name, spaces; valid from the first line on.
   [[nodiscard]] virtual const ir::Program& frame() const = 0;
 };
@@ -95,6 +100,8 @@ class Frontend {
   /// What a file means depends on the modes that its callers leave in force: it is read once more with
   /// ReadOptions::callers when they are known.
   [[nodiscard]] virtual bool reads_by_callers() const { return false; }
+  /// Words whose lines mean the same with other numbers, whatever stands before them. Default: none.
+  [[nodiscard]] virtual PlainWords plain_words() const { return {}; }
   virtual std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                                std::string_view file_name) const = 0;
 };

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "backends/common/program_writer.h"
-#include "backends/common/stream_writer.h"
 
 namespace cnctrans::backends {
 namespace {
@@ -76,18 +75,6 @@ struct Fixture {
     return program.routines[0].body.back();
   }
   std::string text() { return SmallWriter(program, options, diagnostics).write().front().text; }
-  /// The same blocks through the stream; "not plain" where it gives up.
-  std::string streamed() {
-    PlainTable table = plain_table(small, profile);
-    PlainStreamWriter w(small, options, table);
-    std::string out;
-    w.begin(program, out);
-    for (const auto& s : program.routines[0].body) {
-      if (!w.write(s, out, diagnostics)) return "not plain";
-    }
-    w.end(out);
-    return out;
-  }
 };
 
 ir::Block line(ir::MotionKind kind, double x, std::string_view text = {}) {
@@ -228,9 +215,9 @@ TEST(ProgramWriter, SourceLinesBesideTheTranslation) {
   EXPECT_EQ(f.text(), "(< L X+5 R0 F (A])\nG1 X5\n");
 }
 
-// --- streams ----------------------------------------------------------------------------------------------------
+// --- lines ------------------------------------------------------------------------------------------------------
 
-TEST(Streams, SayTheSameAsTheWholeProgramWriter) {
+TEST(Lines, HaveTheirWordsInTheOrderOfTheSource) {
   Fixture f;
   ir::Block b = line(ir::MotionKind::linear, 10.5, "+10.50");
   b.motion.code_pos = {5, 2};
@@ -246,70 +233,41 @@ TEST(Streams, SayTheSameAsTheWholeProgramWriter) {
   s.line.blank_lines_before = 1;
   f.add(line(ir::MotionKind::modal, -3, "-3."));
   f.add(ir::Block{}).line.comments.push_back({"alone", ir::CommentPlace::own_line, {}});
-  EXPECT_EQ(f.streamed(), "\nN0010 F200 G1 X10.50 M77 (a] b)\nX-3.\n(alone)\n");
-  EXPECT_EQ(f.streamed(), f.text());
+  EXPECT_EQ(f.text(), "\nN0010 F200 G1 X10.50 M77 (a] b)\nX-3.\n(alone)\n");
 }
 
-TEST(Streams, RoundLikeTheWholeProgramWriter) {
+TEST(Lines, RoundWithAWarning) {
   Fixture f;
   f.add(line(ir::MotionKind::linear, 1.23456, "1.23456"));
   f.add(line(ir::MotionKind::linear, 0.1234567));
-  EXPECT_EQ(f.streamed(), "G1 X1.235\nG1 X0.123\n");
+  EXPECT_EQ(f.text(), "G1 X1.235\nG1 X0.123\n");
   EXPECT_EQ(f.diagnostics.warning_count(), 1U);
 }
 
-// Short texts are looked at eight bytes at once: every length, with and without sign and point, must come out the same.
-TEST(Streams, NumberTextsOfAllLengths) {
+TEST(Lines, NumberTextsOfAllLengths) {
   for (const std::string text :
        {"1",     "-1",    "12",     "1.",    ".5",      "-.5",      "123",      "1.5",       "1234",
         "12.5",  "-12.5", "1234.",  "12.34", "123.456", "-123.456", "1234.567", "12345.678", "123456789.125",
         "+7.25", "00012", "1.50000"}) {
     Fixture f;
     f.add(line(ir::MotionKind::linear, std::stod(text), text));
-    EXPECT_EQ(f.streamed(), f.text()) << text;
-    EXPECT_EQ(f.streamed(), "G1 X" + (text == "1.50000" ? "1.5" : text.substr(text[0] == '+' ? 1 : 0)) + "\n");
+    EXPECT_EQ(f.text(), "G1 X" + (text == "1.50000" ? "1.5" : text.substr(text[0] == '+' ? 1 : 0)) + "\n");
   }
   for (const std::string text :
        {"1.2.3", "12-3", "$1F", "1EX2", "--12", "1 23"}) {  // no plain numbers: made from the value
     Fixture f;
     f.add(line(ir::MotionKind::linear, 42, text));
-    EXPECT_EQ(f.streamed(), "G1 X42\n") << text;
+    EXPECT_EQ(f.text(), "G1 X42\n") << text;
   }
 }
 
-TEST(Streams, GiveUpWhereTheBlockIsNotPlain) {
-  const auto not_plain = [](ir::Block b) {
-    Fixture f;
-    f.add(std::move(b));
-    return f.streamed() == "not plain";
-  };
-  ir::Block b = line(ir::MotionKind::linear, 1);
-  EXPECT_FALSE(not_plain(b));
-  b.motion.keeps_modal = false;
-  EXPECT_TRUE(not_plain(b));
-  b = line(ir::MotionKind::linear, 1);
-  b.motion.coords[0].mode = ir::WordMode::incremental;
-  EXPECT_TRUE(not_plain(b));
-  b = line(ir::MotionKind::linear, 1);
-  b.motion.coords[0].value = Value(ir::number(1));
-  EXPECT_TRUE(not_plain(b));
-  b = line(ir::MotionKind::linear, 1);
-  b.actions.push_back(action(ir::SpindleRun{1, ir::SpindleState::off}));  // M5 acts after the motion on the target
-  EXPECT_TRUE(not_plain(b));
-  b = line(ir::MotionKind::linear, 1);
-  b.actions.push_back(action(ir::ModalSet{ir::Setting::plane, 0, true, {}}));  // no code in this language
-  EXPECT_TRUE(not_plain(b));
-  b = line(ir::MotionKind::thread, 1);
-  EXPECT_TRUE(not_plain(b));
-}
-
-TEST(Streams, NumbersMadeAnew) {
+TEST(Lines, NumbersMadeAnew) {
   Fixture f;
   f.options.numbering = Numbering::renumber;
   f.options.number_step = 5;
   f.add(line(ir::MotionKind::linear, 1)).line.number = "100";
   f.add(line(ir::MotionKind::linear, 2));
-  EXPECT_EQ(f.streamed(), "N5 G1 X1\nN10 G1 X2\n");
+  EXPECT_EQ(f.text(), "N5 G1 X1\nN10 G1 X2\n");
 }
 
 }  // namespace

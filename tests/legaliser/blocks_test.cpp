@@ -13,7 +13,7 @@ std::string main_program(const std::string& body) {
 TEST(Arcs, OffsetCentreBecomesAbsolute) {
   const std::string text =
       main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 0 Y 10 centre X -10 centre Y 0\n");
-  const auto p = run_pass("arcs", text, chain_target());
+  const auto p = run_pass("convert_arcs", text, chain_target());
   EXPECT_NE(p.text.find("centre X follows_distance"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
 }
@@ -27,7 +27,7 @@ TEST(Arcs, UnknownStartFromVariablesBecomesAnExpression) {
 TEST(Arcs, LargeArcByRadiusTakesItsCentre) {
   // 270 degrees about (10, 10) from (10, 0): centre left of the chord's other side.
   const std::string text = main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 0 Y 10 radius -10\n");
-  const auto p = run_pass("arcs", text, chain_target());
+  const auto p = run_pass("convert_arcs", text, chain_target());
   EXPECT_EQ(p.text.find("radius"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
 }
@@ -42,25 +42,25 @@ TEST(Arcs, AbsoluteCentreNeedsNoStart) {
   const std::string text = main_program(
       "  block feed 100, rapid X (L[1]) Y 0\n  block arc_ccw X 0 Y 0 centre X follows_distance modal 0 centre Y "
       "follows_distance modal 0\n");
-  const auto p = run_pass("arcs", text, structured_target(), "num-mill", "sinumerik-mill");
+  const auto p = run_pass("convert_arcs", text, structured_target(), "num-mill", "sinumerik-mill");
   EXPECT_TRUE(p.good) << all(p.diagnostics);
   EXPECT_NE(p.text.find("centre X absolute"), std::string::npos) << p.text;
 }
 
 TEST(Arcs, ArcThatRoundingClosesIsNoFullCircle) {
   // 0.0002 mm long: three places make start and end one point.
-  const auto p =
-      run_pass("arcs", main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y 0.0002 radius 5\n"),
-               chain_target());
+  const auto p = run_pass("convert_arcs",
+                          main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y 0.0002 radius 5\n"),
+                          chain_target());
   EXPECT_NE(p.text.find("linear"), std::string::npos) << p.text;
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-315"));
 }
 
 TEST(Arcs, ArcByItsCentreThatRoundingClosesIsNoFullCircle) {
   // Four places there, three here; 0.00002 mm long resp. 0.0002 mm.
-  const auto p =
-      run_pass("arcs", main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y -0.00002 centre X 5\n"),
-               letters_target(), "sinumerik-mill");
+  const auto p = run_pass(
+      "convert_arcs", main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y -0.00002 centre X 5\n"),
+      letters_target(), "sinumerik-mill");
   EXPECT_NE(p.text.find("linear"), std::string::npos) << p.text;
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-315"));
   EXPECT_EQ(difference(main_program("  block feed 100, rapid X 10 Y 0\n  block arc_ccw X 10 Y -0.0002 centre X 5\n"),
@@ -70,7 +70,7 @@ TEST(Arcs, ArcByItsCentreThatRoundingClosesIsNoFullCircle) {
 
 TEST(Arcs, IncrementThatRoundsToNothing) {
   // From 10.0003 to 10.0007: the places differ, the increment 0.0004 is nothing in three places.
-  const auto p = run_pass("arcs",
+  const auto p = run_pass("convert_arcs",
                           main_program("  block feed 100, rapid X 10.0003 Y 0\n  block distance incremental, arc_ccw X "
                                        "0.0004 Y 0 radius 3\n"),
                           chain_target());
@@ -79,14 +79,15 @@ TEST(Arcs, IncrementThatRoundsToNothing) {
 
 TEST(Arcs, NearlyAFullCircleByItsRadiusTakesItsCentre) {
   // The chord is shorter than the last place: by the radius nothing would say where the circle lies.
-  const auto p = run_pass(
-      "arcs", main_program("  block feed 100, rapid X 20 Y 0\n  block arc_ccw X 20.00002 Y -0.00001 radius -3\n"),
-      letters_target(), "sinumerik-mill");
+  const auto p =
+      run_pass("convert_arcs",
+               main_program("  block feed 100, rapid X 20 Y 0\n  block arc_ccw X 20.00002 Y -0.00001 radius -3\n"),
+               letters_target(), "sinumerik-mill");
   EXPECT_EQ(p.text.find("radius"), std::string::npos) << p.text;
   EXPECT_EQ(p.text.find("linear"), std::string::npos) << p.text;
-  const auto kept =
-      run_pass("arcs", main_program("  block feed 100, rapid X 20 Y 0\n  block arc_ccw X 20.5 Y -0.3 radius -3\n"),
-               letters_target(), "sinumerik-mill");
+  const auto kept = run_pass(
+      "convert_arcs", main_program("  block feed 100, rapid X 20 Y 0\n  block arc_ccw X 20.5 Y -0.3 radius -3\n"),
+      letters_target(), "sinumerik-mill");
   EXPECT_NE(kept.text.find("radius -3"), std::string::npos) << kept.text;
 }
 
@@ -94,14 +95,14 @@ TEST(Arcs, PitchBecomesTurns) {
   // 10 mm down at 4 mm a turn: 2.5 turns, half of one is the partial arc.
   const std::string text = main_program(
       "  block feed 100, rapid X 10 Y 0 Z 0\n  block arc_ccw X -10 Y 0 Z -10 centre X -10 centre Y 0 extra pitch 4\n");
-  const auto p = run_pass("arcs", text, structured_target());
+  const auto p = run_pass("convert_arcs", text, structured_target());
   EXPECT_NE(p.text.find("turns #2"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
 }
 
 TEST(Distance, IncrementalWordTakesTheKnownPosition) {
   const std::string text = main_program("  block rapid X 10 Y 4\n  block rapid X incremental 5 Y absolute 3\n");
-  const auto p = run_pass("distance", text, letters_target());
+  const auto p = run_pass("convert_distance", text, letters_target());
   EXPECT_NE(p.text.find("X #15 Y 3"), std::string::npos) << p.text;
 }
 
@@ -115,7 +116,7 @@ TEST(Distance, IncrementIsAddedToWhatTheControlKnows) {
 
 TEST(Distance, UnknownPositionSwitchesTheBlock) {
   const std::string text = main_program("  block rapid X (L[1])\n  block rapid X incremental 5\n  block rapid X 1\n");
-  const auto p = run_pass("distance", text, letters_target());
+  const auto p = run_pass("convert_distance", text, letters_target());
   EXPECT_NE(p.text.find("block distance incremental, rapid X 5"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("block distance absolute\n"), std::string::npos) << p.text;
 }
@@ -123,7 +124,7 @@ TEST(Distance, UnknownPositionSwitchesTheBlock) {
 TEST(Diameters, RadiusProgrammingOnAFixedDiameterLathe) {
   const std::string text =
       main_program("  block diameter radius, rapid X 10 Z 2\n  block diameter diameter, rapid X 30\n");
-  const auto p = run_pass("diameters", text, chain_target(), "fagor-lathe", "num-lathe");
+  const auto p = run_pass("convert_diameters", text, chain_target(), "fagor-lathe", "num-lathe");
   EXPECT_NE(p.text.find("X #20 Z 2"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("X 30"), std::string::npos) << p.text;
   EXPECT_EQ(p.text.find("diameter"), std::string::npos) << p.text;
@@ -133,7 +134,7 @@ TEST(Order, StopBeforeTheMotionGetsABlock) {
   // M9 acts before the motion on the source, after it on the target.
   const std::string text = main_program(
       "  block feed 100, rapid X 1\n  N10 block linear X 5, coolant off as \"M9\" ; \"cut\"\n  jump N10 if L[1] > 0\n");
-  const auto p = run_pass("order", text, chain_target(), "fagor-mill", "num-mill");
+  const auto p = run_pass("split_blocks", text, chain_target(), "fagor-mill", "num-mill");
   EXPECT_NE(p.text.find("N10 block coolant off"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("block linear X 5 ; \"cut\""), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, chain_target(), "fagor-mill", "num-mill"), "");
@@ -146,9 +147,9 @@ TEST(Order, StopAfterTheMotionGetsABlockBehind) {
 }
 
 TEST(Dwell, UnitsOfTheTarget) {
-  const auto p = run_pass("dwells", main_program("  block dwell 2.5\n"), letters_target());
+  const auto p = run_pass("convert_dwells", main_program("  block dwell 2.5\n"), letters_target());
   EXPECT_NE(p.text.find("dwell #250 scale 0.01"), std::string::npos) << p.text;
-  const auto q = run_pass("dwells", main_program("  block dwell 30 scale 0.01\n"), chain_target());
+  const auto q = run_pass("convert_dwells", main_program("  block dwell 30 scale 0.01\n"), chain_target());
   EXPECT_NE(q.text.find("dwell #0.3"), std::string::npos) << q.text;  // never 30 s
 }
 
@@ -159,7 +160,7 @@ TEST(Frames, ShiftOfAllAxesInTheChain) {
       "  block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n"
       "  block frame shift translate clear\n  block rapid X 1 Y 1\n");
   EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
-  const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
+  const auto p = run_pass("convert_frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
   EXPECT_NE(p.text.find("frame chain translate replace X 100 Y 60"), std::string::npos) << p.text;
 }
 
@@ -177,15 +178,16 @@ TEST(Frames, PresetBecomesAShift) {
       "  block rapid X 30 Y 5\n  block frame preset translate preset X 10\n  block rapid X 0 Y 0\n"
       "  block frame shift translate replace_named X 1\n  block rapid X 0 Y 0\n");
   EXPECT_EQ(difference(text, structured_target(), "fagor-mill", "sinumerik-mill"), "");
-  const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
+  const auto p = run_pass("convert_frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
   EXPECT_NE(p.text.find("frame chain translate replace X #20"), std::string::npos) << p.text;
 }
 
 TEST(Frames, ShiftThatWouldOutliveTheProgramIsTakenBack) {
   auto target = letters_target();
   target.shift_survives_end = true;
-  const auto p = run_pass("frames", main_program("  block frame chain translate replace X 100\n  block rapid X 0\n"),
-                          target, "sinumerik-mill", "fagor-mill");
+  const auto p =
+      run_pass("convert_frames", main_program("  block frame chain translate replace X 100\n  block rapid X 0\n"),
+               target, "sinumerik-mill", "fagor-mill");
   EXPECT_LT(p.text.find("frame shift translate clear"), p.text.find("end_program")) << p.text;
 }
 
@@ -193,7 +195,7 @@ TEST(Frames, UnknownRestIsRefused) {
   const std::string text = main_program(
       "  jump N10 if L[1] > 0\n  block frame shift translate replace_named X 100\n"
       "  N10 block frame shift translate replace_named Y 60\n  block rapid X 0 Y 0\n");
-  const auto p = run_pass("frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
+  const auto p = run_pass("convert_frames", text, structured_target(), "fagor-mill", "sinumerik-mill");
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-325")) << p.text;
 }
 
@@ -209,7 +211,7 @@ TEST(Cycles, WrittenOutMoveByMove) {
 }
 
 TEST(Cycles, ModalDefinitionBecomesAModalCall) {
-  const auto p = run_pass("cycles", main_program(drilling), structured_target(), "fagor-mill", "sinumerik-mill");
+  const auto p = run_pass("lower_cycles", main_program(drilling), structured_target(), "fagor-mill", "sinumerik-mill");
   ASSERT_TRUE(p.good) << all(p.diagnostics);
   const auto call = p.text.find("modal_call cycle"), first = p.text.find("X 10 Y 10"),
              off = p.text.find("modal_call off");
@@ -273,22 +275,6 @@ TEST(SafeStart, MotionOfPowerOnIsSaidAtTheHeadWhenABranchComesFirst) {  // feed 
   const std::string coded = "  jump N10 if L[1] == 5\n  block linear X 10\n  N10 block rapid X 0\n";
   const auto q = run_pass("safe_start", main_program(coded), structured_target(), "num-mill", "fagor-mill");
   EXPECT_EQ(q.text.find(", linear coded"), std::string::npos) << q.text;
-}
-
-TEST(Plain, OnlyWhatNoPassTouches) {
-  const auto block = [](const std::string& text) {
-    const auto p = read("space L \"L\" segment 0 19\nroutine main 1 {\n  " + text + "\n}\n");
-    return std::get<ir::Block>(p.routines.at(0).body.at(0).node);
-  };
-  const auto target = letters_target();
-  EXPECT_TRUE(ir::plain_legal(block("block distance absolute, feed 200, linear X 10 Y -3.5"), target));
-  EXPECT_TRUE(ir::plain_legal(block("block arc_cw X 1 Y 2 centre X 3 centre Y 4"), target));
-  EXPECT_FALSE(ir::plain_legal(block("block linear X incremental 10"), target));
-  EXPECT_FALSE(ir::plain_legal(block("block linear X (L[1])"), target));
-  EXPECT_FALSE(ir::plain_legal(block("block linear X 1, coolant off"), target));
-  const auto machine = profile("fagor-mill");
-  EXPECT_TRUE(ir::plain_legal(block("block coolant flood, linear X 1"), target, &machine));
-  EXPECT_FALSE(ir::plain_legal(block("block linear X 1, coolant off after"), target, &machine));
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST(Calls, ModalCallsRunAfterEachMotion) {
 
 TEST(Calls, RecursionIsRefused) {
   const auto p = run_pass(
-      "calls",
+      "lower_calls",
       letters_source +
           "routine main 1 {\n  call 5 (\"A\" = 3) new_level\n}\nroutine sub 5 {\n  call 5 new_level\n  return\n}\n",
       chain_target());
@@ -260,7 +260,7 @@ TEST(Returns, ProgramEndInsideASubprogram) {
 }
 
 TEST(Variables, NumbersStayWhereTheTargetHasThem) {
-  const auto p = run_pass("variables",
+  const auto p = run_pass("map_variables",
                           "space P \"P\" segment 0 25 level forgotten segment 100 299\nroutine main 1 {\n  set P[110] "
                           "= 1, P[199] = P[110]\n}\n",
                           chain_target());
@@ -269,14 +269,14 @@ TEST(Variables, NumbersStayWhereTheTargetHasThem) {
 
 TEST(Variables, WholeRangeIsShifted) {
   // R0.. go to P100..: the same last digits.
-  const auto p = run_pass("variables", "space R \"R\" segment 0 99\nroutine main 1 {\n  set R[7] = R[R[8]]\n}\n",
+  const auto p = run_pass("map_variables", "space R \"R\" segment 0 99\nroutine main 1 {\n  set R[7] = R[R[8]]\n}\n",
                           letters_target());
   EXPECT_NE(p.text.find("set P[107] = P[P[108] + #100]"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("R7=P107"), std::string::npos) << p.text;
 }
 
 TEST(Variables, ComputedNumberNeedsOneDistance) {
-  const auto p = run_pass("variables",
+  const auto p = run_pass("map_variables",
                           "space P \"P\" segment 100 299\nroutine main 1 {\n  set P[150] = 1, P[250] = P[P[150]]\n}\n",
                           structured_target());
   EXPECT_TRUE(has_code(p.diagnostics, "TRN-129")) << p.text;
@@ -286,7 +286,7 @@ TEST(Variables, ReadBeforeWrittenStartsAtZero) {
   const std::string text =
       shared_source +
       "routine main 1 {\n  N10 set L[5] = L[5] + 1\n  block rapid X (L[5])\n  jump N10 if L[5] < 3\n  end_program\n}\n";
-  const auto p = run_pass("variables", text, letters_target());
+  const auto p = run_pass("map_variables", text, letters_target());
   EXPECT_NE(p.text.find("set P[5] = #0"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, letters_target()), "");
 }

@@ -162,7 +162,7 @@ TEST(Expressions, FunctionsThatTargetsLack) {
 
 TEST(Expressions, ChainsGoFromLeftToRight) {
   const auto p = run_pass(
-      "expressions",
+      "lower_expressions",
       shared_source + "routine main 1 {\n  set L[1] = 15 + L[2] * 25\n  set L[3] = (L[1] + L[2]) * L[4] / L[5]\n}\n",
       chain_target());
   EXPECT_TRUE(p.good) << all(p.diagnostics);
@@ -172,8 +172,8 @@ TEST(Expressions, ChainsGoFromLeftToRight) {
 }
 
 TEST(Expressions, RightOperandFirstIntoATemporary) {
-  const auto p =
-      run_pass("expressions", shared_source + "routine main 1 {\n  set L[1] = L[1] - L[2] * L[3]\n}\n", chain_target());
+  const auto p = run_pass("lower_expressions", shared_source + "routine main 1 {\n  set L[1] = L[1] - L[2] * L[3]\n}\n",
+                          chain_target());
   EXPECT_NE(p.text.find("set L[19] = L[2] * L[3], L[1] = L[1] - L[19]"), std::string::npos) << p.text;
 }
 
@@ -182,13 +182,13 @@ TEST(Expressions, ConstantsBeyondThePlacesAreBuilt) {
       "space P \"P\" segment 100 299\nroutine main 1 {\n  set P[100] = 2.718281828459\n  block rapid X (P[100])\n  "
       "end_program\n}\n";
   EXPECT_EQ(difference(text, letters_target()), "");
-  const auto p = run_pass("expressions", text, letters_target());
+  const auto p = run_pass("lower_expressions", text, letters_target());
   EXPECT_NE(p.text.find("#2.71828 + (#0.18285 / #100000)"), std::string::npos) << p.text;  // to 1e-10
 }
 
 TEST(Expressions, WordsTakeVariablesOnly) {
   const auto p =
-      run_pass("expressions",
+      run_pass("lower_expressions",
                "space P \"P\" segment 100 299\nroutine main 1 {\n  N5 block rapid X (P[100] * 2) Y (-P[101])\n}\n",
                letters_target());
   EXPECT_NE(p.text.find("N5 set P[299] = P[100] * 2"), std::string::npos)
@@ -197,7 +197,7 @@ TEST(Expressions, WordsTakeVariablesOnly) {
 }
 
 TEST(Conditions, WholeNumbersCompareExactly) {
-  const auto p = run_pass("conditions",
+  const auto p = run_pass("lower_conditions",
                           "space R \"R\" segment 0 99\nroutine main 1 {\n  set R[1] = 0\n  N10 set R[1] = R[1] + 1\n  "
                           "jump N10 if R[1] ==~ 5\n  set R[2] = R[1] / 3\n  jump N10 if R[2] ==~ 5\n}\n",
                           letters_target());
@@ -207,23 +207,25 @@ TEST(Conditions, WholeNumbersCompareExactly) {
 }
 
 TEST(Labels, IdentifiersBecomeNumbersWithTheNameAsComment) {
-  const auto p = run_pass(
-      "labels", "routine main 1 {\n  N10 block rapid X 1\n  START: block rapid X 2\n  jump START search backward\n}\n",
-      chain_target());
+  const auto p =
+      run_pass("resolve_labels",
+               "routine main 1 {\n  N10 block rapid X 1\n  START: block rapid X 2\n  jump START search backward\n}\n",
+               chain_target());
   EXPECT_NE(p.text.find("N20 block rapid X 2 ; \"START\""), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("jump N20"), std::string::npos) << p.text;
 }
 
 TEST(Labels, DirectionsFollowTheResolvedPlace) {
-  const auto p =
-      run_pass("labels", "routine main 1 {\n  jump N20\n  N10 block rapid X 1\n  N20 block rapid X 2\n  jump N10\n}\n",
-               structured_target());
+  const auto p = run_pass("resolve_labels",
+                          "routine main 1 {\n  jump N20\n  N10 block rapid X 1\n  N20 block rapid X 2\n  jump N10\n}\n",
+                          structured_target());
   EXPECT_NE(p.text.find("jump N20 search forward"), std::string::npos) << p.text;
   EXPECT_NE(p.text.find("jump N10 search backward"), std::string::npos) << p.text;
 }
 
 TEST(Labels, TooLargeNumbersAreRenumbered) {
-  const auto p = run_pass("labels", "routine main 1 {\n  N99999 block rapid X 1\n  jump N99999\n}\n", chain_target());
+  const auto p =
+      run_pass("resolve_labels", "routine main 1 {\n  N99999 block rapid X 1\n  jump N99999\n}\n", chain_target());
   EXPECT_EQ(p.text.find("99999"), std::string::npos) << p.text;
   EXPECT_TRUE(p.good);
 }
@@ -247,7 +249,7 @@ TEST(Numbers, MadeOnesGoBetweenThoseOfTheSource) {
 }
 
 TEST(Numbers, ARangeThatDescendsIsNumberedAnew) {
-  const auto p = run_pass("numbers",
+  const auto p = run_pass("order_numbers",
                           "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  repeat N30 N20 count 2\n"
                           "  jump N30\n}\n",
                           chain_target());
@@ -257,8 +259,9 @@ TEST(Numbers, ARangeThatDescendsIsNumberedAnew) {
 }
 
 TEST(Numbers, WithoutRangesTheSourcesNumbersStay) {
-  const auto p = run_pass("numbers", "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  jump N30\n}\n",
-                          chain_target());
+  const auto p =
+      run_pass("order_numbers", "routine main 1 {\n  N30 block rapid X 1\n  N20 block rapid X 2\n  jump N30\n}\n",
+               chain_target());
   EXPECT_NE(p.text.find("N30 block"), std::string::npos) << p.text;
 }
 

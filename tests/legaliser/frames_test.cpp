@@ -22,7 +22,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 TEST(FramesOfPrograms, EveryEndTakesTheShiftBack) {
   const auto p =
-      run_pass("frames",
+      run_pass("convert_frames",
                program("  block frame chain translate replace X 100\n  block frame chain rotate compose angle 30\n"
                        "  jump N10 if L[1] > 0\n  block rapid X 0\n  end_program\n  N10 block rapid X 5\n"),
                keeping_target(), "sinumerik-mill", "fagor-mill");
@@ -31,7 +31,7 @@ TEST(FramesOfPrograms, EveryEndTakesTheShiftBack) {
 }
 
 TEST(FramesOfPrograms, OnlyTheEndWhereItCanBeInForce) {
-  const auto p = run_pass("frames",
+  const auto p = run_pass("convert_frames",
                           program("  jump N10 if L[1] > 0\n  block rapid X 1\n  end_program\n"
                                   "  N10 block frame chain translate replace X 100\n  block rapid X 0\n"),
                           keeping_target(), "sinumerik-mill", "fagor-mill");
@@ -46,7 +46,7 @@ TEST(FramesOfPrograms, SubprogramStartsWithTheShiftOfItsCaller) {
       "3\n"
       "  block rapid X 0 Y 0\n",
       "routine sub 20 {\n  block frame chain translate add X 5\n  block rapid X 1\n  return\n}\n");
-  const auto p = run_pass("frames", text, keeping_target(), "sinumerik-mill", "fagor-mill");
+  const auto p = run_pass("convert_frames", text, keeping_target(), "sinumerik-mill", "fagor-mill");
   EXPECT_TRUE(p.good) << all(p.diagnostics);
   EXPECT_NE(p.text.find("frame shift translate replace_named X #105"), std::string::npos) << p.text;
   EXPECT_EQ(difference(text, keeping_target(), "sinumerik-mill", "fagor-mill"), "");
@@ -54,7 +54,7 @@ TEST(FramesOfPrograms, SubprogramStartsWithTheShiftOfItsCaller) {
 
 TEST(FramesOfPrograms, CallersThatDisagreeShareAVariable) {
   const auto p =
-      run_pass("frames",
+      run_pass("convert_frames",
                program("  call 20\n  block frame chain translate replace X 100\n  call 20\n",
                        "routine sub 20 {\n  block frame chain translate add X 5\n  block rapid X 1\n  return\n}\n"),
                keeping_target(), "sinumerik-mill", "fagor-mill");
@@ -67,7 +67,7 @@ TEST(FramesOfPrograms, CallersThatDisagreeShareAVariable) {
 
 TEST(FramesOfPrograms, EndInASubprogram) {
   // The shift of the caller is in force where the subprogram ends the program.
-  const auto p = run_pass("frames",
+  const auto p = run_pass("convert_frames",
                           program("  block frame chain translate replace X 100\n  call 20\n  block rapid X 0\n",
                                   "routine sub 20 {\n  block rapid X 1\n  jump N10 if L[1] > 0\n  return\n  N10 "
                                   "end_program\n}\n"),
@@ -78,7 +78,7 @@ TEST(FramesOfPrograms, EndInASubprogram) {
 
 TEST(FramesOfPrograms, UnknownShiftIsReplacedOnTheAxesThatHaveOne) {
   // One branch has shifted Y: X 5 alone must end that. No axis that the program never shifts is named.
-  const auto p = run_pass("frames",
+  const auto p = run_pass("convert_frames",
                           program("  jump N10 if L[1] > 0\n  block frame chain translate replace Y 7\n"
                                   "  N10 block frame chain translate replace X 5\n  block rapid X 0\n"),
                           keeping_target(), "sinumerik-mill", "fagor-mill");
@@ -86,7 +86,7 @@ TEST(FramesOfPrograms, UnknownShiftIsReplacedOnTheAxesThatHaveOne) {
 }
 
 TEST(FramesOfPrograms, AVariableThatTheCalleeChangesIsNotReadAgain) {
-  const auto p = run_pass("frames",
+  const auto p = run_pass("convert_frames",
                           program("  set L[1] = 10\n  block frame chain translate replace X (L[1])\n  call 20\n"
                                   "  block frame chain translate add Y 3\n  block rapid X 0\n",
                                   "routine sub 20 {\n  set L[1] = 20\n  return\n}\n"),
@@ -100,7 +100,7 @@ TEST(FramesOfPrograms, AVariableThatTheCalleeChangesIsNotReadAgain) {
 
 TEST(FramesOfPrograms, ARotationInsideTheShiftIsAddedToIt) {
   const auto p =
-      run_pass("frames",
+      run_pass("convert_frames",
                program("  block frame shift translate replace X 5\n  block frame rotation rotate replace angle 30\n"
                        "  block rapid X 0\n"),
                structured_target(), "num-mill", "sinumerik-mill");

@@ -10,7 +10,7 @@ namespace {
 std::string with_switches(const std::string& body, const std::string& subs = {}) {
   const std::string text =
       "space L \"L\" starts_at_zero segment 0 19 forgotten\nroutine main 1 {\n" + body + "  end_program\n}\n" + subs;
-  return run_pass("tools", text, letters_target(), "sinumerik-mill", "fagor-mill").text;
+  return run_pass("convert_tools", text, letters_target(), "sinumerik-mill", "fagor-mill").text;
 }
 std::size_t count(const std::string& text, const std::string& what) {
   std::size_t n = 0;

@@ -35,7 +35,7 @@ std::string BatchFolder::fault() const {
   fs::create_directories(options_.out, ignored);
   const WrittenFiles files(options_.out, WrittenFiles::Use::look);
   for (const auto& name : summary_names) {
-    const auto why = files.conflicts({std::string(name)}, {}, origin_of_summary());
+    const auto why = files.conflicts(std::vector<FileToWrite>{{std::string(name)}}, origin_of_summary());
     if (!why.empty()) return with_advice(why.front());
   }
   return {};
@@ -72,7 +72,7 @@ std::string BatchFolder::left_alone(const std::string& program) const {
   const WrittenFiles files(folder, WrittenFiles::Use::look);
   for (const auto& name : files.changed())
     return with_advice((folder / name).string() + " was changed since cnctrans wrote it");
-  const auto why = files.conflicts({std::string(record_name)}, {}, origin(program));
+  const auto why = files.conflicts(std::vector<FileToWrite>{{std::string(record_name)}}, origin(program));
   return why.empty() ? std::string() : with_advice(why.front());
 }
 

@@ -120,8 +120,16 @@ std::set<std::string> WrittenFiles::replaceable(const Origin& origin) const {
   return mine;
 }
 
-std::string WrittenFiles::conflict(const FileToWrite& file, const std::string& sum, const std::set<std::string>& mine,
-                                   bool force) const {
+namespace {
+
+std::string sum_to_be(const FileToWrite& file) {
+  return file.sum.empty() ? sum_of(file.bytes) : file.sum;
+}
+
+}  // namespace
+
+std::string WrittenFiles::conflict(const FileToWrite& file, const std::set<std::string>& mine, bool force) const {
+  const std::string sum = sum_to_be(file);
   std::error_code ignored;
   const auto others = [&](const Entry& e) {
     std::string text;
@@ -158,18 +166,13 @@ std::vector<std::string> WrittenFiles::conflicts(const std::vector<FileToWrite>&
   }
   std::vector<std::string> found;
   for (const auto& f : files) {
-    if (auto why = conflict(f, sum_of(f.bytes), mine, origin.force); !why.empty()) found.push_back(std::move(why));
+    if (auto why = conflict(f, mine, origin.force); !why.empty()) found.push_back(std::move(why));
   }
   return found;
 }
 
-std::vector<std::string> WrittenFiles::conflicts(const FileToWrite& file, const std::string& sum,
-                                                 const Origin& origin) const {
-  auto why = conflict(file, sum, replaceable(origin), origin.force);
-  return why.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(why)};
-}
-
-void WrittenFiles::put(const FileToWrite& file, const std::string& sum, const std::string& origin) {
+void WrittenFiles::put(const FileToWrite& file, const std::string& origin) {
+  const std::string sum = sum_to_be(file);
   std::error_code ignored;
   const fs::file_status there = fs::status(path(file.name), ignored);
   if (fs::exists(there) && !fs::is_regular_file(there)) return;  // a pipe, a device
@@ -184,18 +187,14 @@ void WrittenFiles::put(const FileToWrite& file, const std::string& sum, const st
 
 void WrittenFiles::add(const std::vector<FileToWrite>& files, const Origin& origin) {
   const std::string source = from_here(origin.source);
-  for (const auto& f : files) put(f, sum_of(f.bytes), source);
-  save();
-}
-
-void WrittenFiles::add(const FileToWrite& file, const std::string& sum, const Origin& origin) {
-  put(file, sum, from_here(origin.source));
+  for (const auto& f : files) put(f, source);
   save();
 }
 
 bool WrittenFiles::write(const std::vector<FileToWrite>& files, const Origin& origin, std::string* error) {
   add(files, origin);
   return std::all_of(files.begin(), files.end(), [&](const FileToWrite& f) {
+    if (f.put_in_place) return f.put_in_place(error);
     AtomicFile file(path(f.name));
     return file.open(error) && file.write(f.bytes, error) && file.commit(error);
   });

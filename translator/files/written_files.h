@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -19,6 +20,8 @@ struct FileToWrite {
   std::string_view bytes{};
   std::string program{};  ///< its name in the control where that is not the file's ("%20"); may be empty
   bool named = false;     ///< somebody asked for this very file: it may take the place of another program's
+  std::string sum{};      ///< of its bytes, where they are not at hand
+  std::function<bool(std::string* error)> put_in_place{};  ///< then: they are written, and wait for this
 };
 
 class WrittenFiles {
@@ -41,13 +44,9 @@ class WrittenFiles {
   };
   /// Why the files can't be written, each with a sentence; empty: they can.
   [[nodiscard]] std::vector<std::string> conflicts(const std::vector<FileToWrite>& files, const Origin& origin) const;
-  /// The same for a file whose bytes are not at hand, but their sum.
-  [[nodiscard]] std::vector<std::string> conflicts(const FileToWrite& file, const std::string& sum,
-                                                   const Origin& origin) const;
   /// Puts them into the list. To be called before they are written: a call that is killed between leaves files that
   /// are known. What the list said of them before is kept for that case.
   void add(const std::vector<FileToWrite>& files, const Origin& origin);
-  void add(const FileToWrite& file, const std::string& sum, const Origin& origin);
   /// Adds and writes all. False, and a reason: one of them can't be written.
   bool write(const std::vector<FileToWrite>& files, const Origin& origin, std::string* error);
 
@@ -71,9 +70,8 @@ class WrittenFiles {
   [[nodiscard]] std::string from_here(const std::string& source) const;
   [[nodiscard]] std::string as_said(const std::string& origin) const;
   [[nodiscard]] std::set<std::string> replaceable(const Origin& origin) const;
-  [[nodiscard]] std::string conflict(const FileToWrite& file, const std::string& sum, const std::set<std::string>& mine,
-                                     bool force) const;
-  void put(const FileToWrite& file, const std::string& sum, const std::string& origin);
+  [[nodiscard]] std::string conflict(const FileToWrite& file, const std::set<std::string>& mine, bool force) const;
+  void put(const FileToWrite& file, const std::string& origin);
   void save();
 
   std::filesystem::path folder_;

@@ -1,7 +1,6 @@
 #include "translator/stream/stream_run.h"
 
 #include "translator/files/definitions.h"
-#include "translator/files/readable.h"
 
 namespace cnctrans::translator {
 
@@ -17,35 +16,13 @@ frontends::TextLook look_through(const std::string& path) {
   };
 }
 
-std::optional<StreamEnds> stream_ends(const std::string& path, const TranslateOptions& options, std::string* error) {
-  StreamEnds ends;
-  ends.from = find_dialect(options.from);
-  ends.to = find_dialect(options.to);
-  // In its own language a program keeps its spelling, which the stream does not look at closely enough.
-  if (ends.from == nullptr || !readable(*ends.from) || ends.to == nullptr || ends.from == ends.to ||
-      options.reader != frontends::Reader::scanner || !can_reopen(path) ||
-      !definition_files(*ends.from, options.libraries).empty())
-    return std::nullopt;
-  Windows look;
-  if (!look.open(path, error)) return std::nullopt;
-  const auto head = SourceText::from_string(path, std::string(look.first));
-  auto source = choose_profile(*ends.from, options.machine, head.get(), error);
-  if (!source) return std::nullopt;
-  ends.source = *std::move(source);
-  auto target = choose_target(*ends.to, options.target_machine, ends.source, error);
-  if (!target) return std::nullopt;
-  ends.target = *std::move(target);
-  return ends;
-}
-
-StreamReplay::StreamReplay(const std::string& path, const std::string& name, const Dialect& dialect,
-                           const machine::Profile& profile, const interpreter::Options& options,
-                           interpreter::TraceSink& sink, FileTable& files)
-    : file_(files.add_name(name)), last_{file_, 1, 1, 1, 1}, runner_(profile, options, sink, diagnostics_) {
+StreamReplay::StreamReplay(const std::string& path, const Dialect& dialect, const machine::Profile& profile,
+                           const interpreter::Options& options, interpreter::TraceSink& sink, FileTable& files)
+    : file_(files.add_name(path)), last_{file_, 1, 1, 1, 1}, runner_(profile, options, sink, diagnostics_) {
   std::string error;
   if (!windows_.open(path, &error)) return;
   const frontends::ReadOptions read{frontends::Reader::scanner, &profile, nullptr, look_through(path)};
-  reader_ = dialect.frontend->stream(file_, read, name);
+  reader_ = dialect.frontend->stream(file_, read, path);
   window_ = windows_.first;
 }
 
@@ -67,17 +44,15 @@ bool StreamReplay::window() {
       return false;
     }
     if (kind == frontends::StreamLine::no_statement) continue;
-    skips_ = static_cast<std::uint16_t>(skips_ | statement_.line.skip_mask);
     if (!going_) continue;
     last_ = statement_.line.span;
-    const bool first = runner_.step(statement_), second = other_ && other_->step(statement_);
-    going_ = (first || second) && kind != frontends::StreamLine::program_end;
+    going_ = runner_.step(statement_) && kind != frontends::StreamLine::program_end;
   }
   window_ = windows_.reader.next();
   return !window_.empty();
 }
 
-StreamRun StreamReplay::finish(interpreter::Result* other) {
+StreamRun StreamReplay::finish() {
   StreamRun run;
   run.outcome = StreamOutcome::needs_program;
   if (reader_ == nullptr || !windows_.reader.read_error().empty()) return run;  // the whole-program path reports
@@ -86,7 +61,6 @@ StreamRun StreamReplay::finish(interpreter::Result* other) {
   if (closing.has_errors() || closing.warning_count() != 0) return run;
   run.outcome = StreamOutcome::done;
   run.result = runner_.finish(last_);
-  if (other != nullptr && other_) *other = other_->finish(last_);
   run.diagnostics = std::move(diagnostics_);
   return run;
 }
@@ -97,7 +71,7 @@ StreamRun run_stream(const std::string& path, const Dialect& dialect, const mach
   refused.outcome = StreamOutcome::needs_program;
   if (options.reader != frontends::Reader::scanner || !definition_files(dialect, options.libraries).empty())
     return refused;
-  StreamReplay replay(path, path, dialect, profile, options.run, sink, files);
+  StreamReplay replay(path, dialect, profile, options.run, sink, files);
   while (replay.window()) {
   }
   return replay.finish();

@@ -1,8 +1,7 @@
-// A file as windows of whole lines, and what stands at both ends of a stream.
+// A file as windows of whole lines.
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,14 +34,5 @@ struct Windows {
 
 /// Looks through a file, window by window.
 frontends::TextLook look_through(const std::string& path);
-
-/// Languages and machines of a translation of this file that may go through as a stream.
-struct StreamEnds {
-  const Dialect* from = nullptr;
-  const Dialect* to = nullptr;
-  machine::Profile source, target;
-};
-/// nullopt: it may not.
-std::optional<StreamEnds> stream_ends(const std::string& path, const TranslateOptions& options, std::string* error);
 
 }  // namespace cnctrans::translator

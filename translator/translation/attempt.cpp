@@ -16,16 +16,17 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
                 const Copies& copies = {}) {
   Attempt out;
   const auto uncalled = assume ? ir::Uncalled::power_on : ir::Uncalled::unknown;
-  const ir::LegaliseContext context{
-      c.to.backend->capabilities_for(c.target_machine),
-      c.source_machine,
-      c.target_machine,
-      {c.options.cycles, c.options.raise_structure,
-       c.options.unsupported != backends::Unsupported::error && !c.options.draft, !c.options.annotate, uncalled},
-      out.said,
-      &out.names,
-      nullptr,
-      c.options.names != nullptr ? &c.options.names->map : nullptr};
+  const ir::LegaliseContext context{c.to.backend->capabilities_for(c.target_machine),
+                                    c.source_machine,
+                                    c.target_machine,
+                                    {c.options.cycles, c.options.raise_structure,
+                                     c.options.unsupported != backends::Unsupported::error && !c.options.draft,
+                                     !c.options.annotate, uncalled, c.options.only_pass},
+                                    out.said,
+                                    &out.names,
+                                    nullptr,
+                                    c.options.names != nullptr ? &c.options.names->map : nullptr,
+                                    c.options.behind_pass};
   if (assume) ir::passes::tell_assumed_state(work, context);
   ir::passes::write_copies(work, copies, context);
   if (!c.as_it_stands) ir::legalise(work, context);

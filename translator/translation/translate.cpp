@@ -12,6 +12,7 @@
 #include "translator/files/contours.h"
 #include "translator/files/definitions.h"
 #include "translator/files/readable.h"
+#include "translator/folding/fit.h"
 #include "translator/output/encode.h"
 #include "translator/output/origin.h"
 #include "translator/pipeline.h"
@@ -189,6 +190,11 @@ bool Translation::read() {
   if (loader.foreign()) return false;
   join_libraries(source_, loader, result_.diagnostics);
   result_.diagnostics.append(loader.library_diagnostics());
+  if (options_.folded != nullptr) {
+    result_.lines = options_.folded->last_line();
+    result_.unfit = unfit(source_, reading_.profile(), *options_.folded);
+    if (result_.unfit) return false;
+  }
   end_cycles();
   check_calls();
   result_.files = loader.files();

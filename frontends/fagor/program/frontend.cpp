@@ -1,4 +1,5 @@
 #include "frontends/fagor/program/frontend.h"
+#include "frontends/common/plain_words.h"
 
 #include <algorithm>
 #include <optional>
@@ -67,33 +68,6 @@ class FagorStream : public StreamReader {
   [[nodiscard]] std::string_view end_word() const override { return end_word_; }
   StreamEnd end(std::uint32_t /*lines*/, Diagnostics& /*diagnostics*/) override {
     return waiting() ? StreamEnd::needs_program : StreamEnd::complete;
-  }
-  /// Coordinates and centres are checked against 99999.9999 only, block numbers against 8 digits; F0 has a meaning of
-  /// its own. Rotary words are looked at one by one.
-  [[nodiscard]] FreeNumbers free_numbers() const override {
-    FreeNumbers free;
-    for (const char c : std::string_view("XYZUVWIJK")) {
-      free[static_cast<std::size_t>(c - 'A')] = {true, true, true, 5, dialects::fagor::decimals_mm};
-    }
-    free['F' - 'A'] = {true, false, false, 5, dialects::fagor::decimals_mm};
-    free['N' - 'A'] = {true, false, true, max_number_digits, 0};
-    return free;
-  }
-  [[nodiscard]] std::uint64_t modal_key() const override {
-    std::uint64_t key = 1;
-    const auto add = [&key](auto value) { key = key << 5U | static_cast<std::uint64_t>(value); };
-    add(state_.plane_now());
-    add(state_.comp_by_text);
-    add(state_.units_by_text);
-    add(state_.motion_by_text);
-    add(static_cast<int>(state_.motion_sure) + 2 * static_cast<int>(state_.comp_begins) +
-        4 * static_cast<int>(state_.plane_changed) + 8 * static_cast<int>(state_.comp_sure));
-    add(state_.facts.rotary);
-    add(state_.facts.preset);
-    add(state_.facts.table_shift);
-    add(state_.facts.shift);
-    add(waiting());
-    return key;
   }
   [[nodiscard]] const ir::Program& frame() const override { return frame_; }
 
@@ -177,6 +151,7 @@ class FagorFrontend : public Frontend {
       }
     }
   }
+  [[nodiscard]] PlainWords plain_words() const override { return usual_plain_words(4); }
   std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                        std::string_view file_name) const override {
     return std::make_unique<FagorStream>(file, options, file_name);

@@ -1,4 +1,5 @@
 #include "frontends/num/program/frontend.h"
+#include "frontends/common/plain_words.h"
 
 #include <map>
 #include <utility>
@@ -156,6 +157,7 @@ class NumFrontend : public Frontend {
     return program;
   }
   [[nodiscard]] bool reads_by_callers() const override { return true; }
+  [[nodiscard]] PlainWords plain_words() const override { return usual_plain_words(3, dialects::num::label_max); }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                                      std::string_view file_name) const override {
     return std::make_unique<NumStream>(file, options, file_name);

@@ -183,7 +183,7 @@ void FileReader::close_blank(const Span& next) {
 
 void FileReader::end_routine() {
   if (!open_) return;
-  if (blank_ != 0) close_blank({file_, static_cast<std::uint32_t>(source_->lines().size() + 1), 1, 0, 0});
+  if (blank_ != 0) close_blank({file_, source_->last_line() + 1, 1, 0, 0});
   open_ = false;
   for (const Span& s : builder_.finish(source_.get())) {
     diagnostics_.error("NUM-022", s, "the statement that begins here has no end in this program",
@@ -237,7 +237,7 @@ void FileReader::header(const syntax::Statement& s, const Span& span) {
   if (program_.routines.empty() && (!open_ || only_comments_) && !routine_.header.span.known()) {
     auto& leader = program_.files[0].leader;
     leader.clear();
-    for (std::uint32_t row = 1; row < span.line; ++row) leader.emplace_back(source_->lines()[row - 1].text);
+    for (std::uint32_t row = 1; row < span.line; ++row) leader.emplace_back(source_->line_text(row));
     open_ = false;
     blank_ = 0;
   }

@@ -86,7 +86,7 @@ void FileReader::check_stack() {
   const auto inside = [](const std::pair<std::uint32_t, std::uint32_t>& r, std::uint32_t line) {
     return line > r.first && line <= r.second;
   };
-  for (const auto& p : pushed_) stacked_.emplace_back(p.line, static_cast<std::uint32_t>(source_->lines().size()));
+  for (const auto& p : pushed_) stacked_.emplace_back(p.line, source_->last_line());
   ir::for_each_statement(routine_.body, [&](const ir::Statement& s) {
     const std::uint32_t line = s.line.span.line;
     const auto crosses = [&](std::uint32_t from, std::uint32_t to) {

@@ -1,4 +1,5 @@
 #include "frontends/sinumerik/program/frontend.h"
+#include "frontends/common/plain_words.h"
 
 #include <algorithm>
 #include <array>
@@ -464,6 +465,11 @@ class SinumerikFrontend final : public Frontend {
                    ReadStats* stats) const override {
     ReadStats unused;
     return FileReading(source, file, options, diagnostics, stats != nullptr ? *stats : unused).run();
+  }
+  [[nodiscard]] PlainWords plain_words() const override {
+    PlainWords words = usual_plain_words(4);
+    words.radius_word = true;
+    return words;
   }
   std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                        std::string_view file_name) const override {

@@ -1,0 +1,27 @@
+// Bytes of a file, from here to there.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace cnctrans::translator {
+
+class FilePart {
+ public:
+  FilePart() = default;
+  ~FilePart();
+  FilePart(const FilePart&) = delete;
+  FilePart& operator=(const FilePart&) = delete;
+
+  /// False: it can't be read.
+  bool open(const std::string& path);
+  /// The bytes, valid until the next call; fewer where the file ends or can't be read.
+  std::string_view read(std::uint64_t from, std::uint64_t to);
+
+ private:
+  int fd_ = -1;
+  std::string buffer_;
+};
+
+}  // namespace cnctrans::translator

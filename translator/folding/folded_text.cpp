@@ -1,0 +1,329 @@
+#include "translator/folding/folded_text.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "translator/folding/file_part.h"
+
+namespace cnctrans::translator {
+
+namespace {
+
+constexpr std::size_t window_size = 1U << 20U;
+/// Lines of a run before the first one may be left out, and samples of a shape in all.
+constexpr std::uint32_t run_head = 4, clear_samples = 2;
+
+constexpr bool is_arc(std::int8_t motion) {
+  return motion == 2 || motion == 3;
+}
+
+bool numbers_differ(const PlainLine& line) {
+  for (std::size_t i = 0; i < line.count(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (line.number(i).text == line.number(k).text) return false;
+    }
+  }
+  return true;
+}
+
+constexpr std::uint32_t bit(char letter) {
+  return 1U << static_cast<unsigned>(letter - 'A');
+}
+constexpr std::uint32_t centres = bit('I') | bit('J') | bit('K'), plane_axes = bit('X') | bit('Y');
+
+}  // namespace
+
+std::int64_t scaled(std::string_view number) {
+  std::int64_t value = 0, unit = place_scale;
+  bool minus = false, fraction = false;
+  for (const char c : number) {
+    if (c == '-') {
+      minus = true;
+    } else if (c == '.') {
+      fraction = true;
+    } else {
+      value = value * 10 + (c - '0');
+      if (fraction) unit /= 10;
+    }
+  }
+  return (minus ? -value : value) * unit;
+}
+
+void PlainPlace::follow(const PlainLine& line) {
+  for (std::size_t i = 0; i < line.count(); ++i) {
+    const PlainNumber& n = line.number(i);
+    if (n.letter < 'X' || n.letter > 'Z') continue;
+    const auto axis = static_cast<std::size_t>(n.letter - 'X');
+    at[axis] = scaled(n.text);
+    known[axis] = true;
+  }
+}
+
+std::int32_t ShapeIndex::find(const PlainLine& line, const std::vector<Shape>& shapes) const {
+  const std::string_view key = line.key();
+  for (std::int32_t at = first_[line.hash() % buckets]; at >= 0; at = next_[static_cast<std::size_t>(at)]) {
+    if (shapes[static_cast<std::size_t>(at)].key == key) return at;
+  }
+  return -1;
+}
+
+void ShapeIndex::add(std::uint32_t hash, std::uint32_t shape) {
+  next_.resize(shape + 1, -1);
+  std::int32_t& first = first_[hash % buckets];
+  next_[shape] = std::exchange(first, static_cast<std::int32_t>(shape));
+}
+
+/// One pass over the file.
+class TextFolder {
+ public:
+  TextFolder(const frontends::PlainWords& words, const FoldedText::Stays& stays, FoldedText& result)
+      : line_(words), stays_(stays), result_(result) {}
+
+  bool run(const std::string& path) {
+    LineWindowReader reader(window_size);
+    std::string error;
+    if (!reader.open(path, &error) || !again_.open(path)) return false;
+    SourceLine line;
+    for (std::string_view window = reader.next(); !window.empty(); window = reader.next()) {
+      window_ = window;
+      while (take_line(window, line)) {
+        const auto from = base_ + static_cast<std::uint64_t>(line.text.data() - window_.data());
+        const auto to = base_ + (window_.size() - window.size());
+        take({line.number, from, to}, line.text);
+      }
+      base_ += window_.size();
+      if (lost_ || (text_.size() > base_ / 2 && base_ > 4 * window_size)) return false;
+      window_ = {};
+    }
+    if (!reader.read_error().empty()) return false;
+    close_gap();
+    result_.last_line_ = line.number;
+    if (lost_ || result_.gaps_.empty()) return false;
+    result_.text_ = SourceText::from_lines(path, std::move(text_), std::move(numbers_), line.number);
+    return true;
+  }
+
+ private:
+  /// A line with its line end.
+  struct Raw {
+    std::uint32_t number = 0;
+    std::uint64_t from = 0, to = 0;
+  };
+  /// A line that is left out for now; where it needs them, with the lines that tell where it begins.
+  struct Last {
+    Raw raw, begin;
+    std::int8_t motion = motion_unknown;  ///< before `begin`
+  };
+
+  void take(const Raw& raw, std::string_view text) {
+    const std::int8_t before = motion_;
+    const auto kind = line_.scan(text, before);
+    if (kind == PlainLine::Kind::other) {
+      keep(raw);
+      if (in_run_) ++run_;
+      in_run_ = false;
+      motion_ = motion_unknown;
+      place_ = {};
+      known_ = 0;
+      anchor_ = {};
+      return;
+    }
+    if (!in_run_) run_begin_ = raw.number;
+    in_run_ = true;
+    motion_ = line_.motion_after();
+    if (kind == PlainLine::Kind::odd) {
+      keep(raw);
+      place_ = {};
+      known_ = 0;
+      anchor_ = {};
+      return;
+    }
+    if (!needs_start() && (line_.letters() & plane_axes) == plane_axes) anchor_ = {raw, before, line_.letters()};
+    Shape* const shape = shape_of();
+    const auto index = static_cast<std::uint32_t>(shape - result_.shapes_.data());
+    const bool first = shape->run != run_ + 1;
+    if (first) {
+      shape->run = run_ + 1;
+      shape->seen = 0;
+    }
+    ++shape->seen;
+    const bool whole = !stays_.runs.empty() && stays_.runs.contains(run_);
+    if (whole) {
+      keep(raw);
+      place_.follow(line_);
+    } else if (first || stays(*shape, raw.number - run_begin_)) {
+      if (!first) count_spellings(*shape);
+      keep(raw);  // before its own: the lines that the place before it comes from
+      result_.kept_.push_back({raw.number, run_, index, first, before, place_});
+      place_.follow(line_);
+    } else {
+      leave_out(raw, before);
+    }
+    known_ |= line_.letters();
+  }
+
+  /// Asked once for each line, in order.
+  bool stays(Shape& shape, std::uint32_t lines_before) {
+    if (lines_before < run_head || shape.clear < clear_samples) return true;
+    if (shape.seen == 2 && !stays_.more.empty() && stays_.more.contains(run_)) return true;
+    if (needs_start() && !knows_start()) return true;
+    for (std::size_t i = 0; i < line_.count(); ++i) {
+      const PlainNumber& n = line_.number(i);
+      if (shape.spellings[i][n.form] <= n.places) return true;
+      if (n.letter == 'N' && !stays_.numbers.empty() &&
+          stays_.numbers.contains(static_cast<std::uint64_t>(scaled(n.text) / place_scale)))
+        return true;
+    }
+    return false;
+  }
+
+  /// An arc by its centre: what it means, or how it is written, may go by where it begins.
+  [[nodiscard]] bool needs_start() const { return is_arc(motion_) && (line_.letters() & centres) != 0; }
+
+  [[nodiscard]] bool knows_start() const {
+    const bool third = (line_.letters() & bit('K')) != 0;
+    return anchor_.raw.number != 0 && (!third || (anchor_.letters & bit('Z')) != 0);
+  }
+
+  void count_spellings(Shape& shape) {
+    for (std::size_t i = 0; i < line_.count(); ++i) {
+      const PlainNumber& n = line_.number(i);
+      std::uint8_t& most = shape.spellings[i][n.form];
+      most = std::max(most, static_cast<std::uint8_t>(n.places + 1));
+    }
+    if (numbers_differ(line_)) ++shape.clear;
+  }
+
+  Shape* shape_of() {
+    const std::int32_t found = index_.find(line_, result_.shapes_);
+    if (found >= 0) return &result_.shapes_[static_cast<std::size_t>(found)];
+    index_.add(line_, static_cast<std::uint32_t>(result_.shapes_.size()));
+    Shape& shape = result_.shapes_.emplace_back();
+    shape.key = line_.key();
+    shape.spellings.resize(line_.count());
+    return &shape;
+  }
+
+  void leave_out(const Raw& raw, std::int8_t before) {
+    if (!open_) {
+      open_ = true;
+      gap_ = {raw.number, 0, run_, raw.from, 0, before, place_};
+      used_ = 0;
+    }
+    gap_.last = raw.number;
+    gap_.to = raw.to;
+    const Last now = needs_start() ? Last{raw, anchor_.raw, anchor_.motion} : Last{raw, raw, before};
+    const std::uint32_t letters = line_.letters() | bit('N');
+    for (std::uint32_t left = letters; left != 0; left &= left - 1)
+      last_[static_cast<std::size_t>(std::countr_zero(left))] = now;
+    used_ |= letters;
+  }
+
+  void keep(const Raw& raw) {
+    close_gap();
+    text_ += bytes(raw.from, raw.to);
+    numbers_.push_back(raw.number);
+  }
+
+  std::string_view bytes(std::uint64_t from, std::uint64_t to) {
+    if (from >= base_ && to <= base_ + window_.size()) return window_.substr(from - base_, to - from);
+    std::string_view read = again_.read(from, to);
+    lost_ = lost_ || read.size() != to - from;
+    return read;
+  }
+
+  /// Of the lines left out, the last one with each letter stays, and those that tell where it begins: the state behind
+  /// them, and behind each of them, is that of the file.
+  void close_gap() {
+    if (!open_) return;
+    open_ = false;
+    std::vector<Last> lines;
+    for (std::uint32_t left = used_; left != 0; left &= left - 1) {
+      Last last = last_[static_cast<std::size_t>(std::countr_zero(left))];
+      if (last.begin.number < gap_.first) {  // from the lines before the gap on
+        last.begin = {gap_.first, gap_.from, 0};
+        last.motion = gap_.motion;
+      }
+      lines.push_back(last);
+    }
+    std::sort(lines.begin(), lines.end(), [](const Last& a, const Last& b) { return a.begin.number < b.begin.number; });
+    Gap rest = gap_;
+    const std::size_t gaps_before = result_.gaps_.size();
+    PlainLine line = line_;
+    for (const Last& l : lines) {
+      if (l.raw.number < rest.first) continue;  // stays already
+      if (l.begin.number > rest.first) {
+        add_gap(rest, l.begin.number - 1, l.begin.from);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if ((used_ & bit(static_cast<char>('X' + axis))) != 0) place_.known[axis] = false;
+        }
+        rest = {l.begin.number, 0, run_, l.begin.from, 0, l.motion, {}, true};
+      }
+      keep_part(rest, l.raw, line);
+      rest.goes_on = result_.gaps_.size() != gaps_before;
+    }
+  }
+
+  /// The lines from the rest's first one to this one stay.
+  void keep_part(Gap& rest, const Raw& last, PlainLine& line) {
+    std::string_view text = bytes(rest.from, last.to);
+    text_ += text;
+    SourceLine l;
+    l.number = rest.first - 1;
+    std::int8_t motion = rest.motion;
+    while (take_line(text, l)) {
+      numbers_.push_back(l.number);
+      if (line.scan(l.text, motion) != PlainLine::Kind::plain) lost_ = true;
+      const std::int32_t shape = index_.find(line, result_.shapes_);
+      lost_ = lost_ || shape < 0;
+      result_.kept_.push_back({l.number, run_, static_cast<std::uint32_t>(shape), false, motion, place_});
+      place_.follow(line);
+      motion = line.motion_after();
+    }
+    rest = {last.number + 1, 0, run_, last.to, 0, motion, place_, true};
+  }
+  void add_gap(Gap gap, std::uint32_t last, std::uint64_t to) {
+    if (last < gap.first) return;
+    gap.last = last;
+    gap.to = to;
+    result_.left_out_ += last - gap.first + 1;
+    result_.gaps_.push_back(gap);
+  }
+
+  PlainLine line_;
+  const FoldedText::Stays& stays_;
+  FoldedText& result_;
+  ShapeIndex index_;
+  std::string text_;
+  std::vector<std::uint32_t> numbers_;
+  std::uint32_t run_ = 0, run_begin_ = 0;
+  bool in_run_ = false;
+  std::int8_t motion_ = motion_unknown;
+  PlainPlace place_;         ///< behind the last line that stays
+  std::uint32_t known_ = 0;  ///< letters that the run has said
+  bool open_ = false;        ///< lines are being left out
+  Gap gap_;
+  std::array<Last, 26> last_{};
+  std::uint32_t used_ = 0;  ///< letters with a line in last_
+  struct Anchor {
+    Raw raw;
+    std::int8_t motion = motion_unknown;  ///< before it
+    std::uint32_t letters = 0;
+  };
+  Anchor anchor_;  ///< the last line that says by itself where it ends in the plane
+  std::string_view window_;
+  std::uint64_t base_ = 0;  ///< of the window
+  FilePart again_;
+  bool lost_ = false;  ///< the file is not what it was
+};
+
+std::optional<FoldedText> FoldedText::of(const std::string& path, const frontends::PlainWords& words,
+                                         const Stays& stays) {
+  FoldedText result;
+  result.numbers_ = stays.numbers;
+  if (!TextFolder(words, stays, result).run(path)) return std::nullopt;
+  return result;
+}
+
+}  // namespace cnctrans::translator

@@ -1,0 +1,101 @@
+// A long text without the plain lines that have their like among the lines that stay.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/source.h"
+#include "translator/folding/plain_line.h"
+
+namespace cnctrans::translator {
+
+/// Ten thousandths: the last number of X, Y and Z in this run of plain lines.
+struct PlainPlace {
+  std::array<std::int64_t, 3> at{};
+  std::array<bool, 3> known{};
+  /// After the plain line.
+  void follow(const PlainLine& line);
+};
+inline constexpr std::int64_t place_scale = 10000;
+/// A plain number in ten thousandths.
+std::int64_t scaled(std::string_view number);
+
+/// Lines that were left out, one behind the other; the lines before and behind them are there.
+struct Gap {
+  std::uint32_t first = 0, last = 0;  ///< line numbers
+  std::uint32_t run = 0;
+  std::uint64_t from = 0, to = 0;  ///< bytes of the file
+  std::int8_t motion = motion_unknown;
+  PlainPlace place;      ///< before the first
+  bool goes_on = false;  ///< of the gap before it: nothing but lines of the same kind that stay stand between them
+};
+
+/// Lines that are alike.
+struct Shape {
+  std::string key;
+  std::uint32_t run = 0;  ///< the one that seen counts in
+  std::uint32_t seen = 0;
+  std::uint32_t clear = 0;  ///< lines that stay, not the first of their run, with numbers that all differ
+  /// For each number: the spellings that stay, with their most digits behind the point + 1.
+  std::vector<std::array<std::uint8_t, number_forms>> spellings;
+};
+
+/// A plain line that stayed.
+struct KeptLine {
+  std::uint32_t line = 0, run = 0, shape = 0;
+  bool first = false;  ///< of its shape in its run
+  std::int8_t motion = motion_unknown;
+  PlainPlace place;  ///< before it
+};
+
+class FoldedText {
+ public:
+  /// Lines that must stay besides.
+  struct Stays {
+    std::set<std::uint64_t> numbers;  ///< by their block number
+    std::set<std::uint32_t> runs;     ///< all lines of these runs
+    std::set<std::uint32_t> more;     ///< runs whose first lines of a shape are special: the second stays as well
+  };
+  /// nullopt: the file can't be read, or too little can be left out to be worth it.
+  static std::optional<FoldedText> of(const std::string& path, const frontends::PlainWords& words, const Stays& stays);
+
+  [[nodiscard]] const SourcePtr& text() const { return text_; }
+  [[nodiscard]] const std::vector<Gap>& gaps() const { return gaps_; }
+  [[nodiscard]] const std::vector<KeptLine>& kept() const { return kept_; }
+  [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }
+  [[nodiscard]] std::uint64_t lines_left_out() const { return left_out_; }
+  [[nodiscard]] std::uint32_t last_line() const { return last_line_; }
+  /// Blocks that stay because of their number.
+  [[nodiscard]] const std::set<std::uint64_t>& numbers() const { return numbers_; }
+
+ private:
+  friend class TextFolder;
+  SourcePtr text_;
+  std::vector<Gap> gaps_;
+  std::vector<KeptLine> kept_;
+  std::vector<Shape> shapes_;
+  std::set<std::uint64_t> numbers_;
+  std::uint64_t left_out_ = 0;
+  std::uint32_t last_line_ = 0;
+};
+
+/// Finds the shape of a line by its key. -1: it is new.
+class ShapeIndex {
+ public:
+  [[nodiscard]] std::int32_t find(const PlainLine& line, const std::vector<Shape>& shapes) const;
+  void add(const PlainLine& line, std::uint32_t shape) { add(line.hash(), shape); }
+  void add_key(std::string_view key, std::uint32_t shape) { add(PlainLine::hash_of(key), shape); }
+
+ private:
+  void add(std::uint32_t hash, std::uint32_t shape);
+  static constexpr std::size_t buckets = 4096;
+  std::vector<std::int32_t> first_ = std::vector<std::int32_t>(buckets, -1);
+  std::vector<std::int32_t> next_;
+};
+
+}  // namespace cnctrans::translator

@@ -1,0 +1,124 @@
+#include <algorithm>
+
+#include "base/short_copy.h"
+#include "translator/folding/unfolding.h"
+
+namespace cnctrans::translator {
+
+namespace {
+
+/// Codes, not measures: their numbers are part of the fixed text.
+constexpr bool is_code(char letter) {
+  return std::string_view("GMTDSH%").find(letter) != std::string_view::npos;
+}
+
+/// The shortest way to write so many ten thousandths.
+std::string shortest(std::int64_t value) {
+  const bool minus = value < 0;
+  std::string digits = std::to_string(minus ? -value : value);
+  if (digits.size() < 5) digits.insert(0, 5 - digits.size(), '0');
+  digits.insert(digits.size() - 4, 1, '.');
+  while (digits.back() == '0') digits.pop_back();
+  if (digits.back() == '.') digits.pop_back();
+  return minus ? '-' + digits : digits;
+}
+
+}  // namespace
+
+std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const PlainPlace& before, char letter,
+                                              std::string_view token) {
+  Piece piece;
+  std::string_view bare = token;
+  if (!bare.empty() && bare.front() == '+') {
+    piece.plus = true;
+    bare.remove_prefix(1);
+  }
+  for (std::size_t i = 0; i < line.count(); ++i) {
+    piece.number = i;
+    if (line.number(i).letter == letter && line.number(i).text == bare) return piece;
+  }
+  for (std::size_t i = 0; i < line.count(); ++i) {  // a centre as a place
+    const PlainNumber& n = line.number(i);
+    if (n.letter != letter || letter < 'I' || letter > 'K') continue;
+    const auto axis = static_cast<std::size_t>(letter - 'I');
+    if (!before.known[axis] || shortest(scaled(n.text) + before.at[axis]) != bare) continue;
+    piece.number = i;
+    piece.axis = static_cast<std::int8_t>(axis);
+    return piece;
+  }
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < line.count(); ++i) {
+    if (line.number(i).text != bare) continue;
+    ++alike;
+    piece.number = i;
+  }
+  if (alike == 1) return piece;
+  return std::nullopt;
+}
+
+std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& before, std::string_view written) {
+  LineForm form;
+  std::vector<bool> used(line.count());
+  std::string fixed;
+  for (std::size_t at = 0; at < written.size();) {
+    const char c = written[at];
+    const bool begins =
+        is_digit(c) || c == '.' ||
+        ((c == '-' || c == '+') && at + 1 < written.size() && (is_digit(written[at + 1]) || written[at + 1] == '.'));
+    if (!begins) {
+      fixed += c;
+      ++at;
+      continue;
+    }
+    std::size_t end = at + 1;
+    while (end < written.size() && (is_digit(written[end]) || written[end] == '.')) ++end;
+    const std::string_view token = written.substr(at, end - at);
+    char letter = at > 0 ? written[at - 1] : 'N';
+    if (letter == '(') {  // I=AC(5)
+      const auto equals = written.rfind('=', at);
+      if (equals != std::string_view::npos && equals > 0) letter = written[equals - 1];
+    }
+    if (letter == '=') letter = at > 1 ? written[at - 2] : 'R';
+    at = end;
+    if (is_code(letter)) {
+      fixed += token;
+      continue;
+    }
+    auto piece = find(line, before, letter, token);
+    if (!piece) return std::nullopt;
+    piece->before = std::move(fixed);
+    fixed.clear();
+    used[piece->number] = true;
+    form.fixed_size_ += piece->before.size();
+    form.uses_place_ = form.uses_place_ || piece->axis >= 0;
+    form.pieces_.push_back(*std::move(piece));
+  }
+  for (std::size_t i = 0; i < line.count(); ++i) {
+    if (!used[i] && line.number(i).letter != 'N') return std::nullopt;
+  }
+  form.after_ = std::move(fixed);
+  form.fixed_size_ += form.after_.size();
+  return form;
+}
+
+void LineForm::write(const PlainLine& line, const PlainPlace& before, std::string& out) const {
+  const std::size_t old = out.size();
+  std::size_t size = fixed_size_;
+  for (const Piece& p : pieces_) size += line.number(p.number).text.size() + 12;
+  out.resize(old + size);
+  char* to = out.data() + old;
+  for (const Piece& p : pieces_) {
+    to = copy_short(to, p.before);
+    const std::string_view number = line.number(p.number).text;
+    if (p.axis >= 0) {
+      to = copy_short(to, shortest(scaled(number) + before.at[static_cast<std::size_t>(p.axis)]));
+      continue;
+    }
+    if (p.plus && number.front() != '-') *to++ = '+';
+    to = copy_short(to, number);
+  }
+  to = copy_short(to, after_);
+  out.resize(static_cast<std::size_t>(to - out.data()));
+}
+
+}  // namespace cnctrans::translator

@@ -1,0 +1,54 @@
+#include <filesystem>
+
+#include "machine/profile.h"
+#include "translator/files/loader.h"
+#include "translator/files/registry.h"
+#include "translator/folding/unfolding.h"
+
+namespace cnctrans::translator {
+
+namespace {
+
+constexpr int most_tries = 4;
+
+bool may_fold(const std::string& path, const TranslateOptions& options, std::uintmax_t least_size) {
+  std::error_code ignored;
+  return can_reopen(path) && std::filesystem::file_size(path, ignored) >= least_size && !ignored &&
+         options.reader == frontends::Reader::scanner && !options.annotate && !options.keep_traces && !options.draft &&
+         options.numbering != backends::Numbering::renumber && options.eol != Eol::cr;
+}
+
+}  // namespace
+
+std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, const TranslateOptions& options,
+                                                    std::uintmax_t least_size) {
+  const Dialect* from = find_dialect(options.from);
+  if (from == nullptr || from->frontend == nullptr || !may_fold(path, options, least_size)) return nullptr;
+  frontends::PlainWords words = from->frontend->plain_words();
+  const Dialect* to = find_dialect(options.to);
+  if (to != nullptr && to->frontend != nullptr)
+    words.other_blocks = to->frontend->plain_words().numbers['N' - 'A'].most;
+  FoldedText::Stays stays;
+  for (int tries = 0; tries < most_tries; ++tries) {
+    auto text = FoldedText::of(path, words, stays);
+    if (!text) return nullptr;
+    auto done = std::make_unique<FoldedTranslation>();
+    done->text = *std::move(text);
+    TranslateOptions with = options;
+    with.folded = &done->text;
+    done->result = translate(Input(path, done->text.text()), with);
+    TranslateResult& result = done->result;
+    if (result.unfit) {
+      if (result.unfit->whole) return nullptr;
+      stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
+      continue;
+    }
+    done->unfolding = std::make_unique<Unfolding>(path, words, done->text);
+    if (result.refused || !result.error.empty()) return done;
+    constexpr FileId main_file = 1;
+    if (done->unfolding->learn(result.outputs, main_file, stays)) return done;
+  }
+  return nullptr;
+}
+
+}  // namespace cnctrans::translator

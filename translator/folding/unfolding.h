@@ -1,0 +1,96 @@
+// The translation of a folded text, unfolded: what the writer made of the lines that stayed tells how the others are
+// written.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "translator/folding/folded_text.h"
+#include "translator/pipeline.h"
+
+namespace cnctrans::translator {
+
+/// Where text goes, piece by piece. False: stop (it can't be written).
+using TextSink = std::function<bool(std::string_view)>;
+
+/// How the lines of one shape are written: fixed text with numbers between.
+class LineForm {
+ public:
+  /// From a line and what was written for it. nullopt: its numbers do not explain it.
+  static std::optional<LineForm> of(const PlainLine& line, const PlainPlace& before, std::string_view written);
+  /// Appends the line. `before`: where it begins, for centres that are written as places.
+  void write(const PlainLine& line, const PlainPlace& before, std::string& out) const;
+  [[nodiscard]] bool uses_place() const { return uses_place_; }
+
+ private:
+  struct Piece {
+    std::string before;      ///< fixed text
+    std::size_t number = 0;  ///< which number of the line
+    bool plus = false;       ///< a number without a minus gets a plus
+    std::int8_t axis = -1;   ///< the place of this axis is added
+  };
+  static std::optional<Piece> find(const PlainLine& line, const PlainPlace& before, char letter,
+                                   std::string_view token);
+  std::vector<Piece> pieces_;
+  std::string after_;
+  std::size_t fixed_size_ = 0;
+  bool uses_place_ = false;
+};
+
+class Unfolding {
+ public:
+  Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded);
+
+  /// Holds every line that stayed against what was written for it, in all outputs. False: `stays` says which lines
+  /// have to stay besides; when it is as before, no folding helps.
+  bool learn(const std::vector<OutputText>& outputs, FileId file, FoldedText::Stays& stays);
+  /// Lines were left out of this output.
+  [[nodiscard]] bool folded(std::size_t output) const { return !places_[output].empty(); }
+  /// The output with all its lines. False: the sink, or the file is not what it was.
+  bool write(std::size_t output, std::string_view bytes, const TextSink& sink) const;
+
+ private:
+  /// Behind this byte of an output the lines of a gap belong.
+  struct Place {
+    std::size_t at = 0;
+    std::size_t gap = 0;
+  };
+
+  std::string path_;
+  frontends::PlainWords words_;
+  const FoldedText& folded_;
+  PlainLine line_;
+  /// A line that stayed, and what was written for it.
+  struct Sample {
+    std::string text, written;
+    std::int8_t motion = motion_unknown;
+    PlainPlace place;
+  };
+  struct Form {
+    std::optional<LineForm> form;
+    std::vector<Sample> samples;
+  };
+  [[nodiscard]] bool explains(const LineForm& form, const Sample& sample);
+  [[nodiscard]] bool take(Form& form, Sample sample);
+  std::vector<Form> forms_;  ///< by shape
+  ShapeIndex index_;
+  std::vector<std::vector<Place>> places_;  ///< by output
+};
+
+/// What translating a file by its folded text came to.
+struct FoldedTranslation {
+  TranslateResult result;  ///< its outputs are folded
+  FoldedText text;
+  std::unique_ptr<Unfolding> unfolding;
+};
+/// A smaller file is read as it is.
+inline constexpr std::uintmax_t least_folded = 64 * 1024;
+/// nullptr: the file is not one to be folded, or it takes the whole text.
+std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, const TranslateOptions& options,
+                                                    std::uintmax_t least_size = least_folded);
+
+}  // namespace cnctrans::translator
