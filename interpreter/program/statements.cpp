@@ -128,6 +128,7 @@ bool Runner::for_test(const ir::For& f) {
   if (!evaluator_.place(f.counter, flow_->names, p)) return false;
   const double to = evaluator_.number_of(f.to);
   const double step = f.step ? evaluator_.number_of(f.step) : 1;
+  variables_.note_read(p);  // a jump may have gone round the start of the loop
   const double x = Variables::number(p);
   return step >= 0 ? x <= to : x >= to;
 }
@@ -136,6 +137,7 @@ void Runner::for_step(const ir::For& f) {
   Place p;
   if (!evaluator_.place(f.counter, flow_->names, p)) return;
   const double step = f.step ? evaluator_.number_of(f.step) : 1;
+  variables_.note_read(p);
   Variables::assign(p, Variables::number(p) + step);
 }
 

@@ -29,12 +29,19 @@ class JumpedEnds {
   void run() {
     for_each_statement(routine_.body, [this](Statement& s) {
       auto* r = std::get_if<Repeat>(&s.node);
-      if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty() ||
-          r->search == Search::whole_first || labels_.all(r->last.text, r->last.is_number).size() < 2)
-        return;
+      if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty()) return;
       const auto range = labels_.range(*r, labels_.order(s.id));
       if (!range) return;
-      const auto ends = ends_of(*r, range->first);
+      bool round = false;
+      const auto ends = ends_of(*r, range->first, s.id, round);
+      if (round && inside_.at(range->first.statement) != inside_.at(range->second.statement)) {
+        refuse(s, program_, editor_.context, "TRN-524",
+               "the repeated part ends inside of a branch that is not always carried out: on the other way it does not "
+               "end there",
+               "put the end of the part behind the branch");
+        return;
+      }
+      if (r->search == Search::whole_first || labels_.all(r->last.text, r->last.is_number).size() < 2) return;
       if (ends.size() == 1 && *ends.begin() != range->second.statement) r->last = name_of(*ends.begin());
       if (ends.size() < 2) return;
       refuse(s, program_, editor_.context, "TRN-524",
@@ -44,8 +51,9 @@ class JumpedEnds {
   }
 
  private:
-  /// The marks at which the part may end, ids.
-  std::set<std::uint32_t> ends_of(const Repeat& r, const LabelSite& first) const {
+  /// The marks at which the part may end, ids. `round`: control may also come to the repetition without any of them.
+  std::set<std::uint32_t> ends_of(const Repeat& r, const LabelSite& first, std::uint32_t repetition,
+                                  bool& round) const {
     std::set<std::uint32_t> marks, ends, seen;
     for (const auto& site : labels_.all(r.last.text, r.last.is_number)) {
       if (site.order >= first.order) marks.insert(site.statement);
@@ -56,6 +64,7 @@ class JumpedEnds {
       open.pop_back();
       if (id == 0 || id >= flow_.statements.size() || flow_.statements[id] == nullptr || !seen.insert(id).second)
         continue;
+      round = round || id == repetition;
       if (marks.count(id) != 0) {
         ends.insert(id);
       } else if (std::holds_alternative<Repeat>(flow_.statements[id]->node)) {  // another part has an end of its own
@@ -68,6 +77,7 @@ class JumpedEnds {
   }
   void behind(const Body& body, std::uint32_t after) {
     for (std::size_t i = 0; i < body.size(); ++i) {
+      inside_[body[i].id] = &body;
       const std::uint32_t next = i + 1 < body.size() ? body[i + 1].id : after;
       behind_[body[i].id] = next;
       for (const Body* inner : detail::bodies_of(body[i])) {
@@ -96,6 +106,7 @@ class JumpedEnds {
   ControlFlow flow_;
   Editor editor_;
   std::map<std::uint32_t, std::uint32_t> behind_;  ///< what comes next in the text, by id
+  std::map<std::uint32_t, const Body*> inside_;
 };
 
 bool has_repeats(const Routine& r) {

@@ -114,6 +114,8 @@ class CyclePass {
   [[nodiscard]] bool gives_back(bool reachable) const;  ///< a subprogram, a modal call that it leaves in force
   void leave_while_off(const Statement& s) const;
   void leave_off() const;  ///< an end of the routine, perhaps with a cycle in force that the target has not
+  /// F, S or a motion code alone under a cycle by call of another program part: it runs there in the source alone.
+  [[nodiscard]] bool path_word_under_call(const Block& b, const Facts& facts) const;
   /// The block is a point of whichever hole cycle may be in force: its moves are not along the tool alone.
   [[nodiscard]] bool may_be_point(const Block& b, const Facts& facts) const;
   /// A block or a call under a cycle that another routine defines, perhaps.
@@ -333,6 +335,11 @@ class CyclePass {
       return;
     }
     if (!cancelled) note_foreign(s, facts_.before(s));
+    if (!cancelled && !active_ && path_word_under_call(b, facts_.before(s))) {
+      refuse_other_ways(s);
+      out.push_back(std::move(s));
+      return;
+    }
     if (active_) {
       point(std::move(s), std::move(pieces), out);
       return;
@@ -472,12 +479,12 @@ class CyclePass {
   std::set<std::pair<bool, std::string>> under_cycle_;  ///< labels before which the target has its own cycle in force
   bool surely_active_ = false;                          ///< a copy for one cycle that does not touch it
   bool written_out_ = false;
-  bool lacking_ = false;                 ///< the target lacks a cycle that later points run
-  std::set<std::uint32_t> definitions_;  ///< statements of this routine
-  bool has_modal_calls_ = false;         ///< of cycles
-  bool plane_words_ = false;             ///< the program has G98 or G99
-  bool enters_unsure_ = false;           ///< the callers do not agree on a cycle
-  std::vector<Span> unsure_;             ///< points of a cycle by call that depend on the way
+  bool lacking_ = false;                                   ///< the target lacks a cycle that later points run
+  std::set<std::uint32_t> definitions_;                    ///< statements of this routine
+  bool has_modal_calls_ = false, calls_anywhere_ = false;  ///< of cycles; in the program
+  bool plane_words_ = false;                               ///< the program has G98 or G99
+  bool enters_unsure_ = false;                             ///< the callers do not agree on a cycle
+  std::vector<Span> unsure_;                               ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
   std::vector<Action> then_;   ///< made by the pass: in a block of its own behind the hole

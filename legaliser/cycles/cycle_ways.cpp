@@ -27,6 +27,8 @@ void CyclePass::look_for_definitions() {
     for_each_statement(r.body, [this](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       plane_words_ = plane_words_ || (b != nullptr && sets_retract_plane(*b));
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      calls_anywhere_ = calls_anywhere_ || (m != nullptr && m->cycle);
     });
   }
   enters_unsure_ = first != nullptr && facts_.before(*first).cycle_from == Facts::several_cycles;
@@ -243,6 +245,12 @@ void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& c
                                 "point of it: the target's modal cycle runs here",
                                 "cancel the cycle before the call");
   }
+}
+
+bool CyclePass::path_word_under_call(const Block& b, const Facts& facts) const {
+  const bool moves = b.has_motion && b.motion.moves();
+  return !by_call_ && calls_anywhere_ && !surely_active_ && !moves && disturbs_call(b) && facts.reachable &&
+         facts.cycle_from != 0 && definitions_.count(facts.cycle_from) == 0;
 }
 
 bool CyclePass::may_be_point(const Block& b, const Facts& facts) const {

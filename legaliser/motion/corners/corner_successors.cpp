@@ -110,7 +110,10 @@ std::map<std::uint32_t, CornerEnds> corner_ends(const Program& program, const Le
       const bool ends = end != nullptr && (!end->returns_from_sub || r.kind == RoutineKind::main);
       if (step == Going::apart || ends) alone(*waiting, s.line.span);
       if (step != Going::along && step != Going::perhaps && !std::holds_alternative<Opaque>(s.node)) return;
-      for (const auto id : *waiting) all[id].followed = true;
+      for (const auto id : *waiting) {
+        all[id].followed = true;
+        all[id].behind.push_back(s.line.span);
+      }
     });
     const auto* left = states.behind(i);
     if (left == nullptr || r.body.empty()) continue;

@@ -18,8 +18,9 @@ enum class Going : std::uint8_t {
 Going going_of(const Statement& s, const LegaliseContext& context, const FactsOf& facts, const PathPoints& points);
 
 struct CornerEnds {
-  bool followed = false;    ///< on some way a move in the plane, or something that may make one
-  std::vector<Span> alone;  ///< where another move or the end of the program comes first
+  std::vector<Span> behind;  ///< moves that may be the second element
+  bool followed = false;     ///< on some way a move in the plane, or something that may make one
+  std::vector<Span> alone;   ///< where another move or the end of the program comes first
 };
 
 /// By the id of the block that has the corner.

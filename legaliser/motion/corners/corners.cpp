@@ -179,6 +179,10 @@ class CornerPass {
         return take_out(s, action);
       }
       if (!angle) tell_unknown(s, pos, following(body, at));
+      const auto ends = angle ? ends_.end() : ends_.find(s.id);
+      if (ends != ends_.end() && following(body, at) == nullptr) {  // a caller, or the way behind a jump, goes on
+        for (const auto& where : ends->second.behind) tell_unknown_at(where);
+      }
     }
     if (!c.value.literal()) tell_zero(s, pos);
     if (c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0) {
@@ -214,6 +218,10 @@ class CornerPass {
       where.end_line = next->line.span.line;
       where.end_column = next->line.span.end_column;
     }
+    tell_unknown_at(where);
+  }
+  void tell_unknown_at(const Span& where) {
+    if (context_.target_machine.option("corner.straight_on") != "refused") return;
     context_.diagnostics.warning("TRN-651", where,
                                  "the directions before and behind this corner are not known here: where the path goes "
                                  "on tangentially, the source's control leaves the corner out and the target stops",
