@@ -166,6 +166,20 @@ CLI::App* add_survey(CLI::App& app, Arguments& a) {
   return sub;
 }
 
+CLI::App* add_project(CLI::App& app, Arguments& a) {
+  CLI::App* sub = app.add_subcommand("project", "an archive as one job: what cnctrans.json in its folder says");
+  sub->add_option("folder", a.inputs, "folder with cnctrans.json")->required()->type_name("DIR")->expected(1);
+  sub->add_flag("--status", a.status, "say what state each program is in; translate nothing");
+  sub->add_flag("--again", a.again, "do again what an earlier run has done");
+  sub->add_option("--jobs", a.jobs, "programs side by side")->check(CLI::Range(1, 1024));
+  sub->add_option("--timeout", a.timeout, "seconds for one program")->check(CLI::Range(1, 86400));
+  sub->add_flag("-q,--quiet", a.quiet, "no summary lines");
+  sub->footer(
+      "Example:\n  cnctrans project plant/ --jobs 4\n"
+      "Exit status: 0 all translated, 1 some were not, 2 wrong usage, 3 some differ.");
+  return sub;
+}
+
 CLI::App* add_names(CLI::App& app, Arguments& a) {
   CLI::App* sub =
       app.add_subcommand("names", "the file of names with all that a folder of programs needs and nobody has");
@@ -247,6 +261,7 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
   lsp->footer("Example:\n  cnctrans lsp --grammar fagor > fagor.tmLanguage.json\nEditors start it: docs/editors.md.");
   CLI::App* survey = add_survey(app, a);
   CLI::App* names = add_names(app, a);
+  CLI::App* project = add_project(app, a);
   CLI::App* man = app.add_subcommand("man", "print the manual page");
   man->footer("Example:\n  cnctrans man | man -l -");
   CLI::App* completion = app.add_subcommand("completion", "print a shell completion script");
@@ -263,6 +278,7 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
           {lsp, language_server},
           {survey, cli::survey},
           {names, cli::names},
+          {project, cli::project},
           {man, nullptr},
           {completion, nullptr},
           {convert, cli::convert, Programs::from}};

@@ -60,6 +60,7 @@ struct Arguments {
   std::string shard;                                   ///< batch: "K/N"
   bool again = false, collect = false;
   unsigned survey_jobs = 0;      ///< survey, names: processes side by side; 0: one a core
+  bool status = false;           ///< project: look, translate nothing
   std::string stub;              ///< names: folder of the programs
   Messages* messages = nullptr;  ///< stderr of the call; set by main()
 };
@@ -75,6 +76,7 @@ int explain(const Arguments& a);
 int profile(const Arguments& a);
 int language_server(const Arguments& a);
 int survey(const Arguments& a);
+int project(const Arguments& a);
 int names(const Arguments& a);
 
 }  // namespace cnctrans::cli

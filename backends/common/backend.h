@@ -47,6 +47,7 @@ struct WriteOptions {
   /// Capitals: names of files and programs that other translations of the same job have already. The main program gets
   /// another one, with a note.
   std::set<std::string> taken;
+  std::set<std::string> mains;  ///< capitals: files of other main programs, by the map of names; no called file is so
   [[nodiscard]] bool is_taken(std::string_view name) const { return taken.count(to_upper_ascii(name)) != 0; }
 };
 

@@ -95,7 +95,8 @@ void Writer::write_called(const FileGroup& group, const std::string& main_file) 
   const ir::Routine& first = program().routines[group.routines.front()];
   const Span at = first.header.span.known() || first.body.empty() ? first.header.span : first.body.front().line.span;
   std::string name = called_file_name(first, same_dialect() ? group.stem : std::string{}, lathe_);
-  if (name == main_file) name = called_file_name(first, "1" + name.substr(1, name.find('.') - 1), lathe_);
+  if (name == main_file || options().mains.contains(name))
+    name = called_file_name(first, "1" + name.substr(1, name.find('.') - 1), lathe_);
   open_file(name, false);
   const std::string raw(trim(source_line({at.file, 1, 1, 1, 1})));
   if (!same_dialect()) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "base/sum.h"
@@ -57,7 +58,10 @@ std::string job_sum(const BatchOptions& o) {
                                  t.raise_structure, t.encoding ? static_cast<int>(*t.encoding) : -1,
                                  t.eol ? static_cast<int>(*t.eol) : -1, t.run.max_events);
   for (const auto& l : t.libraries) text += "|" + l;
-  if (t.names != nullptr) text += "|" + names_text(*t.names, t.from, t.to);
+  if (!o.names_key.empty())
+    text += "|" + o.names_key;
+  else if (t.names != nullptr)
+    text += "|" + names_text(*t.names, t.from, t.to);
   if (!t.tools.empty()) text += "|tools " + t.tools;
   if (!t.origin) text += "|no origin";
   text += fmt::format("|proof {} {} {} {} {}", t.verify, t.strict, t.further.skips, t.further.explore,
@@ -123,11 +127,23 @@ class Batch {
     if (result.error.empty()) result.error = folder_.fault();
     if (!result.error.empty()) return result;
     readable_ = readable(*to);
-    const auto all = programs_below(options_.in, folder_, *from);
+    const auto all = programs(*from);
     result.all = all.size();
     if (!options_.collect_only) work(all, result, progress);
     collect(all, result);
     return result;
+  }
+
+  /// Those that this job is about.
+  std::vector<std::string> programs(const Dialect& from) {
+    auto all = programs_below(options_.in, folder_, from);
+    if (options_.only.empty()) return all;
+    const std::set<std::string> wanted(options_.only.begin(), options_.only.end());
+    std::erase_if(all, [&wanted](const std::string& p) { return !wanted.contains(p); });
+    return all;
+  }
+  [[nodiscard]] bool open(const std::string& program) const {
+    return folder_.left_alone(program).empty() && (options_.again || !done(program));
   }
 
  private:
@@ -293,6 +309,19 @@ class Batch {
 };
 
 }  // namespace
+
+std::vector<std::string> batch_programs(const BatchOptions& options) {
+  std::string ignored;
+  const Dialect* from = find_readable(options.translate.from, &ignored);
+  return from != nullptr ? Batch(options).programs(*from) : std::vector<std::string>();
+}
+
+std::vector<std::string> batch_open(const BatchOptions& options) {
+  std::vector<std::string> list = batch_programs(options);
+  const Batch job(options);
+  std::erase_if(list, [&job](const std::string& p) { return !job.open(p); });
+  return list;
+}
 
 BatchResult batch(const BatchOptions& options, const std::function<void(const BatchProgress&)>& progress) {
   return Batch(options).run(progress);

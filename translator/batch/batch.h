@@ -20,7 +20,11 @@ struct BatchOptions {
   unsigned timeout = 300;          ///< seconds for one program
   bool again = false;              ///< results that are there already are not taken over
   bool force = false;              ///< outputs that were changed by hand are replaced
-  bool collect_only = false;       ///< nothing is translated; the summary of what is there is written
+  std::vector<std::string> only;   ///< these programs below `in`; empty: all
+  /// Stands for the map of names in what a result depends on: a name that is added does not make the others old. Empty:
+  /// the names themselves.
+  std::string names_key;
+  bool collect_only = false;  ///< nothing is translated; the summary of what is there is written
 };
 
 /// What became of one program. Written as JSON beside its outputs; see docs/batch.md.
@@ -54,6 +58,11 @@ struct BatchResult {
   std::vector<BatchRecord> records;  ///< of all shards, as far as they are there, in order
   std::string error;                 ///< could not even start (folder missing)
 };
+
+/// The programs below the folder, sorted.
+std::vector<std::string> batch_programs(const BatchOptions& options);
+/// Those that have no result of these files and options yet, or all with `again`; not those that are left alone.
+std::vector<std::string> batch_open(const BatchOptions& options);
 
 /// Runs the shard and writes `out`/summary.html, summary.csv and programs.csv for all results that are there. Not to be
 /// called while other threads run (it forks).

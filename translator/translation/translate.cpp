@@ -100,7 +100,9 @@ void end_main(ir::Program& program, Diagnostics& diagnostics) {
 /// The name that the map gives the main program. Those of other programs are taken.
 void name_program(const ir::NameMap& names, ir::Program& program, backends::WriteOptions& write) {
   for (const auto& [stem, name] : names.programs) {
-    if (stem != write.main_stem) write.taken.insert(to_upper_ascii(name));
+    if (stem == write.main_stem) continue;
+    write.taken.insert(to_upper_ascii(name));
+    write.mains.insert(to_upper_ascii(name));
   }
   for (const auto& [from, name] : names.routines) write.taken.insert('%' + name);
   const auto given = names.programs.find(write.main_stem);

@@ -1,0 +1,261 @@
+#include "translator/project/project.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "base/source.h"
+#include "base/text.h"
+#include "translator/batch/batch_record.h"
+#include "translator/files/names_file.h"
+#include "translator/files/readable.h"
+#include "translator/files/written_files.h"
+
+namespace cnctrans::translator {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& path) {
+  std::string error;
+  const SourcePtr text = SourceText::open(path.string(), &error);
+  return text ? std::string(text->bytes()) : std::string();
+}
+
+bool put(const fs::path& path, std::string_view bytes, std::string* error) {
+  AtomicFile file(path.string());
+  return file.open(error) && file.write(bytes, error) && file.commit(error);
+}
+
+/// The folder entry that a program belongs to: the longest path that fits; null: none.
+const ProjectFolder* folder_of(const ProjectConfig& config, const std::string& program) {
+  const ProjectFolder* best = nullptr;
+  for (const auto& f : config.folders) {
+    const bool fits = program.starts_with(f.path + '/') || program == f.path;
+    if (fits && (best == nullptr || f.path.size() > best->path.size())) best = &f;
+  }
+  return best;
+}
+
+class Project {
+ public:
+  Project(const ProjectOptions& options, ProjectConfig config)
+      : options_(options), config_(std::move(config)), work_(fs::path(options.folder) / ".cnctrans") {}
+
+  ProjectResult run(const std::function<void(const BatchProgress&)>& progress) {
+    ProjectResult result;
+    if (!check(&result.error) || !read_names(&result.error)) return result;
+    std::error_code ignored;
+    if (!options_.status) fs::create_directories(work_, ignored);
+    gather();
+    for (auto& group : groups_) {
+      if (options_.status) continue;
+      if (!name(group, &result.error)) return result;
+    }
+    for (auto& group : groups_) {
+      BatchOptions batch_options = group;
+      if (!options_.status) {
+        batch_options.translate.names = &names_;
+        const BatchResult done = batch(batch_options, progress);
+        if (!done.error.empty()) {
+          result.error = done.error;
+          return result;
+        }
+        result.reused += done.reused;
+        result.translated += done.programs - done.reused;
+      }
+      const auto open = options_.status ? batch_open(group) : std::vector<std::string>();
+      for (const auto& program : group.only)
+        result.programs.push_back(
+            place(group, program, std::find(open.begin(), open.end(), program) != open.end(), result));
+    }
+    std::sort(result.programs.begin(), result.programs.end(),
+              [](const ProjectProgram& a, const ProjectProgram& b) { return a.path < b.path; });
+    if (!options_.status) write_pages(result);
+    return result;
+  }
+
+ private:
+  bool check(std::string* error) const {
+    std::error_code ignored;
+    (void)find_readable(config_.from, error);
+    if (error->empty() && find_dialect(config_.to) == nullptr) *error = unknown_dialect(config_.to);
+    if (error->empty() && !fs::is_directory(config_.programs, ignored)) *error = config_.programs + " is not a folder";
+    if (error->empty() && fs::equivalent(config_.programs, config_.output, ignored))
+      *error = "\"output\" can't be the folder of the programs";
+    return error->empty();
+  }
+
+  bool read_names(std::string* error) {
+    std::error_code ignored;
+    if (!fs::exists(config_.names, ignored)) return true;
+    auto found = translator::read_names(config_.names, config_.from, config_.to, error);
+    if (!found) return false;
+    names_ = *std::move(found);
+    // Somebody has answered a question, or given another name: everything is made with it.
+    edited_ = fs::exists(saved_names(), ignored) && bytes_of(saved_names()) != bytes_of(config_.names);
+    if (const SourcePtr text = definitions_of(names_, config_.from, config_.names, error)) definitions_ = {text};
+    return error->empty();
+  }
+  [[nodiscard]] fs::path saved_names() const { return work_ / "names.json"; }
+
+  [[nodiscard]] BatchOptions batch_options() const {
+    BatchOptions o;
+    o.translate.from = config_.from;
+    o.translate.to = config_.to;
+    o.translate.machine = config_.machine;
+    o.translate.target_machine = config_.target_machine;
+    o.translate.tools = config_.tools;
+    o.translate.libraries = config_.libraries;
+    o.translate.definitions = definitions_;
+    o.translate.origin = true;
+    o.translate.files_apart = true;  // a subprogram of several programs stands there once
+    prove_as_usual(o.translate);
+    o.translate.draft = config_.draft;
+    if (config_.draft) o.translate.unsupported = backends::Unsupported::comment;
+    constexpr std::uint64_t events_each = 500'000, steps_each = 50'000'000;
+    o.translate.run.max_events = events_each;
+    o.translate.run.max_steps = steps_each;
+    o.in = config_.programs;
+    o.out = (work_ / "work").string();
+    o.jobs = options_.jobs;
+    o.timeout = options_.timeout;
+    o.again = options_.again || edited_;
+    o.names_key = "project";
+    return o;
+  }
+
+  /// The programs by their machines.
+  void gather() {
+    std::map<std::pair<std::string, std::string>, BatchOptions> groups;
+    const BatchOptions all = batch_options();
+    for (const auto& program : batch_programs(all)) {
+      const ProjectFolder* folder = folder_of(config_, program);
+      if (folder != nullptr && folder->skip) continue;
+      BatchOptions one = all;
+      if (folder != nullptr && !folder->machine.empty()) one.translate.machine = folder->machine;
+      if (folder != nullptr && !folder->target_machine.empty()) one.translate.target_machine = folder->target_machine;
+      auto& group = groups.try_emplace({one.translate.machine, one.translate.target_machine}, one).first->second;
+      group.only.push_back(program);
+    }
+    for (auto& [machines, group] : groups) groups_.push_back(std::move(group));
+  }
+
+  /// The names that the open programs need, one program after the other, so that none is given twice.
+  bool name(const BatchOptions& group, std::string* error) {
+    const ir::NameMap before = names_.map;
+    for (const auto& program : batch_open(group)) {
+      ir::NameMap more;
+      if (names_for(group, program, more)) add_names(names_.map, more);
+    }
+    if (before == names_.map && fs::exists(saved_names())) return true;
+    const std::string text = names_text(names_, config_.from, config_.to);
+    return put(config_.names, text, error) && put(saved_names(), text, error);
+  }
+  /// In a process of its own: a program that ends it gets no names.
+  bool names_for(const BatchOptions& group, const std::string& program, ir::NameMap& more) const {
+    int ends[2];
+    if (pipe(ends) != 0) return false;
+    const pid_t id = fork();
+    if (id == 0) {
+      close(ends[0]);
+      alarm(options_.timeout);
+      TranslateOptions t = group.translate;
+      t.verify = false;
+      t.names = &names_;
+      const fs::path source = fs::path(config_.programs) / program;
+      const fs::path to = fs::path(config_.output) / fs::path(program).parent_path();
+      t.taken = WrittenFiles(to, WrittenFiles::Use::look).taken({source.string(), {}, false});
+      const TranslateResult result = translate(source.string(), t);
+      Names found;
+      if (!result.refused) found.map = result.names;
+      const std::string text = names_text(found, config_.from, config_.to);
+      std::FILE* out = fdopen(ends[1], "w");
+      const bool good = std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fclose(out) == 0;
+      _exit(good ? 0 : 1);
+    }
+    close(ends[1]);
+    std::string text;
+    char piece[4096];
+    for (ssize_t n = read(ends[0], piece, sizeof piece); n > 0; n = read(ends[0], piece, sizeof piece))
+      text.append(piece, static_cast<std::size_t>(n));
+    close(ends[0]);
+    int status = 0;
+    if (id > 0) waitpid(id, &status, 0);
+    std::string ignored;
+    auto found = parse_names(text, config_.from, config_.to, &ignored);
+    if (found) more = std::move(found->map);
+    return found.has_value();
+  }
+
+  /// What became of a program, its outputs put into the folder of the control. `open`: it would be translated anew.
+  ProjectProgram place(const BatchOptions& group, const std::string& program, bool open, ProjectResult& result) const {
+    ProjectProgram p;
+    p.path = program;
+    const fs::path made = fs::path(group.out) / program;
+    const auto record = read_record((made / record_name).string());
+    p.state = !record ? "new" : open ? "source changed" : record->status;
+    if (!record) return p;
+    if (!open) p.detail = record->detail;
+    p.lines = record->lines;
+    p.moves = record->moves;
+    const fs::path to = fs::path(config_.output) / fs::path(program).parent_path();
+    WrittenFiles folder(to, options_.status ? WrittenFiles::Use::look : WrittenFiles::Use::write);
+    const WrittenFiles::Origin origin{(fs::path(config_.programs) / program).string(), {}, false};
+    const auto changed = folder.changed();
+    for (const auto& name : record->outputs) {
+      if (name.ends_with(".unverified")) continue;
+      p.outputs.push_back((fs::path(program).parent_path() / name).generic_string());
+      const std::string bytes = bytes_of(made / name), there = bytes_of(to / name);
+      const bool by_hand = std::find(changed.begin(), changed.end(), name) != changed.end() && there != bytes;
+      if (by_hand) {
+        p.state = "changed by hand";
+        p.detail = name + " stays as it is; what the translation is now stands in " + (made / name).generic_string();
+        p.diffs.emplace_back(name, line_diff(there, bytes));
+        continue;
+      }
+      if (options_.status) continue;
+      const std::vector<FileToWrite> file{{name, bytes, {}, false}};
+      std::string error;
+      if (const auto why = folder.conflicts(file, origin); !why.empty()) {
+        p.state = "name taken";
+        p.detail = why.front();
+      } else if (!folder.write(file, origin, &error)) {
+        p.detail = error;
+      } else if (there != bytes) {
+        result.written.push_back((to / name).generic_string());
+      }
+    }
+    return p;
+  }
+
+  void write_pages(ProjectResult& result) const {
+    const fs::path folder(options_.folder);
+    (void)(put(folder / "project.html", project_html(result, config_), &result.error) &&
+           put(folder / "project.csv", project_csv(result), &result.error));
+  }
+
+  const ProjectOptions& options_;
+  ProjectConfig config_;
+  fs::path work_;
+  Names names_;
+  std::vector<SourcePtr> definitions_;
+  std::vector<BatchOptions> groups_;
+  bool edited_ = false;  ///< somebody has changed the file of names since the last run
+};
+
+}  // namespace
+
+ProjectResult project(const ProjectOptions& options, const std::function<void(const BatchProgress&)>& progress) {
+  ProjectResult refused;
+  auto config = read_project(options.folder, &refused.error);
+  return config ? Project(options, *std::move(config)).run(progress) : refused;
+}
+
+}  // namespace cnctrans::translator
