@@ -245,9 +245,8 @@ class KnownData {
   std::optional<Value> place(const Statement& s, const SystemRef& ref) {
     const auto* spec = context_.source_machine.axis(ref.axis);
     if (ref.datum != Datum::programmed_position || spec == nullptr || spec->diameter) return std::nullopt;
-    if (!path_) path_.emplace(program_, facts_, context_);
-    const auto* state = path_->states.before(s);
-    auto found = state != nullptr ? path_->values.place(s, *state, ref.axis) : std::nullopt;
+    if (!path_) path_.emplace(program_, facts_, context_.source_machine, context_);
+    auto found = path_->place(s, ref.axis);
     if (!found || found->literal()) return std::nullopt;
     const auto* a = std::get_if<Assign>(&s.node);
     if (a == nullptr || a->items.size() > 1)
@@ -300,19 +299,9 @@ class KnownData {
     return bits;
   }
 
-  struct Path {
-    Path(const Program& program, const FactsOf& facts, const LegaliseContext& context)
-        : frames(program, facts, context.source_machine, context),
-          values(facts, context.source_machine, frames),
-          states(program, values) {}
-    FrameSteps frames;
-    PathValues values;
-    FlowStates<PathValues> states;
-  };
-
   const Program& program_;
   const LegaliseContext& context_;
-  std::optional<Path> path_;  ///< where a position is asked for
+  std::optional<PathStates> path_;  ///< where a position is asked for
   const CallGraph calls_;
   const Routine* routine_ = nullptr;
   FactsOf facts_;

@@ -8,90 +8,13 @@
 #include "legaliser/edit/editor.h"
 #include "legaliser/frames/axis_scales.h"
 #include "legaliser/frames/shifted_axes.h"
+#include "legaliser/motion/path_values.h"
 #include "legaliser/motion/polar_words.h"
 #include "legaliser/passes.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
-
-constexpr std::uint64_t one = 1;
-constexpr unsigned first_plane_bit = axis::count_max;
-constexpr std::uint64_t plane_bits = 7 * (one << first_plane_bit), axis_bits = (one << axis::count_max) - 1;
-
-bool is_polar(const Motion& m) {
-  return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
-}
-
-/// A word that the pass over arcs has put beside others for an axis that stays where it stands: an increment of 0.
-bool holds_still(const CoordWord& c) {
-  return c.mode == WordMode::incremental && c.pos.column == 0 && c.value.is(0);
-}
-
-/// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates. The bits
-/// from first_plane_bit on say which planes may be in force (polar words move both axes of the plane).
-struct UnmovedAxes {
-  using State = std::uint64_t;
-  [[nodiscard]] static State start(const Routine& /*r*/, bool /*called*/) { return plane_bits; }
-  static void transfer(const Statement& s, State& state) {
-    if (const auto* assign = std::get_if<Assign>(&s.node)) {
-      for (const auto& i : assign->items) {
-        if (const auto a = axis_of_component(i)) state |= one << *a;
-      }
-    }
-    const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr) return;
-    for (const auto& a : b->actions) {
-      if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data)) state |= axis_bits;
-      const auto* m = std::get_if<ModalSet>(&a.data);
-      if (m != nullptr && m->setting == Setting::plane)
-        state = (state & axis_bits) | one << (first_plane_bit + m->value);
-    }
-    if (!b->has_motion) return;
-    for (const auto& c : b->motion.coords) {
-      if (!holds_still(c)) state &= ~(one << c.axis);
-    }
-    if (is_polar(b->motion)) state &= ~polar_axes(state);
-  }
-  /// Axes that polar words move whichever of the planes is in force.
-  static State polar_axes(State state) {
-    State moved = axis_bits;
-    for (const auto plane : {Plane::xy, Plane::zx, Plane::yz}) {
-      const PlaneAxes axes = plane_axes(plane);
-      if ((state >> (first_plane_bit + static_cast<unsigned>(plane)) & one) != 0)
-        moved &= one << axes.u | one << axes.v;
-    }
-    return moved;
-  }
-  [[nodiscard]] static bool touches(const Routine& r) {
-    bool found = false;
-    for_each_statement(r.body, [&found](const Statement& s) {
-      if (!std::holds_alternative<Block>(s.node) && !std::holds_alternative<Assign>(s.node)) return;
-      State none = 0, all = plane_bits | axis_bits;
-      transfer(s, none);
-      transfer(s, all);
-      found = found || none != 0 || all != (plane_bits | axis_bits);  // planes, frames, moves
-    });
-    return found;
-  }
-  /// Changes of frames alone make an axis wait for its first move.
-  [[nodiscard]] static bool adds(const Routine& r) {
-    bool found = false;
-    for_each_statement(r.body, [&found](const Statement& s) {
-      State none = 0;
-      transfer(s, none);
-      found = found || (none & axis_bits) != 0;
-    });
-    return found;
-  }
-  static void only_kept(State& back, State before) { back &= before | ~axis_bits; }
-  static void unknown(State& /*state*/) {}
-  static bool join(State& a, State b) {
-    const State before = a;
-    a |= b;
-    return a != before;
-  }
-};
 
 class DistancePass {
  public:
@@ -100,7 +23,7 @@ class DistancePass {
     keeps_differ_ =
         context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
     if (!keeps_differ_) return;
-    unmoved_.emplace(program, UnmovedAxes{});
+    unmoved_.emplace(program, UnmovedAxes(context.source_machine.power_on.plane));
     for (const auto& r : program.routines) {
       for_each_statement(r.body, [this](const Statement& s) {
         const auto* b = std::get_if<Block>(&s.node);
@@ -111,6 +34,9 @@ class DistancePass {
         }
       });
     }
+    if (context.source_machine.option("frame.change_keeps") == "machine" &&
+        std::any_of(program.routines.begin(), program.routines.end(), UnmovedAxes::adds))
+      path_.emplace(program, facts, context.target_machine, context);
   }
 
   void block(Editor& editor, Statement&& s, Body& out) {
@@ -156,10 +82,6 @@ class DistancePass {
     out.push_back(std::move(s));
   }
 
-  static bool turns(const FrameChange& c) {
-    return c.kind != FrameKind::translate || c.slot == FrameSlot::rotation || c.slot == FrameSlot::scale ||
-           c.slot == FrameSlot::mirror;
-  }
   void new_routine(Editor& editor) {
     dirty_ = turned_ = 0;
     shifted_.clear_all();
@@ -340,8 +262,9 @@ class DistancePass {
   }
 
   /// Where the source's control counts an increment of the axis from, in the frame in force (radius).
-  std::optional<double> base(AxisId a, const Block& b, const Facts& facts) const {
+  std::optional<double> base(AxisId a, const Statement& s, const Block& b, const Facts& facts) const {
     if (facts.position[a]) return facts.position[a];
+    if (const auto seen = path_ ? path_->number(s, a) : std::nullopt) return seen;
     if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
     if (context_.source_machine.option("frame.change_keeps") == "programmed") {
       const auto surface = facts.settings[static_cast<std::size_t>(Setting::surface)];
@@ -355,8 +278,8 @@ class DistancePass {
   }
 
   /// Increments right after a frame change become absolute where the place they start from is known.
-  bool made_absolute(Block& b, const Facts& facts) const {
-    auto coords = absolute_words(b, facts, context_.source_machine, [&](AxisId a) { return base(a, b, facts); });
+  bool made_absolute(const Statement& s, Block& b, const Facts& facts) const {
+    auto coords = absolute_words(b, facts, context_.source_machine, [&](AxisId a) { return base(a, s, b, facts); });
     if (!coords) return false;
     b.motion.coords = std::move(*coords);
     return true;
@@ -366,7 +289,10 @@ class DistancePass {
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
     leave_straight(s);
-    if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) dirty_ = static_cast<std::uint32_t>(*waiting);
+    if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) {
+      dirty_ = static_cast<std::uint32_t>(*waiting);
+      if (turns_) turned_ |= static_cast<std::uint32_t>(*waiting >> UnmovedAxes::first_turned_bit);
+    }
     if (b.has_motion && is_polar(b.motion)) shifted_.at.fill(std::nullopt);
     const Facts& facts = facts_.before(s);
     for (const auto& a : b.actions) {
@@ -394,7 +320,7 @@ class DistancePass {
     const bool relative = std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [&](const CoordWord& c) {
       return (dirty_ >> c.axis & 1U) != 0 && !holds_still(c) && distance_of(c, b, facts) != Distance::absolute;
     });
-    const bool settled = relative && made_absolute(b, facts);
+    const bool settled = relative && made_absolute(s, b, facts);
     for (const auto& c : b.motion.coords) {
       if (holds_still(c)) continue;
       const std::uint32_t bit = 1U << c.axis;
@@ -420,6 +346,7 @@ class DistancePass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   std::optional<FlowStates<UnmovedAxes>> unmoved_;
+  std::optional<PathStates> path_;
   bool keeps_differ_ = false;
   std::uint32_t turned_ = 0;  ///< bit n: not since a rotation, scale or mirror began or ended
   bool turns_ = false;        ///< the program has such
@@ -440,7 +367,7 @@ void leave_out_idle(Program& program, const LegaliseContext& context, const Fact
     for_each_statement(r.body, [&](const Statement& s) {
       UnmovedAxes::State none = 0;
       UnmovedAxes::transfer(s, none);
-      changes = changes || (none & axis_bits) != 0;
+      changes = changes || (none & UnmovedAxes::axis_bits) != 0;
       const auto* b = std::get_if<Block>(&s.node);
       idle = idle || (b != nullptr && b->has_motion &&
                       std::any_of(b->motion.coords.begin(), b->motion.coords.end(),
@@ -448,7 +375,8 @@ void leave_out_idle(Program& program, const LegaliseContext& context, const Fact
     });
   }
   if (!changes || !idle) return;
-  const FlowStates<UnmovedAxes> unmoved(program, UnmovedAxes{});
+  const UnmovedAxes domain(context.source_machine.power_on.plane);
+  const FlowStates<UnmovedAxes> unmoved(program, domain);
   const auto statement = [&](Statement& s) {
     auto* b = std::get_if<Block>(&s.node);
     const auto* waiting = b != nullptr ? unmoved.before(s) : nullptr;
@@ -457,7 +385,7 @@ void leave_out_idle(Program& program, const LegaliseContext& context, const Fact
     const auto kind = motion_in(*b, facts.before(s));  // not known: without a centre and a radius it is no arc
     if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return;
     const auto left = std::erase_if(b->motion.coords, [&](const CoordWord& c) {
-      return (*waiting >> c.axis & one) != 0 && c.value.is(0) &&
+      return (*waiting >> c.axis & UnmovedAxes::one) != 0 && c.value.is(0) &&
              distance_of(c, *b, facts.before(s)) == Distance::incremental;
     });
     if (left == 0) return;

@@ -29,7 +29,7 @@ class PolePass {
     stays_ = context.source_machine.option("polar.pole_stays") == "yes";
     radius_stays_ = context.source_machine.option("polar.radius") == "programmed";
     target_radius_stays_ = context.target.polar && context.target_machine.option("polar.radius") == "programmed";
-    if (!context.target.tangential_ends) points_wanted = beside_tangential_ends(program);
+    points_wanted = beside_lacking(program, context.target);
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
   }
 

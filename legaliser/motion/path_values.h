@@ -62,6 +62,29 @@ class PathValues {
   bool plane_resets_ = false, follows_arc_ = false, radius_stays_ = false, pole_stays_ = false;
 };
 
+/// Where the tool stands before the statements of a program whose frames name the slots of `machine`.
+class PathStates {
+ public:
+  PathStates(const Program& program, const FactsOf& facts, const machine::Profile& machine,
+             const LegaliseContext& context)
+      : frames_(program, facts, machine, context),
+        values_(facts, context.source_machine, frames_),
+        states_(program, values_) {}
+  [[nodiscard]] std::optional<Value> place(const Statement& s, AxisId axis) const {
+    const auto* state = states_.before(s);
+    return state != nullptr ? values_.place(s, *state, axis) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> number(const Statement& s, AxisId axis) const {
+    const auto found = place(s, axis);
+    return found && found->literal() ? std::optional(found->number) : std::nullopt;
+  }
+
+ private:
+  const FrameSteps frames_;
+  const PathValues values_;
+  const FlowStates<PathValues> states_;
+};
+
 /// The polar words of a block as coordinates and, for an arc about the pole, its centre; `fu`, `fv`: radius of one unit
 /// of the words of the plane's axes.
 void write_end(Block& b, const PolarEnd& end, bool arc, Plane plane, double fu, double fv);

@@ -196,17 +196,19 @@ bool loses_point(const Block& b) {
 
 namespace {
 
-void look_beside(const Body& body, std::set<std::uint32_t>& found) {
+void look_beside(const Body& body, const Capabilities& target, std::set<std::uint32_t>& found) {
   std::uint32_t last = 0;
   bool next = false;
   for (const auto& s : body) {
     for (const Body* inner : ir::detail::bodies_of(s)) {
-      if (inner != nullptr) look_beside(*inner, found);
+      if (inner != nullptr) look_beside(*inner, target, found);
     }
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr || !b->has_motion || !b->motion.moves()) continue;
-    const bool here = std::any_of(b->actions.begin(), b->actions.end(),
-                                  [](const Action& a) { return std::holds_alternative<TangentialEnd>(a.data); });
+    const bool helix = b->motion.extra && b->motion.extra->has_pitch && !target.helix_pitch;
+    const bool here = helix || std::any_of(b->actions.begin(), b->actions.end(), [&target](const Action& a) {
+                        return std::holds_alternative<TangentialEnd>(a.data) && !target.tangential_ends;
+                      });
     if (here || next) found.insert(s.id);
     if (here) found.insert(last);
     next = here;
@@ -216,9 +218,9 @@ void look_beside(const Body& body, std::set<std::uint32_t>& found) {
 
 }  // namespace
 
-std::set<std::uint32_t> beside_tangential_ends(const Program& program) {
+std::set<std::uint32_t> beside_lacking(const Program& program, const Capabilities& target) {
   std::set<std::uint32_t> found;
-  for (const auto& r : program.routines) look_beside(r.body, found);
+  for (const auto& r : program.routines) look_beside(r.body, target, found);
   return found;
 }
 

@@ -116,9 +116,9 @@ std::shared_ptr<const FrameChange> pole_words(Plane plane, Point2 at, double fu,
 
 /// Frames, or a cycle, take the tool to a point that polar words do not know.
 bool loses_point(const Block& b);
-/// Blocks (by id) before, with and behind a tangential entry or exit: their points must be numbers where the target has
-/// no such thing.
-std::set<std::uint32_t> beside_tangential_ends(const Program& program);
+/// Blocks (by id) before, with and behind a tangential entry or exit, or a helix by its pitch, where the target has no
+/// such thing: their points must be numbers.
+std::set<std::uint32_t> beside_lacking(const Program& program, const Capabilities& target);
 /// Some moves may run a subprogram.
 bool has_modal_calls(const Program& program);
 /// The program has polar words or sets a pole.

@@ -26,18 +26,16 @@ class TangentPass {
 
   /// Points behind a change of the frame are no facts, but follow from the frames.
   void begin_where_values_say(const std::set<std::uint32_t>& statements) {
-    const FrameSteps frames(program_, facts_, context_.target_machine, context_);
-    const PathValues path(facts_, context_.source_machine, frames);
-    const FlowStates<PathValues> values(program_, path);
+    wanted_ = statements;
+    const PathStates path(program_, facts_, context_.target_machine, context_);
     for (const auto& r : program_.routines) {
       for_each_statement(r.body, [&](const Statement& s) {
         const auto* b = std::get_if<Block>(&s.node);
-        const auto* state = b != nullptr && statements.count(s.id) != 0 ? values.before(s) : nullptr;
-        const auto plane =
-            state != nullptr ? setting_in<Plane>(*b, facts_.before(s), Setting::plane) : std::optional<Plane>();
-        if (!plane || moves_frames(*b)) return;
-        const auto u = path.place(s, *state, plane_axes(*plane).u), v = path.place(s, *state, plane_axes(*plane).v);
-        if (u && v && u->literal() && v->literal()) points_.begins_at(s, {u->number, v->number});
+        if (b == nullptr || statements.count(s.id) == 0 || moves_frames(*b)) return;
+        const auto plane = setting_in<Plane>(*b, facts_.before(s), Setting::plane);
+        if (!plane) return;
+        const auto u = path.number(s, plane_axes(*plane).u), v = path.number(s, plane_axes(*plane).v);
+        if (u && v) points_.begins_at(s, {*u, *v});
       });
     }
   }
@@ -106,7 +104,7 @@ class TangentPass {
       m.code_text = {};
       return;
     }
-    if (context_.target.arc_tangent) {
+    if (context_.target.arc_tangent && !(wanted_.count(s.id) != 0 && before && points)) {
       if (!points || !before) tell_unknown(s);
       return;
     }
@@ -221,6 +219,7 @@ class TangentPass {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   PathPoints points_;
+  std::set<std::uint32_t> wanted_;  ///< blocks (by id) before, with and behind tangential ends that the target lacks
   LabelUses uses_;
   TangentialEnd tangential_;
   WordPos tangential_pos_;
@@ -232,7 +231,8 @@ class TangentPass {
 void write_out_tangents(Program& program, const LegaliseContext& context) {
   const FactsOf facts(program, context);
   TangentPass pass(program, context, facts);
-  const auto wanted = context.target.tangential_ends ? std::set<std::uint32_t>{} : beside_tangential_ends(program);
+  const auto wanted =
+      context.target.tangential_ends ? std::set<std::uint32_t>{} : beside_lacking(program, context.target);
   if (!wanted.empty()) pass.begin_where_values_say(wanted);
   for (auto& r : program.routines) pass.routine(r);
 }
