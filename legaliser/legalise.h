@@ -18,6 +18,10 @@
 
 namespace cnctrans::ir {
 
+namespace passes {
+class SeenFacts;
+}  // namespace passes
+
 enum class CycleWriting : std::uint8_t {
   native,  ///< the target's own where it leaves the same part; where its passes differ, with a warning
   exact,   ///< the target's own where it makes the same moves, else the moves
@@ -57,6 +61,8 @@ struct LegaliseContext {
   const std::set<const char*>* source_numbers = nullptr;
   const NameMap* names = nullptr;  ///< names that are given; may be null
   BehindPass behind_pass = {};     ///< may be empty
+  /// What a run of the source has seen, where the program has no other; null: only what its text says.
+  const passes::SeenFacts* seen = nullptr;
 };
 
 /// Runs all passes in order. False when an error was reported.

@@ -5,6 +5,7 @@
 
 #include "legaliser/control/copies.h"
 #include "legaliser/uncalled.h"
+#include "translator/translation/seen.h"
 
 namespace cnctrans::translator {
 
@@ -13,7 +14,7 @@ namespace {
 using ir::passes::Copies;
 
 Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOptions write, bool assume,
-                const Copies& copies = {}) {
+                const Copies& copies = {}, const ir::passes::SeenFacts* seen = nullptr) {
   Attempt out;
   const auto uncalled = assume ? ir::Uncalled::power_on : ir::Uncalled::unknown;
   const ir::LegaliseContext context{c.to.backend->capabilities_for(c.target_machine),
@@ -26,7 +27,8 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
                                     &out.names,
                                     nullptr,
                                     c.options.names != nullptr ? &c.options.names->map : nullptr,
-                                    c.options.behind_pass};
+                                    c.options.behind_pass,
+                                    seen};
   if (assume) ir::passes::tell_assumed_state(work, context);
   ir::passes::write_copies(work, copies, context);
   if (!c.as_it_stands) ir::legalise(work, context);
@@ -42,16 +44,12 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
 /// line first. A copy that frees nothing is not kept.
 class CopySearch {
  public:
-  CopySearch(const AttemptContext& c, const ir::Program& program, const backends::WriteOptions& write, bool assume)
-      : c_(c), program_(program), write_(write), assume_(assume) {}
+  CopySearch(const AttemptContext& c, const ir::Program& program, const backends::WriteOptions& write, bool assume,
+             const ir::passes::SeenFacts* seen = nullptr)
+      : c_(c), program_(program), write_(write), assume_(assume), seen_(seen) {}
 
   /// `best`: as it came out without copies; it stays so where some line is refused whatever is written again.
   void mend(Attempt& best) {
-    constexpr std::size_t most_statements = 5000;
-    std::size_t statements = 0;
-    for (const auto& r : program_.routines)
-      ir::for_each_statement(r.body, [&statements](const ir::Statement&) { ++statements; });
-    if (statements > most_statements) return;
     Attempt now = best;
     while (now.said.has_errors()) {
       if (!step(now)) return;
@@ -108,7 +106,7 @@ class CopySearch {
   }
 
   bool better(Copies with, std::size_t before, bool equal_will_do, Attempt& now) {
-    Attempt a = attempt(c_, program_, write_, assume_, with);
+    Attempt a = attempt(c_, program_, write_, assume_, with, seen_);
     const auto after = lines(a).size();
     if (after > before || (after == before && !equal_will_do)) return false;
     chosen_ = std::move(with);
@@ -122,7 +120,7 @@ class CopySearch {
       if (chosen_.size() == 1 || tries_++ >= most_tries) return;
       Copies without = chosen_;
       without.erase(one.first);
-      Attempt a = attempt(c_, program_, write_, assume_, without);
+      Attempt a = attempt(c_, program_, write_, assume_, without, seen_);
       if (a.said.has_errors()) continue;
       chosen_ = std::move(without);
       now = std::move(a);
@@ -134,9 +132,36 @@ class CopySearch {
   const ir::Program& program_;
   const backends::WriteOptions& write_;
   bool assume_;
+  const ir::passes::SeenFacts* seen_;
   Copies chosen_;
   int tries_ = 0;
 };
+
+/// Tries that take the program apart are for programs that a person has written.
+bool is_small(const ir::Program& program) {
+  constexpr std::size_t most_statements = 5000;
+  std::size_t statements = 0;
+  for (const auto& r : program.routines)
+    ir::for_each_statement(r.body, [&statements](const ir::Statement&) { ++statements; });
+  return statements <= most_statements;
+}
+
+/// What the text alone does not say, from a replay. `best` stays as it is where that frees not all.
+void by_replay(const AttemptContext& c, const ir::Program& program, const backends::WriteOptions& write, bool assume,
+               Attempt& best) {
+  const auto seen = see(c, program);
+  if (!seen) return;
+  Attempt now = attempt(c, program, write, assume, {}, &seen->facts);
+  if (now.said.has_errors()) CopySearch(c, program, write, assume, &seen->facts).mend(now);
+  if (now.said.has_errors()) return;
+  if (!seen->lines.empty()) {
+    now.said.warning("TRN-711", seen->first,
+                     "the translation holds for the values at lines " + seen->lines +
+                         ": where the text alone does not say what holds, it was taken from a replay",
+                     "translate again after changing one of them");
+  }
+  best = std::move(now);
+}
 
 }  // namespace
 
@@ -144,8 +169,10 @@ Attempt attempt_both(const AttemptContext& c, ir::Program program, const backend
   const std::string wanted = c.source_machine.option(ir::passes::uncalled_option, "when_needed");
   const bool uncalled = !c.as_it_stands && !ir::passes::uncalled_routines(program).empty();
   const bool assumed = uncalled && wanted == "power_on";
-  if (!(uncalled && wanted == "when_needed") && !ir::passes::repeats_parts(program))
-    return attempt(c, std::move(program), write, assumed);
+  const bool once = !(uncalled && wanted == "when_needed") && !ir::passes::repeats_parts(program);
+  const bool small =
+      !c.as_it_stands && !c.refused && c.options.unsupported == backends::Unsupported::error && is_small(program);
+  if (once && !small) return attempt(c, std::move(program), write, assumed);
   Attempt first = attempt(c, program, write, assumed);
   if (!first.said.has_errors()) return first;
   bool assume = assumed;
@@ -156,8 +183,8 @@ Attempt attempt_both(const AttemptContext& c, ir::Program program, const backend
       assume = true;
     }
   }
-  if (!c.as_it_stands && !c.refused && first.said.has_errors() && c.options.unsupported == backends::Unsupported::error)
-    CopySearch(c, program, write, assume).mend(first);
+  if (small && first.said.has_errors()) CopySearch(c, program, write, assume).mend(first);
+  if (small && first.said.has_errors()) by_replay(c, program, write, assume, first);
   return first;
 }
 
