@@ -247,11 +247,9 @@ class Analysis {
     dirty_[id] = true;
     if (id <= current_) first_dirty_ = std::min<std::size_t>(first_dirty_, id);  // else this sweep comes to it
   }
-
   void mark_all(const std::vector<std::uint32_t>& ids) {
     for (const auto id : ids) mark(id);
   }
-
   void flow_to(std::uint32_t id, const Facts& f) {
     if (join(facts_[id], f)) mark(id);
   }
@@ -356,7 +354,9 @@ class Analysis {
       }
     }
     take(f, at_exit, kept_changes(callee.routine, before, f));
-    const std::uint32_t start = callee.first == 0 && !count ? routines_[callee.routine].entry : 0;
+    const auto* block = std::get_if<Block>(&statements_[id]->node);  // under a modal call, perhaps with a count
+    const bool once = !count && (block == nullptr || block->repeat_given == 0);
+    const std::uint32_t start = callee.first == 0 && once ? routines_[callee.routine].entry : 0;
     if (start != 0) displace(f, before, program_.routines[callee.routine], facts_[start], framed_);
     if (!runs_at_least_once(count)) join(f, before);
     return true;
