@@ -70,10 +70,16 @@ struct FreeNumber {
 };
 using FreeNumbers = std::array<FreeNumber, 26>;  ///< by letter, capitals
 
+/// A line that is nothing but a comment begins with `first`; where `last` is given, it ends with the first of these.
+struct CommentLine {
+  char first = 0, last = 0;
+};
+
 /// The words of lines that say nothing but where to go: motion codes G0 to G3, and addresses whose numbers are alike.
 struct PlainWords {
   FreeNumbers numbers{};
-  bool radius_word = false;        ///< CR=5: the radius of an arc, alike as long as it is positive
+  bool radius_word = false;  ///< CR=5: the radius of an arc, alike as long as it is positive
+  CommentLine comments{};
   std::uint32_t other_blocks = 0;  ///< block numbers above it are something else to the target; 0: none is
 };
 

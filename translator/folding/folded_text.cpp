@@ -121,6 +121,7 @@ class TextFolder {
     const auto kind = line_.scan(text, before);
     if (kind == PlainLine::Kind::other) {
       keep(raw);
+      if (line_.comment()) return;  // changes nothing
       if (in_run_) ++run_;
       in_run_ = false;
       motion_ = motion_unknown;
@@ -153,9 +154,10 @@ class TextFolder {
       keep(raw);
       place_.follow(line_);
     } else if (first || stays(*shape, raw.number - run_begin_)) {
-      if (!first) count_spellings(*shape);
+      const bool tells = !needs_start() || knows_start();  // else its centre may be written from an unknown place
+      if (!first && tells) count_spellings(*shape);
       keep(raw);  // before its own: the lines that the place before it comes from
-      result_.kept_.push_back({raw.number, run_, index, first, before, place_});
+      if (tells) result_.kept_.push_back({raw.number, run_, index, first, before, place_});
       place_.follow(line_);
     } else {
       leave_out(raw, before);

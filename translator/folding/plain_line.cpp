@@ -27,7 +27,8 @@ constexpr NumberForm form_minus = 1, form_no_whole = 2, form_leading_zero = 4, f
 
 }  // namespace
 
-PlainLine::PlainLine(const frontends::PlainWords& words) : rules_(words.numbers), other_blocks_(words.other_blocks) {
+PlainLine::PlainLine(const frontends::PlainWords& words)
+    : rules_(words.numbers), other_blocks_(words.other_blocks), comments_(words.comments) {
   if (words.radius_word) radius_ = {true, false, false, 5, 4};
 }
 
@@ -73,6 +74,8 @@ std::uint32_t PlainLine::hash_of(std::string_view key) {
 }
 
 PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before) {
+  comment_ = !line.empty() && comments_.first != 0 && line.front() == comments_.first &&
+             (comments_.last == 0 || line.find(comments_.last) == line.size() - 1);
   const char* p = line.data();
   const char* const end = p + line.size();
   std::size_t n = 0;

@@ -47,6 +47,8 @@ class PlainLine {
   static std::uint32_t hash_of(std::string_view key);
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const PlainNumber& number(std::size_t i) const { return numbers_[i]; }
+  /// Of another line: it is nothing but a comment.
+  [[nodiscard]] bool comment() const { return comment_; }
   /// Bit 0 is A: letters of its words.
   [[nodiscard]] std::uint32_t letters() const { return letters_; }
   [[nodiscard]] std::int8_t motion_after() const { return motion_; }
@@ -57,6 +59,8 @@ class PlainLine {
   std::array<frontends::FreeNumber, 26> rules_;
   frontends::FreeNumber radius_;
   std::uint32_t other_blocks_;
+  frontends::CommentLine comments_;
+  bool comment_ = false;
   std::array<char, max_key> key_{};
   std::size_t key_size_ = 0, count_ = 0;
   std::array<PlainNumber, max_numbers> numbers_{};

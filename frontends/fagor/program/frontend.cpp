@@ -151,7 +151,11 @@ class FagorFrontend : public Frontend {
       }
     }
   }
-  [[nodiscard]] PlainWords plain_words() const override { return usual_plain_words(4); }
+  [[nodiscard]] PlainWords plain_words() const override {
+    PlainWords words = usual_plain_words(4);
+    words.comments = {';', 0};
+    return words;
+  }
   std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                        std::string_view file_name) const override {
     return std::make_unique<FagorStream>(file, options, file_name);

@@ -157,7 +157,11 @@ class NumFrontend : public Frontend {
     return program;
   }
   [[nodiscard]] bool reads_by_callers() const override { return true; }
-  [[nodiscard]] PlainWords plain_words() const override { return usual_plain_words(3, dialects::num::label_max); }
+  [[nodiscard]] PlainWords plain_words() const override {
+    PlainWords words = usual_plain_words(3, dialects::num::label_max);
+    words.comments = {'(', ')'};
+    return words;
+  }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
                                                      std::string_view file_name) const override {
     return std::make_unique<NumStream>(file, options, file_name);

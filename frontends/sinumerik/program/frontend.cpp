@@ -469,6 +469,7 @@ class SinumerikFrontend final : public Frontend {
   [[nodiscard]] PlainWords plain_words() const override {
     PlainWords words = usual_plain_words(4);
     words.radius_word = true;
+    words.comments = {';', 0};
     return words;
   }
   std::unique_ptr<StreamReader> stream(FileId file, const ReadOptions& options,
