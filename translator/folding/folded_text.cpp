@@ -12,19 +12,25 @@ namespace {
 
 constexpr std::size_t window_size = 1U << 20U;
 /// Lines of a run before the first one may be left out, and samples of a shape in all.
-constexpr std::uint32_t run_head = 4, clear_samples = 2;
+constexpr std::uint32_t run_head = 4, least_samples = 2;
 
 constexpr bool is_arc(std::int8_t motion) {
   return motion == 2 || motion == 3;
 }
 
-bool numbers_differ(const PlainLine& line) {
+/// A bit for each two numbers of the line that differ: what is written for it tells them apart.
+std::uint64_t unlike(const PlainLine& line) {
+  std::uint64_t pairs = 0;
+  std::size_t at = 0;
   for (std::size_t i = 0; i < line.count(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (line.number(i).text == line.number(k).text) return false;
+    for (std::size_t k = 0; k < i; ++k, ++at) {
+      if (line.number(i).text != line.number(k).text) pairs |= std::uint64_t{1} << at;
     }
   }
-  return true;
+  return pairs;
+}
+constexpr std::uint64_t all_pairs(std::size_t numbers) {
+  return (std::uint64_t{1} << (numbers * (numbers - 1) / 2)) - 1;
 }
 
 constexpr std::uint32_t bit(char letter) {
@@ -167,7 +173,8 @@ class TextFolder {
 
   /// Asked once for each line, in order.
   bool stays(Shape& shape, std::uint32_t lines_before) {
-    if (lines_before < run_head || shape.clear < clear_samples) return true;
+    if (lines_before < run_head || shape.shown < least_samples) return true;
+    if (shape.told_apart != all_pairs(line_.count()) && (unlike(line_) & ~shape.told_apart) != 0) return true;
     if (shape.seen == 2 && !stays_.more.empty() && stays_.more.contains(run_)) return true;
     if (needs_start() && !knows_start()) return true;
     for (std::size_t i = 0; i < line_.count(); ++i) {
@@ -194,7 +201,8 @@ class TextFolder {
       std::uint8_t& most = shape.spellings[i][n.form];
       most = std::max(most, static_cast<std::uint8_t>(n.places + 1));
     }
-    if (numbers_differ(line_)) ++shape.clear;
+    shape.told_apart |= unlike(line_);
+    ++shape.shown;
   }
 
   Shape* shape_of() {

@@ -39,7 +39,8 @@ struct Shape {
   std::string key;
   std::uint32_t run = 0;  ///< the one that seen counts in
   std::uint32_t seen = 0;
-  std::uint32_t clear = 0;  ///< lines that stay, not the first of their run, with numbers that all differ
+  std::uint32_t shown = 0;       ///< lines that stay and are not the first of their run
+  std::uint64_t told_apart = 0;  ///< pairs of numbers that differ in one of them
   /// For each number: the spellings that stay, with their most digits behind the point + 1.
   std::vector<std::array<std::uint8_t, number_forms>> spellings;
 };
