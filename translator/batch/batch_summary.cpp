@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/markup.h"
 #include "base/text.h"
 #include "translator/batch/batch_record.h"
 #include "translator/files/readable.h"
@@ -42,33 +43,6 @@ std::string share(std::size_t part, std::size_t of) {
   return of == 0 ? "0" : rounded(100.0 * static_cast<double>(part) / static_cast<double>(of), 2);
 }
 
-std::string csv_text(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return out + '"';
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string codes_text(const std::map<std::string, std::size_t>& codes) {
   std::string text;
   for (const auto& [code, times] : codes) text += fmt::format("{}{}:{}", text.empty() ? "" : " ", code, times);
@@ -86,7 +60,7 @@ std::vector<std::pair<std::string, CodeCount>> by_frequency(const Codes& codes) 
 std::string code_table(std::string_view title, const Codes& codes) {
   std::string text = fmt::format("<h2>{}</h2>\n<table><tr><th>code</th><th>programs</th><th>times</th></tr>\n", title);
   for (const auto& [code, n] : by_frequency(codes))
-    text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(code), n.programs, n.times);
+    text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", html_text(code), n.programs, n.times);
   return text + "</table>\n";
 }
 
@@ -119,9 +93,9 @@ std::string summary_csv(const std::vector<BatchRecord>& records, std::size_t all
     text += fmt::format("status,{},{},\n", s, it == c.status.end() ? 0 : it->second);
   }
   text += fmt::format("share,verified percent,{},\n", share(c.verified, records.size()));
-  for (const auto& [code, n] : c.errors) text += fmt::format("error,{},{},{}\n", csv_text(code), n.programs, n.times);
+  for (const auto& [code, n] : c.errors) text += fmt::format("error,{},{},{}\n", csv_cell(code), n.programs, n.times);
   for (const auto& [code, n] : c.warnings)
-    text += fmt::format("warning,{},{},{}\n", csv_text(code), n.programs, n.times);
+    text += fmt::format("warning,{},{},{}\n", csv_cell(code), n.programs, n.times);
   return text;
 }
 
@@ -130,9 +104,9 @@ std::string programs_csv(const std::vector<BatchRecord>& records) {
   for (const auto& r : records) {
     std::string outputs;
     for (const auto& o : r.outputs) outputs += (outputs.empty() ? "" : " ") + o;
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_text(r.program), r.status, r.lines, r.moves,
-                        rounded(r.max_length, 6), csv_text(codes_text(r.errors)), csv_text(codes_text(r.warnings)),
-                        csv_text(outputs), csv_text(r.detail));
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(r.program), r.status, r.lines, r.moves,
+                        rounded(r.max_length, 6), csv_cell(codes_text(r.errors)), csv_cell(codes_text(r.warnings)),
+                        csv_cell(outputs), csv_cell(r.detail));
   }
   return text;
 }
@@ -145,7 +119,7 @@ std::string summary_html(const std::vector<BatchRecord>& records, const BatchOpt
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head>"
       "<body>\n<h1>{0}</h1>\n<p>{2} of {3} programs done; verified: {4} ({5} %).</p>\n<div class=\"bar\">",
-      escaped(title), style, records.size(), all, c.verified, share(c.verified, records.size()));
+      html_text(title), style, records.size(), all, c.verified, share(c.verified, records.size()));
   std::string rows;
   for (const auto& s : batch_statuses()) {
     const auto it = c.status.find(s);
@@ -163,8 +137,8 @@ std::string summary_html(const std::vector<BatchRecord>& records, const BatchOpt
       "tr>\n";
   for (const auto& r : records) {
     text += fmt::format("<tr><td>{}</td><td class=\"s {}\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(r.program), first_word(r.status), r.status, r.moves, escaped(codes_text(r.errors)),
-                        escaped(r.detail));
+                        html_text(r.program), first_word(r.status), r.status, r.moves, html_text(codes_text(r.errors)),
+                        html_text(r.detail));
   }
   return text + "</table>\n</body></html>\n";
 }

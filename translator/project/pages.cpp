@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/markup.h"
 #include "base/source.h"
 #include "base/text.h"
 #include "translator/files/registry.h"
@@ -12,30 +13,6 @@
 namespace cnctrans::translator {
 
 namespace {
-
-std::string page_text(std::string_view text) {
-  std::string out;
-  for (const char c : to_utf8(text)) {
-    switch (c) {
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '&': out += "&amp;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
-
-std::string cell_of(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return out + '"';
-}
 
 std::string list_of(const std::vector<std::string>& words) {
   std::string text;
@@ -97,8 +74,8 @@ std::string line_diff(std::string_view before, std::string_view after) {
 std::string project_csv(const ProjectResult& r) {
   std::string out = "program,state,lines,moves,outputs,detail\n";
   for (const auto& p : r.programs)
-    out += fmt::format("{},{},{},{},{},{}\n", cell_of(p.path), p.state, p.lines, p.moves, cell_of(list_of(p.outputs)),
-                       cell_of(p.detail));
+    out += fmt::format("{},{},{},{},{},{}\n", csv_cell(p.path), p.state, p.lines, p.moves, csv_cell(list_of(p.outputs)),
+                       csv_cell(p.detail));
   return out;
 }
 
@@ -110,21 +87,21 @@ std::string project_html(const ProjectResult& r, const ProjectConfig& config) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n"
       "<p>{2} programs of {3}; what loads into the control stands in {4}.</p>\n",
-      page_text(title), project_style, r.programs.size(), page_text(config.programs), page_text(config.output));
+      html_text(title), project_style, r.programs.size(), html_text(config.programs), html_text(config.output));
   std::map<std::string, std::size_t> states;
   for (const auto& p : r.programs) ++states[p.state];
   out += "<table><tr><th>state</th><th>programs</th></tr>\n";
-  for (const auto& [state, n] : states) out += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", page_text(state), n);
+  for (const auto& [state, n] : states) out += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html_text(state), n);
   out +=
       "</table>\n<div class=\"wide\"><table><tr><th>program</th><th>state</th><th>lines</th><th>moves</th>"
       "<th>outputs</th><th>detail</th></tr>\n";
   for (const auto& p : r.programs) {
-    std::string detail = page_text(p.detail);
+    std::string detail = html_text(p.detail);
     for (const auto& [name, diff] : p.diffs)
       detail += fmt::format("<details><summary>{}: - as it is, + as it would be</summary><pre>{}</pre></details>",
-                            page_text(name), page_text(diff));
+                            html_text(name), html_text(diff));
     out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                       page_text(p.path), page_text(p.state), p.lines, p.moves, page_text(list_of(p.outputs)), detail);
+                       html_text(p.path), html_text(p.state), p.lines, p.moves, html_text(list_of(p.outputs)), detail);
   }
   return out + "</table></div>\n</body></html>\n";
 }

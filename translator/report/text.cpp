@@ -1,6 +1,7 @@
 // The report as Markdown, and the HTML page put together.
 #include <fmt/format.h>
 
+#include "base/markup.h"
 #include "base/text.h"
 #include "translator/report/data.h"
 #include "translator/report/embedded.h"
@@ -25,20 +26,6 @@ std::string script_safe(std::string_view json) {
       out += "\\u003c";
     } else {
       out += c;
-    }
-  }
-  return out;
-}
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '&': out += "&amp;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
     }
   }
   return out;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/markup.h"
 #include "base/text.h"
 #include "translator/survey/survey.h"
 
@@ -35,30 +36,6 @@ std::vector<std::pair<std::string, std::size_t>> most_first(const std::map<std::
   return list;
 }
 
-std::string cell_csv(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return out + '"';
-}
-
-std::string html(std::string_view text) {
-  std::string out;
-  for (const char c : to_utf8(text)) {
-    switch (c) {
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '&': out += "&amp;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
-
 std::string needs_text(const std::map<std::string, Need>& needs) {
   std::string text;
   for (const auto& [name, need] : needs) text += fmt::format("{}{}:{}", text.empty() ? "" : " ", name, need.times);
@@ -74,7 +51,7 @@ std::string joined(const std::set<std::string>& words) {
 std::string count_table(std::string_view title, std::string_view what,
                         const std::vector<std::pair<std::string, std::size_t>>& rows) {
   std::string text = fmt::format("<h2>{}</h2>\n<table><tr><th>{}</th><th>programs</th></tr>\n", title, what);
-  for (const auto& [name, n] : rows) text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html(name), n);
+  for (const auto& [name, n] : rows) text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html_text(name), n);
   return text + "</table>\n";
 }
 
@@ -113,9 +90,9 @@ std::string survey_text(const Survey& s, const SurveyOptions& options) {
 std::string survey_programs_csv(const Survey& s) {
   std::string out = "program,control,kind,lines,blocks,unread,calls,data,names,features\n";
   for (const auto& p : s.programs) {
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell_csv(p.path), p.dialect, cell_csv(p.kind), p.lines,
-                       p.blocks, p.unread, cell_csv(needs_text(p.calls)), cell_csv(needs_text(p.data)),
-                       cell_csv(needs_text(p.names)), cell_csv(joined(p.features)));
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_cell(p.path), p.dialect, csv_cell(p.kind), p.lines,
+                       p.blocks, p.unread, csv_cell(needs_text(p.calls)), csv_cell(needs_text(p.data)),
+                       csv_cell(needs_text(p.names)), csv_cell(joined(p.features)));
   }
   return out;
 }
@@ -124,7 +101,7 @@ std::string survey_missing_csv(const Survey& s) {
   std::string out = "rank,what,name,times,programs,alone,unlocks\n";
   std::size_t rank = 0;
   for (const auto& m : s.missing)
-    out += fmt::format("{},{},{},{},{},{},{}\n", ++rank, name(m.kind), cell_csv(m.name), m.times, m.programs, m.alone,
+    out += fmt::format("{},{},{},{},{},{},{}\n", ++rank, name(m.kind), csv_cell(m.name), m.times, m.programs, m.alone,
                        m.unlocks);
   return out;
 }
@@ -136,7 +113,7 @@ std::string survey_html(const Survey& s, const SurveyOptions& options) {
       "content=\"width=device-width\"><title>Survey of {0}</title><style>{1}</style></head><body>\n<h1>Survey of "
       "{0}</h1>\n<p>{2} files, {3} lines; {4} of {5} blocks can't be read. {6} programs need nothing that is not "
       "here.</p>\n",
-      html(options.in), survey_style, s.programs.size(), sums.lines, sums.unread, sums.blocks, s.complete);
+      html_text(options.in), survey_style, s.programs.size(), sums.lines, sums.unread, sums.blocks, s.complete);
   std::vector<std::pair<std::string, std::size_t>> kinds;
   for (const auto& kind : program_kinds()) {
     if (const auto it = sums.kinds.find(kind); it != sums.kinds.end()) kinds.emplace_back(kind, it->second);
@@ -149,7 +126,7 @@ std::string survey_html(const Survey& s, const SurveyOptions& options) {
       "<th>unlocks</th></tr>\n";
   for (const auto& m : s.missing)
     out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name(m.kind),
-                       html(m.name), m.times, m.programs, m.alone, m.unlocks);
+                       html_text(m.name), m.times, m.programs, m.alone, m.unlocks);
   out += "</table></div>\n" + count_table("What the programs use", "feature", most_first(sums.features));
   out +=
       "<h2>Programs</h2>\n<div class=\"wide\"><table><tr><th>program</th><th>control</th><th>kind</th><th>lines</th>"
@@ -158,7 +135,8 @@ std::string survey_html(const Survey& s, const SurveyOptions& options) {
     auto data = needs_text(p.data);
     if (!p.names.empty()) data += (data.empty() ? "" : " ") + needs_text(p.names);
     out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                       html(p.path), p.dialect, p.kind, p.lines, p.unread, html(needs_text(p.calls)), html(data));
+                       html_text(p.path), p.dialect, p.kind, p.lines, p.unread, html_text(needs_text(p.calls)),
+                       html_text(data));
   }
   return out + "</table></div>\n</body></html>\n";
 }
