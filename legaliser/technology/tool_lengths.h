@@ -29,8 +29,6 @@ class BareTool {
   void forget() { waiting_ = false; }
   /// Where such a tool has come that a move uses: TRN-522.
   void tell(const LegaliseContext& context) const;
-  /// What the next blocks depend on, as a number below 8.
-  [[nodiscard]] unsigned key() const { return (given_ ? 1U : 0U) + (waiting_ ? 2U : 0U) + (used_ ? 4U : 0U); }
 
  private:
   bool keeps_ = false;
