@@ -76,7 +76,7 @@ bool BlockMachine::mill_context(ir::cycles::MillContext& context) {
   context.u = p_[plane.u];
   context.v = p_[plane.v];
   context.w = p_[plane.w];
-  context.tool_radius = tool_radius();
+  context.tool_radius = mill_.tool_radius.value_or(tool_radius());
   context.spindle_ccw = spindles_[master_].state == ir::SpindleState::ccw;
   context.plane = modal_.retract_plane;
   context.contours = &mill_contours_;

@@ -1,4 +1,5 @@
 #include "frontends/heidenhain/cycles/builder.h"
+#include "ir/cycles/milling/milling.h"
 
 #include <cmath>
 #include <memory>
@@ -67,6 +68,8 @@ ir::CyclePtr CycleBuilder::build() {
     return nullptr;
   }
   if (!good || report_.refused() || skipped_) return nullptr;
+  if (hole_.kind == HoleKind::mill && context_.tool_radius)
+    hole_.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
   return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
 }
 

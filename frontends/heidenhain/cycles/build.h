@@ -25,8 +25,9 @@ struct CycleContext {
   std::vector<CycleMove>* moves = nullptr;
   /// The speed that is in force again behind the cycle, where it leaves another.
   std::optional<ir::Value>* speed_after = nullptr;
-  std::size_t area = 0;  ///< which of the pockets of cycle 14
-  bool inch = false;     ///< the unit of the program; lengths of the control itself are mm
+  std::optional<double> tool_radius;  ///< mm
+  std::size_t area = 0;               ///< which of the pockets of cycle 14
+  bool inch = false;                  ///< the unit of the program; lengths of the control itself are mm
 };
 
 /// Null: the cycle is skipped (depth 0), was refused (see `report`), or is told by its moves.

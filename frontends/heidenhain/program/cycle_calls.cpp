@@ -169,6 +169,8 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   context.shift = shift;
   context.inch = lowering_.inch();
   context.moves = &out.moves;
+  constexpr double inch = 25.4;
+  if (item.tool_radius) context.tool_radius = *item.tool_radius * (lowering_.inch() ? inch : 1);
   context.speed_after = &out.speed_after;
   context.value = [&](std::int16_t q) {
     const bool height = q == 200 || q == 203 || q == 204;

@@ -107,17 +107,18 @@ struct Pattern {
 struct Item {
   ItemKind kind = ItemKind::plain;
   ir::Statement statement;
-  std::string label;        ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
-  bool number = false;      ///< `label` is a number
-  int index = -1;           ///< cycle: of the definition; pole: of the pole
-  bool moves = false;       ///< a positioning block
-  bool by_pole = false;     ///< the centre of its arc is CC
-  bool polar = false;       ///< its words are polar
-  bool contour = false;     ///< stands in a label of cycle 14
-  int free = -1;            ///< of the element of a free contour, before it is solved
-  int lead = -1;            ///< of the APPR or DEP, before it is written out
-  int pattern = -1;         ///< PATTERN DEF, or (Arrival::several) a table of points
-  bool at_pattern = false;  ///< CYCL CALL PAT
+  std::string label;     ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
+  bool number = false;   ///< `label` is a number
+  int index = -1;        ///< cycle: of the definition; pole: of the pole
+  bool moves = false;    ///< a positioning block
+  bool by_pole = false;  ///< the centre of its arc is CC
+  bool polar = false;    ///< its words are polar
+  std::optional<double> tool_radius;  ///< of a cycle call: what TOOL DEF says, in the unit of the program
+  bool contour = false;               ///< stands in a label of cycle 14
+  int free = -1;                      ///< of the element of a free contour, before it is solved
+  int lead = -1;                      ///< of the APPR or DEP, before it is written out
+  int pattern = -1;                   ///< PATTERN DEF, or (Arrival::several) a table of points
+  bool at_pattern = false;            ///< CYCL CALL PAT
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
   std::optional<ir::Value> height;                       ///< CYCL CALL PAT: of the tool, where it is known
   CycleCall call = CycleCall::none;

@@ -140,13 +140,15 @@ class Lowering {
     std::map<ir::AxisId, ir::Value> shift;
   };
   std::optional<Tilt> tilt_;
-  bool rotary_moved_ = false;  ///< a rotary axis stood in a block above
-  bool scaled_about_ = false;  ///< cycle 26 has a centre
-  bool shortest_ = false;      ///< M126
-  bool feed_by_fu_ = false;    ///< the last F was FU
-  bool per_rev_ = false;       ///< M136
-  int waiting_ = -1;           ///< the cycle definition that further lines complete
-  bool waits_more_ = false;    ///< its last line ended with ~
+  bool rotary_moved_ = false;             ///< a rotary axis stood in a block above
+  std::map<std::int64_t, double> radii_;  ///< TOOL DEF n R
+  std::optional<double> radius_;          ///< of the tool of the last TOOL CALL, as TOOL DEF says it
+  bool scaled_about_ = false;             ///< cycle 26 has a centre
+  bool shortest_ = false;                 ///< M126
+  bool feed_by_fu_ = false;               ///< the last F was FU
+  bool per_rev_ = false;                  ///< M136
+  int waiting_ = -1;                      ///< the cycle definition that further lines complete
+  bool waits_more_ = false;               ///< its last line ended with ~
   ir::LineInfo waiting_line_;
   int pattern_ = -1;      ///< the PATTERN DEF that further lines complete
   bool swallow_ = false;  ///< further lines belong to a sentence that is kept as text

@@ -50,6 +50,7 @@ Item& Lowering::put(ItemKind kind, ir::StatementNode node) {
     item.statement.line.joined = true;
   }
   first_ = false;
+  item.tool_radius = radius_;
   item.statement.node = std::move(node);
   return item;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/heidenhain/limits.h"
 #include "frontends/heidenhain/state/lowering.h"
@@ -39,6 +40,11 @@ bool Lowering::tool_call(const syntax::Statement& s) {
                      "block.word");
       return false;
     }
+  }
+  if (number != nullptr || !s.args.empty()) {
+    const auto known =
+        number == nullptr || number->is_expression ? radii_.end() : radii_.find(saturate<std::int64_t>(number->number));
+    radius_ = known == radii_.end() ? std::nullopt : std::optional(known->second);
   }
   Word at;
   at.pos = s.pos;
@@ -97,6 +103,11 @@ bool Lowering::tool_def(const syntax::Statement& s) {
     defines = defines || ((iequals_ascii(w.address, "L") || iequals_ascii(w.address, "R")) && w.has_value);
   }
   if (defines) {
+    for (const Word& w : block_->words) {
+      const bool known = number != nullptr && !number->is_expression && !w.is_expression;
+      if (known && iequals_ascii(w.address, "R") && w.has_value && w.number > 0)
+        radii_[saturate<std::int64_t>(number->number)] = w.number;
+    }
     report_.note("HEI-015", s.pos, "the tool's length and radius are kept as text: the tools are those of the machine");
     ir::Opaque o;
     o.text = std::string(trim(text_));

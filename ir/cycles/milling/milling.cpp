@@ -205,6 +205,7 @@ std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& unit
     return std::nullopt;
   }
   for (const auto& [word, v] : words.words) {
+    if (word == tool_radius_word && v.literal()) out.tool_radius = v.number;
     if (is_contour_word(word) || is_kept_word(word)) continue;
     const auto* p = find_mill_parameter(word);
     if (p == nullptr || !in_list(out.shape->parameters, word)) {

@@ -66,6 +66,7 @@ struct MillUnits {
 struct MillNumbers {
   const MillShape* shape = nullptr;
   std::map<std::string_view, double> words;
+  std::optional<double> tool_radius;  ///< mm, where the program itself says it: before what a table of tools says
 };
 /// nullopt with a sentence in `error`: no such shape or parameter; without one: `evaluate` gave up.
 std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& units, const Evaluate& evaluate,
@@ -73,6 +74,8 @@ std::optional<MillNumbers> resolve(const MillWords& words, const MillUnits& unit
 
 /// A word that a control's own cycle is written with and that changes no move ("kept.DMODE").
 inline constexpr std::string_view kept_word = "kept.";
+/// MillNumbers::tool_radius, a number in mm.
+inline constexpr std::string_view tool_radius_word = "kept.tool_radius";
 inline bool is_kept_word(std::string_view word) {
   return word.starts_with(kept_word);
 }

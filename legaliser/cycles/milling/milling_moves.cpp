@@ -380,7 +380,8 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
   bool leads_by_middle = false;
   if (cycles::needs_radius(*words) != cycles::RadiusNeed::none) {
     bool none = false;
-    const auto r = radius(it->second, unit, error, &none);
+    auto r = words->tool_radius;
+    if (!r) r = radius(it->second, unit, error, &none);
     const bool lead = none && cycles::needs_radius(*words) == cycles::RadiusNeed::lead;
     if (!r && !lead) return std::nullopt;
     if (lead) error->clear();
