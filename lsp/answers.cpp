@@ -4,6 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
+#include "lsp/across.h"
 #include "lsp/complete.h"
 #include "lsp/describe.h"
 #include "lsp/edits.h"
@@ -47,6 +49,15 @@ struct At {
 
 json location(const std::string& uri, const Document& document, const Span& span) {
   return {{"uri", uri}, {"range", of(document.range(span))}};
+}
+
+std::string file_of(const std::string& uri) {
+  const std::string path = path_of_uri(uri);
+  return path.substr(path.rfind('/') + 1);
+}
+std::string stem_of(const std::string& uri) {
+  const std::string name = file_of(uri);
+  return name.substr(0, name.rfind('.'));
 }
 
 /// The place where another file defines a subprogram.
@@ -95,17 +106,17 @@ Answer references(At& at) {
   const Occurrence name = *found;
   const bool with_definition = at.parameters.value("/context/includeDeclaration"_json_pointer, true);
   json out = json::array();
+  bool defined = false;
   const auto add = [&](const std::string& uri, const Document& document, Analysis& analysis) {
     for (const auto& o : analysis.names()) {
+      defined = defined || (same_name(o, name) && o.defines);
       if (same_name(o, name) && (with_definition || !o.defines)) out.push_back(location(uri, document, o.span));
     }
   };
   add(at.uri, at.document, at.analysis);
-  if (name.routine < 0) {  // the other documents that are open, of the same language
-    for (const auto& [uri, document] : at.workspace.documents()) {
-      Analysis* other = uri == at.uri ? nullptr : at.workspace.analysis(uri);
-      if (other != nullptr && &other->dialect() == &at.analysis.dialect()) add(uri, document, *other);
-    }
+  for (const auto& o : others_with(at.workspace, at.uri, at.analysis, name)) add(o.uri, *o.document, *o.analysis);
+  if (with_definition && !defined && name.kind == NameKind::routine) {  // a program that its file's name is the name of
+    if (json found_there = elsewhere(at, name); !found_there.is_null()) out.push_back(std::move(found_there));
   }
   return {out.dump(), {}, {}};
 }
@@ -248,13 +259,19 @@ Answer renaming(At& at) {
     if (!edits.edits.empty()) changes[uri] = of(edits.edits);
     return edits.refused;
   };
+  const auto others = others_with(at.workspace, at.uri, at.analysis, name);
+  if (name.kind != NameKind::routine && !others.empty())
+    return {
+        "null", name.shown + " stands in " + file_of(others.front().uri) + " too, which belongs to this program", {}};
   if (std::string why = add(at.uri, at.document, at.analysis); !why.empty()) return {"null", why, {}};
-  if (name.kind == NameKind::routine) {
-    for (const auto& [uri, document] : at.workspace.documents()) {
-      Analysis* other = uri == at.uri ? nullptr : at.workspace.analysis(uri);
-      if (other == nullptr || &other->dialect() != &at.analysis.dialect()) continue;
-      if (std::string why = add(uri, document, *other); !why.empty()) return {"null", why, {}};
-    }
+  for (const auto& o : others) {
+    if (std::string why = add(o.uri, *o.document, *o.analysis); !why.empty()) return {"null", why, {}};
+  }
+  if (name.kind == NameKind::routine) {  // a program that is found by the name of its file keeps its name
+    const json file = elsewhere(at, name);
+    const std::string uri = file.is_object() ? file.at("uri").get<std::string>() : others.empty() ? "" : at.uri;
+    if (iequals_ascii(stem_of(uri), name.shown))
+      return {"null", file_of(uri) + " has its name from the file: rename the file, then what calls it", {}};
   }
   return {json{{"changes", changes}}.dump(), {}, {}};
 }

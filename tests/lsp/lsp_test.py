@@ -6,6 +6,7 @@ program (places are found by their words). --table prints how long each request 
 diagnostics that costs more than 80 ms of processor time fails (--slow: of a build with sanitizers, 500).
 """
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -138,6 +139,50 @@ class Lsp(unittest.TestCase):
         p = self.open("sinumerik")
         found = p.at("definition", "RING(")
         self.assertEqual([Path(f["uri"]).name for f in found], ["RING.SPF"])
+
+    def test_names_in_files_that_are_not_open(self):
+        with tempfile.TemporaryDirectory() as folder:
+            here = Path(folder).resolve()
+
+            def put(name, text):
+                (here / name).write_text(text, encoding="utf-8")
+                return (here / name).as_uri()
+
+            def found(at, line, character):
+                places = self.client.at("references", at, line, character, context={"includeDeclaration": True})
+                return sorted((Path(f["uri"]).name, f["range"]["start"]["line"] + 1) for f in places)
+
+            def changed(at, line, character, name):
+                changes = self.client.at("rename", at, line, character, newName=name)["changes"]
+                return {Path(uri).name: [e["newText"] for e in edits] for uri, edits in changes.items()}
+
+            main = put("A.MPF", "G17 G90 G94\nR1=3\nEDGE\nM30\n")
+            put("B.MPF", "G17 G90 G94\nR1=4\nEDGE\nEDGE\nM30\n")
+            put("C.MPF", "G17 G90 G94\nR1=5\nG0 X=R1\nM30\n")
+            put("EDGE.SPF", "PROC EDGE\nG0 X=R1\nM17\n")
+            self.client.open(main, "sinumerik", (here / "A.MPF").read_text(encoding="utf-8"))
+            self.assertEqual(found(main, 2, 1), [("A.MPF", 3), ("B.MPF", 3), ("B.MPF", 4), ("EDGE.SPF", 1)])
+            self.assertEqual(found(main, 1, 1), [("A.MPF", 2), ("B.MPF", 2), ("EDGE.SPF", 2)])  # C has nothing to do with it
+            with self.assertRaisesRegex(RuntimeError, "EDGE.SPF has its name from the file"):
+                changed(main, 2, 1, "RIM")
+            with self.assertRaisesRegex(RuntimeError, "stands in .* too"):
+                changed(main, 1, 1, "R2")
+            main = put("one.pim", "%ONE,MX,\nG17 G90 G94\n(CALL 7)\nM30\n")
+            put("two.pim", "%TWO,MX,\nG17 G90 G94\n(CALL 7)\nM30\n")
+            put("seven.pim", "(SUB 7)\nG0 X1\n(RET)\n")
+            self.client.open(main, "fagor", (here / "one.pim").read_text(encoding="utf-8"))
+            self.assertEqual(found(main, 2, 6), [("one.pim", 3), ("seven.pim", 1), ("two.pim", 3)])
+            self.assertEqual(changed(main, 2, 6, "8"), {"one.pim": ["8"], "two.pim": ["8"], "seven.pim": ["8"]})
+            main = put("1.xpi", "%1\nG17 G90\nG77 H12\nM02\n")
+            put("2.xpi", "%2\nG17 G90\nG77 H12\nM02\n")
+            put("12.xpi", "%12\nG0 X1\n")
+            self.client.open(main, "num", (here / "1.xpi").read_text(encoding="utf-8"))
+            self.assertEqual(found(main, 2, 5), [("1.xpi", 3), ("12.xpi", 1), ("2.xpi", 3)])
+            main = put("A.H", "0 BEGIN PGM A MM\n1 CALL PGM RIM\n2 END PGM A MM\n")
+            put("B.H", "0 BEGIN PGM B MM\n1 CALL PGM RIM\n2 END PGM B MM\n")
+            put("RIM.H", "0 BEGIN PGM RIM MM\n1 L X+1 R0 FMAX\n2 END PGM RIM MM\n")
+            self.client.open(main, "heidenhain", (here / "A.H").read_text(encoding="utf-8"))
+            self.assertEqual([n for n, _ in found(main, 1, 12)], ["A.H", "B.H", "RIM.H"])
 
     def test_outline_and_folding(self):
         p = self.open("fagor")
@@ -273,9 +318,18 @@ def long_program(dialect, lines=5000):
     return "\n".join(out + [{"num": "M02", "heidenhain": "END PGM BIG MM"}.get(dialect, "M30")]) + "\n"
 
 
+NAMED = {"fagor": "P101", "num": "L2", "sinumerik": "R2", "heidenhain": "Q2"}  # a variable of the long program
+ON_NAMES = ("hover", "completion", "signatureHelp", "definition", "references", "documentHighlight", "prepareRename")
+FEATURES = [("hover", "hover", {}), ("completion", "completion", {}), ("signature", "signatureHelp", {}), ("definition", "definition", {}),
+            ("references", "references", {"context": {"includeDeclaration": True}}), ("highlight", "documentHighlight", {}),
+            ("place to rename", "prepareRename", {}), ("outline", "documentSymbol", {}), ("folding", "foldingRange", {}),
+            ("colours", "semanticTokens/full", {}), ("inlay hints of 20 lines", "inlayHint", {}),
+            ("quick fixes of 20 lines", "codeAction", {"context": {"diagnostics": []}})]
+
+
 def latency_table(show):
     worst = 0
-    rows = []
+    table = {}
     for dialect in PROGRAMS:
         client = Client(CNCTRANS)
         uri = "file:///big." + {"fagor": "pim", "num": "xpi", "sinumerik": "mpf", "heidenhain": "H"}[dialect]
@@ -283,19 +337,25 @@ def latency_table(show):
         begin = client.cpu()
         times = sorted(client.edit(uri, 2500, 0, 0, " ")[1] for _ in range(20))
         worst = max(worst, (client.cpu() - begin) * 1000 / len(times))
-        client.at("hover", uri, 2505, 5)
-        client.at("hover", uri, 2505, 5)
-        client.at("completion", uri, 2505, 5)
-        client.at("definition", uri, 2506, 5)
-        for method in ("documentSymbol", "foldingRange", "semanticTokens/full"):
-            client.of(method, uri)
-        rows.append([dialect, times[len(times) // 2]] + [client.latency["textDocument/" + m] for m in
-                    ("hover", "completion", "definition", "documentSymbol", "foldingRange", "semanticTokens/full")])
+        rows = table.setdefault("edit to diagnostics", [])
+        rows.append(times[len(times) // 2])
+        at = {"start": {"line": 2500, "character": 0}, "end": {"line": 2520, "character": 0}}
+        line = long_program(dialect).split("\n").index(next(x for x in long_program(dialect).split("\n") if NAMED[dialect] in x))
+        character = long_program(dialect).split("\n")[line].index(NAMED[dialect])
+        for feature, method, more in FEATURES:
+            timed = []
+            for _ in range(5):
+                if method in ON_NAMES:
+                    client.at(method, uri, line, character, **more)
+                else:
+                    client.of(method, uri, **({"range": at} | more if method in ("inlayHint", "codeAction") else more))
+                timed.append(client.latency["textDocument/" + method])
+            table.setdefault(feature, []).append(sorted(timed)[2])
         client.close()
     if show:
-        print("| language | edit to diagnostics | hover | completion | definition | outline | folding | colours |\n|---|---|---|---|---|---|---|---|")
-        for row in rows:
-            print("| " + row[0] + " | " + " | ".join(f"{t:.1f}" for t in row[1:]) + " |")
+        print("| ms | " + " | ".join(PROGRAMS) + " |\n|---|" + "---|" * len(PROGRAMS))
+        for feature, row in table.items():
+            print("| " + feature + " | " + " | ".join(f"{t:.1f}" for t in row) + " |")
     return worst
 
 
