@@ -166,7 +166,8 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
   StateFilter filter;
   std::size_t stretch = 0;
   std::map<std::int64_t, std::string> senses;  // of the spindles, so far
-  const auto close_stretch = [&out, &stretch, &senses] {
+  StateFilter driven;
+  const auto close_stretch = [&out, &stretch, &senses, &driven] {
     // By kind; but how the spindle turns at the change of a tool, and behind it, are two things. A speed alone is not:
     // `S1200 T2 M6` with the spindle running takes it before the change or behind it.
     std::vector<std::pair<int, const Event*>> ranked;
@@ -184,13 +185,14 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     }
     std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::transform(ranked.begin(), ranked.end(), from, [](const auto& r) { return r.second; });
-    // Of speeds and limits that follow each other with nothing between only the last is ever driven.
+    // Of speeds, limits and senses that follow each other with nothing between only the last is ever driven.
+    const auto turns = [](const Event& e) { return e.state == "cw" || e.state == "ccw"; };
     auto kept = from;
     for (auto at = from; at != out.end(); ++at) {
       const bool replaced = at + 1 != out.end() && (*at)->kind == EventKind::spindle &&
                             (*(at + 1))->kind == EventKind::spindle && (*at)->number == (*(at + 1))->number &&
-                            (*at)->state == (*(at + 1))->state;
-      if (!replaced) *kept++ = *at;
+                            ((*at)->state == (*(at + 1))->state || (turns(**at) && turns(**(at + 1))));
+      if (!replaced && ((*at)->kind != EventKind::spindle || driven.changes(**at))) *kept++ = *at;
     }
     out.erase(kept, out.end());
   };

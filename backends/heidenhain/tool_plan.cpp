@@ -6,21 +6,6 @@ namespace cnctrans::backends::heidenhain {
 
 namespace {
 
-template <class T>
-bool has_action(const ir::Block& b) {
-  return std::any_of(b.actions.begin(), b.actions.end(),
-                     [](const ir::Action& a) { return std::holds_alternative<T>(a.data); });
-}
-
-bool selects(const ir::Routine& r) {
-  bool found = false;
-  ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
-    const auto* b = std::get_if<ir::Block>(&s.node);
-    found = found || (b != nullptr && has_action<ir::ToolSelect>(*b));
-  });
-  return found;
-}
-
 /// A way may come in here from elsewhere.
 bool is_join(const ir::Statement& s, std::size_t routine, const LabelUse& use) {
   if (!s.line.number.empty() && use.is_target(routine, s.line.number)) return true;
@@ -39,16 +24,13 @@ bool passes_by(const ir::Statement& s) {
 
 }  // namespace
 
-ToolPlan::ToolPlan(const ir::Program& program, const LabelUse& use) : program_(program) {
-  for (const auto& r : program.routines) {
-    if (selects(r)) select_in_.insert(&r);
-  }
+ToolPlan::ToolPlan(const ir::Program& program, const LabelUse& use) : program_(program), ready_(program) {
   for (std::size_t i = 0; i < program.routines.size(); ++i) routine(i, use);
 }
 
 const ir::ToolSelect* ToolPlan::tool_of(const ir::Action& change) const {
   const auto at = tools_.find(&change);
-  return at != tools_.end() ? at->second : nullptr;
+  return at != tools_.end() ? &at->second : nullptr;
 }
 const ir::SetSpindle* ToolPlan::speed_of(const ir::Action& change) const {
   const auto at = speeds_.find(&change);
@@ -57,23 +39,21 @@ const ir::SetSpindle* ToolPlan::speed_of(const ir::Action& change) const {
 
 void ToolPlan::routine(std::size_t index, const LabelUse& use) {
   const ir::Routine& r = program_.routines[index];
-  const bool others = select_in_.size() > (select_in_.count(&r) != 0 ? 1U : 0U);
-  const ir::ToolSelect* selected = nullptr;
   const ir::Action* waiting = nullptr;  // a choice with nothing behind it yet
   for (std::size_t i = 0; i < r.body.size(); ++i) {
     const ir::Statement& s = r.body[i];
-    if (is_join(s, index, use)) selected = nullptr, waiting = nullptr;
+    if (is_join(s, index, use)) waiting = nullptr;
     const auto* b = std::get_if<ir::Block>(&s.node);
     if (b == nullptr) {
-      if (others && std::holds_alternative<ir::CallRoutine>(s.node)) selected = nullptr;
       if (!passes_by(s)) waiting = nullptr;
       continue;
     }
     // In a block of its own order: the choice counts for the change beside it.
+    auto selected = ready_.before(s).tool;
     for (const auto& a : b->actions) {
       const auto* t = std::get_if<ir::ToolSelect>(&a.data);
       if (t == nullptr) continue;
-      selected = t;
+      selected = *t;
       waiting = t->changes ? nullptr : &a;
     }
     for (std::size_t k = 0; k < b->actions.size(); ++k) {
@@ -81,7 +61,7 @@ void ToolPlan::routine(std::size_t index, const LabelUse& use) {
       const auto* t = std::get_if<ir::ToolSelect>(&a.data);
       const bool changes = std::holds_alternative<ir::ToolChange>(a.data) || (t != nullptr && t->changes);
       if (!changes) continue;
-      if (selected != nullptr) tools_[&a] = selected;
+      if (selected) tools_[&a] = *selected;
       if (waiting != nullptr) said_.insert(waiting);
       waiting = nullptr;
       find_speed(r.body, i, k, index, use);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "backends/common/labels.h"
+#include "ir/analysis/ready_tools.h"
 #include "ir/program.h"
 
 namespace cnctrans::backends::heidenhain {
@@ -31,8 +32,8 @@ class ToolPlan {
   void offsets_off(const ir::Body& body);
 
   const ir::Program& program_;
-  std::set<const ir::Routine*> select_in_;  ///< routines that choose a tool
-  std::map<const ir::Action*, const ir::ToolSelect*> tools_;
+  const ir::ReadyTools ready_;
+  std::map<const ir::Action*, ir::ToolSelect> tools_;
   std::map<const ir::Action*, const ir::SetSpindle*> speeds_;
   std::set<const ir::Action*> said_, matters_;
 };

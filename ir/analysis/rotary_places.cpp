@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "ir/analysis/dataflow.h"
+#include "ir/analysis/flow_states.h"
 
 namespace cnctrans::ir {
 
@@ -13,27 +13,7 @@ namespace {
 
 constexpr std::array rotary{axis::a, axis::b, axis::c};
 
-/// Of one axis before a statement: no way leads here yet, a number, or several.
-struct Place {
-  bool reached = false;
-  std::optional<double> value;
-};
-using Places = std::array<Place, rotary.size()>;
-
-bool join(Places& into, const Places& from) {
-  bool changed = false;
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    if (!from[i].reached) continue;
-    if (!into[i].reached) {
-      into[i] = from[i];
-      changed = true;
-    } else if (into[i].value && into[i].value != from[i].value) {
-      into[i].value.reset();
-      changed = true;
-    }
-  }
-  return changed;
-}
+using Places = std::array<std::optional<double>, rotary.size()>;
 
 double counted(double here, double word, RotaryDirection direction) {
   if (direction == RotaryDirection::as_value) return word;
@@ -95,69 +75,80 @@ bool moves_rotary(const Routine& r) {
   return found;
 }
 
+/// The axes stand at 0 degrees where the main program begins.
+class PlacesDomain {
+ public:
+  using State = Places;
+  PlacesDomain(const Program& program, const FactTable& facts) : main_(program.main()), facts_(facts) {}
+
+  Places start(const Routine& r, bool) const {
+    Places at;
+    if (&r == main_) at.fill(0.0);
+    return at;
+  }
+  static bool touches(const Routine& r) { return moves_rotary(r); }
+  static void unknown(Places& at) { at.fill(std::nullopt); }
+  static bool join(Places& into, const Places& from) {
+    bool changed = false;
+    for (std::size_t i = 0; i < into.size(); ++i) {
+      if (!into[i] || into[i] == from[i]) continue;
+      into[i].reset();
+      changed = true;
+    }
+    return changed;
+  }
+  void transfer(const Statement& s, Places& at) const {
+    const auto* opaque = std::get_if<Opaque>(&s.node);
+    if (opaque != nullptr && !opaque->harmless) unknown(at);
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr || !b->has_motion) return;
+    for (const CoordWord& w : b->motion.coords) {
+      const auto axis = std::find(rotary.begin(), rotary.end(), w.axis);
+      if (axis == rotary.end()) continue;
+      auto& place = at[static_cast<std::size_t>(axis - rotary.begin())];
+      const auto mode = mode_of(w, *b, facts_.before(s.id));
+      const bool plain = w.value.literal() && b->repeat_given == 0 && b->motion.frame == FrameUse::normal && mode;
+      if (!plain || (!place && (*mode == Distance::incremental || w.direction != RotaryDirection::as_value)))
+        place.reset();
+      else
+        place = *mode == Distance::incremental ? *place + w.value.number
+                                               : counted(place.value_or(0), w.value.number, w.direction);
+    }
+  }
+
+ private:
+  const Routine* main_;
+  const FactTable& facts_;
+};
+
 }  // namespace
 
 RotaryPlaces::RotaryPlaces(const Program& program, const ModalState& power_on) {
-  if (shifts_rotary(program)) return;
-  const Routine* main = program.main();
+  const bool moves = std::any_of(program.routines.begin(), program.routines.end(), moves_rotary);
+  if (!moves || shifts_rotary(program)) return;
   const FactTable table = analyse(program, power_on);
-  for (const auto& r : program.routines) routine(program, r, &r == main, table);
+  const PlacesDomain domain(program, table);
+  const passes::FlowStates<PlacesDomain> states(program, domain);
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      const Places* before = states.before(s);
+      if (b == nullptr || !b->has_motion || before == nullptr) return;
+      Places after = *before;
+      domain.transfer(s, after);
+      for (const CoordWord& w : b->motion.coords) {
+        const auto axis = std::find(rotary.begin(), rotary.end(), w.axis);
+        if (axis == rotary.end()) continue;
+        if (const auto& place = after[static_cast<std::size_t>(axis - rotary.begin())])
+          targets_[{s.id, w.axis}] = *place;
+      }
+    });
+  }
 }
 
 std::optional<double> RotaryPlaces::target(std::uint32_t statement, AxisId axis) const {
   const auto at = targets_.find({statement, axis});
   return at == targets_.end() ? std::nullopt : std::optional(at->second);
-}
-
-void RotaryPlaces::routine(const Program& program, const Routine& r, bool main, const FactTable& facts) {
-  if (r.body.empty() || !moves_rotary(r)) return;
-  const bool callee_moves = std::any_of(program.routines.begin(), program.routines.end(),
-                                        [&](const Routine& other) { return &other != &r && moves_rotary(other); });
-  const ControlFlow flow = control_flow(program, r);
-  std::vector<Places> before(flow.successors.size());
-  const std::uint32_t first = r.body.front().id;
-  for (auto& p : before[first]) p = {true, main ? std::optional(0.0) : std::nullopt};
-  const auto carry_out = [&](std::uint32_t id, Places& places, bool keep) {
-    const Statement* s = flow.statements[id];
-    if (s == nullptr) return;
-    const bool call = std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<ModalCall>(s->node);
-    const auto* repeat = std::get_if<Repeat>(&s->node);
-    const bool unread = std::holds_alternative<Opaque>(s->node) && !std::get<Opaque>(s->node).harmless;
-    if (unread || (callee_moves && (call || (repeat != nullptr && repeat->has_program)))) {
-      for (auto& p : places) p.value.reset();
-    }
-    const auto* b = std::get_if<Block>(&s->node);
-    if (b == nullptr || !b->has_motion) return;
-    for (const CoordWord& w : b->motion.coords) {
-      const auto at = std::find(rotary.begin(), rotary.end(), w.axis);
-      if (at == rotary.end()) continue;
-      Place& place = places[static_cast<std::size_t>(at - rotary.begin())];
-      const auto mode = mode_of(w, *b, facts.before(id));
-      const bool plain = w.value.literal() && b->repeat_given == 0 && b->motion.frame == FrameUse::normal && mode;
-      if (!plain || (!place.value && (*mode == Distance::incremental || w.direction != RotaryDirection::as_value))) {
-        place.value.reset();
-        continue;
-      }
-      place.value = *mode == Distance::incremental ? *place.value + w.value.number
-                                                   : counted(place.value.value_or(0), w.value.number, w.direction);
-      if (keep) targets_[{id, w.axis}] = *place.value;
-    }
-  };
-  std::vector<std::uint32_t> work{first};
-  while (!work.empty()) {
-    const std::uint32_t id = work.back();
-    work.pop_back();
-    Places after = before[id];
-    carry_out(id, after, false);
-    for (const std::uint32_t next : flow.successors[id]) {
-      if (next != 0 && next < before.size() && join(before[next], after)) work.push_back(next);
-    }
-  }
-  for (std::uint32_t id = 0; id < before.size(); ++id) {
-    if (!before[id][0].reached) continue;
-    Places after = before[id];
-    carry_out(id, after, true);
-  }
 }
 
 }  // namespace cnctrans::ir

@@ -21,8 +21,6 @@ class RotaryPlaces {
   [[nodiscard]] std::optional<double> target(std::uint32_t statement, AxisId axis) const;
 
  private:
-  void routine(const Program& program, const Routine& r, bool main, const FactTable& facts);
-
   std::map<std::pair<std::uint32_t, AxisId>, double> targets_;
 };
 

@@ -91,6 +91,7 @@ class CalledParts {
     CallRoutine own;
     own.routine = part.name;
     Statement instead = made(from->line, std::move(own));
+    instead.line.skip_mask = 0;  // of its first block alone
     part.body.assign(std::make_move_iterator(from), std::make_move_iterator(to));
     part.body.front().line.joined = false;
     body.insert(body.erase(from, to), std::move(instead));
@@ -147,6 +148,7 @@ class CalledParts {
     CallRoutine own;
     own.routine = part.name;
     Statement instead = made(from->line, std::move(own));
+    instead.line.skip_mask = 0;  // of its first block alone
     part.body.assign(std::make_move_iterator(from), std::make_move_iterator(to));
     context_.diagnostics.note("TRN-551", instead.line.span,
                               "the target repeats only what stands right before the repetition: the blocks " +

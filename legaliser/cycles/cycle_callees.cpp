@@ -7,12 +7,13 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-/// Something in the routine could be a point of the cycle, or runs another one.
+/// Something in the routine could be a point of the cycle (F or S alone is one of a modal call), or runs another one.
 bool moves_anywhere(const Body& body) {
   bool found = false;
   for_each_statement(body, [&found](const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);
-    found = found || (b != nullptr && b->has_motion) || std::holds_alternative<CallRoutine>(s.node);
+    found =
+        found || (b != nullptr && (b->has_motion || disturbs_call(*b))) || std::holds_alternative<CallRoutine>(s.node);
     for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i)
       found = found || std::holds_alternative<CycleDefine>(b->actions[i].data);
   });
@@ -150,6 +151,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     CyclePass inner(program_, copy->routine, context_, facts_, feeds_, callees_, stale_);
     inner.active_ = active_;
     inner.surely_active_ = !touches_cycle(copy->routine.body);
+    inner.may_end_ = !inner.surely_active_;
     inner.run();
     copy->ended_after = !inner.active_;
     copy->on_target_after = inner.active_ && inner.active_->on_target && !inner.active_->maybe_on_target;

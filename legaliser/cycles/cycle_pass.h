@@ -159,8 +159,9 @@ class CyclePass {
   }
 
   void leave_while_on(Statement& s);
-
+  void end_elsewhere(const Statement& s);  ///< a subprogram has ended the cycle, on every way
   void one(Statement&& s, Body& out) {
+    end_elsewhere(s);
     join(s);
     leave_while_on(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
@@ -184,7 +185,7 @@ class CyclePass {
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
     sense_.follow(seen, b != nullptr || harmless);
   }
-  /// A modal call whose cycle the target defines at the first point, and a branch comes before that point.
+  /// A modal call that the target defines at the first point, and a branch comes before that point.
   void branch_before_first_point(Statement& s);
   void lower(Statement&& s, Body& out);
 
@@ -477,7 +478,7 @@ class CyclePass {
   FeedScale feed_scale_;
   bool by_call_ = false;
   std::set<std::pair<bool, std::string>> under_cycle_;  ///< labels before which the target has its own cycle in force
-  bool surely_active_ = false;                          ///< a copy for one cycle that does not touch it
+  bool surely_active_ = false, may_end_ = false;        ///< a copy for one cycle that does not touch it, or does
   bool written_out_ = false;
   bool lacking_ = false;                                   ///< the target lacks a cycle that later points run
   std::set<std::uint32_t> definitions_;                    ///< statements of this routine

@@ -60,6 +60,10 @@ void CyclePass::leave_while_on(Statement& s) {
     if (!is_end && !l.computed) left_on_.emplace(l.is_number, l.text);
   });
 }
+void CyclePass::end_elsewhere(const Statement& s) {
+  const Facts& facts = facts_.before(s);
+  if (active_ && !surely_active_ && facts.reachable && facts.cycle_active_known && !facts.cycle_active) active_.reset();
+}
 void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
   if (!active_ || active_->on_target) return;
   const bool on = std::any_of(names.begin(), names.end(), [this](const LabelRef& l) {
@@ -175,7 +179,7 @@ bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
   const bool moves = b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
   if (!facts.reachable || (!moves && !((by_call_ || has_modal_calls_) && disturbs_call(b)))) return false;
   if (facts.cycle_from == Facts::several_cycles)
-    return (!enters_unsure_ && !definitions_.empty()) || (!by_call_ && refuses_axis_word(b, facts));
+    return (!enters_unsure_ && (!definitions_.empty() || may_end_)) || (!by_call_ && refuses_axis_word(b, facts));
   // One that a called routine has left in force: a modal call would run at words and moves that are no points.
   const bool left = by_call_ && definitions_.count(facts.cycle_from) == 0;
   return facts.cycle_active && (left || definitions_.count(facts.cycle_from) != 0);

@@ -22,6 +22,20 @@ void each_frame_change(const Routine& r, const Visit& visit) {
   });
 }
 
+/// Puts the preset in force or out of it, or changes what the words of a shift count in.
+bool selects_or_counts(const Routine& r) {
+  bool found = false;
+  for_each_statement(r.body, [&found](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) {
+      const auto* m = std::get_if<ModalSet>(&b->actions[i].data);
+      found = found || std::holds_alternative<WorkOffset>(b->actions[i].data) ||
+              (m != nullptr && (m->setting == Setting::units || m->setting == Setting::diameter));
+    }
+  });
+  return found;
+}
+
 /// A range of a routine run from elsewhere: neither its start nor its end is the routine's own.
 bool runs_part(const Statement& s) {
   if (const auto* r = std::get_if<Repeat>(&s.node)) return r->has_program || r->first.computed || r->last.computed;
@@ -181,6 +195,7 @@ void FrameStates::look() {
     const Routine& r = program_.routines[i];
     routines_[i].flow = control_flow(program_, r);
     pass_by_repeats(routines_[i].flow);
+    routines_[i].changes_frames = selects_or_counts(r);
     each_frame_change(r, [&](const FrameChange& c) {
       routines_[i].changes_frames = true;
       auto& u = uses[static_cast<std::size_t>(c.slot)];

@@ -393,7 +393,9 @@ class FrameVariables {
       for (std::size_t i = 0; i < PlanarFrame::axes; ++i) {
         const bool named = slot == c.slot && c.kind == FrameKind::translate &&
                            std::any_of(c.words.begin(), c.words.end(), [i](const auto& w) { return w.axis == i; });
-        if (!was.shift[i] || named) words.push_back(after.slot(slot).word(i));
+        const PlanarFrame now = after.slot(slot);  // a clear names none and changes all
+        const bool other = was.shift[i] && now.shift[i] && !equal(*was.shift[i], *now.shift[i]);
+        if (!was.shift[i] || named || other) words.push_back(now.word(i));
       }
       if (slot == FrameSlot::chain && (slot == c.slot || !was.known())) {
         put_chain(after.slot(slot), made);

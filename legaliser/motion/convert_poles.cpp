@@ -31,6 +31,7 @@ class PolePass {
     target_radius_stays_ = context.target.polar && context.target_machine.option("polar.radius") == "programmed";
     points_wanted = beside_lacking(program, context.target);
     follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
+    lines_only_ = has_lines_only(program);
   }
 
   // A domain of FlowStates: the pole before each statement.
@@ -174,7 +175,7 @@ class PolePass {
     const auto from = centred ? here(facts) : std::nullopt;
     const auto mode = setting_in<Distance>(b, facts, Setting::distance);
     const auto middle = from ? centre_of(b, facts, *from, *plane_, mode, context_.source_machine) : std::nullopt;
-    const bool about = is_polar_line(b, facts) || (polar_arc_done_ && b.motion.centers.empty());
+    const bool about = polar_line(b, facts, lines_only_) || (polar_arc_done_ && b.motion.centers.empty());
     const auto whole = factors(b, facts, Distance::absolute);
     if (about && pole_ && stale_ && !stays_ && whole) {  // the target's stayed behind
       if (context_.target.polar) b.actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, whole->u, whole->v)}));
@@ -184,7 +185,7 @@ class PolePass {
     if (problem.empty() && polar_arc_done_ && !polar_arc(b, facts))
       problem = "the start or the centre of this arc by polar words";
     const auto* step = quiet_ || radius_stays_ || !target_radius_stays_ ? nullptr : radii_->before(s);
-    if (is_polar_line(b, facts)) {
+    if (polar_line(b, facts, lines_only_)) {
       say_radius_ = (step != nullptr && !step->same) || (radius_stays_ && other_pole_);
       const bool takes_over = radius_stays_ && !b.motion.extra->has_polar_radius && !radius_;
       if (takes_over && problem.empty()) problem = "the radius that these polar words take over";
@@ -195,6 +196,7 @@ class PolePass {
         problem = "the pole of these polar words, or the point before them,";
     } else if (!polar_arc_done_) {
       if (step != nullptr && !step->same && angle_alone(b)) problem = "the distance from the pole of this arc's end";
+      if (radius_stays_ && !target_radius_stays_ && angle_alone(b)) problem = "what these polar words lead along";
       follow_point(b, facts);
     }
     settle(s);
@@ -477,7 +479,7 @@ class PolePass {
   bool polar_arc_done_ = false, modal_ = false, quiet_ = false;  ///< quiet: only following
   std::optional<Plane> plane_;
   bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false, target_stays_ = false,
-       radius_stays_ = false, target_radius_stays_ = false;
+       radius_stays_ = false, target_radius_stays_ = false, lines_only_ = false;
 };
 
 }  // namespace

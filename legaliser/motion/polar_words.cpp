@@ -96,6 +96,19 @@ bool is_polar_line(const Block& b, const Facts& facts) {
          (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
 }
 
+bool has_lines_only(const Program& program) {
+  bool found = true;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !b->has_motion) return;
+      const auto kind = b->motion.kind;
+      found = found && (kind == MotionKind::modal || kind == MotionKind::rapid || kind == MotionKind::linear);
+    });
+  }
+  return found;
+}
+
 std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start, Plane plane,
                                 std::optional<Distance> distance, const machine::Profile& machine) {
   const PlaneAxes axes = plane_axes(plane);

@@ -65,6 +65,14 @@ std::optional<Point2> place_of(const PoleSet& p, Plane plane, std::optional<Poin
 /// An arc, or a line, whose end stands in polar words.
 bool is_polar_arc(const Block& b, const Facts& facts);
 bool is_polar_line(const Block& b, const Facts& facts);
+/// Every motion function of the program is a straight line's.
+bool has_lines_only(const Program& program);
+/// In such a program a motion function that the ways to the block leave open is one, too.
+inline bool polar_line(const Block& b, const Facts& facts, bool lines_only) {
+  if (is_polar_line(b, facts)) return true;
+  const auto& x = b.motion.extra;
+  return lines_only && b.has_motion && x && !motion_in(b, facts) && (x->has_polar_angle || x->has_polar_radius);
+}
 
 /// The centre that the words of an arc give; nullopt: not known.
 std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start, Plane plane,

@@ -1,6 +1,7 @@
 // Tools (equivalences 15): change at T or at M6, tool length compensation that must be switched.
 #include <algorithm>
 
+#include "ir/analysis/ready_tools.h"
 #include "ir/edit/search.h"
 #include "legaliser/analysis/facts.h"
 #include "legaliser/edit/blocks.h"
@@ -31,8 +32,10 @@ bool sets(const Action& a, Setting s) {
 /// T that changes at once on one machine and waits for M6 on the other.
 class ToolChanges {
  public:
-  explicit ToolChanges(const LegaliseContext& context)
-      : context_(context),
+  ToolChanges(const Program& program, const LegaliseContext& context, const ReadyTools& ready)
+      : program_(program),
+        context_(context),
+        ready_(ready),
         at_once_(machine::changes_on_select(context.target_machine)),
         came_with_t_(machine::changes_on_select(context.source_machine)) {}
 
@@ -48,7 +51,8 @@ class ToolChanges {
       } else if (std::holds_alternative<ToolChange>(a.data) && came_with_t_ && !has<ToolSelect>(b)) {
         done_already(s, a);
       } else if (std::holds_alternative<ToolChange>(a.data) && at_once_) {
-        change(s, a, out);
+        if (!pending_ && !change(s, a)) return;
+        if (pending_) write(a, out);
       } else {
         out.push_back(std::move(a));
       }
@@ -61,7 +65,6 @@ class ToolChanges {
   void select(Action a, bool change_follows, std::vector<Action>& out) {
     auto& t = std::get<ToolSelect>(a.data);
     const bool did = t.changes;
-    selected_ = true;
     came_with_t_ = did && machine::changes_on_select(context_.source_machine);
     if (did == at_once_) {
       out.push_back(std::move(a));
@@ -69,8 +72,7 @@ class ToolChanges {
     }
     t.changes = at_once_;
     if (at_once_) {  // the source changes at M6, in this block or later
-      if (!change_follows) a.pos = {};
-      pending_ = std::move(a);
+      if (change_follows) pending_ = std::move(a);
       return;
     }
     const Order order = a.order;
@@ -78,21 +80,31 @@ class ToolChanges {
     if (!change_follows) out.push_back(action(ToolChange{}, order));  // when the source changes; `order` moves it
   }
 
-  /// M6 where the target changes at T: the T that was waiting is written here.
-  void change(const Statement& s, const Action& a, std::vector<Action>& out) {
-    if (pending_) {
-      pending_->order = a.order;
-      out.push_back(std::move(*pending_));
-      pending_.reset();
-      return;
+  /// M6 where the target changes at T: the T that was waiting is written here. False: refused.
+  bool change(Statement& s, const Action& a) {
+    const ReadyTool ready = ready_.before(s);
+    if (ready.unsure) {
+      refuse(s, program_, context_, "TRN-146",
+             "which tool this change brings depends on the way that leads here, and the target changes tools at T",
+             "write T in the block of the change", a.pos);
+      return false;
     }
-    if (!selected_) {
+    if (ready.tool && !ready.changed) {
+      pending_ = action(*ready.tool);
+      std::get<ToolSelect>(pending_->data).changes = true;
+    }
+    if (!ready.tool)
       context_.diagnostics.warning(
           "TRN-141", word_span(s.line.span, a.pos),
           "a tool change without a tool number before it in this program: left out, because the "
           "target changes tools at T",
           "write the T word before the change");
-    }
+    return true;
+  }
+  void write(const Action& change, std::vector<Action>& out) {
+    pending_->order = change.order;
+    out.push_back(std::move(*pending_));
+    pending_.reset();
   }
 
   /// M6 behind a T that changed the tool at once: nothing is left to do.
@@ -102,11 +114,12 @@ class ToolChanges {
                               "there and is left out");
   }
 
+  const Program& program_;
   const LegaliseContext& context_;
+  const ReadyTools& ready_;
   bool at_once_;
-  bool selected_ = false;
-  bool came_with_t_;  ///< the T before M6 has changed the tool: any T does on a machine that changes at T
-  std::optional<Action> pending_;
+  bool came_with_t_;               ///< the T before M6 has changed the tool: any T does on a machine that changes at T
+  std::optional<Action> pending_;  ///< the T of the block at hand
 };
 
 /// Length compensation: left out where the target always has it, switched on where the target needs it.
@@ -236,9 +249,10 @@ void convert_tools(Program& program, const LegaliseContext& context) {
   const bool as_written =
       program.dialect == context.target.dialect &&
       machine::changes_on_select(context.source_machine) == machine::changes_on_select(context.target_machine);
+  const ReadyTools ready(program);
   for (auto& r : program.routines) {
     if (as_written) break;
-    ToolChanges changes(context);
+    ToolChanges changes(program, context, ready);
     for_each_statement(r.body, [&changes](Statement& s) {
       if (std::holds_alternative<Block>(s.node)) changes.block(s);
     });

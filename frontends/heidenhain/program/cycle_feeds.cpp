@@ -94,7 +94,7 @@ void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
         left = true;
         in_force = own;
         without_feed(*b);
-      } else if (left && !rapid_only(s)) {
+      } else if (left && (!rapid_only(s) || gives_feed(s))) {
         const bool own = b != nullptr && action_of<ir::SetFeed>(*b) != nullptr && s.line.number.empty() &&
                          s.line.labels.empty() && s.line.skip_mask == 0;
         const bool needed = back.value_or(in_force) != in_force && !own && !std::holds_alternative<ir::End>(s.node);
