@@ -1,8 +1,11 @@
 #include "backends/num/data_names.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "base/saturate.h"
 #include "dialects/num/variables.h"
@@ -56,6 +59,23 @@ std::optional<ir::DataForm> data_form(const ir::SystemRef& ref, bool lathe) {
     case Datum::feed_override: return row(EMeaning::feed_override, 0, 1);
     default: return std::nullopt;
   }
+}
+
+ir::ExprPtr work_position(ir::AxisId axis) {
+  if (axis >= ir::axis::first_extra) return nullptr;
+  constexpr std::array shifts{EMeaning::pref, EMeaning::dec1, EMeaning::dec3, EMeaning::shift};
+  const auto datum = [axis](EMeaning meaning) {
+    ir::SystemRef ref;
+    ref.datum = meaning == EMeaning::position ? Datum::machine_position : Datum::other;
+    ref.axis = axis;
+    ref.text = row(meaning, axis, 1)->text;
+    ir::Expr e;
+    e.node = std::move(ref);
+    return std::make_shared<const ir::Expr>(std::move(e));
+  };
+  ir::ExprPtr rest = datum(EMeaning::position);
+  for (const EMeaning m : shifts) rest = ir::binary(ir::BinaryOp::subtract, rest, datum(m));
+  return ir::binary(ir::BinaryOp::divide, rest, ir::number(units_of(axis)));
 }
 
 bool is_parameter_name(std::string_view text) {

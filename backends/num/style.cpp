@@ -133,6 +133,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.surface_x_radius = true;
   c.system_data = [](const ir::SystemRef& s) { return is_parameter_name(s.text); };
   c.data_form = [lathe](const ir::SystemRef& s) { return data_form(s, lathe); };
+  if (!lathe) c.work_position = work_position;
   c.native_cycle = [later](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);
     const auto* named = std::get_if<ir::NamedCycle>(&cycle.node);

@@ -32,7 +32,14 @@ class KnownData {
         facts_(program, context),
         frames_(program, facts_, context),
         feed_domain_(context.source_machine.power_on.units_feed_too),
-        feed_units_(program, feed_domain_) {}
+        feed_units_(program, feed_domain_) {
+    for (const Routine& r : program.routines) {
+      for_each_statement(r.body, [this](const Statement& s) {
+        const auto* b = std::get_if<Block>(&s.node);
+        for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) gauges_ = gauges_ || hides(b->actions[i]);
+      });
+    }
+  }
 
   void in(const Routine& r) { routine_ = &r; }
   void statement(Statement& s) {
@@ -52,6 +59,12 @@ class KnownData {
   }
 
  private:
+  /// Behind it the machine's place is another by more than the offsets and the shift.
+  static bool hides(const Action& a) {
+    const auto* gauge = std::get_if<ToolOffset>(&a.data);
+    const auto* offset = std::get_if<WorkOffset>(&a.data);
+    return (gauge != nullptr && !gauge->number.is(0)) || (offset != nullptr && offset->off);
+  }
   [[nodiscard]] bool sayable(const SystemRef& ref) const {
     return context_.target.system_data && context_.target.system_data(ref);
   }
@@ -102,9 +115,22 @@ class KnownData {
       return formula->expr;
     }
     const auto own = context_.target.data_form ? context_.target.data_form(ref) : std::nullopt;
-    if (!own) return e;
+    if (!own) return in_frame(s, e, ref);
     const ExprPtr named = renamed(e, *own);
     return own->units == 1 ? named : binary(BinaryOp::divide, named, number(own->units));
+  }
+  /// The place in the program's coordinates as the target's data give it, where these coordinates are only shifted.
+  ExprPtr in_frame(const Statement& s, const ExprPtr& e, const SystemRef& ref) {
+    if (ref.datum != Datum::work_position || !context_.target.work_position) return e;
+    const Facts& facts = facts_.before(s);
+    const PlanarFrame frame = frames_.before(s).whole(context_.source_machine);
+    const bool only_shifts = !frame.foreign && !frame.turns() && !frame.scales() && !frame.mirrors();
+    const bool metric = setting<Units>(facts, Setting::units) == Units::metric;
+    const auto formula = only_shifts && metric && !gauges_ ? context_.target.work_position(ref.axis) : nullptr;
+    if (!formula) return e;
+    context_.diagnostics.note("TRN-132", word_span(s.line.span, e->pos),
+                              ref.text + " is the machine's position less the offsets and the shift: written so");
+    return formula;
   }
   static ExprPtr renamed(const ExprPtr& e, const DataForm& own) {
     Expr copy = *e;
@@ -304,6 +330,7 @@ class KnownData {
   std::optional<PathStates> path_;  ///< where a position is asked for
   const CallGraph calls_;
   const Routine* routine_ = nullptr;
+  bool gauges_ = false;  ///< the program counts with gauges of tools, or without its offsets
   FactsOf facts_;
   FrameStates frames_;
   FeedUnits feed_domain_;

@@ -167,7 +167,8 @@ class DistancePass {
         continue;
       }
       if (!at) {
-        if (!asks || !from_machine(c, *mode, *from / *to)) return false;
+        if (!asks || *mode != Distance::absolute || !from_machine(c, Datum::programmed_position, *from / *to))
+          return false;
         continue;
       }
       const Value here{*at};
@@ -199,12 +200,12 @@ class DistancePass {
     return false;
   }
 
-  /// The increment added to what the target knows as the last programmed coordinate.
-  bool from_machine(CoordWord& c, Distance mode, double factor) const {
+  /// The increment added to what the target knows as the last programmed coordinate, or as the place in the frame.
+  bool from_machine(CoordWord& c, Datum datum, double factor) const {
     SystemRef here;
-    here.datum = Datum::programmed_position;
+    here.datum = datum;
     here.axis = c.axis;
-    if (mode != Distance::absolute || !context_.target.system_data || !context_.target.system_data(here)) return false;
+    if (!context_.target.system_data || !context_.target.system_data(here)) return false;
     Expr e;
     e.node = std::move(here);
     const Value step = scale(c.value, factor);
@@ -280,8 +281,28 @@ class DistancePass {
   /// Increments right after a frame change become absolute where the place they start from is known.
   bool made_absolute(const Statement& s, Block& b, const Facts& facts) const {
     auto coords = absolute_words(b, facts, context_.source_machine, [&](AxisId a) { return base(a, s, b, facts); });
-    if (!coords) return false;
+    if (!coords) return from_place(b, facts);
     b.motion.coords = std::move(*coords);
+    return true;
+  }
+  /// Where the source counts from the place of the machine in the new frame, and the target can name that place.
+  bool from_place(Block& b, const Facts& facts) const {
+    if (context_.source_machine.option("frame.change_keeps") != "machine" || !context_.target.distance_per_word ||
+        b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0 || centres_follow(b) ||
+        setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
+      return false;
+    std::vector<CoordWord> coords = b.motion.coords;
+    for (auto& c : coords) {
+      const auto d = distance_of(c, b, facts);
+      if (d == Distance::absolute || (dirty_ >> c.axis & 1U) == 0) continue;
+      if ((turned_ >> c.axis & 1U) != 0) return false;  // a repeat of such a block is better written out
+      const auto* spec = context_.target_machine.axis(c.axis);
+      if (d != Distance::incremental || c.scale != WordScale::modal || spec == nullptr || spec->diameter ||
+          !from_machine(c, Datum::work_position, 1))
+        return false;
+      c.mode = WordMode::absolute;
+    }
+    b.motion.coords = std::move(coords);
     return true;
   }
 

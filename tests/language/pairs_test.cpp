@@ -46,6 +46,7 @@ struct Form {
   std::vector<std::string> refuses;  ///< codes, when the construct is refused for this target
   bool source = false;
   bool unverified = false;
+  bool own_words = false;  ///< what it becomes is verified, not compared with the other forms letter by letter
 };
 struct Pair {
   std::string path;
@@ -68,6 +69,7 @@ Pair read_pair(const std::string& path) {
       if (line.rfind("refuses: ", 0) == 0) f.refuses.push_back(line.substr(9));
       if (line == "target only") f.source = false;
       if (line == "not verified") f.unverified = true;
+      if (line == "own words") f.own_words = true;
     }
     f.source = f.refuses.empty() && std::find(s.lines.begin(), s.lines.end(), "target only") == s.lines.end();
     pair.forms[s.heading] = std::move(f);
@@ -161,7 +163,9 @@ TEST_P(Pairs, EveryFormBecomesEveryOther) {
         continue;
       }
       EXPECT_FALSE(result.refused) << render_text(result.diagnostics, result.files);
-      EXPECT_EQ(snippet_of(result.outputs, frame(to, pair.lathe)), wanted.text);
+      if (!source.own_words) {
+        EXPECT_EQ(snippet_of(result.outputs, frame(to, pair.lathe)), wanted.text);
+      }
       if (!source.unverified && !wanted.unverified) {
         EXPECT_TRUE(result.verdict.good()) << verifier::describe(result.verdict, result.files, result.target_files);
       }

@@ -57,6 +57,17 @@ bool names_pref(std::string_view text) {
   return false;
 }
 
+/// Whether an offset may be another one behind it: G92, or a value for an E6x0nn.
+bool sets_offsets(std::string_view text) {
+  constexpr std::size_t name = 6;
+  if (text.find("G92") != std::string_view::npos) return true;
+  for (std::size_t at = text.find("E6"); at != std::string_view::npos; at = text.find("E6", at + 1)) {
+    const auto next = text.find_first_not_of(' ', at + name);
+    if (next != std::string_view::npos && text[next] == '=' && text[at + name - 1] != '5') return true;  // 5: the shift
+  }
+  return false;
+}
+
 /// Whether the text names a latched position (E7x001).
 bool names_latched(std::string_view text) {
   for (std::size_t at = text.find("E7"); at != std::string_view::npos; at = text.find("E7", at + 1)) {
@@ -121,6 +132,7 @@ ir::Program FileReader::read() {
   const auto& lines = source_->lines();
   const std::string text = to_upper_ascii(source_->text());
   lower_.expressions().keep_offsets_apart(names_pref(text));
+  lower_.expressions().know_offsets_only_read(names_pref(text) && !sets_offsets(text));
   latches_ = names_latched(text);
   look.final_eol = lines.empty() || lines.back().has_eol;
   program_.files.push_back(std::move(look));

@@ -33,6 +33,8 @@ class Expressions {
   std::vector<ir::FrameWord> take_shifts() { return std::exchange(shifts_, {}); }
   /// PREF, DEC1 and DEC3 are kept apart (memory), because the program works with more than DEC1.
   void keep_offsets_apart(bool apart) { offsets_apart_ = apart; }
+  /// The program writes none of them: PREF is what the offset in force leaves for it, beside DEC1 and DEC3.
+  void know_offsets_only_read(bool only_read) { offsets_only_read_ = only_read; }
   [[nodiscard]] bool offsets_apart() const { return offsets_apart_; }
   /// PREF takes over what a G92 made of the axis: two assignments.
   void take_over_preset(ir::AxisId axis, std::vector<ir::Assign::Item>& items) const;
@@ -61,7 +63,11 @@ class Expressions {
   bool assign_parameter(const syntax::Expr& target, ir::ExprPtr value, std::vector<ir::Assign::Item>& items,
                         WordPos pos);
   [[nodiscard]] bool is_memory(const dialects::num::EParameter& row) const;
+  /// PREF := offset in force - DEC1 - DEC3.
+  [[nodiscard]] ir::Assign::Item preset_left(ir::AxisId axis) const;
   bool offsets_apart_ = false;
+  bool offsets_only_read_ = false;
+  std::set<ir::AxisId> presets_read_;  ///< by the value at hand
 
   const Settings& settings_;
   Report& report_;

@@ -205,6 +205,8 @@ ir::ExprPtr Expressions::parameter(const syntax::Expr& e) {
     if (!user_parameter(e, n)) return nullptr;
     return ir::at(ir::variable(e_variable(n), ir::Type::integer), e.pos);
   }
+  if (offsets_only_read_ && row->meaning == EMeaning::pref)
+    presets_read_.insert(static_cast<ir::AxisId>(facts::e_index(*row, n)));
   if (is_memory(*row)) return ir::at(ir::variable(e_variable(n), ir::Type::integer), e.pos);
   auto found = neutral(*row, n, settings_);
   if (!found) {
@@ -305,7 +307,7 @@ ir::ExprPtr Expressions::lower_axis_value(const syntax::Expr& e, ir::AxisId axis
   return sign && e.text == "-" ? ir::at(ir::unary(ir::UnaryOp::negate, std::move(plain)), e.pos) : plain;
 }
 
-void Expressions::take_over_preset(ir::AxisId axis, std::vector<ir::Assign::Item>& items) const {
+ir::Assign::Item Expressions::preset_left(ir::AxisId axis) const {
   const std::int64_t base = 60000 + 1000 * std::int64_t{axis};
   const auto part = [base](std::int64_t component) {
     return ir::variable(e_variable(base + component), ir::Type::integer);
@@ -313,12 +315,17 @@ void Expressions::take_over_preset(ir::AxisId axis, std::vector<ir::Assign::Item
   ir::ExprPtr whole = ir::binary(ir::BinaryOp::multiply, system(axis_ref(ir::Datum::active_shift, axis, {}), {}),
                                  ir::number(axis_units(settings_, axis)));
   whole = ir::binary(ir::BinaryOp::subtract, std::move(whole), part(1));
-  whole = ir::binary(ir::BinaryOp::subtract, std::move(whole), part(4));
   ir::Assign::Item item;
   item.target = e_variable(base);
-  item.value = ir::call(ir::Function::round, {std::move(whole)});
+  item.value = ir::binary(ir::BinaryOp::subtract, std::move(whole), part(4));
+  return item;
+}
+
+void Expressions::take_over_preset(ir::AxisId axis, std::vector<ir::Assign::Item>& items) const {
+  ir::Assign::Item item = preset_left(axis);
+  item.value = ir::call(ir::Function::round, {std::move(item.value)});
   items.push_back(std::move(item));
-  items.push_back(offset_item(settings_, base, {}));
+  items.push_back(offset_item(settings_, 60000 + 1000 * std::int64_t{axis}, {}));
 }
 
 ir::Assign::Item Expressions::latched(ir::AxisId axis) const {
@@ -410,8 +417,10 @@ bool Expressions::assign_parameter(const syntax::Expr& target, ir::ExprPtr value
 
 bool Expressions::assignment(const syntax::Statement& s, std::vector<ir::Assign::Item>& items) {
   const syntax::Expr& target = s.args.at(0);
+  presets_read_.clear();
   ir::ExprPtr value = lower(s.args.at(1));
   if (!value) return false;
+  for (const ir::AxisId axis : presets_read_) items.push_back(preset_left(axis));
   if (target.text == "E") return assign_parameter(target, std::move(value), items, s.pos);
   auto ref = target.text == "L" ? l_variable(target) : symbol(target);
   if (!ref) return false;
