@@ -112,8 +112,8 @@ struct Capabilities {
   std::function<bool(const SystemRef&)> system_data;  ///< machine data that the backend can name; empty: none
   /// Machine data that the backend can name in a unit of its own; empty: none.
   std::function<std::optional<DataForm>(const SystemRef&)> data_form;
-  /// The present place of an axis as the program counts it, as a formula of data that the backend can name (mm, degrees):
-  /// for where the frame only shifts and no gauge of a tool counts; nullptr: none.
+  /// The present place of an axis as the program counts it, as a formula of data that the backend can name (mm,
+  /// degrees): for where the frame only shifts and no gauge of a tool counts; nullptr: none.
   std::function<ExprPtr(AxisId)> work_position;
   std::int32_t word_decimals = 4;  ///< places of a metric length word
   std::int32_t word_decimals_inch = 5;
