@@ -199,19 +199,17 @@ class ModalCalls {
                           });
     if (!active_ && !own_feed) return out.push_back(std::move(s));
     const CallRoutine call = active_ ? *active_ : on_target_->call;
-    if (guessed) {
-      blocks.reset();
-      error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
-    }
+    if (guessed) error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
     const auto feed = facts_.before(s).feed;
+    if (blocks && arcs_from_elsewhere(*blocks, program_, calls_, call, facts_)) {
+      error = "the tool goes from point to point along arcs, and the modal subprogram leaves it elsewhere";
+    }
     if (own_feed && (!feed || !leaves_feed(program_, calls_, call, *feed))) {
-      blocks.reset();
       error = "the tool goes from point to point at a feed of the pattern's own, and the feed behind it is not known";
     } else if (own_feed && !active_ && !fixed_arguments(call)) {
-      blocks.reset();
       error = "the arguments of the modal subprogram are computed";
     }
-    if (!blocks) {
+    if (!blocks || !error.empty()) {
       if (error.empty()) error = "its words are computed when the program runs";
       refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
              "give the pattern's words and the place before it as numbers");

@@ -1,8 +1,11 @@
 #include "legaliser/control/modal_callees.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "ir/analysis/domains/kept_values.h"
+#include "legaliser/analysis/words.h"
 #include "legaliser/cycles/parts/cycle_parts.h"
 
 namespace cnctrans::ir::passes {
@@ -59,6 +62,39 @@ bool may_move(const Program& program, const CallGraph& calls, const CallRoutine&
     return (b != nullptr && (b->has_motion || pattern_in(*b) != nullptr)) ||
            (inner != nullptr && !callee_of(calls, *inner));
   });
+}
+
+/// Its increments in the plane do not add up to nothing, or it goes to places there.
+static bool leaves_its_point(const Program& program, const CallGraph& calls, const CallRoutine& call,
+                             const FactsOf& facts) {
+  std::map<AxisId, double> travel;
+  bool straight = true, places = false;
+  const bool unknown = !callee_of(calls, call) || any_below(program, calls, call, [&](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    straight = straight && s.line.skip_mask == 0 &&
+               (b != nullptr || std::holds_alternative<Label>(s.node) || std::holds_alternative<Assign>(s.node) ||
+                std::holds_alternative<Message>(s.node) || std::holds_alternative<Return>(s.node));
+    if (b == nullptr || !b->has_motion) return std::holds_alternative<Opaque>(s.node);
+    const auto plane = setting_in<Plane>(*b, facts.before(s), Setting::plane);
+    for (const auto& c : b->motion.coords) {
+      if (c.axis > axis::z || (plane && c.axis == plane_axes(*plane).w)) continue;
+      travel[c.axis] += c.value.literal() ? c.value.number : std::nan("");
+      places = places || distance_of(c, *b, facts.before(s)) != Distance::incremental;
+    }
+    places = places || b->motion.extra || b->motion.frame != FrameUse::normal || pattern_in(*b) != nullptr;
+    return false;
+  });
+  return unknown || places || (!straight && !travel.empty()) ||
+         std::any_of(travel.begin(), travel.end(), [](const auto& t) { return !(std::fabs(t.second) < 1e-9); });
+}
+
+bool arcs_from_elsewhere(const Body& way, const Program& program, const CallGraph& calls, const CallRoutine& call,
+                         const FactsOf& facts) {
+  const bool arcs = std::any_of(way.begin(), way.end(), [](const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    return b != nullptr && b->motion.kind != MotionKind::rapid && b->motion.kind != MotionKind::linear;
+  });
+  return arcs && leaves_its_point(program, calls, call, facts);
 }
 
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/analysis/call_graph.h"
+#include "legaliser/analysis/facts.h"
 #include "legaliser/legalise.h"
 
 namespace cnctrans::ir::passes {
@@ -14,6 +15,10 @@ bool changes_modal_calls(const Program& program, const CallGraph& calls, const C
 bool defines_cycle(const Program& program, const CallGraph& calls, const CallRoutine& call);
 /// It, or one below it, moves, goes to the points of a pattern, or calls what is not at hand.
 bool may_move(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// The way goes along arcs, each of which starts where the subprogram ends: perhaps at another point of the plane than
+/// where it was called.
+bool arcs_from_elsewhere(const Body& way, const Program& program, const CallGraph& calls, const CallRoutine& call,
+                         const FactsOf& facts);
 /// Behind it this feed is in force when it is before it.
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed);
 /// What the block does behind its motion, or in blocks of their own on another control, a modal call would come before.

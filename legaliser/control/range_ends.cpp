@@ -8,6 +8,7 @@
 #include "ir/edit/lines.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/edit/editor.h"
+#include "legaliser/edit/refuse.h"
 
 namespace cnctrans::ir::passes {
 
@@ -16,9 +17,12 @@ namespace {
 class RangeEnds {
  public:
   RangeEnds(Program& program, Routine& routine, const LegaliseContext& context)
-      : program_(program), routine_(routine), editor_(program, routine, context), uses_(label_uses(program, routine)) {}
+      : program_(program), routine_(routine), editor_(program, routine, context), uses_(label_uses(program, routine)) {
+    branches_turns_ = context.target_machine.option("rotary.direction") == "in_word";
+  }
 
   void run() {
+    if (program_.dialect != editor_.context.target.dialect) refuse_ends_at_else();
     each_line(routine_.body, [this](const LineInfo& line) {
       for (const auto& l : labels_on(line)) ++carriers_[{l.is_number, l.text}];
     });
@@ -144,7 +148,8 @@ class RangeEnds {
 
   /// A statement that the target may say with several.
   [[nodiscard]] bool may_grow(const Statement& s) const {
-    if (const auto* b = std::get_if<Block>(&s.node)) return modal_calls_ || action_in<CycleDefine>(*b) != nullptr;
+    if (const auto* b = std::get_if<Block>(&s.node))
+      return modal_calls_ || action_in<CycleDefine>(*b) != nullptr || (branches_turns_ && turns_by_a_sign(*b));
     if (const auto* i = std::get_if<If>(&s.node)) {
       const bool jump = i->then_body.size() == 1 && std::holds_alternative<Jump>(i->then_body[0].node);
       return !jump || !i->else_body.empty();
@@ -152,6 +157,35 @@ class RangeEnds {
     return !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Jump>(s.node) &&
            !std::holds_alternative<Label>(s.node) && !std::holds_alternative<Repeat>(s.node) &&
            !std::holds_alternative<Opaque>(s.node);
+  }
+
+  /// A computed sign that says which way a rotary axis turns.
+  static bool turns_by_a_sign(const Block& b) {
+    return b.has_motion && std::any_of(b.motion.coords.begin(), b.motion.coords.end(), [](const CoordWord& w) {
+             return w.direction == RotaryDirection::by_sign && !w.value.literal();
+           });
+  }
+
+  /// What the way that does not come to the line carries out is stated nowhere.
+  void refuse_ends_at_else() {
+    std::set<std::pair<bool, std::string>> marks;
+    for_each_statement(routine_.body, [&marks](const Statement& s) {
+      const auto* branch = std::get_if<If>(&s.node);
+      if (branch == nullptr || !branch->has_else) return;
+      for (const auto& l : labels_on(branch->else_line)) marks.emplace(l.is_number, l.text);
+    });
+    if (marks.empty()) return;
+    for_each_statement(routine_.body, [&](Statement& s) {
+      const auto* r = std::get_if<Repeat>(&s.node);
+      if (r == nullptr || r->has_program) return;
+      const auto at_mark = [&marks](const LabelRef& l) {
+        return !l.computed && marks.count({l.is_number, l.text}) != 0;
+      };
+      if (at_mark(r->first) || at_mark(r->last))
+        refuse(s, program_, editor_.context, "TRN-163",
+               "the repeated part begins or ends at the ELSE of an IF: what is carried out then is stated nowhere",
+               "put the number on a line of the branch");
+    });
   }
 
   void redirect(const LabelRef& from, const LabelRef& to) {
@@ -179,6 +213,7 @@ class RangeEnds {
   std::set<std::pair<bool, std::string>> passed_;         ///< labels of the lines so far
   std::set<std::pair<bool, std::string>> nearest_;        ///< labels of which an end is the next one, not the first
   bool modal_calls_ = false;
+  bool branches_turns_ = false;  ///< a turn by a computed sign becomes a branch
 };
 
 /// Marks at ends of ranges that nothing but the range asks for, behind one line: that line is the end.

@@ -20,6 +20,12 @@ bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto w = tool_axis(active_->source, b, facts);
   const bool moves_tool = w && moves_along(b, *w);
   const auto height = in_units(moves_tool ? height_after(b, facts, *w) : active_->height, b, facts);
+  // The plane was where the tool stood at the definition: a run of its own begins where it stands now.
+  const auto* source = std::get_if<HoleCycle>(&active_->source->node);
+  const bool own_run = moves_tool || (!active_->on_target && !active_->maybe_on_target);
+  if (own_run && active_->left_height && source != nullptr && source->reference.given &&
+      source->reference.base == LevelBase::from_initial)
+    return true;
   if (hole == nullptr || !hole->retract.given) return false;
   const auto fixed = [](const Level& l) { return l.base == LevelBase::absolute && l.value.literal(); };
   if (!fixed(hole->retract) || !fixed(hole->reference) || !stands_by_itself(*hole)) return false;

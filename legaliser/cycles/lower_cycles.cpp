@@ -185,7 +185,9 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   if (w && moves_along(b, *w)) height = height_after(b, facts, *w);
   // Over the holes the tool stands elsewhere than at the definition, whose height nobody knows.
   if (w && !height) height = height_mm(b, facts, *w);
-  const bool lost = hole != nullptr && height && !back_is_known(*hole, active_->defined_at, b, facts);
+  const bool plane_lost = active_->left_height && !active_->defined_at && hole != nullptr && hole->reference.given &&
+                          hole->reference.base == LevelBase::from_initial;
+  const bool lost = hole != nullptr && height && (plane_lost || !back_is_known(*hole, active_->defined_at, b, facts));
   const bool milling = hole != nullptr && hole->kind == HoleKind::mill;
   if (const std::string option = milling ? cycles::assumed_option(*hole) : std::string(); !option.empty())
     return refuse_assumed(std::move(s), option, out);

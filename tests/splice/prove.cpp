@@ -50,13 +50,20 @@ std::string without_numbers(const std::string& text) {
 struct Narrow {
   std::string_view code, about;
 };
-constexpr std::array<Narrow, 3> narrow = {{{"TRN-159", "feed"}, {"TRN-392", ""}, {"TRN-394", ""}}};
+constexpr std::array<Narrow, 4> narrow = {
+    {{"TRN-159", "feed"}, {"TRN-159", "thread pitch"}, {"TRN-392", ""}, {"TRN-394", ""}}};
+/// Said once for all moves behind it.
+constexpr std::array<Narrow, 1> lasting = {{{"TRN-522", "tool offset"}}};
 
 bool foretells(const Diagnostic& d, const std::string& kind, FileId file, std::uint32_t line) {
   if (d.severity != Severity::warning || !d.span.known() || d.span.file != file) return false;
+  const auto says = [&](const Narrow& n) {
+    return n.code == d.code && !n.about.empty() && kind.find(n.about) != std::string::npos;
+  };
+  if (line >= d.span.line && std::any_of(lasting.begin(), lasting.end(), says)) return true;
   if (line < d.span.line || line > std::max(d.span.line, d.span.end_line)) return false;
-  const auto only = std::find_if(narrow.begin(), narrow.end(), [&](const Narrow& n) { return n.code == d.code; });
-  return only == narrow.end() || (!only->about.empty() && kind.find(only->about) != std::string::npos);
+  return std::none_of(narrow.begin(), narrow.end(), [&](const Narrow& n) { return n.code == d.code; }) ||
+         std::any_of(narrow.begin(), narrow.end(), says);
 }
 
 /// The lines of the source that the first difference stands at: that of the source's event, and the one that the line
