@@ -275,11 +275,12 @@ class ArcPass {
     if (std::any_of(m.centers.begin(), m.centers.end(),
                     [&m](const CenterWord& w) { return w.mode != m.centers.front().mode; })) {
       const auto center = center_point(arc);
-      if (!center || !known(arc.start))
+      if (center && known(arc.start))
+        set_center(arc, *center);
+      else if (!in_one_way(arc))
         return fail(arc, "TRN-313",
                     "the centre is absolute on one axis only, and where the arc begins is not known here",
                     "give both words of the centre in one way");
-      set_center(arc, *center);
     }
     const CenterMode from = m.centers.front().mode;
     const bool whole = t.centers.count(from) != 0 && !incomplete(arc, from);
@@ -367,19 +368,39 @@ class ArcPass {
     if ((!relative || to == CenterMode::follows_distance) && !complete(arc, words, from, was_relative)) return false;
     for (auto& w : words) {
       w.mode = to;
-      if (was_relative == relative) continue;
-      const auto f = to_radius(w.axis, w.scale, was_relative ? Distance::incremental : Distance::absolute, arc.b,
-                               arc.facts, context_.source_machine);
-      const auto start = start_of(arc, w.axis);
-      if (!f || !start) return false;
-      const Value radius = scale(w.value, *f);
-      w.value = relative ? subtract(radius, *start) : add(*start, radius);
-      w.value.text = {};
-      w.scale = WordScale::radius;
+      if (was_relative != relative && !counted_otherwise(arc, w, relative)) return false;
     }
     if (words.empty()) return false;
     arc.b.motion.centers = std::move(words);
     return true;
+  }
+  /// From the start of the arc (`relative`) where it was absolute, and the other way round. False: the start is not known.
+  bool counted_otherwise(const Arc& arc, CenterWord& w, bool relative) const {
+    const auto f = to_radius(w.axis, w.scale, relative ? Distance::absolute : Distance::incremental, arc.b, arc.facts,
+                             context_.source_machine);
+    const auto start = start_of(arc, w.axis);
+    if (!f || !start) return false;
+    const Value radius = scale(w.value, *f);
+    w.value = relative ? subtract(radius, *start) : add(*start, radius);
+    w.value.text = {};
+    w.scale = WordScale::radius;
+    return true;
+  }
+  /// Centre words of two kinds, where the start is known along the axes of one kind. False: it is not.
+  bool in_one_way(Arc& arc) const {
+    if (!arc.distance) return false;
+    for (const bool relative : {true, false}) {
+      std::vector<CenterWord> words = arc.b.motion.centers;
+      const bool all = std::all_of(words.begin(), words.end(), [&](CenterWord& w) {
+        const bool was_relative = is_relative(w.mode, arc.distance);
+        w.mode = relative ? CenterMode::from_start : CenterMode::absolute;
+        return was_relative == relative || counted_otherwise(arc, w, relative);
+      });
+      if (!all) continue;
+      arc.b.motion.centers = std::move(words);
+      return true;
+    }
+    return false;
   }
 
   /// Adds the centre word that stands for an offset of zero: said absolutely, the start. False: that is not known.

@@ -414,6 +414,7 @@ void write_end(Block& b, const PolarEnd& end, bool arc, Plane plane, double fu, 
   word(axes.v, end.to.v, end.centre.v, fv);
   x.has_polar_radius = x.has_polar_angle = false;
   x.polar_radius = x.polar_angle = Value{};
+  x.polar_mode = x.polar_angle_mode = WordMode::modal;
   const bool more = x.has_turns || x.has_pitch || x.has_line_angle;
   m.extra = more ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
 }

@@ -142,6 +142,11 @@ void Lowering::frame_cycle(const CycleDefinition& cycle) {
         if (!scaled_about_) inner.words = {frame_word(plane.u, ir::Value(0)), frame_word(plane.v, ir::Value(0))};
         add(std::move(inner));
       }
+      const bool all = k.words.size() == 3 && std::all_of(k.words.begin(), k.words.end(), [&k](const auto& w) {
+                         return w.axis <= ir::axis::z && w.value.literal() && w.value.number == k.words[0].value.number;
+                       });
+      k.uniform_scale = all && !one;
+      if (k.uniform_scale) k.words.resize(1);
       if (one) {
         k.words.clear();
         k.combine = FrameCombine::clear;
