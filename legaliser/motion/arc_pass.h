@@ -374,7 +374,8 @@ class ArcPass {
     arc.b.motion.centers = std::move(words);
     return true;
   }
-  /// From the start of the arc (`relative`) where it was absolute, and the other way round. False: the start is not known.
+  /// From the start of the arc (`relative`) where it was absolute, and the other way round. False: the start is not
+  /// known.
   bool counted_otherwise(const Arc& arc, CenterWord& w, bool relative) const {
     const auto f = to_radius(w.axis, w.scale, relative ? Distance::absolute : Distance::incremental, arc.b, arc.facts,
                              context_.source_machine);
