@@ -30,8 +30,11 @@ bool candidate(const HoleCycle& c) {
   const bool numbers = c.pitch.literal() && c.pitch.number != 0 &&
                        (!c.has_speed || (c.speed.literal() && c.speed.number > 0)) &&
                        (!c.has_speed_out || (c.has_speed && c.speed_out.literal()));
-  return c.kind == HoleKind::tap && c.orient_first && numbers && c.spindle_after != SpindleStep::usual &&
-         c.spindle_bottom == SpindleStep::none;
+  const bool stops = c.rigid && c.spindle_bottom == SpindleStep::usual && c.spindle_after == SpindleStep::off &&
+                     !c.spindle_after_retract;
+  const bool by_itself =
+      c.orient_first && c.spindle_after != SpindleStep::usual && c.spindle_bottom == SpindleStep::none;
+  return c.kind == HoleKind::tap && numbers && (by_itself || stops);
 }
 
 std::optional<Around> split(const CyclePtr& cycle, const Facts& facts, std::optional<SpindleState> sense) {
@@ -54,7 +57,7 @@ std::optional<Around> split(const CyclePtr& cycle, const Facts& facts, std::opti
   made->node = std::move(plain);
   a.cycle = std::move(made);
   if (!same_in) a.before.actions.push_back(action(SetSpindle{1, c->speed}));
-  a.before.actions.push_back(action(SpindleRun{1, hand}));
+  if (c->orient_first || !same_in || sense != hand) a.before.actions.push_back(action(SpindleRun{1, hand}));
   const bool other_speed = std::fabs(out - in) > 1e-9;
   if (other_speed) a.slower = out;
   if (other_speed || !goes_on) {
@@ -125,11 +128,12 @@ class TapSpeeds {
     if (!around) return out.push_back(std::move(s));
     if (around->slower) tell(like, *around->slower);
     Body pieces;
-    pieces.push_back(made(like, std::move(around->before)));
+    const std::size_t own = around->before.actions.empty() ? 0 : 1;
+    if (own != 0) pieces.push_back(made(like, std::move(around->before)));
     pieces.push_back(std::move(s));
     if (around->after && b != nullptr) pieces.push_back(made(like, *std::move(around->after)));
     if (around->after && m != nullptr) behind = std::move(around->after);
-    editor_.put_group(out, std::move(pieces), 1);
+    editor_.put_group(out, std::move(pieces), own);
   }
   /// Between a modal call and its end stand only points to which the tool goes in rapid, and nothing that turns the
   /// spindle.

@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenPrograms,
                                            Golden{"num", "000330.xpi", false}, Golden{"num", "000340.xpi", true},
                                            Golden{"sinumerik", "cover.mpf", false},
                                            Golden{"sinumerik", "fixture.mpf", false, true},
-                                           Golden{"sinumerik", "pinl.mpf", true}));
+                                           Golden{"sinumerik", "pinl.mpf", true},
+                                           Golden{"heidenhain", "coverplt.H", false}));
 
 }  // namespace
 }  // namespace cnctrans

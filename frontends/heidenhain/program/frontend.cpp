@@ -8,6 +8,7 @@
 #include "dialects/heidenhain/variables.h"
 #include "frontends/common/block_start.h"
 #include "frontends/heidenhain/program/areas.h"
+#include "frontends/heidenhain/program/copies.h"
 #include "frontends/heidenhain/program/cycle_feeds.h"
 #include "frontends/heidenhain/program/finish.h"
 #include "frontends/heidenhain/program/leads.h"
@@ -71,6 +72,7 @@ class HeidenhainReader {
     for (const SourceLine& l : lines) line(l);
     lowering_.flush();
     write_leads(lowering_);
+    copy_for_cycles(lowering_);
     read_areas(lowering_, *options_.profile);
     const Flow flow(lowering_.flat());
     std::vector<std::vector<ir::Statement>> statements;

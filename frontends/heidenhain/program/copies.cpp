@@ -1,0 +1,150 @@
+#include "frontends/heidenhain/program/copies.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "frontends/heidenhain/program/flow.h"
+
+namespace cnctrans::frontends::heidenhain {
+
+namespace {
+
+constexpr int most_copies = 64;
+
+class Copies {
+ public:
+  explicit Copies(Lowering& lowering) : lowering_(lowering), flat_(lowering.flat()) {}
+
+  /// True: a subprogram was copied, and the ways are others now.
+  bool once() {
+    const Flow flow(flat_);
+    for (std::size_t r = 1; r < flow.roots().size(); ++r) {
+      if (copied(flow, r)) return true;
+    }
+    return false;
+  }
+
+ private:
+  using Root = Flow::Root;
+  Item& item(int i) { return flat_.items[static_cast<std::size_t>(i)]; }
+
+  bool copied(const Flow& flow, std::size_t r) {
+    const Root& root = flow.roots()[r];
+    if (root.ends.size() != 1 || root.runs_out || !asks(flow, root) || entered_otherwise(flow, r)) return false;
+    std::map<int, std::vector<int>> calls;  // by the definition in force
+    for (int i = 0; i < static_cast<int>(flat_.items.size()); ++i) {
+      const Arrival& a = flow.arrivals()[static_cast<std::size_t>(i)];
+      if (item(i).kind != ItemKind::call || flow.label(item(i)) != root.start || !a.reached) continue;
+      if (a.cycle < 0) return false;
+      calls[a.cycle].push_back(i);
+    }
+    if (calls.size() < 2 || calls.size() > most_copies || alike(calls)) return false;
+    const int last = root.ends.front();
+    const std::vector<Item> text(flat_.items.begin() + root.start, flat_.items.begin() + last + 1);
+    std::vector<Item> behind;
+    for (auto it = std::next(calls.begin()); it != calls.end(); ++it) {
+      std::vector<Item> copy = text;
+      rename(copy);
+      for (const int c : it->second) {
+        item(c).label = copy.front().label;
+        item(c).number = copy.front().number;
+      }
+      behind.insert(behind.end(), std::make_move_iterator(copy.begin()), std::make_move_iterator(copy.end()));
+    }
+    lowering_.report().start(item(root.start).statement.line.span);
+    lowering_.report().note("HEI-031", {},
+                            "the subprogram is called under " + std::to_string(calls.size()) +
+                                " definitions of cycles: it has a copy for each");
+    flat_.items.insert(flat_.items.begin() + last + 1, std::make_move_iterator(behind.begin()),
+                       std::make_move_iterator(behind.end()));
+    return true;
+  }
+  /// The cycle that a block of its text calls is not known.
+  bool asks(const Flow& flow, const Root& root) {
+    for (int i = root.start; i <= root.ends.front(); ++i) {
+      const Arrival& a = flow.arrivals()[static_cast<std::size_t>(i)];
+      if (item(i).call != CycleCall::none && a.reached && a.cycle == Arrival::several) return true;
+    }
+    return false;
+  }
+  /// Another way than its calls leads into the text, or out of it.
+  static bool entered_otherwise(const Flow& flow, std::size_t r) {
+    const Root& root = flow.roots()[r];
+    for (std::size_t other = 0; other < flow.roots().size(); ++other) {
+      const auto& reached = flow.roots()[other].reached;
+      for (int i = 0; i < static_cast<int>(reached.size()); ++i) {
+        const bool inside = i >= root.start && i <= root.ends.front();
+        if (reached[static_cast<std::size_t>(i)] && inside != (other == r)) {
+          if (other == r || inside) return true;
+        }
+      }
+    }
+    return false;
+  }
+  /// One cycle with other values: these are handed over in its parameters.
+  [[nodiscard]] bool alike(const std::map<int, std::vector<int>>& calls) const {
+    const auto& first = flat_.cycles[static_cast<std::size_t>(calls.begin()->first)];
+    return std::all_of(flat_.cycles.begin(), flat_.cycles.end(), [&first](const CycleDefinition& c) {
+      const bool called = c.row != nullptr ? c.row->called : c.old == nullptr || c.old->called;
+      return !called || (c.row != nullptr && c.number == first.number);
+    });
+  }
+  /// The labels of a copy, and what leads to them, get names of their own.
+  void rename(std::vector<Item>& copy) {
+    std::map<std::pair<std::string, bool>, std::string> names;
+    for (Item& i : copy) {
+      if (i.kind != ItemKind::label) continue;
+      const std::string now = i.number ? free_number() : free_name(i.label);
+      names[{i.label, i.number}] = now;
+      i.label = now;
+      auto& line = i.statement.line;
+      line.labels.clear();
+      if (i.number)
+        line.number = lowering_.keep(now);
+      else
+        line.labels.push_back(lowering_.keep(now));
+    }
+    for (Item& i : copy) {
+      const auto name = names.find({i.label, i.number});
+      if (name == names.end() || i.kind == ItemKind::label) continue;
+      i.label = name->second;
+      if (auto* jump = std::get_if<ir::Jump>(&i.statement.node)) jump->target.text = name->second;
+      if (auto* repeat = std::get_if<ir::Repeat>(&i.statement.node)) repeat->first.text = name->second;
+    }
+  }
+  void find_taken() {
+    if (!taken_.empty()) return;
+    for (const Item& i : flat_.items) taken_.insert(i.label);
+  }
+  std::string free_number() {
+    find_taken();
+    int n = 1;
+    while (!taken_.insert(std::to_string(n)).second) ++n;
+    return std::to_string(n);
+  }
+  std::string free_name(const std::string& of) {
+    find_taken();
+    int n = 2;
+    while (!taken_.insert(of + "_" + std::to_string(n)).second) ++n;
+    return of + "_" + std::to_string(n);
+  }
+
+  Lowering& lowering_;
+  Flat& flat_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace
+
+void copy_for_cycles(Lowering& lowering) {
+  Copies copies(lowering);
+  for (int n = 0; n < most_copies && copies.once(); ++n) {
+  }
+}
+
+}  // namespace cnctrans::frontends::heidenhain
