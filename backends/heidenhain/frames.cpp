@@ -52,6 +52,12 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
       break;
     case ir::FrameSlot::rotation: {
       if (!c.words.empty()) return refuse(no_word, a.pos, "a rotation about a centre has no counterpart here");
+      const bool by_plane = c.rotation_axis == ir::axis::none;
+      const bool about_z =
+          by_plane ? setting(ir::Setting::plane) == code_value(ir::Plane::xy) : c.rotation_axis == ir::axis::z;
+      if (!clear && !about_z && !same_dialect())
+        return refuse(no_word, a.pos, "a rotation about another axis than Z has no counterpart here",
+                      "write the part with G17");
       const std::string sign = c.combine == ir::FrameCombine::add ? "IROT" : "ROT";
       return old_cycle(10, {"ROTATION", sign + signed_amount(clear ? ir::Value(0) : c.angle, a.pos)});
     }

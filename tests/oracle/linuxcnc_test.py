@@ -72,7 +72,7 @@ def test_programs():
     for dialect in EXTENSIONS:
         for folder in ("examples", "tests/identity", "tests/oracle/programs", "tests/golden"):
             for path in sorted((ROOT / folder / dialect).glob("**/*")):
-                if path.suffix.lower() in (".pim", ".pit", ".xpi", ".mpf"):
+                if path.suffix.lower() in (".pim", ".pit", ".xpi", ".mpf", ".h"):
                     found.append(Program(str(path.relative_to(ROOT)), dialect, path=path))
         for path in sorted((ROOT / "tests/catalogue" / dialect).glob("*.md")):
             for heading, lines, fence in sections(path):
