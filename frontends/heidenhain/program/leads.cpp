@@ -196,7 +196,8 @@ class LeadWriter {
     if (!t) return "the direction of the first element of the contour is not known here";
     const int side = lead.side == 0 ? -1 : lead.side;
     const Pair n = side > 0 ? t->left() : Term(-1) * t->left();
-    const bool rapid = way_.rapid();
+    if (!way_.rapid()) return "whether the tool comes to the approach in rapid is not known here";
+    const bool rapid = *way_.rapid();
     const Term size(lead.size);
     Pair touch;
     Pair centre = *first + size * n;

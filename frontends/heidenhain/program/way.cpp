@@ -1,6 +1,7 @@
 #include "frontends/heidenhain/program/way.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ir/geometry/geometry.h"
 
@@ -31,8 +32,10 @@ std::string label_key(const Item& item) {
 
 Way::Way(const Flat& flat) : flat_(flat) {
   for (const Item& i : flat.items) {
-    if (i.kind == ItemKind::call || i.kind == ItemKind::repeat || i.kind == ItemKind::jump)
-      targets_.insert(label_key(i));
+    if (i.kind != ItemKind::call && i.kind != ItemKind::repeat && i.kind != ItemKind::jump) continue;
+    targets_.insert(label_key(i));
+    auto& calls = calls_[label_key(i)];
+    i.kind == ItemKind::call ? void(++calls.left) : void(calls.jumped = true);
   }
 }
 
@@ -40,6 +43,36 @@ void Way::forget() {
   at_.fill(std::nullopt);
   pole_.reset();
   direction_.reset();
+}
+
+void Way::note_call(const Item& item) {
+  Calls& calls = calls_[label_key(item)];
+  --calls.left;
+  if (!std::exchange(calls.some, true)) {
+    calls.at = at_;
+    calls.side = side_;
+    calls.rapid = rapid_;
+    return;
+  }
+  for (std::size_t i = 0; i < at_.size(); ++i) {
+    auto& a = calls.at[i];
+    const bool same = a && at_[i] && a->literal() && at_[i]->literal() && a->number() == at_[i]->number();
+    if (!same) a.reset();
+  }
+  if (calls.side != side_) calls.side.reset();
+  if (calls.rapid != rapid_) calls.rapid.reset();
+}
+
+/// At the label of a subprogram whose calls all stand before it. False: other ways lead here.
+bool Way::enter(const Item& label) {
+  sub_dead_ = dead_;
+  const Calls& calls = calls_[label_key(label)];
+  if (!std::exchange(dead_, false) || calls.jumped || !calls.some || calls.left != 0) return false;
+  forget();
+  at_ = calls.at;
+  side_ = calls.side;
+  rapid_ = calls.rapid;
+  return true;
 }
 
 std::optional<Pair> Way::point() const {
@@ -52,9 +85,11 @@ void Way::step(const Item& item) {
   switch (item.kind) {
     case ItemKind::label:
       if (targets_.count(label_key(item)) == 0) return;
+      cycle_ = -1;
+      if (enter(item)) return;
       forget();
       side_.reset();
-      cycle_ = -1;
+      rapid_.reset();
       return;
     case ItemKind::pole: return set_pole(flat_.poles[static_cast<std::size_t>(item.index)]);
     case ItemKind::cycle: cycle_ = item.index; return;
@@ -64,8 +99,12 @@ void Way::step(const Item& item) {
     case ItemKind::call:
     case ItemKind::program:
     case ItemKind::end:
+      if (item.kind == ItemKind::call) note_call(item);
+      if (item.kind == ItemKind::sub_end) dead_ = sub_dead_;
+      if (item.kind == ItemKind::end && item.statement.line.skip_mask == 0) dead_ = true;
       forget();
       side_.reset();
+      rapid_.reset();
       return;
     case ItemKind::plain: break;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -31,23 +32,39 @@ class Way {
   [[nodiscard]] std::optional<Pair> end_of(const ir::Motion& motion) const;
   /// RL 1, RR -1, R0 0; nullopt: not known here.
   [[nodiscard]] std::optional<int> side() const { return side_; }
-  [[nodiscard]] bool rapid() const { return rapid_; }  ///< the last positioning block was FMAX
+  /// The last positioning block was FMAX; nullopt: not known here.
+  [[nodiscard]] std::optional<bool> rapid() const { return rapid_; }
 
  private:
   void forget();
   void move(const Item& item);
   void call(const Item& item);
   void set_pole(const Pole& pole);
+  void note_call(const Item& item);
+  bool enter(const Item& label);
   [[nodiscard]] std::optional<Pair> centre_of(const Item& item, const std::optional<Pair>& end) const;
   [[nodiscard]] std::optional<Pair> chord(const ir::Motion& m) const;
 
   const Flat& flat_;
   std::set<std::string> targets_;  ///< labels to which something leads
-  std::array<std::optional<Term>, 9> at_;
+  using Place = std::array<std::optional<Term>, 9>;
+  Place at_;
+  /// What the calls of a label agree on.
+  struct Calls {
+    int left = 0;         ///< calls that stand further on in the text
+    bool jumped = false;  ///< a jump or a repeat leads here, too
+    bool some = false;
+    std::optional<bool> rapid;
+    Place at;
+    std::optional<int> side;
+  };
+  std::map<std::string, Calls> calls_;
+  bool dead_ = false;      ///< behind a program end: nothing comes here but to a label
+  bool sub_dead_ = false;  ///< the same at the label of the subprogram at hand
   std::optional<Pair> pole_, direction_;
   ir::Plane plane_ = ir::Plane::xy;
   std::optional<int> side_ = 0;
-  bool rapid_ = false;
+  std::optional<bool> rapid_ = false;
   int cycle_ = -1;  ///< the definition of the text above
 };
 
