@@ -196,8 +196,18 @@ class LeadWriter {
     if (!t) return "the direction of the first element of the contour is not known here";
     const int side = lead.side == 0 ? -1 : lead.side;
     const Pair n = side > 0 ? t->left() : Term(-1) * t->left();
-    if (!way_.rapid()) return "whether the tool comes to the approach in rapid is not known here";
-    const bool rapid = *way_.rapid();
+    const bool line_arc = lead.form == facts_form::line_arc;
+    const bool rapid = way_.rapid().value_or(false);
+    if (!way_.rapid() && !line_arc) {
+      const auto& actions = std::get<ir::Block>(item.statement.node).actions;
+      if (std::none_of(actions.begin(), actions.end(), is_feed))
+        return "whether the tool comes to the approach in rapid is not known here";
+      lowering_.report().warn(
+          "HEI-028", {},
+          "the block before the approach has FMAX on one way and F on another: the tool goes to the "
+          "approach at the F of its block",
+          "write the positioning block right before the approach");
+    }
     const Term size(lead.size);
     Pair touch;
     Pair centre = *first + size * n;
@@ -221,12 +231,12 @@ class LeadWriter {
         break;
       }
     }
-    const bool all = lead.form == facts_form::line_arc;  // its feed is that of the block from the start on
+    const bool all = line_arc || !way_.rapid();  // the feed is that of the block from the start on
     legs.push_back(line(touch, all ? lead.rapid : rapid));
     legs.back().feed = all;
     if (lead.form != facts_form::normal_line) legs.back().comp = true;
     add_height(m, legs, all ? lead.rapid : rapid);
-    const bool curved = lead.form == facts_form::tangent_arc || all;
+    const bool curved = lead.form == facts_form::tangent_arc || line_arc;
     legs.push_back(curved ? arc(*first, centre, ccw) : line(*first, lead.rapid));
     if (!all) legs.back().feed = true;
     if (lead.form == facts_form::normal_line) legs.back().comp = true;
