@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/counted.h"
 #include "cli/common.h"
 #include "translator/batch/batch.h"
 #include "translator/files/names_file.h"
@@ -92,9 +93,9 @@ int batch(const Arguments& a) {
   }
   if (!a.quiet) {
     const std::string reused = result.reused == 0 ? "" : fmt::format(" ({} done before)", result.reused);
-    write_all(stdout,
-              fmt::format("{} programs in this run{}; {} of {} done: {}\nwrote {}/summary.html\n", result.programs,
-                          reused, result.records.size(), result.all, counts.empty() ? "none" : counts, options.out));
+    write_all(stdout, fmt::format("{} in this run{}; {} of {} done: {}\nwrote {}/summary.html\n",
+                                  counted(result.programs, "program"), reused, result.records.size(), result.all,
+                                  counts.empty() ? "none" : counts, options.out));
   }
   return status;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/counted.h"
 #include "cli/common.h"
 #include "translator/project/project.h"
 
@@ -44,8 +45,9 @@ int project(const Arguments& a) {
   }
   std::string counts;
   for (const auto& [state, n] : states) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, state);
-  write_all(stdout, fmt::format("{} programs ({} done before), {} files new or other: {}\nwrote {}/project.html\n",
-                                result.programs.size(), result.reused, result.written.size(), counts, options.folder));
+  write_all(stdout, fmt::format("{} ({} done before), {} new or other: {}\nwrote {}/project.html\n",
+                                counted(result.programs.size(), "program"), result.reused,
+                                counted(result.written.size(), "file"), counts, options.folder));
   return status;
 }
 

@@ -99,16 +99,33 @@ std::optional<VarRef> Editor::take(const LineInfo& where) {
     return v;
   }
   if (target().declares_variables) {
+    UsedVariables& all = context.names != nullptr ? used_ : used();  // with a map: as in each program that calls it
     std::string name;
     int i = 0;
     do {
       name = "_T" + std::to_string(++i);
-    } while (used().has_name(name));
-    used().add_name(name);
+    } while (all.has_name(name));
+    all.add_name(name);
     declared_.push_back(name);
     const SpaceId space = program.space("");
     if (space == program.spaces.size()) program.spaces.emplace_back();
     return VarRef{space, name, nullptr, {}};
+  }
+  const bool shared = context.names != nullptr && context.report != nullptr && routine.kind != RoutineKind::main;
+  std::string
+      key;  // of a subprogram that others call too: its temporaries are those of the map, so that it has one text
+  if (shared) {
+    for (int i = 1; key.empty(); ++i) {
+      std::string name = temporary_in_map(routine.name, i);
+      const auto n = given_number(context, name);
+      if (n && used().has(n->first, n->second)) continue;
+      if (n) {
+        used().add(n->first, n->second);
+        context.report->names.variables[name] = n->first + std::to_string(n->second);
+        return variable_number(n->first, n->second);
+      }
+      key = std::move(name);
+    }
   }
   const auto given = given_numbers(context);
   for (const bool preferred : {true, false}) {
@@ -117,6 +134,7 @@ std::optional<VarRef> Editor::take(const LineInfo& where) {
       for (std::int64_t n = pool.hi; n >= pool.lo; --n) {
         if (used().has(pool.prefix, n) || given.count({pool.prefix, n}) != 0) continue;
         used().add(pool.prefix, n);
+        if (shared) context.report->names.variables[key] = pool.prefix + std::to_string(n);
         return variable_number(pool.prefix, n);
       }
     }

@@ -100,6 +100,22 @@ std::optional<VarRef> GivenNames::place_of(const std::string& name, bool compens
   return VarRef{pools_.space(p.pool->prefix), {}, number(static_cast<double>(p.number)), {}};
 }
 
+std::string temporary_in_map(const RoutineName& routine, int n) {
+  return "TEMPORARY " + std::to_string(n) + "(" + to_upper_ascii(NameMap::key(routine)) + ")";
+}
+
+std::optional<std::pair<std::string, std::int64_t>> given_number(const LegaliseContext& context,
+                                                                 const std::string& name) {
+  const NameMap* const made = context.report == nullptr ? nullptr : &context.report->names;
+  for (const NameMap* map : {context.names, made}) {
+    if (map == nullptr) continue;
+    const auto it = map->variables.find(name);
+    const auto n = it == map->variables.end() ? std::nullopt : one_number(it->second);
+    if (n) return std::pair(n->prefix, n->first);
+  }
+  return std::nullopt;
+}
+
 std::set<std::pair<std::string, std::int64_t>> given_numbers(const LegaliseContext& context) {
   std::set<std::pair<std::string, std::int64_t>> out;
   if (context.names == nullptr) return out;

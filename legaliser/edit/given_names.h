@@ -39,6 +39,11 @@ class GivenNames {
   std::map<std::string, Place> places_;
 };
 
+/// How the nth intermediate value of a subprogram stands in the map.
+std::string temporary_in_map(const RoutineName& routine, int n);
+/// The variable that the map gives to a name, or that this translation has given it: letters and number.
+std::optional<std::pair<std::string, std::int64_t>> given_number(const LegaliseContext& context,
+                                                                 const std::string& name);
 /// Variables of the map by letters and number, which no temporary may take.
 std::set<std::pair<std::string, std::int64_t>> given_numbers(const LegaliseContext& context);
 

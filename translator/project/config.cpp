@@ -97,6 +97,7 @@ std::optional<ProjectConfig> parse_project(std::string_view text, std::string* e
   members.text("programs", config.programs);
   members.text("output", config.output);
   members.text("names", config.names);
+  members.text("archive", config.archive);
   members.text("machine", config.machine);
   members.text("target_machine", config.target_machine);
   members.text("tools", config.tools);

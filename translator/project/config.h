@@ -18,6 +18,7 @@ struct ProjectConfig {
   std::string from, to;
   std::string programs = "programs", output = "translated", names = "names.json";
   std::string machine, target_machine, tools;
+  std::string archive;  ///< of all outputs, below the output folder; empty: none
   std::vector<std::string> libraries;
   std::vector<ProjectFolder> folders;
   bool draft = false;

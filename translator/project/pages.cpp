@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/counted.h"
 #include "base/markup.h"
 #include "base/source.h"
 #include "base/text.h"
@@ -86,8 +87,9 @@ std::string project_html(const ProjectResult& r, const ProjectConfig& config) {
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n"
-      "<p>{2} programs of {3}; what loads into the control stands in {4}.</p>\n",
-      html_text(title), project_style, r.programs.size(), html_text(config.programs), html_text(config.output));
+      "<p>{2} of {3}; what loads into the control stands in {4}.</p>\n",
+      html_text(title), project_style, counted(r.programs.size(), "program"), html_text(config.programs),
+      html_text(config.output));
   std::map<std::string, std::size_t> states;
   for (const auto& p : r.programs) ++states[p.state];
   out += "<table><tr><th>state</th><th>programs</th></tr>\n";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/counted.h"
 #include "base/markup.h"
 #include "base/text.h"
 #include "translator/survey/survey.h"
@@ -65,7 +66,8 @@ constexpr std::size_t shown_in_text = 20;
 
 std::string survey_text(const Survey& s, const SurveyOptions& options) {
   const Sums sums = sums_of(s);
-  std::string out = fmt::format("{}: {} files, {} lines\n", options.in, s.programs.size(), sums.lines);
+  std::string out =
+      fmt::format("{}: {}, {}\n", options.in, counted(s.programs.size(), "file"), counted(sums.lines, "line"));
   for (const auto& kind : program_kinds()) {
     if (const auto it = sums.kinds.find(kind); it != sums.kinds.end())
       out += fmt::format("  {:<16}{}\n", kind, it->second);
