@@ -74,7 +74,13 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
     return;
   }
   if (!hole_here) return plain(std::move(s), std::move(pieces), out);
+  const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
+  const auto units = setting_in<Units>(b, facts, Setting::units);
   native_point(std::move(s), std::move(pieces), out);
+  if (!active_ || hole == nullptr || !units || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
+      !hole->retract.value.literal())
+    return;
+  active_->height = hole->retract.value.number * (*units == Units::inch ? 25.4 : 1);
 }
 
 static Action distance_set(Distance d) {
