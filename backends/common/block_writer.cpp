@@ -228,7 +228,8 @@ void ProgramWriter::machine_function(const ir::Action& a, const ir::MachineFunct
   const machine::MCode* there = profile().m_code(m.code);
   if (!same_dialect_ && there != nullptr && there->meaning != MMeaning::machine_function) {
     return refuse("TRN-207", a.pos,
-                  m_word(m.code) + " means something else on the target machine (" + there->text + ")",
+                  m_word(m.code) + " means something else on the target machine" +
+                      (there->text.empty() ? std::string() : " (" + there->text + ")"),
                   "say in the machine profiles what the function does");
   }
   if (!same_dialect_ && noted_functions_.insert(m.code).second) {

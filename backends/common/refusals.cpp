@@ -4,6 +4,7 @@
 #include "backends/common/comments.h"
 #include "backends/common/program_writer.h"
 #include "base/text.h"
+#include "ir/check/missing_features.h"
 #include "ir/source_line.h"
 
 namespace cnctrans::backends {
@@ -137,6 +138,14 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
     return;
   }
   std::string source(trim(source_line(current_->line.span)));
+  if (const auto* f = ir::find_missing_feature(o.feature); f != nullptr && f->of_one_machine) {
+    diagnostics_.warning("TRN-220", current_->line.span,
+                         "'" + o.text + "' is left out: " + std::string(f->title) + " stay with the machine",
+                         "see that the target's machine has its own");
+    refusal_code_ = "TRN-220";
+    refusal_moves_ = false;
+    return;
+  }
   refuse(
       "TRN-205", {}, "'" + (source.empty() ? o.text : source) + "' is not translated",
       o.feature == "beside.coupling"

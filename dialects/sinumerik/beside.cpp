@@ -166,6 +166,8 @@ constexpr Definition all_definitions[] = {{"CPROTDEF", "EXECUTE", "beside.data"}
                                           {"CTABDEF", "CTABEND", "beside.coupling"},
                                           {"NPROTDEF", "EXECUTE", "beside.data"}};
 
+constexpr std::string_view machine_errors = "beside.machine_errors";
+
 struct DatumRow {
   std::string_view name;  ///< the name, or its beginning when it ends in `*`
   std::string_view feature;
@@ -173,35 +175,24 @@ struct DatumRow {
 /// Setting data and machine data that the reference does not name count like the others, unless their name tells that
 /// they are about axes, codes or coordinates.
 constexpr DatumRow data[] = {
-    {"$SC_*", "beside.data"},
-    {"$SN_*", "beside.data"},
-    {"$SA_*", "beside.data"},
-    {"$MC_*", "beside.data"},
-    {"$MN_*", "beside.data"},
-    {"$MA_*", "beside.data"},
-    {"$MD_*", "beside.data"},
-    {"$SNS_MEA_*", "beside.data"},
-    {"$SCS_MEA_*", "beside.data"},
-    {"$MNS_MEA_*", "beside.data"},
-    {"$AN_CEC*", "beside.compensation"},
-    {"$AA_ENC_COMP*", "beside.compensation"},
-    {"$AA_QEC*", "beside.compensation"},
-    {"$A_OUT", "beside.realtime"},
-    {"$A_OUTA", "beside.realtime"},
-    {"$A_DB*", "beside.realtime"},
-    {"$A_DLB", "beside.realtime"},
-    {"$A_DLW", "beside.realtime"},
-    {"$A_DLD", "beside.realtime"},
-    {"$A_DLR", "beside.realtime"},
-    {"$AC_TIMER", "beside.realtime"},
-    {"$AC_FIFO*", "beside.realtime"},
-    {"$AC_OVR", "beside.realtime"},
-    {"$AA_OVR", "beside.realtime"},
-    {"$AC_VC", "beside.realtime"},
-    {"$AA_VC", "beside.realtime"},
-    {"$AC_PROG_NET_TIME_TRIGGER", "beside.realtime"},
-    {"$AA_OFF", "beside.compensation"},
-    {"$AA_TOFF", "beside.compensation"},
+    {"$AN_CEC*", machine_errors},       {"$AA_ENC_COMP*", machine_errors},
+    {"$AA_QEC*", machine_errors},       {"$SN_CEC_TABLE*", machine_errors},
+    {"$SA_TEMP_COMP*", machine_errors}, {"$MA_BACKLASH*", machine_errors},
+    {"$MA_CEC*", machine_errors},       {"$MA_ENC_COMP*", machine_errors},
+    {"$MA_FRICT*", machine_errors},     {"$MA_TEMP_COMP*", machine_errors},
+    {"$SC_*", "beside.data"},           {"$SN_*", "beside.data"},
+    {"$SA_*", "beside.data"},           {"$MC_*", "beside.data"},
+    {"$MN_*", "beside.data"},           {"$MA_*", "beside.data"},
+    {"$MD_*", "beside.data"},           {"$SNS_MEA_*", "beside.data"},
+    {"$SCS_MEA_*", "beside.data"},      {"$MNS_MEA_*", "beside.data"},
+    {"$A_OUT", "beside.realtime"},      {"$A_OUTA", "beside.realtime"},
+    {"$A_DB*", "beside.realtime"},      {"$A_DLB", "beside.realtime"},
+    {"$A_DLW", "beside.realtime"},      {"$A_DLD", "beside.realtime"},
+    {"$A_DLR", "beside.realtime"},      {"$AC_TIMER", "beside.realtime"},
+    {"$AC_FIFO*", "beside.realtime"},   {"$AC_OVR", "beside.realtime"},
+    {"$AA_OVR", "beside.realtime"},     {"$AC_VC", "beside.realtime"},
+    {"$AA_VC", "beside.realtime"},      {"$AC_PROG_NET_TIME_TRIGGER", "beside.realtime"},
+    {"$AA_OFF", "beside.compensation"}, {"$AA_TOFF", "beside.compensation"},
     {"$AA_LEAD_S*", "beside.coupling"},
 };
 /// Setting data that decide what a programmed word means.

@@ -14,6 +14,8 @@ constexpr std::array features{
                    "the trace shows programmed positions; the follower moves on the machine only", true},
     MissingFeature{"beside.data", "data of the machine that the program sets and the run does not use",
                    "they change how the machine works, not the programmed positions of this run", true},
+    MissingFeature{"beside.machine_errors", "corrections of the machine's own errors (screws, sag, backlash, heat)",
+                   "they are measured on one machine; every other one has its own", true, true},
     MissingFeature{"beside.realtime", "actions in real time (synchronised actions, interrupts, oscillation)",
                    "they depend on the machine's signals and on time", true},
     MissingFeature{"beside.tool_management", "management of tools and magazines",

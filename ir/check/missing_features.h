@@ -14,6 +14,9 @@ struct MissingFeature {
   /// It acts beside the programmed path (couplings, tool management, actions in real time): a run goes past it with a
   /// warning. A translation refuses it like the others.
   bool beside_path = false;
+  /// It belongs to the one machine that the program was written for: another one has its own. A translation leaves it
+  /// out with a warning.
+  bool of_one_machine = false;
 };
 std::span<const MissingFeature> missing_features();
 /// The entry; nullptr when there is none.

@@ -114,6 +114,13 @@ class KnownData {
                                 ref.text + " follows from the words before it here: written as their formula");
       return formula->expr;
     }
+    if (ref.datum == Datum::feed && setting<FeedMode>(facts_.before(s), Setting::feed_mode) == FeedMode::per_minute) {
+      SystemRef minute = ref;
+      minute.datum = Datum::feed_per_minute;
+      Expr copy = *e;
+      copy.node = minute;
+      if (sayable(minute)) return std::make_shared<const Expr>(std::move(copy));
+    }
     const auto own = context_.target.data_form ? context_.target.data_form(ref) : std::nullopt;
     if (!own) return in_frame(s, e, ref);
     const ExprPtr named = renamed(e, *own);

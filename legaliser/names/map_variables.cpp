@@ -341,7 +341,10 @@ class VariableMap {
     auto* d = std::get_if<Declare>(&s.node);
     if (d == nullptr) return false;
     std::erase_if(d->items, [&](const Declare::Item& i) { return named_places_.count({d->space, i.name}) != 0; });
-    if (d->items.empty()) return s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
+    if (d->items.empty()) {
+      s.node = Block{};  // its comment and label stay
+      return s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
+    }
     if (const auto to = kept_name(VarRef{d->space, d->items.front().name, nullptr, {}})) d->space = to->space;
     return false;
   }

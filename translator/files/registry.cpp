@@ -8,6 +8,7 @@
 #include "backends/num/backend.h"
 #include "backends/sinumerik/backend.h"
 #include "dialects/num/gcodes.h"
+#include "dialects/sinumerik/beside.h"
 #include "frontends/fagor/program/frontend.h"
 #include "frontends/heidenhain/program/frontend.h"
 #include "frontends/num/program/frontend.h"
@@ -86,7 +87,8 @@ const std::vector<Dialect>& dialects() {
        backends::sinumerik::make_backend(),
        {"def"},
        sinumerik_file,
-       sinumerik_definition},
+       sinumerik_definition,
+       sinumerik::beside_datum},
       {"heidenhain",
        "Heidenhain iTNC 530",
        {"h"},

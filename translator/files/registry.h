@@ -42,6 +42,8 @@ struct Dialect {
   std::string (*written_file)(std::string_view name, bool lathe) = nullptr;
   /// A line of a definition file that defines a number, or an array of them; null: no machine defines names.
   std::string (*definition)(std::string_view name, const std::vector<std::int64_t>& sizes) = nullptr;
+  /// Feature of a machine datum that a program may set and that changes no programmed position; null: it has none.
+  std::string_view (*datum_feature)(std::string_view name) = nullptr;
 };
 
 /// All dialects in the order `cnctrans dialects` lists them.

@@ -222,6 +222,12 @@ class Prover {
     Settings source, target;
     [[nodiscard]] bool empty() const { return source.empty() && target.empty(); }
   };
+  [[nodiscard]] bool begins_with_parameters() const {
+    const auto& all = source_.program.routines;
+    const bool main =
+        std::any_of(all.begin(), all.end(), [](const auto& r) { return r.kind == ir::RoutineKind::main; });
+    return !main && !all.empty() && !all.front().parameters.empty();
+  }
   [[nodiscard]] Kept kept_values(const verifier::Verdict& v, const Settings& given) const {
     constexpr int first = 101, step = 6;
     Kept kept;
@@ -237,7 +243,8 @@ class Prover {
       if (known && !names(given, name)) kept.source.emplace_back(name, std::to_string(value));
       value += step;
     }
-    if (!all_known) return kept;  // one of the translation may be one of the source under another name
+    // One of the translation may be one of the source under another name: a parameter that no call has set, for one.
+    if (!all_known || begins_with_parameters()) return kept;
     const Settings of_source = options_.target_settings(with_shared_data(given));
     for (const auto& name : v.target_read_first) {
       if (!names(of_source, name)) kept.target.emplace_back(name, std::to_string(value));

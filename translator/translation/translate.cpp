@@ -11,6 +11,7 @@
 #include "translator/files/called.h"
 #include "translator/files/contours.h"
 #include "translator/files/definitions.h"
+#include "translator/files/given_names.h"
 #include "translator/files/readable.h"
 #include "translator/folding/fit.h"
 #include "translator/output/encode.h"
@@ -19,6 +20,8 @@
 #include "translator/proving/proof.h"
 #include "translator/translation/attempt.h"
 #include "translator/translation/draft.h"
+#include "translator/translation/machine_errors.h"
+#include "translator/translation/machine_settings.h"
 #include "translator/translation/outside_calls.h"
 #include "translator/translation/reading.h"
 #include "translator/translation/written.h"
@@ -203,6 +206,12 @@ bool Translation::read() {
   if (same_language()) {
     work_ = source_;
     ir::passes::number_programs(work_, result_.diagnostics, false);
+  }
+  if (!same_language()) {
+    const auto* placed = options_.names == nullptr ? nullptr : &options_.names->map.data;
+    keep_with_the_machine(source_, reading_.dialect());
+    settings_as_variables(source_, reading_.dialect(), reading_.profile(), placed, result_.diagnostics);
+    define_given_names(source_, reading_.dialect(), placed, result_.diagnostics);
   }
   declare_names(source_, loader.definitions(), false, result_.diagnostics);
   if (!same_language()) {
