@@ -255,6 +255,12 @@ std::string_view beside_datum(std::string_view capitals) {
   return {};
 }
 
+bool is_setting(std::string_view capitals) {
+  if (capitals.starts_with("$$")) capitals.remove_prefix(1);
+  constexpr std::string_view kinds[] = {"$MN_", "$MC_", "$MA_", "$SN_", "$SC_", "$SA_"};
+  return std::any_of(std::begin(kinds), std::end(kinds), [&](auto k) { return capitals.starts_with(k); });
+}
+
 std::span<const Definition> definitions() {
   return all_definitions;
 }

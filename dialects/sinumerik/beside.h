@@ -37,6 +37,9 @@ const BesideRow* beside(std::string_view name);
 /// empty for every other one.
 std::string_view beside_datum(std::string_view capitals);
 
+/// Machine or setting data (capitals, with `$`): they change by a program or by the machine's builder only.
+bool is_setting(std::string_view capitals);
+
 /// A definition whose blocks up to its end are no moves: CTABDEF to CTABEND, CPROTDEF, NPROTDEF and
 /// CONTPRON to EXECUTE.
 struct Definition {

@@ -44,6 +44,8 @@ struct Dialect {
   std::string (*definition)(std::string_view name, const std::vector<std::int64_t>& sizes) = nullptr;
   /// Feature of a machine datum that a program may set and that changes no programmed position; null: it has none.
   std::string_view (*datum_feature)(std::string_view name) = nullptr;
+  /// The datum is a setting of the machine, which only a program or its builder changes; null: it has none.
+  bool (*is_setting)(std::string_view name) = nullptr;
 };
 
 /// All dialects in the order `cnctrans dialects` lists them.

@@ -20,8 +20,8 @@ std::optional<std::string> spelled_setting(const ir::SystemRef& ref) {
   std::string text = to_upper_ascii(ref.text);
   for (std::size_t i = 0; i < ref.args.size(); ++i) {
     const auto number = ir::constant_value(ref.args[i]);
-    const auto* name = std::get_if<ir::SystemRef>(&ref.args[i]->node);
-    if (!number && (name == nullptr || !name->args.empty())) return std::nullopt;
+    const auto* name = std::get_if<ir::String>(&ref.args[i]->node);
+    if (!number && name == nullptr) return std::nullopt;
     text += (i == 0 ? "[" : ",") + (number ? shortest(*number) : name->text);
   }
   return ref.args.empty() ? text : text + ']';
@@ -53,14 +53,14 @@ bool answered(const std::string& name, const std::map<std::string, std::string>*
 void settings_as_variables(ir::Program& program, const Dialect& from, const machine::Profile& machine,
                            const std::map<std::string, std::string>* placed, Diagnostics& diagnostics) {
   const auto space = global_numbers(program);
-  if (from.datum_feature == nullptr || !space || program.routines.empty()) return;
+  if (from.is_setting == nullptr || !space || program.routines.empty()) return;
   const auto written = written_names(program);
   std::map<std::string, double> values;
   ir::Body head;
   const auto variable = [&](const ir::ExprPtr& x, const Span& where) {
     const auto* ref = std::get_if<ir::SystemRef>(&x->node);
     const bool setting = ref != nullptr && ref->datum == ir::Datum::other && x->type != ir::Type::string &&
-                         from.datum_feature(to_upper_ascii(ref->text)) == "beside.data" && !written.contains(ref->text);
+                         from.is_setting(to_upper_ascii(ref->text)) && !written.contains(ref->text);
     const auto name = setting ? spelled_setting(*ref) : std::nullopt;
     if (!name || answered(*name, placed)) return x;
     if (!values.contains(*name)) {
