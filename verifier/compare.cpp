@@ -128,6 +128,7 @@ class Comparison {
     std::string what = motion_difference(a, b);
     if (what.empty()) what = tool_difference(a, b);
     if (what.empty()) what = zero_difference(a, b);
+    if (what.empty()) what = corner_difference(a, b);
     if (!what.empty() && a.kind == EventKind::arc && passed_over(a, from_a_, from_b_)) return take_a();
     if (!what.empty() && a.kind == EventKind::arc && passed_over(b, from_b_, from_a_)) return take_b();
     if (!what.empty()) return differ(what, i_, j_);
@@ -327,14 +328,36 @@ class Comparison {
     return {};
   }
 
+  /// Where a move follows a control that does not stop rounds the corner.
+  [[nodiscard]] std::string corner_difference(const Event& a, const Event& b) const {
+    const auto &there = a.stop, &here = b.stop;
+    if (!cuts(a) || there.exact == here.exact || (!there.said && !here.said)) return {};
+    if (!moves_next(a_, i_) || !moves_next(b_, j_)) return {};
+    const bool asked = options_.stops_by_mode || (there.in_block && options_.stops_in_block);
+    if (there.exact && !asked) return {};
+    const auto text = [](bool exact) { return exact ? "stops exactly at its end" : "goes on round the corner"; };
+    return fmt::format("the {} move {} in the source, and {} in the translation", interpreter::name(a.kind),
+                       text(there.exact), text(here.exact));
+  }
+  static bool moves_next(const std::vector<const Event*>& events, std::size_t k) {
+    const auto motion = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(k) + 1, events.end(),
+                                     [](const Event* e) { return is_barrier(e->kind); });
+    return motion != events.end() && is_motion((*motion)->kind);
+  }
+
   /// An axis that stands with the offset of the tool on one side and without on the other stands elsewhere on a real
   /// machine.
   [[nodiscard]] std::string offset_difference(const Event& a, const Event& b) const {
-    const std::uint32_t known = known_of_source(a, options_.switches_length) & b.offset.known & common(a.to, b.to);
-    const std::uint32_t other = (a.offset.with ^ b.offset.with) & known;
+    const std::uint32_t axes = b.offset.known & common(a.to, b.to);
+    const std::uint32_t known = known_of_source(a, options_.switches_length);
+    // Before its first D the source works with what its machine has; a word of the translation that selects an offset,
+    // or none, does not.
+    const std::uint32_t open = a.in_machine || b.in_machine ? 0 : ~a.offset.known & ~b.offset.unsaid;
+    const std::uint32_t other = (((a.offset.with ^ b.offset.with) & known) | open) & axes;
     if (other == 0) return {};
     const auto axis = static_cast<std::size_t>(std::countr_zero(other));
     const auto text = [axis](const Event& e) {
+      if ((e.offset.known >> axis & 1U) == 0) return "with the tool offset of the start";
       return (e.offset.with >> axis & 1U) != 0 ? "with a tool offset" : "without tool offset";
     };
     return fmt::format("the {} move brings {} to its end {} in the source, {} in the translation",

@@ -19,9 +19,9 @@ struct Tolerances {
   double length = 0.0011;  ///< end points (a target with 3 decimals rounds by 0.0005)
   double center = 0.002;   ///< arc centres
   double angle = 0.0011;
-  double feed_relative = 1e-3;
+  double feed_relative = 1e-6;
   double seconds = 0.0051;  ///< a dwell unit of 0.01 s rounds by 0.005
-  double speed_relative = 1e-3;
+  double speed_relative = 1e-6;
   double contour = 0.004;  ///< contours that two similar cycles leave
 };
 
@@ -34,6 +34,9 @@ struct Options {
   bool selects_zero = false;
   /// The target's language can switch the length compensation off: where the source does, the translation has to.
   bool switches_length = false;
+  /// The target's language has an exact stop as a mode, and in one block; where it lacks one, the source's is left
+  /// aside.
+  bool stops_by_mode = false, stops_in_block = false;
   /// The target's language shows texts; where it can't, the source's are left aside.
   bool shows_messages = true;
   /// Power-on selects none on the source's machine, and the target's begins otherwise.

@@ -163,7 +163,8 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   // more, the translation has its next cycle as soon as this one is complete.
   for (Next next = next_cycle(target, at); next != Next::elsewhere; next = next_cycle(target, at)) {
     double length = max_length;
-    if (next == Next::here_of_both && similar_difference(source, target, options_.tolerances, length).empty()) break;
+    const bool complete = similar_difference(source, target, options_.tolerances, length).empty();
+    if (complete && (next == Next::here_of_both || target.run->family == "tap")) break;
     while (run_at(at.j, false) == nullptr) take(b_[at.j], target, at.from_b, at.j);
     const auto* second = run_at(at.j, false);
     while (at.j < b_.size() && number(b_[at.j], false) < second->last) take(b_[at.j], target, at.from_b, at.j);

@@ -137,7 +137,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   });
   if (open_pattern_ == &b) return go_on_with_pattern(b);
   machining_ = nullptr;
-  feed_stop_ = cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
+  cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
   block_corner_.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
   if (own_feed) feeds(b, true);
@@ -164,7 +164,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     if (runs && !run_cycle()) return false;
     if (once_) end_single_cycle();
   }
-  if (feed_stop_) emitter_.emit(plain(EventKind::feed_stop));
+  if (std::exchange(feed_stop_, false) && block_moves_) emitter_.emit(plain(EventKind::feed_stop));
   return actions(b, true) && !failure_.set;
 }
 

@@ -52,6 +52,7 @@ struct Move {
   double pitch = 0, pitch_change = 0, start_angle = 0;
   bool toward = true;
   bool in_machine = false;  ///< programmed in machine coordinates
+  PathStop stop;
   FileId file = 0;
   std::uint32_t line = 0;
 };
@@ -215,6 +216,7 @@ class BlockMachine final : public SystemData {
   void offset_of_selected(bool own);
   void offset_of_change(bool own);
   void put_offset(Event& e, std::uint32_t moved) const;
+  [[nodiscard]] PathStop path_stop() const;
   bool machine_function(const ir::MachineFunction& m);
   bool define_cycle(const ir::CycleDefine& c);
   void set_corner(const ir::Corner& c);
@@ -438,7 +440,8 @@ class BlockMachine final : public SystemData {
   // per block
   std::optional<Pending> block_corner_;
   bool sharp_ = false;  ///< the block writes a corner of 0
-  bool block_moves_ = false, feed_stop_ = false, cycle_defined_here_ = false, cycle_waits_ = false;
+  bool block_moves_ = false, feed_stop_ = false, path_mode_said_ = false, length_comp_said_ = false,
+       offset_of_machine_ = false, cycle_defined_here_ = false, cycle_waits_ = false;
   std::optional<Pending> pending_;
   ir::contour::Marks marks_;          ///< of the block at hand
   std::vector<OpenElement> contour_;  ///< their points are not known yet

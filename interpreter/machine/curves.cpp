@@ -231,6 +231,7 @@ bool BlockMachine::close_curve(const Move* next) {
   e.kind = EventKind::linear;
   e.in_machine = false;
   e.number = master_;
+  e.stop = path_stop();
   for (std::size_t i = 0; i < c.blocks.size(); ++i) {
     const auto& b = c.blocks[i];
     emitter_.pass_held(b.held);

@@ -118,6 +118,7 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
   path_event_.in_machine = false;
   path_event_.zero_open = zero_open_;
   path_event_.number = master_;
+  path_event_.stop = path_stop();
   path_event_.centre_side = modal_.comp;
   if (modal_.comp != ir::CompSide::off) path_event_.plane = modal_.plane;
   put_offset(path_event_, moved);
@@ -164,6 +165,10 @@ double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
   return unwrapped(w.direction, v, p_[w.axis]);
 }
 
+PathStop BlockMachine::path_stop() const {
+  return {feed_stop_ || modal_.path_mode == ir::PathMode::exact_stop, feed_stop_, feed_stop_ || path_mode_said_};
+}
+
 Move BlockMachine::move_from_here() const {
   Move move;
   move.from = move.to = p_;
@@ -172,6 +177,7 @@ Move BlockMachine::move_from_here() const {
   move.feed = feed_now();
   move.feed_degrees = feed_degrees();
   move.feed_mode = modal_.feed_mode;
+  move.stop = path_stop();
   move.file = failure_.where.file;
   move.line = failure_.where.line;
   return move;

@@ -251,6 +251,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   e.in_machine = move.in_machine;
   e.zero_open = zero_open_ && !move.in_machine;
   e.number = master_;
+  e.stop = move.stop;
   put_centre_side(e, move.comp, move.plane);
   put_offset(e, moved);
   switch (move.kind) {

@@ -5,7 +5,7 @@ namespace cnctrans::interpreter {
 
 void BlockMachine::select_offset() {
   offset_use_ = offset_ == 0 ? OffsetUse::none : OffsetUse::some;
-  bare_tool_ = false;
+  bare_tool_ = offset_of_machine_ = false;
 }
 
 /// `own`: a D stands beside the T.
@@ -20,6 +20,7 @@ void BlockMachine::offset_of_change(bool own) {
     offset_use_ = policy_.edge_offset ? OffsetUse::none : OffsetUse::open;
   } else if (bare_tool_) {
     offset_use_ = OffsetUse::some;
+    offset_of_machine_ = true;
   } else if (policy_.edge_offset && offset_use_ == OffsetUse::none) {
     offset_use_ = OffsetUse::open;  // D0 between T and change: machine data say whether it outlasts the change
   }
@@ -32,6 +33,7 @@ void BlockMachine::put_offset(Event& e, std::uint32_t moved) const {
   o.known &= ~moved;
   o.with &= ~moved;
   o.switched_off &= ~moved;
+  o.unsaid &= ~moved;
   if (e.in_machine) return;  // whether the length counts there differs from function to function
   std::uint32_t length = 7, radius = 0;
   if (policy_.mill) {
@@ -43,11 +45,13 @@ void BlockMachine::put_offset(Event& e, std::uint32_t moved) const {
   const auto put = [&](std::uint32_t axes, OffsetUse use) {
     if (use == OffsetUse::open) return;
     o.known |= axes & moved;
+    if (offset_of_machine_) o.unsaid |= axes & moved;
     if (use == OffsetUse::some) o.with |= axes & moved;
   };
   const bool off = modal_.length_comp == ir::OnOff::off;
   put(length, off ? OffsetUse::none : offset_use_);
   if (off) o.switched_off |= length & moved;
+  if (off && !length_comp_said_) o.unsaid |= length & moved;
   put(radius & ~length, offset_use_);
 }
 

@@ -38,9 +38,15 @@ struct Position {
 };
 /// Which axes stand where the data of the tool bring them (its length; under radius compensation its radius): bit n of
 /// `with` holds for axis n where bit n of `known` says so.
-/// `switched_off`: without length because the length compensation is off, not by D0.
+/// `switched_off`: without length because the length compensation is off, not by D0; `unsaid`: so by power-on or by the
+/// change of the tool, by no D and no word of length compensation.
 struct OffsetAxes {
-  std::uint32_t with = 0, known = 0, switched_off = 0;
+  std::uint32_t with = 0, known = 0, switched_off = 0, unsaid = 0;
+};
+/// Whether the path stops at the end of a feed move, in place of going on round the corner.
+/// `in_block`: by a word of its block (G9); `said`: by a word of the program, not by the mode of power-on.
+struct PathStop {
+  bool exact = false, in_block = false, said = false;
 };
 enum class EndReason : std::uint8_t { program_end, error, event_limit, step_limit };
 
@@ -68,6 +74,7 @@ struct Event {
   bool in_machine = false;  ///< a move programmed in machine coordinates (not printed)
   bool zero_open = false;   ///< a move by the zero point of power-on: nothing has selected another (not printed)
   OffsetAxes offset;        ///< behind a move (not printed)
+  PathStop stop;            ///< at the end of a feed move (not printed)
   // spindle, tool, offset, comp, coolant, m, stop
   std::int32_t number = 0;
   std::string state;  ///< cw ccw off oriented / off left right / coolant state

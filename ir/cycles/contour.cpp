@@ -125,6 +125,12 @@ Chain reversed(Chain chain) {
   return chain;
 }
 
+bool leads_nowhere(const std::vector<ProfileElement>& elements) {
+  return std::all_of(elements.begin(), elements.end(), [](const ProfileElement& e) {
+    return std::abs(e.from.x - e.to.x) < tiny && std::abs(e.from.z - e.to.z) < tiny;
+  });
+}
+
 Chain split(const Chain& chain) {
   Chain out;
   for (const auto& x : chain) {

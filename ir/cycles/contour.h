@@ -35,6 +35,8 @@ struct Orientation {
 Chain chain_of(const std::vector<ProfileElement>& elements, const Orientation& o);
 /// The same way back.
 Chain reversed(Chain chain);
+/// No contour, or one whose elements lead nowhere: an arc back to its own start (`G2 R10` alone).
+bool leads_nowhere(const std::vector<ProfileElement>& elements);
 /// Arcs cut where they change their direction along an axis.
 Chain split(const Chain& chain);
 Chain shifted(Chain chain, double dp, double dq);

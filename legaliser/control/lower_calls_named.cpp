@@ -358,7 +358,7 @@ class NamedLocals {
       };
       for (auto& letter : call.arguments) once(letter.value);
       for (auto& [place, value] : before) {
-        const bool back = std::any_of(behind.begin(), behind.end(), [&place](const Statement& b) {
+        const bool back = std::any_of(behind.begin(), behind.end(), [&place = place](const Statement& b) {
           return same_variable(*as_variable(std::get<Assign>(b.node).items.front().value), place);
         });
         if (by_pass && !back) once(value);  // by reference it goes over anew

@@ -22,14 +22,14 @@ enum Aspect : std::uint32_t {
   state_order = 1U << 0U,
   offset_numbers = 1U << 1U,
   selections = 1U << 2U,
-  path_mode = 1U << 3U,
-  small_moves = 1U << 4U,
-  tolerances = 1U << 5U,
-  texts = 1U << 6U,
-  taps = 1U << 7U,
-  unfed = 1U << 8U,
-  cycles = 1U << 9U,
-  open_offset = 1U << 10U,
+  small_moves = 1U << 3U,
+  tolerances = 1U << 4U,
+  texts = 1U << 5U,
+  taps = 1U << 6U,
+  unfed = 1U << 7U,
+  cycles = 1U << 8U,
+  open_offset = 1U << 9U,
+  power_on_mode = 1U << 10U,
 };
 struct Row {
   Aspect aspect;
@@ -41,7 +41,6 @@ constexpr std::array<Row, 11> table = {{
     {offset_numbers, "offset numbers", "offset numbers"},
     {selections, "tools made ready",
      "a tool that is only made ready when a T of one of the two programs changes the tool at once"},
-    {path_mode, "path mode", "exact-stop and look-ahead modes"},
     {small_moves, "small moves", "a move below the tolerance, on one side only"},
     {tolerances, "tolerance", "Tolerances: 0.0011 mm and degrees on end points"},
     {texts, "signs of messages", "Messages are the same text, letters and signs, as far as a target can show it"},
@@ -50,12 +49,16 @@ constexpr std::array<Row, 11> table = {{
     {cycles, "passes of a cycle",
      "the number of passes, the infeeds up to that limit and the ways between them are not compared"},
     {open_offset, "offset before the first D", "the offset before the first D or change of the program"},
+    {power_on_mode, "path mode of power-on", "nor is it where neither program says its mode"},
 }};
 constexpr std::uint32_t everything = (1U << table.size()) - 1;
 
 bool moves(EventKind k) {
   return k == EventKind::rapid || k == EventKind::linear || k == EventKind::arc || k == EventKind::thread ||
          k == EventKind::probe;
+}
+bool cuts(EventKind k) {
+  return k == EventKind::linear || k == EventKind::arc;
 }
 bool stands_between(EventKind k) {
   return moves(k) || k == EventKind::dwell || k == EventKind::stop || k == EventKind::end || k == EventKind::message;
@@ -103,6 +106,9 @@ class Reduced {
   Reduced(const Trace& trace, std::uint32_t without, std::size_t unfed_moves)
       : trace_(trace), without_(without), unfed_(unfed_moves) {
     for (std::size_t k = 0; k < trace.events.size(); ++k) one(trace.events[k], k);
+    for (std::size_t k = 0; k < items.size(); ++k) {  // where the tool does not go on, it stops in any case
+      if (k + 1 == items.size() || !moves(items[k + 1].e.kind)) items[k].e.stop = {};
+    }
   }
   std::vector<Item> items;
 
@@ -128,7 +134,7 @@ class Reduced {
   bool changes(const Event& e) {
     if (e.kind == EventKind::comp) return update(now_.comp, e.state != "off");
     if (e.kind == EventKind::coolant) return update(now_.coolant, e.state);
-    const bool off = e.state == "off";
+    const bool off = e.state == "off" || e.state == "oriented";  // neither has a speed
     const Spindle now{e.state, !off && e.css, off ? 0 : e.value, off || !e.has_limit ? 0 : e.limit,
                       e.state == "oriented" ? e.angle : 0};
     return update(now_.spindles[e.number], now);
@@ -136,7 +142,7 @@ class Reduced {
 
   void command(const Event& e) {
     if (e.kind == EventKind::offset && has(offset_numbers)) return;
-    if (e.kind == EventKind::feed_stop && has(path_mode)) return;
+    if (e.kind == EventKind::feed_stop) return;  // said by the move
     if (e.kind == EventKind::tool && !e.change && has(selections)) return;
     if (is_state(e.kind) && (!changes(e) || has(state_order))) return;
     now_.commands.push_back(std::string(interpreter::name(e.kind)) + " " + std::to_string(e.number) + " " + e.state +
@@ -185,11 +191,11 @@ class Reduced {
     const auto axes = ir::plane_axes(item.run->plane);
     const double down = item.e.to.value[axes.w] - e.to.value[axes.w];
     const bool plane = item.e.to.value[axes.u] != e.to.value[axes.u] || item.e.to.value[axes.v] != e.to.value[axes.v];
-    const bool cuts = e.kind == EventKind::linear || e.kind == EventKind::arc;
-    if (item.run->family == "pocket" && cuts) item.infeed = std::max(item.infeed, down);
+    const bool cut = cuts(e.kind);
+    if (item.run->family == "pocket" && cut) item.infeed = std::max(item.infeed, down);
     item.e.to = e.to;
     const double feed = e.kind == EventKind::rapid ? 0 : (e.kind == EventKind::thread ? e.pitch : e.feed);
-    const std::pair<int, double> used{item.run->family == "pocket" && cuts ? (plane ? 2 : 1) : 0, feed};
+    const std::pair<int, double> used{item.run->family == "pocket" && cut ? (plane ? 2 : 1) : 0, feed};
     const auto same = [&used](const auto& f) {
       return f.first == used.first && std::fabs(f.second - used.second) < 1e-9;
     };
@@ -235,6 +241,7 @@ class Reduced {
     }
     if (dot <= 0 || dot * dot < a * b * (1 - 1e-6)) return false;
     last.e.to = item.e.to;
+    last.e.stop = item.e.stop;
     return true;
   }
 
@@ -302,6 +309,8 @@ std::string difference(const Item& a, const Item& b, const Tolerance& t, std::ui
   if (const auto what = positions(a.e.to, b.e.to, t); !what.empty()) return what + " of " + kind;
   if (a.e.centre_side != b.e.centre_side) return "side at " + kind;
   if (a.e.centre_side != ir::CompSide::off && a.e.plane != b.e.plane) return "plane of compensation at " + kind;
+  const bool open = (without & power_on_mode) != 0 && (!a.e.stop.said || !b.e.stop.said);
+  if (cuts(a.e.kind) && a.e.stop.exact != b.e.stop.exact && !open) return "exact stop at " + kind;
   const std::uint32_t known = a.e.offset.known & b.e.offset.known;
   if (((a.e.offset.with ^ b.e.offset.with) & known) != 0) return "tool offset at " + kind;
   if ((without & open_offset) == 0 && a.e.offset.known != b.e.offset.known) return "tool offset not known at " + kind;

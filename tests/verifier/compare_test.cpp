@@ -119,7 +119,7 @@ TEST(Compare, SmallFeedsAndPitchesAreComparedByWhatTheyAre) {
   EXPECT_EQ(compare({fed(0.05)}, {fed(0.0509)}).status, Status::differs);
   EXPECT_EQ(compare({fed(0.002)}, {fed(0.001)}).status, Status::differs);
   EXPECT_EQ(compare({fed(0.0254)}, {fed(0.025)}).status, Status::verified);  // three decimals
-  EXPECT_EQ(compare({fed(1234.5)}, {fed(1235)}).status, Status::verified);
+  EXPECT_EQ(compare({fed(1234.5)}, {fed(1235)}).status, Status::differs);    // every control writes decimals
   Event thread = move(EventKind::thread, 10, 0, 1), other = thread;
   thread.pitch = 0.25;
   other.pitch = 0.2509;
@@ -127,6 +127,29 @@ TEST(Compare, SmallFeedsAndPitchesAreComparedByWhatTheyAre) {
   other.pitch = 0.2503;
   EXPECT_EQ(compare({thread}, {other}).status, Status::verified);
   EXPECT_EQ(compare({spindle(0.4), linear(10)}, {spindle(0.4008), linear(10)}).status, Status::differs);
+}
+
+Event stopping(double x, bool exact, bool said) {
+  Event e = linear(x);
+  e.stop = {exact, false, said};
+  return e;
+}
+
+TEST(Compare, AnExactStopIsComparedWhereAMoveFollows) {
+  verifier::Options by_mode;
+  by_mode.stops_by_mode = true;
+  const auto status = [](const std::vector<Event>& a, const std::vector<Event>& b, const verifier::Options& o) {
+    return verifier::compare(a, b, o).status;
+  };
+  const std::vector<Event> round{stopping(10, false, true), linear(20)}, exact{stopping(10, true, true), linear(20)};
+  EXPECT_EQ(status(round, exact, by_mode), Status::differs);
+  EXPECT_EQ(status(exact, round, by_mode), Status::differs);
+  EXPECT_EQ(status(exact, round, {}), Status::verified);  // the target has no such mode
+  EXPECT_EQ(status(round, exact, {}), Status::differs);
+  EXPECT_EQ(status({stopping(10, false, true)}, {stopping(10, true, true)}, by_mode), Status::verified);
+  // The modes of power-on are settings of the two machines.
+  EXPECT_EQ(status({stopping(10, false, false), linear(20)}, {stopping(10, true, false), linear(20)}, by_mode),
+            Status::verified);
 }
 
 TEST(Compare, AMoveSplitInPartsIsOneMove) {

@@ -233,7 +233,8 @@ bool parse_tool_data(const std::vector<std::string_view>& lines, std::vector<Too
     }
     if (parameter) data[{*tool, *edge}][*parameter] = *n;
   }
-  for (auto& [key, p] : data) {
+  for (auto& [key, parameters] : data) {
+    auto& p = parameters;
     if (!out.empty() && out.back().number == key.first) continue;  // the first edge stands for the tool
     Tool t;
     t.number = key.first;

@@ -91,8 +91,10 @@ class Prover {
   /// `called`: they begin in the state of their caller, its zero point included.
   Prover(const Side& source, const Side& target, const ProofOptions& options, bool called)
       : source_(source), target_(target), options_(options) {
-    compared_.switches_length = options.target_switches_length;
-    compared_.shows_messages = options.target_shows_messages;
+    compared_.switches_length = options.target.length_comp_switch;
+    compared_.stops_by_mode = options.target.exact_stop_modal;
+    compared_.stops_in_block = options.target.exact_stop_block;
+    compared_.shows_messages = options.target.messages;
     if (!called) verifier::compare_zeros(compared_, source.profile, target.profile);
   }
 
@@ -136,7 +138,7 @@ class Prover {
   void note_first(Proof& proof) const {
     auto& v = proof.verdict;
     v.left_out = left_out_of(source_.program, proof.source.result.covered, proof.source.events);
-    if (!options_.target_shows_messages) {
+    if (!options_.target.messages) {
       const auto& events = proof.source.events;
       v.left_out.messages = static_cast<std::size_t>(std::count_if(
           events.begin(), events.end(), [](const auto& e) { return e.kind == interpreter::EventKind::message; }));
@@ -191,7 +193,7 @@ class Prover {
     const auto& inputs = runs_.front().inputs;
     interpreter::Options run = options_.run;
     run.world = machine::world_for(source_.profile, target_.profile);
-    run.world->reference_points = !options_.target_without_reference;
+    run.world->reference_points = options_.target.motions.count(ir::MotionKind::reference_point) != 0;
     run.world->zeros = !proof.source.result.writes_zeros && !proof.target.result.writes_zeros;
     const Kept kept = kept_values(said, inputs.set);
     for (const bool at_zero : {false, true}) {
@@ -411,7 +413,7 @@ static machine::Profile called_alike(const machine::Profile& source, machine::Pr
 
 Proof prove(const Side& source, const Side& target, const ProofOptions& options) {
   if (!source.program.routines.empty() && source.program.main() == nullptr) {
-    const machine::Profile called = called_alike(source.profile, target.profile, options.target_fixed_diameter);
+    const machine::Profile called = called_alike(source.profile, target.profile, !options.target.diameter_switch);
     return Prover(source, {target.program, called, target.loader}, options, true).run();
   }
   return Prover(source, target, options, false).run();

@@ -49,15 +49,7 @@ struct ProofOptions {
   std::vector<std::string> shared_data;
   FurtherReplays further;
   int first_skip_switch = 0;  ///< number of the first block-skip switch on the source's control
-  /// The target's language can't switch between radius and diameter: its programs are always in the mode of its
-  /// machine.
-  bool target_fixed_diameter = false;
-  /// The target's language has no search of the reference point: its place stands in the translation (TRN-328).
-  bool target_without_reference = false;
-  /// The target's language can switch the length compensation off.
-  bool target_switches_length = false;
-  /// The target's language can show texts.
-  bool target_shows_messages = true;
+  ir::Capabilities target;    ///< what the target's language can say; what it lacks is not asked of it
   /// The translation counts on a start at the zero point, and a warning says so.
   bool counts_on_start = false;
 };

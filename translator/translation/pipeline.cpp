@@ -49,17 +49,13 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
   // The names that a translation by anyone gives to the variables are not known.
   const bool one_language = &a.dialect() == &b.dialect();
   const auto target_settings = [one_language](const Settings& set) { return one_language ? set : Settings(); };
-  const auto can = b.dialect().backend->capabilities_for(b.profile());
   Proof proof = prove({a_program, a.profile(), a.loader()}, {b_program, b.profile(), b.loader()},
                       {options.run,
                        target_settings,
                        {},
                        options.further,
                        a.dialect().first_skip_switch,
-                       !can.diameter_switch,
-                       can.motions.count(ir::MotionKind::reference_point) == 0,
-                       can.length_comp_switch,
-                       can.messages,
+                       b.dialect().backend->capabilities_for(b.profile()),
                        false});
   result.verdict = std::move(proof.verdict);
   if (const auto* unread = first_error(b_said); result.verdict.good() && unread != nullptr && !a_said.has_errors()) {

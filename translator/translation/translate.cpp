@@ -370,12 +370,10 @@ void Translation::prove() {
   const auto& warned = result_.diagnostics.all();
   const bool counts_on_start = std::any_of(
       warned.begin(), warned.end(), [](const Diagnostic& d) { return d.code == "TRN-421" || d.code == "TRN-484"; });
-  const auto can = to_->backend->capabilities_for(*target_profile_);
   Proof proof = translator::prove(
       {source_, reading_.profile(), reading_.loader()}, {back_->program, *target_profile_, back_->loader},
       {options_.run, target_settings, given_data, options_.further, reading_.dialect().first_skip_switch,
-       !can.diameter_switch, can.motions.count(ir::MotionKind::reference_point) == 0, can.length_comp_switch,
-       can.messages, counts_on_start});
+       to_->backend->capabilities_for(*target_profile_), counts_on_start});
   result_.verdict = std::move(proof.verdict);
   const auto twice = shared_name(back_->program);
   if (!twice.empty()) {

@@ -41,7 +41,7 @@ struct Task {
 /// `points`: the blank, which closes toward the ends of the profile.
 std::optional<Task> task_of(const Roles& r, const TurnContext& context, bool face, const std::vector<TurnPoint>& points,
                             std::string* error) {
-  if (context.profile == nullptr || context.profile->part.empty())
+  if (context.profile == nullptr || leads_nowhere(context.profile->part))
     return *error = "the profile of the cycle is empty", std::nullopt;
   std::vector<ProfileElement> lines;
   for (std::size_t k = 1; k < points.size(); ++k) lines.push_back({points[k - 1], points[k], false, false, {}});
@@ -116,7 +116,7 @@ bool blank_stock(Roles& r, const TurnContext& context, bool face, std::string* e
 bool reentrant_stock(Roles& r, const TurnContext& context, bool face, std::string* error) {
   const double step = std::abs(r.number(face ? "axial_step" : "step"));
   if (step < tiny) return *error = "the pass of the cycle is not greater than zero", false;
-  if (context.profile == nullptr || context.profile->part.empty())
+  if (context.profile == nullptr || leads_nowhere(context.profile->part))
     return *error = "the profile of the cycle is empty", false;
   // The blank is the rectangle between its corner and the end of the profile that is farthest from it.
   const TurnPoint corner{r.number("x_2"), r.number("z_2")};

@@ -115,7 +115,7 @@ class GrooveRemover {
 bool groove_stock(Roles& r, const TurnContext& context, bool face, std::string* error) {
   const double step = std::abs(r.number(face ? "axial_step" : "step"));
   if (step < tiny) return *error = "the pass of the cycle is not greater than zero", false;
-  if (context.profile == nullptr || context.profile->part.empty())
+  if (context.profile == nullptr || leads_nowhere(context.profile->part))
     return *error = "the profile of the cycle is empty", false;
   const double angle = r.number("entry_angle") * std::numbers::pi / 180;
   const double along_z = std::cos(angle), along_x = std::sin(angle);

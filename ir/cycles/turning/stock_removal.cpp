@@ -20,7 +20,11 @@ std::vector<ProfileElement> elements_of(const Chain& chain, const Orientation& o
 /// The allowance: by axis, or constant along the profile when only the one of X is given.
 std::optional<Chain> with_allowance(const Chain& part, const Roles& r, bool face, double more, std::string* error) {
   const double x = std::abs(r.number("stock_x")), z = std::abs(r.number("stock_z"));
-  if (!r.has("stock_z")) return offset(part, x + more, error);
+  if (!r.has("stock_z")) {
+    auto out = offset(part, x + more, error);
+    if (out && out->empty()) return *error = "nothing is left of the profile with its allowance", std::nullopt;
+    return out;
+  }
   return shifted(part, (face ? z : x) + more, face ? x : z);
 }
 
@@ -28,7 +32,7 @@ std::optional<Orientation> orientation(const TurnProfile& profile, const TurnCon
                                        std::string* error) {
   Orientation o;
   o.face = face;
-  if (profile.part.empty()) return *error = "the profile of the cycle is empty", std::nullopt;
+  if (leads_nowhere(profile.part)) return *error = "the profile of the cycle is empty", std::nullopt;
   const Chain plain = split(chain_of(profile.part, o));
   const RolePoint a = o.in(context.start);
   if (a.p < highest(plain) - tiny) {
@@ -162,7 +166,7 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
 }
 
 std::optional<Chain> oriented(const TurnProfile* profile, Orientation& o, std::string* error) {
-  if (profile == nullptr || profile->part.empty()) return *error = "the profile of the cycle is empty", std::nullopt;
+  if (profile == nullptr || leads_nowhere(profile->part)) return *error = "the profile of the cycle is empty", std::nullopt;
   o.sq = 1;
   Chain chain = split(chain_of(profile->part, o));
   RolePoint low = chain.front().a, high = chain.back().b;
