@@ -166,7 +166,8 @@ bool stock_removal(Roles& r, const TurnContext& context, bool face, bool copy, s
 }
 
 std::optional<Chain> oriented(const TurnProfile* profile, Orientation& o, std::string* error) {
-  if (profile == nullptr || leads_nowhere(profile->part)) return *error = "the profile of the cycle is empty", std::nullopt;
+  if (profile == nullptr || leads_nowhere(profile->part))
+    return *error = "the profile of the cycle is empty", std::nullopt;
   o.sq = 1;
   Chain chain = split(chain_of(profile->part, o));
   RolePoint low = chain.front().a, high = chain.back().b;
