@@ -352,7 +352,8 @@ class Comparison {
     const std::uint32_t known = known_of_source(a, options_.switches_length);
     // Before its first D the source works with what its machine has; a word of the translation that selects an offset,
     // or none, does not.
-    const std::uint32_t open = a.in_machine || b.in_machine ? 0 : ~a.offset.known & ~b.offset.unsaid;
+    const std::uint32_t open =
+        !options_.offset_of_start || a.in_machine || b.in_machine ? 0 : ~a.offset.known & ~b.offset.unsaid;
     const std::uint32_t other = (((a.offset.with ^ b.offset.with) & known) | open) & axes;
     if (other == 0) return {};
     const auto axis = static_cast<std::size_t>(std::countr_zero(other));

@@ -32,6 +32,8 @@ struct Options {
   bool offset_numbers = false;
   /// The zero point of power-on is another one on the target's machine: the translation has to select the source's.
   bool selects_zero = false;
+  /// Where the source has the tool offset of its start, a word of the translation may not select another, or none.
+  bool offset_of_start = true;
   /// The target's language can switch the length compensation off: where the source does, the translation has to.
   bool switches_length = false;
   /// The target's language has an exact stop as a mode, and in one block; where it lacks one, the source's is left

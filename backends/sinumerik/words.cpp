@@ -107,10 +107,22 @@ void Writer::offset_line(const Span& span) {
   if (offset_in_force()) raw_line_in_branch(offset_word_, span);
 }
 
+/// No offset is selected since the start: D0 stays. False: as offset_in_force.
+bool Writer::stays_without_offset() {
+  if (!std::exchange(told_without_offset_, true)) {
+    diagnostics().warning("TRN-218", current().line.span,
+                          "behind the move in machine coordinates (D0) the target goes on without tool offset, the "
+                          "source with the one that its machine has at the start: the program selects none before "
+                          "(told once)",
+                          "select the offset in the source before such a move");
+  }
+  return false;
+}
+
 /// The offset before the move in machine coordinates as `offset_word_`. False: none was in force, or refused.
 bool Writer::offset_in_force() {
   const bool in_main = program().main() == &program().routines[routine_index()];
-  if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return false;  // none since the start
+  if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return stays_without_offset();
   const char* select = "select the offset in the source after such a move";
   bool guess = offset_by_branch_ || (several_offsets_ && !offset_certain_);
   if (offset_word_.empty() && several_offsets_) {
@@ -122,8 +134,8 @@ bool Writer::offset_in_force() {
     offset_word_ = word("D", *only_offset_, {});
   }
   if (offset_word_.empty()) {
-    if (!selects_tools_) return false;  // no tool, no offset: D0 stays
-    offset_word_ = "D1";                // what the control selects with the tool
+    if (!selects_tools_) return stays_without_offset();
+    offset_word_ = "D1";  // what the control selects with the tool
   }
   if (guess) {
     diagnostics().warning("TRN-218", current().line.span,

@@ -115,6 +115,7 @@ class Writer final : public ProgramWriter {
   void offset_again(const ir::Block& b);
   void offset_line(const Span& span);
   bool offset_in_force();
+  bool stays_without_offset();
   void offset_uncertain() { offset_certain_ = false; }
   void nested(const ir::Body& statements);
   std::string rotary_attribute(const ir::CoordWord& w);
@@ -143,9 +144,10 @@ class Writer final : public ProgramWriter {
   std::optional<ir::Value> only_offset_;  ///< the one offset other than 0 that the program selects
   std::string offset_before_branch_;      ///< where the lines under the present skip mark begin
   bool offset_by_branch_ = false;         ///< it was selected under a skip mark
-  bool offset_pending_ = false;           ///< D0 was written for a move in machine coordinates
-  bool straight_ = true;                  ///< no jump, call or label since the start of the routine
-  bool tool_selected_ = false;            ///< the routine has selected a tool
+  bool told_without_offset_ = false;
+  bool offset_pending_ = false;  ///< D0 was written for a move in machine coordinates
+  bool straight_ = true;         ///< no jump, call or label since the start of the routine
+  bool tool_selected_ = false;   ///< the routine has selected a tool
 };
 
 }  // namespace cnctrans::backends::sinumerik

@@ -94,6 +94,7 @@ class Prover {
     compared_.switches_length = options.target.length_comp_switch;
     compared_.stops_by_mode = options.target.exact_stop_modal;
     compared_.stops_in_block = options.target.exact_stop_block;
+    compared_.offset_of_start = !options.leaves_offset_of_start;
     compared_.shows_messages = options.target.messages;
     if (!called) verifier::compare_zeros(compared_, source.profile, target.profile);
   }

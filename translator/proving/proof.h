@@ -52,6 +52,8 @@ struct ProofOptions {
   ir::Capabilities target;    ///< what the target's language can say; what it lacks is not asked of it
   /// The translation counts on a start at the zero point, and a warning says so.
   bool counts_on_start = false;
+  /// The translation has no tool offset where the source has that of its start, and a warning says so.
+  bool leaves_offset_of_start = false;
 };
 
 /// One run with its trace.

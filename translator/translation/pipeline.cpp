@@ -56,6 +56,7 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
                        options.further,
                        a.dialect().first_skip_switch,
                        b.dialect().backend->capabilities_for(b.profile()),
+                       false,
                        false});
   result.verdict = std::move(proof.verdict);
   if (const auto* unread = first_error(b_said); result.verdict.good() && unread != nullptr && !a_said.has_errors()) {

@@ -368,12 +368,14 @@ void Translation::prove() {
   };
   const auto given_data = same_language() ? std::vector<std::string>{} : ir::passes::given_data(names_);
   const auto& warned = result_.diagnostics.all();
-  const bool counts_on_start = std::any_of(
-      warned.begin(), warned.end(), [](const Diagnostic& d) { return d.code == "TRN-421" || d.code == "TRN-484"; });
+  const auto has_warned = [&warned](std::string_view code) {
+    return std::any_of(warned.begin(), warned.end(), [code](const Diagnostic& d) { return d.code == code; });
+  };
   Proof proof = translator::prove(
       {source_, reading_.profile(), reading_.loader()}, {back_->program, *target_profile_, back_->loader},
       {options_.run, target_settings, given_data, options_.further, reading_.dialect().first_skip_switch,
-       to_->backend->capabilities_for(*target_profile_), counts_on_start});
+       to_->backend->capabilities_for(*target_profile_), has_warned("TRN-421") || has_warned("TRN-484"),
+       has_warned("TRN-218")});
   result_.verdict = std::move(proof.verdict);
   const auto twice = shared_name(back_->program);
   if (!twice.empty()) {
