@@ -30,13 +30,14 @@ enum Aspect : std::uint32_t {
   cycles = 1U << 8U,
   open_offset = 1U << 9U,
   power_on_mode = 1U << 10U,
+  reads_first = 1U << 11U,  // known from the verdict: see trial.cpp
 };
 struct Row {
   Aspect aspect;
   const char* name;
   const char* sentence;  ///< of docs/verify.md
 };
-constexpr std::array<Row, 11> table = {{
+constexpr std::array<Row, 12> table = {{
     {state_order, "order of commands", "the order of spindle, coolant, tool and machine functions among each other"},
     {offset_numbers, "offset numbers", "offset numbers"},
     {selections, "tools made ready",
@@ -49,6 +50,7 @@ constexpr std::array<Row, 11> table = {{
     {cycles, "passes of a cycle",
      "the number of passes, the infeeds up to that limit and the ways between them are not compared"},
     {open_offset, "offset before the first D", "the offset before the first D or change of the program"},
+    {reads_first, "variable read first", "The answer names them"},
     {power_on_mode, "path mode of power-on", "nor is it where neither program says its mode"},
 }};
 constexpr std::uint32_t everything = (1U << table.size()) - 1;
@@ -225,7 +227,7 @@ class Reduced {
     if (!straight || last.e.to.known != item.e.to.known || !item.commands.empty()) return false;
     if (has(small_moves) && distance(last.e.to, item.e.to) <= 0.0011) return true;
     if (last.e.kind != item.e.kind || last.e.feed != item.e.feed || last.e.feed_mode != item.e.feed_mode ||
-        last.e.centre_side != item.e.centre_side || last.e.offset.with != item.e.offset.with)
+        last.e.centre_side != item.e.centre_side || (!has(open_offset) && last.e.offset.with != item.e.offset.with))
       return false;
     const Position* before = &trace_.start;
     for (std::size_t k = items.size() - 1; k-- > 0 && before == &trace_.start;) {

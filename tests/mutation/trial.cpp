@@ -1,5 +1,6 @@
 #include "tests/mutation/trial.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "tests/mutation/documented.h"
@@ -93,11 +94,12 @@ std::optional<Translated> translated(const splice::Program& source, const std::s
   if (result.refused || !result.error.empty() || !result.verdict.good() || result.outputs.size() != 1)
     return std::nullopt;
   Translated t{
-      source, to, result.target_machine, result.outputs.front().name, lines_of(result.outputs.front().bytes), {},
+      source, to, result.target_machine, result.outputs.front().name, lines_of(result.outputs.front().bytes), {}, {},
       {},     {}};
   const auto proved = verified(t, text_of(t.lines)).verdict;
   if (!proved.good()) return std::nullopt;
   t.world = proved.world;
+  t.read_first = proved.target_read_first;
   t.source_trace = trace_of(source.dialect, source.machine(), source.file_name(), source.text(), t.world);
   t.trace = trace_of(to, t.machine, t.file, text_of(t.lines), t.world);
   if (!t.source_trace.ran || !t.trace.ran) return std::nullopt;
@@ -124,7 +126,15 @@ Outcome tried(const Translated& t, const Fault& fault) {
   out.what = found.what;
   out.aspects = found.aspects;
   out.fate = Fate::caught;
-  if (result.verdict.good()) out.fate = found.what.empty() ? Fate::documented : Fate::undocumented;
+  const auto known = [&t](const std::string& name) {
+    return std::find(t.read_first.begin(), t.read_first.end(), name) != t.read_first.end();
+  };
+  const auto& read = result.verdict.target_read_first;
+  if (!out.what.empty() && !std::all_of(read.begin(), read.end(), known)) {
+    out.what.clear();  // what comes of it depends on the value; the answer names the variable
+    out.aspects = {"variable read first"};
+  }
+  if (result.verdict.good()) out.fate = out.what.empty() ? Fate::documented : Fate::undocumented;
   return out;
 }
 

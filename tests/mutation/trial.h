@@ -27,6 +27,7 @@ struct Translated {
   std::string file;
   Lines lines;
   std::optional<machine::World> world;
+  std::vector<std::string> read_first;  ///< variables that the translation reads before it writes them
   Trace source_trace, trace;
 };
 /// nullopt: it is refused, or not verified, or the verifier says otherwise of the two texts alone.
