@@ -2,9 +2,6 @@
 // With CNCTRANS_WRITE_DOCS set the test writes it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-
 #include "dialects/fagor/g_codes.h"
 #include "dialects/fagor/m_codes.h"
 #include "dialects/fagor/variables.h"
@@ -12,7 +9,7 @@
 #include "ir/check/missing_features.h"
 #include "machine/data_at_rest.h"
 #include "machine/profile.h"
-#include "tests/language/markdown.h"
+#include "tests/language/matrix.h"
 
 namespace cnctrans {
 namespace {
@@ -156,20 +153,9 @@ std::string variable_table() {
 }
 
 TEST(SupportMatrix, OfFagorIsTheOneOfTheTables) {
-  const std::string path = CNCTRANS_SOURCE_DIR "/docs/dialects/fagor8055.md";
-  const std::string text = testing::read_file(path);
-  const std::string begin = "<!-- begin of the support matrix -->\n", end = "<!-- end of the support matrix -->\n";
-  const auto from = text.find(begin), to = text.find(end);
-  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
   const std::string made = "\n### G functions\n\n" + g_table() + "\n### Statements\n\n" + statement_table() +
                            "\n### M functions\n\n" + m_table() + "\n### Variables\n\n" + variable_table() + "\n";
-  const std::string whole = text.substr(0, from + begin.size()) + made + text.substr(to);
-  if (std::getenv("CNCTRANS_WRITE_DOCS") != nullptr) {  // NOLINT(concurrency-mt-unsafe)
-    std::ofstream(path, std::ios::binary) << whole;
-    return;
-  }
-  EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), made)
-      << "run this test with CNCTRANS_WRITE_DOCS=1 to write the matrix";
+  expect_support_matrix("fagor8055.md", made);
 }
 
 }  // namespace

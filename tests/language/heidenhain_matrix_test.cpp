@@ -2,9 +2,6 @@
 // set the test writes it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-
 #include "dialects/heidenhain/cycles.h"
 #include "dialects/heidenhain/functions.h"
 #include "dialects/heidenhain/leads.h"
@@ -14,7 +11,7 @@
 #include "dialects/heidenhain/sentences.h"
 #include "dialects/heidenhain/tilts.h"
 #include "dialects/heidenhain/variables.h"
-#include "tests/language/markdown.h"
+#include "tests/language/matrix.h"
 
 namespace cnctrans {
 namespace {
@@ -121,21 +118,10 @@ std::string variable_table() {
 }
 
 TEST(SupportMatrix, OfHeidenhainIsTheOneOfTheTables) {
-  const std::string path = CNCTRANS_SOURCE_DIR "/docs/dialects/heidenhain.md";
-  const std::string text = testing::read_file(path);
-  const std::string begin = "<!-- begin of the support matrix -->\n", end = "<!-- end of the support matrix -->\n";
-  const auto from = text.find(begin), to = text.find(end);
-  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
   const std::string made = "\n### Sentences\n\n" + sentence_table() + "\n### Cycles\n\n" + cycle_table() +
                            "\n### M functions\n\n" + m_table() + "\n### Functions\n\n" + fn_table() +
                            "\n### Variables and data\n\n" + variable_table() + "\n";
-  const std::string whole = text.substr(0, from + begin.size()) + made + text.substr(to);
-  if (std::getenv("CNCTRANS_WRITE_DOCS") != nullptr) {  // NOLINT(concurrency-mt-unsafe)
-    std::ofstream(path, std::ios::binary) << whole;
-    return;
-  }
-  EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), made)
-      << "run this test with CNCTRANS_WRITE_DOCS=1 to write the matrix";
+  expect_support_matrix("heidenhain.md", made);
 }
 
 }  // namespace

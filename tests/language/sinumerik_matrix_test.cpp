@@ -2,8 +2,6 @@
 // features. With CNCTRANS_WRITE_DOCS set the test writes it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <map>
 
 #include "dialects/sinumerik/addresses.h"
@@ -14,7 +12,7 @@
 #include "dialects/sinumerik/operators.h"
 #include "ir/check/missing_features.h"
 #include "machine/options.h"
-#include "tests/language/markdown.h"
+#include "tests/language/matrix.h"
 
 namespace cnctrans {
 namespace {
@@ -161,22 +159,11 @@ std::string option_table() {
 }
 
 TEST(SupportMatrix, OfSinumerikIsTheOneOfTheTables) {
-  const std::string path = CNCTRANS_SOURCE_DIR "/docs/dialects/sinumerik.md";
-  const std::string text = testing::read_file(path);
-  const std::string begin = "<!-- begin of the support matrix -->\n", end = "<!-- end of the support matrix -->\n";
-  const auto from = text.find(begin), to = text.find(end);
-  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
   const std::string made = "\n### G functions and named functions\n\n" + g_table() + "\n### Addresses\n\n" +
                            word_table() + "\n### Procedures\n\n" + procedure_table() +
                            "\n### Words beside the programmed path\n\n" + beside_table() + "\n### Functions\n\n" +
                            function_table() + "\n### Options of a machine profile\n\n" + option_table() + "\n";
-  const std::string whole = text.substr(0, from + begin.size()) + made + text.substr(to);
-  if (std::getenv("CNCTRANS_WRITE_DOCS") != nullptr) {  // NOLINT(concurrency-mt-unsafe)
-    std::ofstream(path, std::ios::binary) << whole;
-    return;
-  }
-  EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), made)
-      << "run this test with CNCTRANS_WRITE_DOCS=1 to write the matrix";
+  expect_support_matrix("sinumerik.md", made);
 }
 
 }  // namespace

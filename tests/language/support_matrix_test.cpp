@@ -2,16 +2,13 @@
 // CNCTRANS_WRITE_DOCS set the test writes it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-
 #include "dialects/num/gcodes.h"
 #include "dialects/num/mcodes.h"
 #include "dialects/num/options.h"
 #include "dialects/num/variables.h"
 #include "dialects/num/words.h"
 #include "ir/check/missing_features.h"
-#include "tests/language/markdown.h"
+#include "tests/language/matrix.h"
 
 namespace cnctrans {
 namespace {
@@ -93,21 +90,10 @@ std::string option_table() {
 }
 
 TEST(SupportMatrix, OfNumIsTheOneOfTheTables) {
-  const std::string path = CNCTRANS_SOURCE_DIR "/docs/dialects/num.md";
-  const std::string text = testing::read_file(path);
-  const std::string begin = "<!-- begin of the support matrix -->\n", end = "<!-- end of the support matrix -->\n";
-  const auto from = text.find(begin), to = text.find(end);
-  ASSERT_TRUE(from != std::string::npos && to != std::string::npos && from < to);
   const std::string made = "\n### G functions\n\n" + g_table() + "\n### M functions\n\n" + m_table() +
                            "\n### Statements\n\n" + statement_table() + "\n### E parameters\n\n" + e_table() +
                            "\n### Options of a machine profile\n\n" + option_table() + "\n";
-  const std::string whole = text.substr(0, from + begin.size()) + made + text.substr(to);
-  if (std::getenv("CNCTRANS_WRITE_DOCS") != nullptr) {  // NOLINT(concurrency-mt-unsafe)
-    std::ofstream(path, std::ios::binary) << whole;
-    return;
-  }
-  EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), made)
-      << "run this test with CNCTRANS_WRITE_DOCS=1 to write the matrix";
+  expect_support_matrix("num.md", made);
 }
 
 }  // namespace
