@@ -227,9 +227,7 @@ class Prover {
   };
   [[nodiscard]] bool begins_with_parameters() const {
     const auto& all = source_.program.routines;
-    const bool main =
-        std::any_of(all.begin(), all.end(), [](const auto& r) { return r.kind == ir::RoutineKind::main; });
-    return !main && !all.empty() && !all.front().parameters.empty();
+    return source_.program.main() == nullptr && !all.empty() && !all.front().parameters.empty();
   }
   [[nodiscard]] Kept kept_values(const verifier::Verdict& v, const Settings& given) const {
     constexpr int first = 101, step = 6;
