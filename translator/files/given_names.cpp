@@ -35,12 +35,9 @@ class GivenNames {
       });
     }
     std::erase_if(names_, [placed](const auto& n) {
-      const bool answered = placed != nullptr && std::any_of(placed->begin(), placed->end(), [&n](const auto& entry) {
-                              return entry.first == n.first || entry.first.starts_with(n.first + '[');
-                            });
       // `NAME=3` alone may be the word of an axis that the machine's builder has named so.
       const bool variable = n.second.read || !n.second.sizes.empty() || n.first.find('_') != std::string::npos;
-      return answered || !variable || !n.second.plain || !n.second.written;
+      return answered(n.first, placed) || !variable || !n.second.plain || !n.second.written;
     });
   }
 
@@ -138,9 +135,15 @@ std::optional<ir::SpaceId> global_numbers(const ir::Program& program) {
 }
 
 std::size_t head_routine(const ir::Program& program) {
-  const auto& all = program.routines;
-  const auto it = std::find_if(all.begin(), all.end(), [](const auto& r) { return r.kind == ir::RoutineKind::main; });
-  return it == all.end() ? 0 : static_cast<std::size_t>(it - all.begin());
+  const auto* main = program.main();
+  return main == nullptr ? 0 : static_cast<std::size_t>(main - program.routines.data());
+}
+
+bool answered(const std::string& name, const std::map<std::string, std::string>* placed) {
+  const std::string element = name.substr(0, name.find('[')) + '[';
+  return placed != nullptr && std::any_of(placed->begin(), placed->end(), [&](const auto& entry) {
+           return entry.first == name || entry.first.starts_with(element);
+         });
 }
 
 void define_given_names(ir::Program& program, const Dialect& from, const std::map<std::string, std::string>* placed,

@@ -1,6 +1,5 @@
 #include "translator/translation/machine_settings.h"
 
-#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -39,13 +38,6 @@ std::set<std::string> written_names(const ir::Program& program) {
     });
   }
   return names;
-}
-
-bool answered(const std::string& name, const std::map<std::string, std::string>* placed) {
-  const std::string kind = name.substr(0, name.find('['));
-  return placed != nullptr && std::any_of(placed->begin(), placed->end(), [&](const auto& entry) {
-           return entry.first == name || entry.first.starts_with(kind + '[');
-         });
 }
 
 }  // namespace
