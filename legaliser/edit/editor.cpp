@@ -99,7 +99,9 @@ std::optional<VarRef> Editor::take(const LineInfo& where) {
     return v;
   }
   if (target().declares_variables) {
-    UsedVariables& all = context.names != nullptr ? used_ : used();  // with a map: as in each program that calls it
+    // With a map of names a subprogram is written for each program that calls it, and must have one text: the names of
+    // its callers count for nothing then.
+    UsedVariables& all = context.names != nullptr ? used_ : used();
     std::string name;
     int i = 0;
     do {
@@ -112,8 +114,8 @@ std::optional<VarRef> Editor::take(const LineInfo& where) {
     return VarRef{space, name, nullptr, {}};
   }
   const bool shared = context.names != nullptr && context.report != nullptr && routine.kind != RoutineKind::main;
-  std::string
-      key;  // of a subprogram that others call too: its temporaries are those of the map, so that it has one text
+  // For the same reason the temporaries of a subprogram stand in the map: "TEMPORARY 1(ROW2)".
+  std::string key;
   if (shared) {
     for (int i = 1; key.empty(); ++i) {
       std::string name = temporary_in_map(routine.name, i);
