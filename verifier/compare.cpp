@@ -106,9 +106,9 @@ class Comparison {
     const Dwells a(a_, i_), b(b_, j_);
     if (!a.same(b, rpm_, options_.tolerances.seconds))
       return differ(fmt::format("dwell of {} in the source, {} in the translation", a.said(), b.said()), i_, j_);
-    verdict_.events += std::max(a.events, b.events);
-    i_ += a.events;
-    j_ += b.events;
+    verdict_.events += std::max(a.parts.size(), b.parts.size());
+    i_ += a.parts.size();
+    j_ += b.parts.size();
     return true;
   }
 
@@ -348,18 +348,21 @@ class Comparison {
   /// An axis that stands with the offset of the tool on one side and without on the other stands elsewhere on a real
   /// machine.
   [[nodiscard]] std::string offset_difference(const Event& a, const Event& b) const {
-    const std::uint32_t axes = b.offset.known & common(a.to, b.to);
     const std::uint32_t known = known_of_source(a, options_.switches_length);
     // Before its first D the source works with what its machine has; a word of the translation that selects an offset,
     // or none, does not.
-    const std::uint32_t open =
-        !options_.offset_of_start || a.in_machine || b.in_machine ? 0 : ~a.offset.known & ~b.offset.unsaid;
-    const std::uint32_t other = (((a.offset.with ^ b.offset.with) & known) | open) & axes;
+    const std::uint32_t said =
+        (~a.offset.known & b.offset.known & ~b.offset.unsaid) | (a.offset.of_start & b.offset.selected);
+    const std::uint32_t open = !options_.offset_of_start || a.in_machine || b.in_machine ? 0 : said;
+    const std::uint32_t here = (a.offset.with ^ b.offset.with) & known & b.offset.known;
+    const std::uint32_t other = (here | open | (a.offset.with & known & b.offset.elsewhere)) & common(a.to, b.to);
     if (other == 0) return {};
     const auto axis = static_cast<std::size_t>(std::countr_zero(other));
     const auto text = [axis](const Event& e) {
-      if ((e.offset.known >> axis & 1U) == 0) return "with the tool offset of the start";
-      return (e.offset.with >> axis & 1U) != 0 ? "with a tool offset" : "without tool offset";
+      if ((e.offset.elsewhere >> axis & 1U) != 0) return "in a plane where the length acts along another axis";
+      if ((e.offset.of_start >> axis & 1U) != 0) return "with the tool offset of the start";
+      const auto with = e.offset.with | (e.offset.selected & ~e.offset.known);
+      return (with >> axis & 1U) != 0 ? "with a tool offset" : "without tool offset";
     };
     return fmt::format("the {} move brings {} to its end {} in the source, {} in the translation",
                        interpreter::name(a.kind), axis_label(axis), text(a), text(b));

@@ -11,15 +11,20 @@ namespace cnctrans::verifier {
 using interpreter::EventKind;
 
 Dwells::Dwells(const std::vector<const interpreter::Event*>& trace, std::size_t from) {
-  for (; from < trace.size() && trace[from]->kind == EventKind::dwell; ++from, ++events) {
+  for (; from < trace.size() && trace[from]->kind == EventKind::dwell; ++from) {
     const auto& e = *trace[from];
+    parts.push_back(&e);
     (e.revolutions ? turns[e.number] : seconds) += e.amount;
   }
 }
 
 bool Dwells::same(const Dwells& other, const SpindleSpeeds& rpm, double tolerance) const {
-  const double allowed = tolerance * double(std::max(events, other.events));
-  const auto near = [allowed](double a, double b) { return std::fabs(a - b) <= allowed; };
+  const auto near = [tolerance](double a, double b) { return std::fabs(a - b) <= tolerance; };
+  const auto one_by_one = [&near](const interpreter::Event* a, const interpreter::Event* b) {
+    return a->revolutions == b->revolutions && (!a->revolutions || a->number == b->number) &&
+           near(a->amount, b->amount);
+  };
+  if (std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), one_by_one)) return true;
   const auto whole = [&rpm](const Dwells& d) -> std::optional<double> {
     double sum = d.seconds;
     for (const auto& [spindle, turned] : d.turns) {

@@ -16,10 +16,10 @@ using SpindleSpeeds = std::map<std::int32_t, double>;
 struct Dwells {
   Dwells(const std::vector<const interpreter::Event*>& trace, std::size_t from);
   double seconds = 0;
-  SpindleSpeeds turns;  ///< by the spindle that counts them
-  std::size_t events = 0;
+  SpindleSpeeds turns;                           ///< by the spindle that counts them
+  std::vector<const interpreter::Event*> parts;  ///< each by itself
 
-  /// Turns of one side may be seconds of the other, at the speed in force.
+  /// One by one, or all together: turns of one side may be seconds of the other then, at the speed in force.
   [[nodiscard]] bool same(const Dwells& other, const SpindleSpeeds& rpm, double tolerance) const;
   [[nodiscard]] std::string said() const;
 };

@@ -30,29 +30,29 @@ void BlockMachine::offset_of_change(bool own) {
 /// along the tool, and the radius in the plane under compensation; on a lathe both act on all axes.
 void BlockMachine::put_offset(Event& e, std::uint32_t moved) const {
   auto& o = e.offset;
-  o.known &= ~moved;
-  o.with &= ~moved;
-  o.switched_off &= ~moved;
-  o.unsaid &= ~moved;
+  for (auto* of_axes : {&o.known, &o.with, &o.switched_off, &o.unsaid, &o.of_start, &o.selected, &o.elsewhere})
+    *of_axes &= ~moved;
   if (e.in_machine) return;  // whether the length counts there differs from function to function
+  const bool off = modal_.length_comp == ir::OnOff::off;
+  if (offset_use_ == OffsetUse::open) o.of_start |= moved;
+  if (offset_use_ == OffsetUse::some && !offset_of_machine_) o.selected |= moved;
   std::uint32_t length = 7, radius = 0;
   if (policy_.mill) {
     const auto plane = ir::plane_axes(modal_.plane);
     const bool usual = modal_.plane == profile_.power_on.plane;  // elsewhere the axis of the length may differ: TRN-523
     length = usual ? 1U << plane.w : 0U;
+    if (!usual && !off && offset_use_ == OffsetUse::some) o.elsewhere |= moved;
     radius = e.centre_side == ir::CompSide::off ? 0U : 1U << plane.u | 1U << plane.v;
   }
-  const auto put = [&](std::uint32_t axes, OffsetUse use) {
+  const auto put = [&](std::uint32_t axes, OffsetUse use, bool unsaid) {
     if (use == OffsetUse::open) return;
     o.known |= axes & moved;
-    if (offset_of_machine_) o.unsaid |= axes & moved;
+    if (unsaid) o.unsaid |= axes & moved;
     if (use == OffsetUse::some) o.with |= axes & moved;
   };
-  const bool off = modal_.length_comp == ir::OnOff::off;
-  put(length, off ? OffsetUse::none : offset_use_);
+  put(length, off ? OffsetUse::none : offset_use_, off ? !length_comp_said_ : offset_of_machine_);
   if (off) o.switched_off |= length & moved;
-  if (off && !length_comp_said_) o.unsaid |= length & moved;
-  put(radius & ~length, offset_use_);
+  put(radius & ~length, offset_use_, offset_of_machine_);
 }
 
 }  // namespace cnctrans::interpreter

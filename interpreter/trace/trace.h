@@ -39,9 +39,11 @@ struct Position {
 /// Which axes stand where the data of the tool bring them (its length; under radius compensation its radius): bit n of
 /// `with` holds for axis n where bit n of `known` says so.
 /// `switched_off`: without length because the length compensation is off, not by D0; `unsaid`: so by power-on or by the
-/// change of the tool, by no D and no word of length compensation.
+/// change of the tool, by no D and no word of length compensation; `of_start`: no D and no change of the tool has said
+/// which offset it is; `selected`: a D has, even if it brings nothing to this axis; `elsewhere`: the tool has an
+/// offset, whose length acts along another axis than that of the plane of power-on.
 struct OffsetAxes {
-  std::uint32_t with = 0, known = 0, switched_off = 0, unsaid = 0;
+  std::uint32_t with = 0, known = 0, switched_off = 0, unsaid = 0, of_start = 0, selected = 0, elsewhere = 0;
 };
 /// Whether the path stops at the end of a feed move, in place of going on round the corner.
 /// `in_block`: by a word of its block (G9); `said`: by a word of the program, not by the mode of power-on.

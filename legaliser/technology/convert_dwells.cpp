@@ -236,14 +236,17 @@ class DwellPass {
                                  "make sure that it is never longer");
   }
 
-  /// A dwell beyond the largest word becomes several equal ones: all but the first go to `further`.
+  /// A dwell beyond the largest word becomes several equal ones: all but the first go to `further`. The last one is
+  /// what is left, so that rounding does not add up: an hour of a NUM is 36 times 97.3 s and 97.2 s.
   double spread(const Statement& s, double seconds, Body& further) {
     if (seconds <= context_.target.dwell_max) return seconds;
+    const double unit = context_.target.dwell_unit;
+    const double step = std::min(unit, 0.01);
     const double n = std::ceil(seconds / context_.target.dwell_max);
-    const double each = seconds / n;
+    const double each = std::ceil(seconds / n / step - 1e-9) * step;
     for (double i = 1; i < n; ++i) {
-      further.push_back(make_block(
-          s.line, action(Dwell{Value{each / context_.target.dwell_unit}, context_.target.dwell_unit, false})));
+      const double part = i + 1 < n ? each : seconds - (n - 1) * each;
+      further.push_back(make_block(s.line, action(Dwell{Value{part / unit}, unit, false})));
     }
     return each;
   }

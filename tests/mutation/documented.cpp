@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "translator/files/registry.h"
 
 namespace cnctrans::mutation {
 
@@ -29,15 +30,16 @@ enum Aspect : std::uint32_t {
   unfed = 1U << 7U,
   cycles = 1U << 8U,
   open_offset = 1U << 9U,
-  power_on_mode = 1U << 10U,
-  reads_first = 1U << 11U,  // known from the verdict: see trial.cpp
+  exact_stops = 1U << 10U,
+  power_on_mode = 1U << 11U,
+  reads_first = 1U << 12U,  // known from the verdict: see trial.cpp
 };
 struct Row {
   Aspect aspect;
   const char* name;
   const char* sentence;  ///< of docs/verify.md
 };
-constexpr std::array<Row, 12> table = {{
+constexpr std::array<Row, 13> table = {{
     {state_order, "order of commands", "the order of spindle, coolant, tool and machine functions among each other"},
     {offset_numbers, "offset numbers", "offset numbers"},
     {selections, "tools made ready",
@@ -50,8 +52,9 @@ constexpr std::array<Row, 12> table = {{
     {cycles, "passes of a cycle",
      "the number of passes, the infeeds up to that limit and the ways between them are not compared"},
     {open_offset, "offset before the first D", "the offset before the first D or change of the program"},
-    {reads_first, "variable read first", "The answer names them"},
+    {exact_stops, "exact stop without a mode", "no such mode, or no such word, the source's is not asked for"},
     {power_on_mode, "path mode of power-on", "nor is it where neither program says its mode"},
+    {reads_first, "variable read first", "The answer names them"},
 }};
 constexpr std::uint32_t everything = (1U << table.size()) - 1;
 
@@ -77,11 +80,14 @@ struct Item {
   Event e;
   std::map<std::int32_t, Spindle> spindles;
   std::string coolant = "off";
+  std::int32_t offset = -1;  ///< the number of the last one
   bool comp = false;
   std::vector<std::string> commands;  ///< since the last one
   // Of a cycle as a whole
   const CycleRun* run = nullptr;
   Position low, high;                         ///< of its moves
+  Position first, last;                       ///< of these: of a thread the ends of its passes
+  bool unbounded = true;                      ///< no move of it counts for these yet
   std::vector<std::pair<int, double>> feeds;  ///< that it uses: by what, and how fast
   double infeed = 0;  ///< the longest way at feed along one axis, of a pocket or tap into the part
 };
@@ -143,19 +149,22 @@ class Reduced {
   }
 
   void command(const Event& e) {
-    if (e.kind == EventKind::offset && has(offset_numbers)) return;
-    if (e.kind == EventKind::feed_stop) return;  // said by the move
+    if (e.kind == EventKind::offset && (has(offset_numbers) || !update(now_.offset, e.number))) return;
+    if (e.kind == EventKind::feed_stop) return;       // said by the move
+    if (e.kind == EventKind::tool) now_.offset = -1;  // a D selects again, for another tool
     if (e.kind == EventKind::tool && !e.change && has(selections)) return;
     if (is_state(e.kind) && (!changes(e) || has(state_order))) return;
-    now_.commands.push_back(std::string(interpreter::name(e.kind)) + " " + std::to_string(e.number) + " " + e.state +
-                            " " + e.text + " " + (e.change ? "change" : "") + " " +
+    const bool has_state = is_state(e.kind) || e.kind == EventKind::tool;  // the others keep that of an event before
+    now_.commands.push_back(std::string(interpreter::name(e.kind)) + " " + std::to_string(e.number) + " " +
+                            (has_state ? e.state : "") + " " + e.text + " " + (e.change ? "change" : "") + " " +
                             shortest(is_state(e.kind) ? e.value : 0));
   }
 
   void one(const Event& e, std::size_t k) {
     const CycleRun* run = run_at(k);
-    if (run != nullptr && !items.empty() && items.back().run == run) {
+    if (run != nullptr && !items.empty() && goes_on(items.back(), *run, e)) {
       if (!stands_between(e.kind)) return command(e);
+      items.back().run = run;
       return widen(items.back(), e);
     }
     if (!stands_between(e.kind)) return command(e);
@@ -175,7 +184,6 @@ class Reduced {
     if (has(taps)) sense(item);
     now_.commands.clear();
     if (run != nullptr) {
-      item.low = item.high = e.to;
       widen(item, e);
     } else if (moves(e.kind)) {
       if (joins(item)) return;
@@ -183,11 +191,27 @@ class Reduced {
     items.push_back(std::move(item));
   }
 
-  static void widen(Item& item, const Event& e) {
+  /// The same cycle, or one more stroke of a tap into the same hole.
+  static bool goes_on(const Item& item, const CycleRun& run, const Event& e) {
+    if (item.run == &run || item.run == nullptr) return item.run != nullptr;
+    if (item.run->family != "tap" || run.family != "tap") return false;
+    const auto axes = ir::plane_axes(run.plane);
+    return item.e.to.value[axes.u] == e.to.value[axes.u] && item.e.to.value[axes.v] == e.to.value[axes.v];
+  }
+
+  void widen(Item& item, const Event& e) const {
     if (!moves(e.kind)) return;
-    for (std::size_t k = 0; k < e.to.value.size(); ++k) {
+    const bool by_threads = item.run->family == "thread" || item.run->family == "tap";
+    const bool bounds = !by_threads || e.kind == EventKind::thread;
+    if (bounds && item.unbounded) item.low = item.high = item.first = e.to;
+    if (bounds) item.last = e.to;
+    item.unbounded = item.unbounded && !bounds;
+    for (std::size_t k = 0; bounds && k < e.to.value.size(); ++k) {
       item.low.value[k] = std::min(item.low.value[k], e.to.value[k]);
       item.high.value[k] = std::max(item.high.value[k], e.to.value[k]);
+    }
+    if (item.run->family == "tap" && e.kind == EventKind::thread) {
+      for (const auto& [n, s] : now_.spindles) use(item, {3, s.value});
     }
     // Along the tool, or in the plane.
     const auto axes = ir::plane_axes(item.run->plane);
@@ -197,7 +221,9 @@ class Reduced {
     if (item.run->family == "pocket" && cut) item.infeed = std::max(item.infeed, down);
     item.e.to = e.to;
     const double feed = e.kind == EventKind::rapid ? 0 : (e.kind == EventKind::thread ? e.pitch : e.feed);
-    const std::pair<int, double> used{item.run->family == "pocket" && cut ? (plane ? 2 : 1) : 0, feed};
+    use(item, {item.run->family == "pocket" && cut ? (plane ? 2 : 1) : 0, feed});
+  }
+  static void use(Item& item, const std::pair<int, double>& used) {
     const auto same = [&used](const auto& f) {
       return f.first == used.first && std::fabs(f.second - used.second) < 1e-9;
     };
@@ -214,8 +240,10 @@ class Reduced {
     }
     in_tap_ = thread || (in_tap_ && (kind == EventKind::rapid || kind == EventKind::dwell));
     if (!in_tap_) return;
+    if (kind != EventKind::thread) return item.spindles.clear();  // a tap's speeds: see widen
     for (auto& [n, s] : item.spindles) {
       if (s.state == "cw" || s.state == "ccw") s.state = "turning";
+      s.angle = 0;
     }
   }
 
@@ -226,7 +254,8 @@ class Reduced {
     const bool straight = item.e.kind == EventKind::rapid || item.e.kind == EventKind::linear;
     if (!straight || last.e.to.known != item.e.to.known || !item.commands.empty()) return false;
     if (has(small_moves) && distance(last.e.to, item.e.to) <= 0.0011) return true;
-    if (last.e.kind != item.e.kind || last.e.feed != item.e.feed || last.e.feed_mode != item.e.feed_mode ||
+    const bool fed = last.e.kind != EventKind::rapid;
+    if (last.e.kind != item.e.kind || (fed && (last.e.feed != item.e.feed || last.e.feed_mode != item.e.feed_mode)) ||
         last.e.centre_side != item.e.centre_side || (!has(open_offset) && last.e.offset.with != item.e.offset.with))
       return false;
     const Position* before = &trace_.start;
@@ -269,6 +298,34 @@ std::string positions(const Position& a, const Position& b, const Tolerance& t) 
   return {};
 }
 
+/// A thread reaches as far as its passes go down; they begin anywhere in the V of the source's, as many as they are.
+void leave_first_passes(Item& item) {
+  if (item.run->family != "thread") return;
+  for (std::size_t k = 0; k < item.low.value.size(); ++k) {
+    auto &low = item.low.value[k], &high = item.high.value[k];
+    if (item.last.value[k] > item.first.value[k]) low = high;
+    if (item.last.value[k] < item.first.value[k]) high = low;
+  }
+}
+
+std::string cycle_difference(Item a, Item b, const Tolerance& t) {
+  const Tolerance wide{0.004, 0.004, t.relative, t.seconds, t.small};
+  leave_first_passes(a);
+  leave_first_passes(b);
+  if (!positions(a.low, b.low, wide).empty() || !positions(a.high, b.high, wide).empty()) return "extent of a cycle";
+  if (a.run->family == "tap") {  // how far it comes back, the way behind it shows
+    const auto along = ir::plane_axes(a.run->plane).w;
+    b.e.to.value[along] = a.e.to.value[along];
+  }
+  if (!positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
+  if (a.feeds.size() != b.feeds.size() ||
+      !std::equal(a.feeds.begin(), a.feeds.end(), b.feeds.begin(),
+                  [&](const auto& x, const auto& y) { return x.first == y.first && close(x.second, y.second, t); }))
+    return "feeds of a cycle";
+  if (b.infeed > a.infeed * 1.1 + 0.01) return "infeed of a cycle";
+  return {};
+}
+
 std::string difference(const Item& a, const Item& b, const Tolerance& t, std::uint32_t without) {
   const std::string kind(interpreter::name(a.e.kind));
   if (a.e.kind != b.e.kind) return kind + " against " + std::string(interpreter::name(b.e.kind));
@@ -288,17 +345,7 @@ std::string difference(const Item& a, const Item& b, const Tolerance& t, std::ui
     }
   }
   if ((a.run == nullptr) != (b.run == nullptr)) return "a cycle on one side";
-  if (a.run != nullptr) {
-    const Tolerance wide{0.004, 0.004, t.relative, t.seconds, t.small};
-    if (!positions(a.low, b.low, wide).empty() || !positions(a.high, b.high, wide).empty()) return "extent of a cycle";
-    if (!positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
-    if (a.feeds.size() != b.feeds.size() ||
-        !std::equal(a.feeds.begin(), a.feeds.end(), b.feeds.begin(),
-                    [&](const auto& x, const auto& y) { return x.first == y.first && close(x.second, y.second, t); }))
-      return "feeds of a cycle";
-    if (b.infeed > a.infeed * 1.1 + 0.01) return "infeed of a cycle";
-    return {};
-  }
+  if (a.run != nullptr) return cycle_difference(a, b, t);
   switch (a.e.kind) {
     case EventKind::dwell:
       return a.e.revolutions != b.e.revolutions || std::fabs(a.e.amount - b.e.amount) > t.seconds ? "dwell" : "";
@@ -312,8 +359,10 @@ std::string difference(const Item& a, const Item& b, const Tolerance& t, std::ui
   if (a.e.centre_side != b.e.centre_side) return "side at " + kind;
   if (a.e.centre_side != ir::CompSide::off && a.e.plane != b.e.plane) return "plane of compensation at " + kind;
   const bool open = (without & power_on_mode) != 0 && (!a.e.stop.said || !b.e.stop.said);
-  if (cuts(a.e.kind) && a.e.stop.exact != b.e.stop.exact && !open) return "exact stop at " + kind;
-  const std::uint32_t known = a.e.offset.known & b.e.offset.known;
+  if (cuts(a.e.kind) && a.e.stop.exact != b.e.stop.exact && (without & exact_stops) == 0 && !open)
+    return "exact stop at " + kind;
+  const std::uint32_t unsaid = (without & open_offset) != 0 ? a.e.offset.unsaid | b.e.offset.unsaid : 0;
+  const std::uint32_t known = a.e.offset.known & b.e.offset.known & ~unsaid;
   if (((a.e.offset.with ^ b.e.offset.with) & known) != 0) return "tool offset at " + kind;
   if ((without & open_offset) == 0 && a.e.offset.known != b.e.offset.known) return "tool offset not known at " + kind;
   if (a.e.kind == EventKind::rapid) return {};
@@ -355,6 +404,8 @@ Documented documented(const Translated& t, const Trace& with_fault) {
   if (std::any_of(t.source_trace.events.begin(), t.source_trace.events.end(), is_selection) &&
       std::any_of(t.trace.events.begin(), t.trace.events.end(), is_selection))
     without &= ~std::uint32_t{selections};
+  const auto* language = translator::find_dialect(t.to);
+  if (language != nullptr && language->backend->capabilities().exact_stop_modal) without &= ~std::uint32_t{exact_stops};
   const auto left = [&](std::uint32_t aspects) { return difference(t.trace, with_fault, aspects, unfed_moves); };
   Documented found;
   found.equal = left(0).empty();

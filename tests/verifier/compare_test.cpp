@@ -129,7 +129,7 @@ TEST(Compare, SmallFeedsAndPitchesAreComparedByWhatTheyAre) {
   EXPECT_EQ(compare({spindle(0.4), linear(10)}, {spindle(0.4008), linear(10)}).status, Status::differs);
 }
 
-Event stopping(double x, bool exact, bool said) {
+Event stopping(double x, bool exact, bool said = true) {
   Event e = linear(x);
   e.stop = {exact, false, said};
   return e;
@@ -141,15 +141,28 @@ TEST(Compare, AnExactStopIsComparedWhereAMoveFollows) {
   const auto status = [](const std::vector<Event>& a, const std::vector<Event>& b, const verifier::Options& o) {
     return verifier::compare(a, b, o).status;
   };
-  const std::vector<Event> round{stopping(10, false, true), linear(20)}, exact{stopping(10, true, true), linear(20)};
+  const std::vector<Event> round{stopping(10, false), linear(20)}, exact{stopping(10, true), linear(20)};
   EXPECT_EQ(status(round, exact, by_mode), Status::differs);
   EXPECT_EQ(status(exact, round, by_mode), Status::differs);
   EXPECT_EQ(status(exact, round, {}), Status::verified);  // the target has no such mode
   EXPECT_EQ(status(round, exact, {}), Status::differs);
-  EXPECT_EQ(status({stopping(10, false, true)}, {stopping(10, true, true)}, by_mode), Status::verified);
+  EXPECT_EQ(status({stopping(10, false)}, {stopping(10, true)}, by_mode), Status::verified);
   // The modes of power-on are settings of the two machines.
   EXPECT_EQ(status({stopping(10, false, false), linear(20)}, {stopping(10, true, false), linear(20)}, by_mode),
             Status::verified);
+}
+
+TEST(Compare, DwellsThatFollowEachOtherAreComparedOneByOneOrTogether) {
+  const auto status = [](std::vector<Event> a, std::vector<Event> b) {
+    a.push_back(linear(10));
+    b.push_back(linear(10));
+    return compare(a, b).status;
+  };
+  EXPECT_EQ(status({dwell(100)}, {dwell(75), dwell(25)}), Status::verified);
+  EXPECT_EQ(status({dwell(100)}, {dwell(75.006), dwell(25)}), Status::differs);
+  EXPECT_EQ(status({dwell(0.3333), dwell(0.3333), dwell(0.1)}, {dwell(0.33), dwell(0.33), dwell(0.1)}),
+            Status::verified);
+  EXPECT_EQ(status({dwell(1.0), dwell(2.0)}, {dwell(1.01), dwell(2.0)}), Status::differs);
 }
 
 TEST(Compare, AMoveSplitInPartsIsOneMove) {
