@@ -1,16 +1,10 @@
 #include "base/source.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <utility>
 
+#include "base/os/os.h"
 #include "base/text.h"
 
 namespace cnctrans {
@@ -20,45 +14,12 @@ constexpr std::string_view bom = "\xEF\xBB\xBF";
 // Below this a copy costs less than a mapping.
 constexpr std::size_t map_from_bytes = 1U << 20U;
 
-struct FileDescriptor {
-  int fd = -1;
-  explicit FileDescriptor(int n) : fd(n) {}
-  ~FileDescriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-};
-
-void set_error(std::string* error, const std::string& path, int number) {
-  if (error != nullptr) *error = fmt::format("{}: can't be read: {}", path, std::strerror(number));
-}
-
-/// Opens `path` for reading, folders refused; a negative descriptor and a message when that fails.
-int open_for_reading(const std::string& path, struct stat* st, std::string* error) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0 || ::fstat(fd, st) != 0 || S_ISDIR(st->st_mode)) {
-    set_error(error, path, fd < 0 ? errno : EISDIR);
-    if (fd >= 0) ::close(fd);
-    return -1;
-  }
-  return fd;
-}
-
-/// read(2) that is not put off by a signal: bytes read, 0 at the end, -1 on an error.
-ssize_t read_some(int fd, char* to, std::size_t n) {
-  for (;;) {
-    const ssize_t got = ::read(fd, to, n);
-    if (got >= 0 || errno != EINTR) return got;
-  }
-}
-
-bool read_all(int fd, std::size_t expected, std::string* out) {
+bool read_all(const os::ReadFile& file, std::string* out, std::string* error) {
   std::size_t used = 0;
-  out->resize(expected + 1);  // one more byte, so that the end is seen without growing
+  out->resize(file.size() + 1);  // one more byte, so that the end is seen without growing
   for (;;) {
     if (used == out->size()) out->resize(out->size() * 2 + 4096);
-    const ssize_t n = read_some(fd, out->data() + used, out->size() - used);
+    const std::ptrdiff_t n = file.read(out->data() + used, out->size() - used, error);
     if (n < 0) return false;
     if (n == 0) break;
     used += static_cast<std::size_t>(n);
@@ -87,25 +48,16 @@ std::size_t find_line_end(std::string_view text) {
 }  // namespace
 
 std::shared_ptr<const SourceText> SourceText::open(const std::string& path, std::string* error) {
-  struct stat st {};
-  const FileDescriptor file(open_for_reading(path, &st, error));
-  if (file.fd < 0) return nullptr;
+  auto file = std::make_unique<os::ReadFile>();
+  if (!file->open(path, error)) return nullptr;
   std::shared_ptr<SourceText> s(new SourceText);  // the constructor is private
   s->name_ = path;
-  const auto size = S_ISREG(st.st_mode) ? static_cast<std::size_t>(st.st_size) : std::size_t{0};
-  if (size >= map_from_bytes) {
-    void* const map = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);
-    if (map != MAP_FAILED) {
-      s->map_ = map;
-      s->map_size_ = size;
-      s->set_bytes({static_cast<const char*>(map), size});
-      return s;
-    }
+  if (file->size() >= map_from_bytes && !file->map().empty()) {
+    s->file_ = std::move(file);
+    s->set_bytes(s->file_->map());
+    return s;
   }
-  if (!read_all(file.fd, size, &s->owned_)) {
-    set_error(error, path, errno);
-    return nullptr;
-  }
+  if (!read_all(*file, &s->owned_, error)) return nullptr;
   s->set_bytes(s->owned_);
   return s;
 }
@@ -129,9 +81,7 @@ std::shared_ptr<const SourceText> SourceText::from_lines(std::string name, std::
   return s;
 }
 
-SourceText::~SourceText() {
-  if (map_ != nullptr) ::munmap(map_, map_size_);
-}
+SourceText::~SourceText() = default;
 
 void SourceText::set_bytes(std::string_view bytes) {
   bytes_ = bytes;
@@ -221,16 +171,13 @@ struct LineWindowReader::State {
   std::size_t given = 0;  ///< of them, the bytes of the last window
   bool at_end = false;    ///< nothing more to read
   std::size_t read = 0;   ///< bytes read from the file so far
-  std::size_t file_size = 0;
-  std::string name;
   std::string error;
-  std::unique_ptr<FileDescriptor> file;
+  std::unique_ptr<os::ReadFile> file;
 
   /// Fills the buffer, or comes to the end of the file.
   void fill() {
     while (!at_end && used < buffer.size()) {
-      const ssize_t n = read_some(file->fd, buffer.data() + used, buffer.size() - used);
-      if (n < 0) set_error(&error, name, errno);
+      const std::ptrdiff_t n = file->read(buffer.data() + used, buffer.size() - used, &error);
       at_end = n <= 0;
       const std::size_t got = n > 0 ? static_cast<std::size_t>(n) : 0;
       used += got;
@@ -241,12 +188,11 @@ struct LineWindowReader::State {
   /// Bytes up to and with the last line end in the buffer; 0 when there is none. A CR at the very end may be the
   /// first half of a CRLF, and waits for the next byte.
   [[nodiscard]] std::size_t whole_lines() const {
-    const char* const p = buffer.data();
-    const void* const lf = ::memrchr(p, '\n', used);
-    const std::size_t after_lf = lf != nullptr ? static_cast<std::size_t>(static_cast<const char*>(lf) - p) + 1 : 0;
+    const std::string_view all(buffer.data(), used);
+    const std::size_t after_lf = all.rfind('\n') + 1;  // 0: there is none
     if (after_lf == used) return used;
-    const void* const cr = ::memrchr(p + after_lf, '\r', used - 1 - after_lf);
-    return cr != nullptr ? static_cast<std::size_t>(static_cast<const char*>(cr) - p) + 1 : after_lf;
+    const std::size_t cr = all.substr(after_lf, used - 1 - after_lf).rfind('\r');
+    return cr != std::string_view::npos ? after_lf + cr + 1 : after_lf;
   }
 };
 
@@ -254,14 +200,11 @@ LineWindowReader::LineWindowReader(std::size_t window_bytes) : state_(std::make_
 LineWindowReader::~LineWindowReader() = default;
 
 bool LineWindowReader::open(const std::string& path, std::string* error) {
-  struct stat st {};
-  const int fd = open_for_reading(path, &st, error);
-  if (fd < 0) return false;
+  auto file = std::make_unique<os::ReadFile>();
+  if (!file->open(path, error)) return false;
+  file->read_in_order();
   state_ = std::make_unique<State>(state_->buffer.size());
-  state_->file = std::make_unique<FileDescriptor>(fd);
-  state_->name = path;
-  state_->file_size = S_ISREG(st.st_mode) ? static_cast<std::size_t>(st.st_size) : 0;
-  ::posix_fadvise(fd, 0, 0, POSIX_FADV_SEQUENTIAL);
+  state_->file = std::move(file);
   return true;
 }
 
@@ -286,7 +229,7 @@ std::size_t LineWindowReader::bytes_read() const {
   return state_->read;
 }
 std::size_t LineWindowReader::file_size() const {
-  return state_->file_size;
+  return state_->file == nullptr ? 0 : state_->file->size();
 }
 
 bool take_line(std::string_view& text, SourceLine& line) {

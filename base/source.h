@@ -13,6 +13,10 @@
 
 namespace cnctrans {
 
+namespace os {
+class ReadFile;
+}
+
 enum class Encoding : std::uint8_t { utf8, windows1252 };
 enum class Eol : std::uint8_t { lf, crlf, cr };
 
@@ -62,8 +66,7 @@ class SourceText {
   std::string name_;
   std::string_view bytes_;
   std::string owned_;
-  void* map_ = nullptr;
-  std::size_t map_size_ = 0;
+  std::unique_ptr<os::ReadFile> file_;  ///< of the bytes; null: they are owned
   bool has_bom_ = false;
   Encoding encoding_ = Encoding::utf8;
   Eol eol_ = Eol::lf;

@@ -1,12 +1,12 @@
 // batch: every program below a folder.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "base/counted.h"
+#include "base/os/os.h"
 #include "cli/common.h"
 #include "translator/batch/batch.h"
 #include "translator/files/names_file.h"
@@ -65,7 +65,7 @@ int batch(const Arguments& a) {
     return usage_error(a, "--shard wants K/N with K from 1 to N, not '" + a.shard + "'");
 
   bool shown = false;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const bool terminal = os::is_terminal(stderr);
   const auto progress = [&shown](const translator::BatchProgress& p) {
     constexpr std::size_t width = 30;
     const std::size_t full = p.total == 0 ? width : width * p.done / p.total;

@@ -1,7 +1,5 @@
 #include "cli/common.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/os/os.h"
 #include "translator/option_words.h"
 
 namespace cnctrans::cli {
@@ -166,7 +165,7 @@ bool coloured(const Arguments& a, std::FILE* stream) {
   const char* no = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
   const bool plain = (no != nullptr && *no != '\0') || (terminal != nullptr && std::string_view(terminal) == "dumb");
-  return !plain && isatty(fileno(stream)) != 0;
+  return !plain && os::is_terminal(stream);
 }
 
 bool write_all(std::FILE* file, std::string_view bytes) {
@@ -174,7 +173,7 @@ bool write_all(std::FILE* file, std::string_view bytes) {
 }
 
 ProgressLine::ProgressLine(std::string label)
-    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
+    : label_(std::move(label)), terminal_(os::is_terminal(stderr)), start_(std::chrono::steady_clock::now()) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_) write_all(stderr, "\r\x1b[K");

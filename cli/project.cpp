@@ -1,6 +1,5 @@
 // project: an archive as one job.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <map>

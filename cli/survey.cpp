@@ -1,6 +1,5 @@
 // survey: what is in a folder of programs. names: the file of names with what is not known in it.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>

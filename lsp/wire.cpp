@@ -1,11 +1,9 @@
 #include "lsp/wire.h"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <array>
 #include <charconv>
 
+#include "base/os/os.h"
 #include "base/text.h"
 
 namespace cnctrans::lsp {
@@ -28,10 +26,9 @@ std::size_t content_length(std::string_view header) {
 
 bool Wire::fill() {
   std::array<char, 1 << 16> piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): it is written first
-  const auto got = ::read(fileno(in_), piece.data(), piece.size());
-  if (got <= 0) return false;
-  buffer_.append(piece.data(), static_cast<std::size_t>(got));
-  return true;
+  const std::size_t got = os::read_what_comes(in_, piece.data(), piece.size());
+  buffer_.append(piece.data(), got);
+  return got != 0;
 }
 
 std::optional<std::string> Wire::read() {
@@ -57,9 +54,7 @@ void Wire::write(std::string_view message) {
 }
 
 bool Wire::idle() const {
-  if (!buffer_.empty()) return false;
-  pollfd look{fileno(in_), POLLIN, 0};
-  return ::poll(&look, 1, 0) == 0;
+  return buffer_.empty() && os::is_quiet(in_);
 }
 
 }  // namespace cnctrans::lsp

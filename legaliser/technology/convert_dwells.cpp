@@ -237,7 +237,7 @@ class DwellPass {
   }
 
   /// A dwell beyond the largest word becomes several equal ones: all but the first go to `further`. The last one is
-  /// what is left, so that rounding does not add up: an hour of a NUM is 36 times 97.3 s and 97.2 s.
+  /// what is left, so that rounding does not add up: an hour in parts of up to 99.99 s is 36 times 97.3 s and 97.2 s.
   double spread(const Statement& s, double seconds, Body& further) {
     if (seconds <= context_.target.dwell_max) return seconds;
     const double unit = context_.target.dwell_unit;

@@ -1,16 +1,14 @@
 #include "translator/batch/batch.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <set>
 #include <thread>
 
+#include "base/os/os.h"
 #include "base/sum.h"
 #include "base/text.h"
 #include "translator/batch/batch_folder.h"
@@ -148,7 +146,7 @@ class Batch {
 
  private:
   struct Child {
-    pid_t id = 0;
+    os::Child process;
     std::string program;
     Clock::time_point start;
   };
@@ -190,7 +188,7 @@ class Batch {
       while (next < open.size() && children.size() < std::max(1U, options_.jobs))
         children.push_back(begin(open[next++]));
       const std::size_t before = children.size();
-      std::erase_if(children, [this](const Child& c) { return ended(c); });
+      std::erase_if(children, [this](Child& c) { return ended(c); });
       finished += before - children.size();
       tell();
       if (before == children.size()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -207,26 +205,24 @@ class Batch {
   }
 
   Child begin(const std::string& program) {
-    const pid_t id = fork();
-    if (id == 0) _exit(translate_one(program) ? 0 : 1);
-    if (id < 0) folder_.write(failed(program, "crashed", "no process could be started"), {});
-    return {id, program, Clock::now()};
+    Child c{{}, program, Clock::now()};
+    if (!c.process.begin([&](std::FILE*) { return translate_one(program); }))
+      folder_.write(failed(program, "crashed", "no process could be started"), {});
+    return c;
   }
 
-  bool ended(const Child& c) const {
-    if (c.id < 0) return true;
-    int status = 0;
-    const pid_t waited = waitpid(c.id, &status, WNOHANG);
-    if (waited == 0) {
+  bool ended(Child& c) const {
+    const auto end = c.process.ended(false);
+    if (!end) {
+      if (!c.process.begun()) return true;
       if (Clock::now() - c.start < std::chrono::seconds(options_.timeout)) return false;
-      kill(c.id, SIGKILL);
-      waitpid(c.id, &status, 0);
+      c.process.kill();
       folder_.write(failed(c.program, "timed out", fmt::format("not done within {} s", options_.timeout)), {});
       return true;
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
-    const std::string why = WIFSIGNALED(status) ? fmt::format("the translation ended with signal {}", WTERMSIG(status))
-                                                : "the translation ended without a result";
+    if (end->good) return true;
+    const std::string why = end->signal != 0 ? fmt::format("the translation ended with signal {}", end->signal)
+                                             : "the translation ended without a result";
     folder_.write(failed(c.program, "crashed", why), {});
     return true;
   }

@@ -1,9 +1,5 @@
 #include "translator/files/written_files.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -83,13 +79,8 @@ WrittenFiles::WrittenFiles(fs::path folder, Use use) {
   if (use == Use::write) fs::create_directories(folder, ignored);
   folder_ = real_path(folder);
   const std::string list = path(std::string(list_name));
-  if (use == Use::write) fd_ = ::open(list.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (fd_ >= 0) ::flock(fd_, LOCK_EX);
+  if (use == Use::write) list_.open(list);
   entries_ = read(text_of(list));
-}
-
-WrittenFiles::~WrittenFiles() {
-  if (fd_ >= 0) ::close(fd_);
 }
 
 std::set<std::string> WrittenFiles::names() const {
@@ -235,17 +226,8 @@ std::set<std::string> WrittenFiles::taken(const Origin& origin) const {
   return names;
 }
 
-/// In place: a rename would leave those who wait for the lock with the old list.
 void WrittenFiles::save() {
-  if (fd_ < 0) return;
-  const std::string now = text();
-  std::string_view left = now;
-  if (::ftruncate(fd_, 0) != 0 || ::lseek(fd_, 0, SEEK_SET) != 0) return;
-  while (!left.empty()) {
-    const ssize_t n = ::write(fd_, left.data(), left.size());
-    if (n <= 0) return;
-    left.remove_prefix(static_cast<std::size_t>(n));
-  }
+  list_.replace(text());
 }
 
 }  // namespace cnctrans::translator

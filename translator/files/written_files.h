@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/os/os.h"
+
 namespace cnctrans::translator {
 
 /// A file to be written into a folder.
@@ -30,9 +32,6 @@ class WrittenFiles {
   /// Reads the list. `write`: the folder is made when it is not there, and other calls that write into it wait until
   /// this object ends.
   explicit WrittenFiles(std::filesystem::path folder, Use use = Use::write);
-  ~WrittenFiles();
-  WrittenFiles(const WrittenFiles&) = delete;
-  WrittenFiles& operator=(const WrittenFiles&) = delete;
 
   /// Names of the files in the list.
   [[nodiscard]] std::set<std::string> names() const;
@@ -76,7 +75,7 @@ class WrittenFiles {
 
   std::filesystem::path folder_;
   Entries entries_;
-  int fd_ = -1;
+  os::LockedFile list_;
 };
 
 }  // namespace cnctrans::translator

@@ -5,22 +5,19 @@
 #include <string>
 #include <string_view>
 
+#include "base/os/os.h"
+
 namespace cnctrans::translator {
 
 class FilePart {
  public:
-  FilePart() = default;
-  ~FilePart();
-  FilePart(const FilePart&) = delete;
-  FilePart& operator=(const FilePart&) = delete;
-
   /// False: it can't be read.
   bool open(const std::string& path);
   /// The bytes, valid until the next call; fewer where the file ends or can't be read.
   std::string_view read(std::uint64_t from, std::uint64_t to);
 
  private:
-  int fd_ = -1;
+  os::ReadFile file_;
   std::string buffer_;
 };
 

@@ -1,14 +1,12 @@
 #include "translator/project/project.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "base/os/os.h"
 #include "base/source.h"
 #include "base/text.h"
 #include "translator/batch/batch_record.h"
@@ -256,12 +254,7 @@ class Project {
   }
   /// In a process of its own: a program that ends it gets no names.
   bool names_for(const Group& group, const std::string& program, ir::NameMap& more) const {
-    int ends[2];
-    if (pipe(ends) != 0) return false;
-    const pid_t id = fork();
-    if (id == 0) {
-      close(ends[0]);
-      alarm(options_.timeout);
+    const auto work = [&](std::FILE* out) {
       TranslateOptions t = group.batch.translate;
       t.verify = false;
       t.names = &names_;
@@ -272,18 +265,11 @@ class Project {
       Names found;
       if (!result.refused) found.map = result.names;
       const std::string text = names_text(found, config_.from, config_.to);
-      std::FILE* out = fdopen(ends[1], "w");
-      const bool good = std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fclose(out) == 0;
-      _exit(good ? 0 : 1);
-    }
-    close(ends[1]);
-    std::string text;
-    char piece[4096];
-    for (ssize_t n = read(ends[0], piece, sizeof piece); n > 0; n = read(ends[0], piece, sizeof piece))
-      text.append(piece, static_cast<std::size_t>(n));
-    close(ends[0]);
-    int status = 0;
-    if (id > 0) waitpid(id, &status, 0);
+      return std::fwrite(text.data(), 1, text.size(), out) == text.size();
+    };
+    os::Child child;
+    if (!child.begin(work, std::chrono::seconds(options_.timeout))) return false;
+    const std::string text = child.read_all();
     std::string ignored;
     auto found = parse_names(text, config_.from, config_.to, &ignored);
     if (found) more = std::move(found->map);

@@ -1,14 +1,12 @@
 #include "translator/survey/survey.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "base/os/os.h"
 #include "base/text.h"
 #include "translator/files/readable.h"
 
@@ -91,66 +89,46 @@ class Looking {
       Part part;
       part.next = k;
       part.step = jobs;
-      if (k < programs_.size() && begin(part)) parts.push_back(std::move(part));
+      part.works = k < programs_.size() && begin(part);
+      if (part.works) parts.push_back(std::move(part));
     }
     std::size_t done = 0;
     while (!parts.empty()) {
       for (auto& part : parts) {
         std::string line;
-        if (take(part, line)) {
+        if (part.child.read_line(line)) {
           read_line(line, programs_, seen_);
           part.next += part.step;
           if (progress) progress(++done, programs_.size());
           continue;
         }
-        end(part);
+        (void)part.child.ended(true);
+        part.works = false;
         if (part.next >= programs_.size()) continue;
         programs_[part.next].kind = "no program";  // the look at it ended the process
         part.next += part.step;
-        if (part.next < programs_.size()) (void)begin(part);
+        if (part.next < programs_.size()) part.works = begin(part);
       }
-      std::erase_if(parts, [](const Part& p) { return p.pipe == nullptr; });
+      std::erase_if(parts, [](const Part& p) { return !p.works; });
     }
   }
 
  private:
   struct Part {
     std::size_t next = 0, step = 1;  ///< the program that the next line is about
-    pid_t id = -1;
-    std::FILE* pipe = nullptr;
+    os::Child child{};
+    bool works = false;
   };
 
   bool begin(Part& part) {
-    int ends[2];
-    if (pipe(ends) != 0) return false;
-    part.id = fork();
-    if (part.id == 0) {
-      close(ends[0]);
-      std::FILE* out = fdopen(ends[1], "w");
+    return part.child.begin([this, &part](std::FILE* out) {
       for (std::size_t i = part.next; i < programs_.size(); i += part.step) {
         const std::string path = (fs::path(options_.in) / programs_[i].path).string();
         const std::string line = line_of(i, look_at(path, options_, options_.from, to_));
-        if (std::fwrite(line.data(), 1, line.size(), out) != line.size()) _exit(1);
+        if (std::fwrite(line.data(), 1, line.size(), out) != line.size()) return false;
       }
-      std::fclose(out);
-      _exit(0);
-    }
-    close(ends[1]);
-    part.pipe = part.id > 0 ? fdopen(ends[0], "r") : nullptr;
-    return part.pipe != nullptr;
-  }
-  static bool take(Part& part, std::string& line) {
-    for (int c = std::fgetc(part.pipe); c != EOF; c = std::fgetc(part.pipe)) {
-      if (c == '\n') return true;
-      line += static_cast<char>(c);
-    }
-    return false;
-  }
-  static void end(Part& part) {
-    std::fclose(part.pipe);
-    part.pipe = nullptr;
-    int status = 0;
-    waitpid(part.id, &status, 0);
+      return true;
+    });
   }
 
   const SurveyOptions& options_;
