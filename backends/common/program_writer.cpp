@@ -217,21 +217,31 @@ std::string ProgramWriter::line_head(bool numbered) {
   return head;
 }
 
+namespace {
+
+std::string remark_of(const ir::CommentText& c, const CommentStyle& style, bool own, const Span& line,
+                      Diagnostics& diagnostics) {
+  bool lossy = false;
+  std::string out = comment(c.text, style, own, &lossy);
+  if (lossy) note_lossy_comment(word_span(line, c.pos), diagnostics);
+  return out;
+}
+
+}  // namespace
+
 std::string ProgramWriter::line_comments() {
   std::string out;
   if (!first_of_source_line_) return out;
   for (const ir::CommentText& c : info_->comments) {
-    bool lossy = false;
     if (!out.empty()) out += ' ';
-    out += comment(c.text, style_.comment, same_dialect_, &lossy);
-    if (lossy) note_lossy_comment(word_span(info_->span, c.pos), diagnostics_);
+    out += remark_of(c, style_.comment, same_dialect_, info_->span, diagnostics_);
   }
   return out;
 }
 
 void ProgramWriter::emit_comments_before() {
   for (const ir::CommentText& c : info_->comments) {
-    emit_remark(comment(c.text, style_.comment, same_dialect_, nullptr), 0, info_->span);
+    emit_remark(remark_of(c, style_.comment, same_dialect_, info_->span, diagnostics_), 0, info_->span);
   }
 }
 

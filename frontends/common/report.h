@@ -25,14 +25,16 @@ class Report {
   void refuse(std::string_view code, WordPos pos, std::string message, std::string hint = {},
               std::string_view feature = "text.unread") {
     sink_.error(code, word_span(line_, pos), std::move(message), std::move(hint));
-    if (!refused_) feature_ = feature;
-    refused_ = true;
-    harmless_ = false;
+    lose(feature);
   }
   /// The line is read and means something that is not carried: it becomes Opaque with the key `feature` of the
   /// missing-features registry. A run stops at it and a translation refuses it; the reader only warns.
   void keep(std::string_view code, WordPos pos, std::string message, std::string_view feature, std::string hint = {}) {
     sink_.warning(code, word_span(line_, pos), std::move(message), std::move(hint));
+    lose(feature);
+  }
+  /// The line can't be carried because something before it was refused: that has been said, and nothing more is.
+  void lose(std::string_view feature) {
     if (!refused_) feature_ = feature;
     refused_ = true;
     harmless_ = false;

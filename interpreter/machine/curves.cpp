@@ -31,6 +31,11 @@ bool apart(const ir::curves::Point& a, const ir::curves::Point& b) {
 }  // namespace
 
 void BlockMachine::tell_path(Diagnostics& diagnostics) const {
+  for (const Span& s : chosen_contours()) {
+    diagnostics.warning(code::contour_chosen, s,
+                        "several contours fit the data of these elements; the one nearest to its start was run",
+                        "say which point is meant (E+ or E-)");
+  }
   tell_radii(diagnostics);
   for (const auto& [where, why] : corners_left_out_)
     diagnostics.warning(code::corner_left_out, where, why + ": the corner is left out, as the control does");

@@ -93,11 +93,6 @@ Result Runner::run() {
     }
   }
   loop();
-  for (const Span& s : machine_.chosen_contours()) {
-    diagnostics_.warning(code::contour_chosen, s,
-                         "several contours fit the data of these elements; the one nearest to its start was run",
-                         "say which point is meant (E+ or E-)");
-  }
   for (const Span& s : evaluator_.nearly_equal()) {
     diagnostics_.warning(code::nearly_equal, s,
                          "two computed numbers are equal here but for rounding, and are taken for equal",

@@ -227,7 +227,8 @@ Statement make_comment(std::string text, Program& program) {
 
 bool is_remark(const Statement& s) {
   const auto* b = std::get_if<Block>(&s.node);
-  return b != nullptr && b->empty() && b->repeat_given == 0 && s.line.number.empty() && s.line.labels.empty();
+  const bool nothing = std::holds_alternative<Label>(s.node) || (b != nullptr && b->empty() && b->repeat_given == 0);
+  return nothing && s.line.number.empty() && s.line.labels.empty();
 }
 
 Body::iterator below_head(Body& body) {

@@ -324,7 +324,6 @@ class CyclePass {
       if (by_call_ && active_ && active_->on_target && refuse_stale(s, out)) return;
       return position(std::move(s), out);
     }
-    check_axis_word(s, facts_.before(s), active_ ? active_->source : nullptr, context_);
     if (!active_ || !active_->needs.feed) tap_feed_ = tap_feed_ && action_in<SetFeed>(b) == nullptr;
     const bool cancelled = take_cancel(b);
     const auto definition = take_definition(b, pos);

@@ -27,8 +27,8 @@ class WrittenFiles {
     if (!first_.known()) return;
     if (computed || names.size() > 1) {
       context_.diagnostics.error("TRN-622", first_,
-                                 "the target names the file in every line that is written, and here it depends on the "
-                                 "way of the program which one is open",
+                                 "the target names the file in every line that is written, and this program opens "
+                                 "several, or one whose number is computed",
                                  "open one program with a fixed number");
       return;
     }

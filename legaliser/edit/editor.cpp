@@ -144,7 +144,7 @@ std::optional<VarRef> Editor::take(const LineInfo& where) {
   if (!reported_) {
     reported_ = true;
     context.diagnostics.error("TRN-110", where.span, "no variable of the target is free for an intermediate value",
-                              "free some variables, or name a larger variable range in the target's profile");
+                              "use fewer variables");
   }
   return std::nullopt;
 }

@@ -359,17 +359,11 @@ ExprPtr ExpressionLowering::selection(const Call& c, const ExprPtr& e) {
 }
 
 ExprPtr ExpressionLowering::logarithm(const Call& c, const ExprPtr& e) {
-  const double log10_e = 0.43429448190325182765, euler = 2.71828182845904523536;
+  const double log10_e = 0.43429448190325182765;
   if (c.function == Function::ln && has(Function::log10))
     return node(div(f1(Function::log10, c.args[0]), number(log10_e)));
   if (c.function == Function::log10 && has(Function::ln))
     return node(div(f1(Function::ln, c.args[0]), number(1 / log10_e)));
-  if (c.function == Function::exp && has(BinaryOp::power)) {
-    editor_.context.diagnostics.warning(
-        "TRN-113", word_span(like_.span, e->pos),
-        "the exponential is written as a power of 2.71828182846: relative error up to 1e-10");
-    return binary(BinaryOp::power, node(number(euler)), node(c.args[0]));
-  }
   return fail(e, "the target has no function " + std::string(name(c.function)));
 }
 

@@ -227,10 +227,6 @@ class ArcPass {
   bool extras(Arc& arc) {
     Motion& m = arc.b.motion;
     const auto& t = context_.target;
-    if ((m.extra->has_polar_radius || m.extra->has_polar_angle) && !t.polar) {
-      fail(arc, "TRN-307", "an arc with polar words: the target has none", "program the end point with axis words");
-      return false;
-    }
     if (m.extra->has_angle && !t.arc_angle && !opening_angle(arc)) return false;
     if (m.extra && m.extra->has_pitch && !t.helix_pitch && !pitch_to_turns(arc)) return false;
     if (m.extra && m.extra->has_pitch && t.helix_pitch && !exact_pitch(arc)) return false;

@@ -44,6 +44,7 @@ class VariableMap {
     place_numbered();
     place_levels();
     place_named();
+    report_left_over();
     report_persistence();
     rename();
     finish();
@@ -109,7 +110,7 @@ class VariableMap {
       if (free)
         take(space, n, *free->first, free->second);
       else
-        none_left(variable_name(space, n));
+        left_over_.push_back(variable_name(space, n));
     }
   }
   bool take(SpaceId space, std::int64_t n, const VariablePool& pool, std::int64_t to) {
@@ -121,9 +122,12 @@ class VariableMap {
   std::string variable_name(SpaceId space, std::int64_t n) const {
     return program_.spaces[space].prefix + std::to_string(n);
   }
-  void none_left(const std::string& name) {
-    context_.diagnostics.error("TRN-120", {}, "no variable of the target is left for " + name,
-                               "use fewer variables, or name a larger range in the target's machine profile");
+  void report_left_over() const {
+    if (left_over_.empty()) return;
+    const std::string others =
+        left_over_.size() == 1 ? "" : " and " + std::to_string(left_over_.size() - 1) + " others";
+    context_.diagnostics.error("TRN-120", {}, "no variable of the target is left for " + left_over_.front() + others,
+                               "use fewer variables");
   }
 
   /// A variable whose number is computed: every number it may reach must have moved by the same amount.
@@ -210,7 +214,7 @@ class VariableMap {
       const std::int64_t size = use_.named[key].elements();
       const auto free = pools_.run_of_free(size, compensated(key.first, key.second));
       if (!free) {
-        none_left(key.second.substr(0, key.second.find('@')));
+        left_over_.push_back(key.second.substr(0, key.second.find('@')));
         continue;
       }
       for (std::int64_t i = 0; i < size; ++i) pools_.take(free->first->prefix, free->second + i);
@@ -471,6 +475,7 @@ class VariableMap {
   VariableUse use_;
   VariablePools pools_;
   GivenNames given_;
+  std::vector<std::string> left_over_;  ///< no variable of the target is free for them
   std::map<std::pair<SpaceId, std::int64_t>, VarRef> places_;
   std::map<SpaceId, std::int64_t> shift_;
   std::map<SpaceId, SpaceId> shifted_space_;

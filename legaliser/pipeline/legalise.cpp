@@ -47,9 +47,8 @@ bool is_pass(std::string_view name) {
 }
 
 bool run_pass(std::string_view name, Program& program, const LegaliseContext& context) {
-  if (const Pass* pass = find_pass(name)) return run(*pass, program, context);
-  context.diagnostics.error("TRN-100", {}, "no pass is called '" + std::string(name) + "'");
-  return false;
+  const Pass* pass = find_pass(name);
+  return pass != nullptr && run(*pass, program, context);
 }
 
 }  // namespace cnctrans::ir

@@ -17,8 +17,8 @@ namespace {
 class SafeStart {
  public:
   SafeStart(Program& program, Routine& main, const LegaliseContext& context)
-      : program_(program), main_(main), context_(context) {
-    head_feed_ = cuts_with_power_on_feed(program, context, FactsOf(program, context));
+      : program_(program), main_(main), context_(context), facts_(program, context) {
+    head_feed_ = cuts_with_power_on_feed(program, context, facts_);
   }
 
   void run() {
@@ -61,8 +61,10 @@ class SafeStart {
   }
   void tell_offset() const {
     const std::string source = zero_point(context_.source_machine), target = zero_point(context_.target_machine);
-    const Statement* first = source == target ? nullptr : first_move();
-    if (first == nullptr) return;
+    const Statement* first = source == target || lost_ ? nullptr : first_move();
+    if (first == nullptr || action_in<WorkOffset>(std::get<Block>(first->node)) != nullptr) return;
+    const auto there = facts_.before(*first).work_offset;  // selected behind a branch: on all ways
+    if (there && *there != context_.source_machine.power_on.work_offset) return;
     context_.diagnostics.warning("TRN-394", first->line.span,
                                  "no work offset is selected before the first move: the source works with " + source +
                                      " then, the target with " + target,
@@ -103,7 +105,9 @@ class SafeStart {
       if (std::holds_alternative<Assign>(s.node) || std::holds_alternative<Declare>(s.node) ||
           std::holds_alternative<Message>(s.node) || std::holds_alternative<Label>(s.node))
         continue;
-      if (const auto* o = std::get_if<Opaque>(&s.node); o != nullptr && o->harmless) continue;
+      const auto* o = std::get_if<Opaque>(&s.node);
+      lost_ = o != nullptr && !o->harmless;
+      if (o != nullptr && o->harmless) continue;
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) break;
       const bool moves = b->has_motion && b->motion.moves();
@@ -191,7 +195,9 @@ class SafeStart {
   const LegaliseContext& context_;
   std::array<bool, setting_count> said_{};
   bool offset_said_ = false, shift_cleared_ = false;
+  FactsOf facts_;
   bool head_feed_ = false;  ///< a cut may go by the feed of power-on
+  bool lost_ = false;       ///< what stands before the first motion is not carried: it may select anything
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
 FLOORS = ("base", "backends", "cli", "dialects", "frontends", "interpreter", "ir", "legaliser", "machine", "translator", "verifier")
-CODE = r"(?:CNC|FAG|HEI|IR|NUM|RUN|SIN|TRN)-[A-Z0-9]+"
+CODE = r"(?:CNC|FAG|HEI|IR|NUM|RUN|SIN|TRN|VER)-[A-Z0-9]+"
 
 
 def given():

@@ -244,5 +244,14 @@ TEST(Run, ErrorStatementStops) {
               ElementsAre("message tool broken", "end error RUN-030"));
 }
 
+TEST(Run, VariableOfAReadOnlyRangeIsNotWritten) {
+  const auto r = run_text("space E \"E\" segment 0 9 read_only\nroutine main 1 {\n  set E[3] = 1\n  end_program\n}\n");
+  EXPECT_THAT(r.lines, ElementsAre("end error RUN-008"));
+}
+
+TEST(Run, SpindlesHaveNumbersUpTo31) {
+  EXPECT_THAT(lines_of("block spindle_run cw of 32"), ElementsAre("end error RUN-041"));
+}
+
 }  // namespace
 }  // namespace cnctrans::interpreter

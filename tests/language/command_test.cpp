@@ -1,12 +1,11 @@
 // tests/command/*.md: command line, standard output, standard error, exit status. See tests/command/README.md.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "tests/language/execute.h"
 #include "tests/language/markdown.h"
 
 namespace cnctrans {
@@ -17,28 +16,11 @@ const std::string root = CNCTRANS_SOURCE_DIR "/tests/command/";
 
 class Command : public ::testing::TestWithParam<std::string> {};
 
-std::string with_executable(const std::string& command) {
-  return "PATH=" CNCTRANS_EXECUTABLE_DIR ":$PATH; export PATH; " + command;
-}
-
 /// `contains` blocks: every line must occur somewhere.
 void expect_lines(const std::string& text, const std::string& wanted, const std::string& what) {
   std::istringstream lines(wanted);
   for (std::string line; std::getline(lines, line);)
     EXPECT_NE(text.find(line), std::string::npos) << what << " lacks: " << line << "\n" << text;
-}
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-Outcome execute(const std::string& command, const fs::path& folder) {
-  const std::string line =
-      "cd '" + folder.string() + "' && ( " + with_executable(command) + " ) > .stdout 2> .stderr < /dev/null";
-  const int raw = std::system(line.c_str());
-  return {WIFEXITED(raw) ? WEXITSTATUS(raw) : 128, testing::read_file((folder / ".stdout").string()),
-          testing::read_file((folder / ".stderr").string())};
 }
 
 void write_file(const fs::path& path, const std::string& content, const std::string& encoding) {
@@ -63,7 +45,7 @@ TEST_P(Command, DoesWhatItSays) {
   const fs::path folder = fs::temp_directory_path() / ("cnctrans-command-" + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
-  Outcome last;
+  testing::Outcome last;
   bool ran = false;
   bool checked = false;
   for (const auto& s : testing::read_markdown(GetParam())) {
@@ -71,7 +53,7 @@ TEST_P(Command, DoesWhatItSays) {
     if (s.heading.rfind("file ", 0) == 0) {
       write_file(folder / s.heading.substr(5), s.fence, s.fence_language);
     } else if (s.heading == "run") {
-      last = execute(s.fence, folder);
+      last = testing::execute(s.fence, folder);
       ran = true;
     } else if (s.heading == "stdout") {
       EXPECT_EQ(last.out, s.fence);
@@ -84,6 +66,9 @@ TEST_P(Command, DoesWhatItSays) {
       checked = true;
     } else if (s.heading == "stderr contains") {
       expect_lines(last.err, s.fence, "stderr");
+      checked = true;
+    } else if (s.heading == "diagnostics") {
+      EXPECT_EQ(testing::diagnostics_in(last.err), s.fence);
       checked = true;
     } else if (s.heading.rfind("status ", 0) == 0) {
       EXPECT_EQ(last.status, std::stoi(s.heading.substr(7))) << last.err << last.out;

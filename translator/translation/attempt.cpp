@@ -156,7 +156,8 @@ void by_replay(const AttemptContext& c, const ir::Program& program, const backen
   if (now.said.has_errors()) return;
   if (!seen->lines.empty()) {
     now.said.warning("TRN-711", seen->first,
-                     "the translation holds for the values at lines " + seen->lines +
+                     "the translation holds for the values at line" +
+                         std::string(seen->lines.find_first_of("-, ") == std::string::npos ? " " : "s ") + seen->lines +
                          ": where the text alone does not say what holds, it was taken from a replay",
                      "translate again after changing one of them");
   }

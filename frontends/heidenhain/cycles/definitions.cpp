@@ -157,23 +157,29 @@ void Lowering::flush() {
   const Span here = report_.line();
   report_.start(cycle.where);
   if (cycle.row != nullptr) {
+    std::string missing;
     for (const auto& p : cycle.row->parameters) {
       if (p.number == 0 || cycle.values.count(p.number) != 0) continue;
       QValue v;
       v.value = ir::Value(p.fallback);
       v.where = cycle.where;
-      if (p.needed) {
-        report_.refuse("HEI-016", {}, "cycle " + std::to_string(cycle.number) + " has no Q" + std::to_string(p.number));
-      }
+      if (p.needed) missing += (missing.empty() ? "Q" : ", Q") + std::to_string(p.number);
       cycle.values[p.number] = std::move(v);
     }
+    if (!missing.empty() && !cycle.refused)
+      report_.refuse("HEI-016", {}, "cycle " + std::to_string(cycle.number) + " has no " + missing);
   }
   const bool called = cycle.row != nullptr ? cycle.row->called : cycle.old == nullptr || cycle.old->called;
-  if (report_.refused()) {
+  if (report_.refused() || cycle.refused) {
+    cycle.refused = true;
     ir::Opaque o;
     o.text = "CYCL DEF " + std::to_string(cycle.number);
     o.feature = "cycle.hole";
-    put(std::move(o));
+    Item& item = put(std::move(o));
+    if (called) {
+      item.kind = ItemKind::cycle;
+      item.index = index;
+    }
   } else if (called) {
     if (cycle.row != nullptr && cycle.row->on_contours) {
       cycle.labels = contour_labels_;

@@ -93,6 +93,7 @@ void CycleCalls::find_stored() {
 }
 void CycleCalls::definition(const Item& item, Statements& out) const {
   const CycleDefinition& cycle = flat_.cycles[static_cast<std::size_t>(item.index)];
+  if (cycle.refused) return out.push_back(item.statement);
   ir::Assign assign;
   for (const auto& [q, v] : cycle.values) {
     if (stored_.count(q) == 0) continue;
@@ -127,9 +128,15 @@ const CycleDefinition* CycleCalls::in_force(const Item& item, const Arrival& a) 
                 "a program of another file runs between the definition of the cycle and its call: it is taken to "
                 "define no other one (said once a file)");
   }
-  if (a.cycle != Arrival::several) return &flat_.cycles[static_cast<std::size_t>(a.cycle)];
+  const auto said = [&report](const CycleDefinition& c) -> const CycleDefinition* {
+    if (!c.refused) return &c;
+    report.lose("cycle.hole");
+    return nullptr;
+  };
+  if (a.cycle != Arrival::several) return said(flat_.cycles[static_cast<std::size_t>(a.cycle)]);
   const CycleDefinition* first = nullptr;
   for (const auto& c : flat_.cycles) {
+    if (c.refused) return said(c);
     if (c.row != nullptr ? !c.row->called : c.old != nullptr && !c.old->called) continue;
     if ((first != nullptr && (first->number != c.number || c.row == nullptr)) || c.row == nullptr) {
       report.refuse("HEI-017", {}, "which cycle is called here depends on the way to this block",

@@ -66,6 +66,7 @@ struct CycleDefinition {
   /// A pocket, and its islands behind it; mm.
   std::vector<std::vector<ir::cycles::MillContour>> areas;
   std::string area_fault;
+  bool refused = false;  ///< said at the definition; its calls say nothing more
 };
 
 struct Pole {

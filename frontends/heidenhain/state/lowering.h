@@ -77,6 +77,7 @@ class Lowering {
   bool path();
   bool tool_call(const syntax::Statement& s);
   bool tool_def(const syntax::Statement& s);
+  ir::ToolSelect tool_of(const syntax::Word* number, const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
   bool pole();
   bool free_element(const syntax::Statement& s);

@@ -89,6 +89,7 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
   const bool parameter = s != nullptr && s->keyword == "ASSIGN" && block.number.empty();
   if (waiting_ >= 0 && parameter && cycle_word(*s)) {
     waits_more_ = goes_on;
+    flat_.cycles[static_cast<std::size_t>(waiting_)].refused |= report_.refused();
     return !report_.refused();
   }
   if (global_ && parameter) {

@@ -232,7 +232,8 @@ void LineBuilder::sentence(std::size_t words, const facts::SentenceRow& row) {
   if (!out_.comments.empty()) rest = line_.substr(end, out_.comments.front().pos.column - 1 - end);
   s.text = std::string(trim(rest));
   if (last.has_value || !last.number_text.empty()) {  // `CALL 5` of TOOL CALL 5: the value stands by itself
-    last.pos = {end + 1, last.pos.column + last.pos.length - end - 1};
+    const auto value = static_cast<std::uint32_t>(line_.find_first_not_of(" \t", end));
+    last.pos = {value + 1, last.pos.column + last.pos.length - value - 1};
     last.address = {};
     out_.words.erase(out_.words.begin(), out_.words.begin() + static_cast<std::ptrdiff_t>(words) - 1);
   } else {

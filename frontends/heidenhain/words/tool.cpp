@@ -17,18 +17,25 @@ bool Lowering::tool_call(const syntax::Statement& s) {
   const Word* speed = nullptr;
   const Word* own_feed = nullptr;
   std::optional<int> axis;
-  for (const Word& w : block_->words) {
+  for (std::size_t i = 0; i < block_->words.size(); ++i) {
+    Word w = block_->words[i];
     const auto is = [&](std::string_view a) { return iequals_ascii(w.address, a); };
+    if (is("DR") && w.number_text == "2" && i + 1 < block_->words.size() && block_->words[i + 1].address.empty()) {
+      const WordPos start = w.pos;  // `DR2 +0.1` is read as two words
+      w = block_->words[++i];
+      w.address = "DR";
+      w.pos = {start.column, w.pos.column + w.pos.length - start.column};
+    }
     const ir::AxisId letter = w.has_value ? ir::axis::none : axis_of(w.address);
     if (w.address.empty() && number == nullptr) {
-      number = &w;
+      number = &block_->words[i];
     } else if (letter <= ir::axis::w) {
       axis = letter % 3;
     } else if (is("S") && w.has_value) {
-      speed = &w;
+      speed = &block_->words[i];
     } else if (is("F") && w.has_value) {
-      own_feed = &w;
-    } else if (is("DL") || is("DR") || (w.address.empty() && number != nullptr)) {  // `DR2 +0.1` is two items
+      own_feed = &block_->words[i];
+    } else if (is("DL") || is("DR")) {
       if (w.has_value && !w.is_expression && w.number == 0) continue;
       report_.warn("HEI-015", w.pos,
                    "`" + std::string(slice(w)) + "`: the oversize of the tool is kept as text; it is not in the path");
@@ -52,21 +59,7 @@ bool Lowering::tool_call(const syntax::Statement& s) {
   out_.actions.clear();
   const bool changes = number != nullptr || !s.args.empty();
   if (changes) {
-    ir::ToolSelect select;
-    if (number != nullptr) {
-      if (!number->is_expression && (number->number < 0 || number->number > facts::tool_max)) {
-        report_.refuse("HEI-015", number->pos, "tool numbers go from 0 to 32767");
-        return false;
-      }
-      select.number = value(*number);
-      if (!number->is_expression && number->number != std::floor(number->number)) {
-        report_.warn("HEI-015", number->pos, "the index of the tool is left out; its number counts");
-        select.number = ir::Value(std::floor(number->number));
-      }
-    } else {
-      select.name = program_.keep(s.args[0].text);
-    }
-    act(at, std::move(select));
+    act(at, tool_of(number, s));
     act(at, ir::ToolChange{});
   }
   if (axis) {
@@ -92,6 +85,24 @@ bool Lowering::tool_call(const syntax::Statement& s) {
   Item& item = put(std::move(after));
   item.statement.line.joined = false;
   return true;
+}
+
+/// By its number, or by the name that the sentence gives.
+ir::ToolSelect Lowering::tool_of(const Word* number, const syntax::Statement& s) {
+  ir::ToolSelect select;
+  if (number == nullptr) {
+    select.name = program_.keep(s.args[0].text);
+    return select;
+  }
+  select.number = value(*number);
+  if (number->is_expression) return select;
+  if (number->number < 0 || number->number > facts::tool_max) {
+    report_.refuse("HEI-015", number->pos, "tool numbers go from 0 to 32767");
+  } else if (number->number != std::floor(number->number)) {
+    report_.warn("HEI-015", number->pos, "the index of the tool is left out; its number counts");
+    select.number = ir::Value(std::floor(number->number));
+  }
+  return select;
 }
 
 /// The next tool is made ready; where the control has no tool table its length and radius stand here.
@@ -120,14 +131,9 @@ bool Lowering::tool_def(const syntax::Statement& s) {
     report_.refuse("HEI-015", s.pos, "TOOL DEF has no tool");
     return false;
   }
-  ir::ToolSelect select;
-  if (number != nullptr)
-    select.number = value(*number);
-  else
-    select.name = program_.keep(s.args[0].text);
   Word at;
   at.pos = s.pos;
-  act(at, std::move(select));
+  act(at, tool_of(number, s));
   if (report_.refused()) return false;
   put(std::move(out_));
   return true;

@@ -53,35 +53,6 @@ void position_rapid(Block& b, const LegaliseContext& context) {
   b.motion.keeps_modal = false;
 }
 
-void check_axis_word(const Statement& s, const Facts& facts, const CyclePtr& source, const LegaliseContext& context) {
-  const auto& b = std::get<Block>(s.node);
-  if (!b.has_motion || b.motion.frame != FrameUse::normal ||
-      context.source_machine.option("cycle.axis_word") != "refused")
-    return;
-  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
-  bool active = facts.cycle_active_known && facts.cycle_active;
-  for (const auto& a : b.actions) {
-    if (std::holds_alternative<CycleCancel>(a.data)) active = false;
-    const auto* d = std::get_if<CycleDefine>(&a.data);
-    if (d == nullptr) continue;
-    if (!d->here) return;
-    active = true;
-  }
-  const auto* hole = source ? std::get_if<HoleCycle>(&source->node) : nullptr;
-  const auto w = hole != nullptr && hole->axis != axis::none ? std::optional(hole->axis)
-                 : plane                                     ? std::optional(plane_axes(*plane).w)
-                                                             : std::nullopt;
-  if (!active || !w) return;
-  for (const auto& c : b.motion.coords) {
-    if (c.axis != *w) continue;
-    context.diagnostics.error("TRN-332", s.line.span,
-                              "a word of the tool axis in a block while a drilling cycle is active: the source's "
-                              "control takes it as the depth, which can't change here",
-                              "end the cycle before the move, or check the plane");
-    return;
-  }
-}
-
 std::optional<double> height_mm(const Block& b, const Facts& facts, AxisId w) {
   const auto units = setting_in<Units>(b, facts, Setting::units);
   if (!facts.position[w] || !units) return std::nullopt;

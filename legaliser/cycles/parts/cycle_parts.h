@@ -183,9 +183,6 @@ bool stands_right(const HoleCycle& c, std::optional<double> height);
 bool stands_by_itself(const HoleCycle& c);
 /// Writes the rapid out by which the source positions without a code.
 void position_rapid(Block& b, const LegaliseContext& context);
-/// Reports a word of the tool axis under a cycle, on a source machine where it would be the depth. `source`: the
-/// active cycle; null: not known by the text.
-void check_axis_word(const Statement& s, const Facts& facts, const CyclePtr& source, const LegaliseContext& context);
 /// Ends, starts and runs the target's cycle.
 Statement off_statement(const LineInfo& like, bool by_call);
 Statement on_statement(const LineInfo& like, const CyclePtr& cycle);

@@ -170,6 +170,10 @@ class CornerPass {
     }
     if (option("corner.without_successor") == "left_out") tell_alone(s, pos);
     const auto angle = angle_at(body, at);
+    const bool by_leg = c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0;
+    const bool cut = c.kind != CornerKind::round && at_arc(body, at) && option("corner.chamfer_at_arc") == "yes" &&
+                     context_.target_machine.option("corner.chamfer_at_arc") != "yes";
+    const bool own = cut || (c.feed && !target().corner_feed);
     if (option("corner.straight_on") != "refused") {
       if (angle && straight_on(*angle)) {
         if (pos.column != 0)  // else of a corner function that stays in force
@@ -178,14 +182,14 @@ class CornerPass {
                                     "none is written");
         return take_out(s, action);
       }
-      if (!angle) tell_unknown(s, pos, following(body, at));
+      if (!angle && !by_leg && !own) tell_unknown(s, pos, following(body, at));  // else it is refused below
       const auto ends = angle ? ends_.end() : ends_.find(s.id);
       if (ends != ends_.end() && following(body, at) == nullptr) {  // a caller, or the way behind a jump, goes on
         for (const auto& where : ends->second.behind) tell_unknown_at(where);
       }
     }
     if (!c.value.literal()) tell_zero(s, pos);
-    if (c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0) {
+    if (by_leg) {
       if (!angle || !c.value.literal()) {
         refuse(s, program_, context_, "TRN-351",
                "a chamfer by its chord, which the target wants by its legs; the directions before and behind it are "
@@ -197,10 +201,7 @@ class CornerPass {
       if (half > 0) c.value = Value{std::round(c.value.number / (2 * half) * 1e6) / 1e6};
       c.kind = CornerKind::chamfer_leg;
     }
-    const bool cut = c.kind != CornerKind::round && at_arc(body, at) && option("corner.chamfer_at_arc") == "yes" &&
-                     context_.target_machine.option("corner.chamfer_at_arc") != "yes";
-    if (!cut && (!c.feed || target().corner_feed)) return std::nullopt;
-    return own_element(body, at, action);
+    return own ? own_element(body, at, action) : std::nullopt;
   }
 
   static std::optional<Statement> take_out(Statement& s, std::size_t action) {
