@@ -245,7 +245,8 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
   ir->get_option("program")->required(false);
   ir->add_option("--to", a.to, "the program as it is rewritten for this language");
   ir->add_option("--target-machine", a.target_machine, "built-in name or profile file of the target machine");
-  ir->add_option("--after", a.after_pass, "with --to: behind this pass (docs/passes.md)");
+  ir->add_option("--after", a.after_pass,
+                 "with --to: behind this pass (docs/passes.md); each: behind every one that changes it");
   ir->add_option("--pass", a.only_pass, "with --to: this pass alone");
   ir->add_flag("--passes", a.list_passes, "list the passes in their order");
   CLI::App* list = app.add_subcommand("dialects", "list the dialects and built-in machines");

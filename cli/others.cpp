@@ -7,7 +7,9 @@
 #include "cli/common.h"
 #include "ir/text/text.h"
 #include "legaliser/pipeline/pipeline.h"
+#include "translator/files/loader.h"
 #include "translator/files/readable.h"
+#include "translator/files/registry.h"
 
 namespace cnctrans::cli {
 
@@ -59,6 +61,36 @@ int list_passes() {
   return ok;
 }
 
+/// The same of a program in the textual IR (docs/ir.md), whose header names its language: PART.ir.
+int print_legalised_ir(const Arguments& a, const translator::TranslateOptions& options, std::string& text) {
+  std::string error;
+  const SourcePtr source = input_of(a, a.inputs.front()).open(&error);
+  const auto* to = translator::find_dialect(options.to);
+  if (!source) return usage_error(a, error);
+  if (to == nullptr) return usage_error(a, "--to is needed: see 'cnctrans dialects'");
+  FileTable files;
+  Diagnostics diagnostics;
+  ir::Program program = ir::from_text(source->text(), files.add(source), diagnostics);
+  if (!diagnostics.has_errors()) {
+    ir::number_statements(program);
+    const std::string own = program.dialect + (program.lathe ? "-lathe" : "-mill");
+    const auto profile = machine::load(options.machine.empty() ? own : options.machine, &error);
+    const auto target =
+        profile ? translator::choose_target(*to, options.target_machine, *profile, &error) : std::nullopt;
+    if (!target) return usage_error(a, error);
+    ir::LegaliseReport report;
+    ir::LegaliseContext context{to->backend->capabilities_for(*target), *profile, *target, {}, diagnostics, &report};
+    context.options.cycles = options.cycles;
+    context.options.raise_structure = options.raise_structure;
+    context.options.only = options.only_pass;
+    context.behind_pass = options.behind_pass;
+    ir::legalise(program, context);
+  }
+  a.messages->add(diagnostics, files);
+  write_all(stdout, text);
+  return diagnostics.has_errors() ? refused : ok;
+}
+
 /// The program on its way to another control.
 int print_legalised(const Arguments& a) {
   translator::TranslateOptions options;
@@ -66,15 +98,23 @@ int print_legalised(const Arguments& a) {
   if (!translate_options(a, options)) return usage;
   if (!a.only_pass.empty() && !a.after_pass.empty()) return usage_error(a, "--after and --pass exclude each other");
   const std::string& wanted = a.only_pass.empty() ? a.after_pass : a.only_pass;
-  if (!wanted.empty() && !ir::is_pass(wanted))
+  const bool each = a.after_pass == "each";
+  if (!wanted.empty() && !each && !ir::is_pass(wanted))
     return usage_error(a, "no pass is called '" + wanted + "'; cnctrans ir --passes lists them");
-  std::string text;
+  std::string text, last;
   options.from = a.dialect;
   options.verify = false;
   options.only_pass = a.only_pass;
   options.behind_pass = [&](std::string_view pass, const ir::Program& program) {
-    if (wanted.empty() || pass == wanted) text = ir::to_text(program, {a.places});
+    if (!each && !wanted.empty() && pass != wanted) return;
+    std::string now = ir::to_text(program, {a.places});
+    if (!each || pass == ir::pipeline().front().name) text.clear();  // again from the start: another attempt
+    if (each && now == last && !text.empty()) return;
+    if (each) text += "// " + std::string(pass) + '\n';
+    text += now;
+    last = std::move(now);
   };
+  if (a.inputs.front().ends_with(".ir")) return print_legalised_ir(a, options, text);
   const auto result = translator::translate(input_of(a, a.inputs.front()), options);
   if (!result.error.empty()) return usage_error(a, result.error);
   a.messages->add(result.diagnostics, result.files);
