@@ -14,6 +14,7 @@
 #include "verifier/cycle_pairs.h"
 #include "verifier/dwells.h"
 #include "verifier/normalise.h"
+#include "verifier/offset_numbers.h"
 #include "verifier/tool_names.h"
 
 namespace cnctrans::verifier {
@@ -45,6 +46,7 @@ class Comparison {
         first_a_(source.data()),
         first_b_(target.data()),
         options_(options),
+        offsets_(source, target),
         verdict_(verdict),
         from_a_(options.source_start),
         from_b_(options.target_start),
@@ -127,6 +129,7 @@ class Comparison {
     }
     std::string what = motion_difference(a, b);
     if (what.empty()) what = tool_difference(a, b);
+    if (what.empty()) what = offsets_.difference(a, b);
     if (what.empty()) what = zero_difference(a, b);
     if (what.empty()) what = corner_difference(a, b);
     if (!what.empty() && a.kind == EventKind::arc && passed_over(a, from_a_, from_b_)) return take_a();
@@ -420,6 +423,7 @@ class Comparison {
   const Event *first_a_, *first_b_;  ///< of the traces before normalisation
   const Options& options_;
   ToolNames tools_;
+  OffsetNumbers offsets_;
   Verdict& verdict_;
   std::size_t i_ = 0, j_ = 0;
   Position from_a_, from_b_;

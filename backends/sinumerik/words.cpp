@@ -135,7 +135,8 @@ bool Writer::offset_in_force() {
   }
   if (offset_word_.empty()) {
     if (!selects_tools_) return stays_without_offset();
-    offset_word_ = "D1";  // what the control selects with the tool
+    offset_word_ = "D1";  // what the control selects with the tool; that of the source perhaps does not
+    guess = guess || !same_dialect();
   }
   if (guess) {
     diagnostics().warning("TRN-218", current().line.span,
