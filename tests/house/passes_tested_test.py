@@ -6,9 +6,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WITHOUT = {  # still to be written
-    "control/name_called_labels", "control/check_call_limits", "control/raise_structure", "cycles/name_cycle_spindles",
-    "data/convert_machine_data", "data/name_given_data", "style/move_headings", "technology/check_spindle_limits",
-    "technology/write_thread_leads"}
+    "control/name_called_labels", "control/raise_structure", "cycles/name_cycle_spindles", "data/name_given_data"}
 
 
 def main():
