@@ -50,6 +50,22 @@ install_packages() {
   fi
 }
 
+# debian_source PACKAGE PATTERN: a file of Debian's source of a package, which apt brings to build/sources once.
+debian_source() {
+  have=$(find "$root/build/sources/$1" -path "$2" 2>/dev/null | head -n 1)
+  if [ -z "$have" ]; then
+    mkdir -p "$root/build/sources/$1/lists"
+    (
+      cd "$root/build/sources/$1" || exit 1
+      echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" >sources.list
+      apt="apt-get -qq -o Dir::Etc::sourcelist=$PWD/sources.list -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$PWD/lists"
+      $apt update && $apt source --only-source "$1"
+    ) >"$root/build/sources/$1.log" 2>&1 || { tail -n 5 "$root/build/sources/$1.log" >&2; say "the source of $1 can't be had"; return 1; }
+    have=$(find "$root/build/sources/$1" -path "$2" | head -n 1)
+  fi
+  echo "$have"
+}
+
 # lock_build PRESET: one build of a preset at a time; the others wait. Held by descriptor 9 until unlock_build.
 lock_build() {
   mkdir -p "$root/build" || return 1

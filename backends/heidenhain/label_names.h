@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,9 @@ class LabelNames {
     std::size_t routine;
     bool number;
     std::string text;
-    auto operator<=>(const Key&) const = default;
+    bool operator<(const Key& o) const {
+      return std::tie(routine, number, text) < std::tie(o.routine, o.number, o.text);
+    }
   };
   std::string fresh();
   /// The wanted name, or another one where the file has it already.

@@ -1,4 +1,5 @@
 // The C interface: a job is the options by their words, a result is that of the C++ interface.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -90,7 +91,8 @@ constexpr std::array free_options{
                [](cnctrans_job& j, std::string_view v) {
                  std::uint64_t replays = 0;
                  if (!whole_number(v, replays)) return false;
-                 j.options.further = replays != 0 ? house::FurtherReplays{false, replays, {}} : house::usual_replays;
+                 const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(replays, SIZE_MAX));
+                 j.options.further = most != 0 ? house::FurtherReplays{false, most, {}} : house::usual_replays;
                  j.options.strict = j.options.strict || replays != 0;
                  j.options.verify = j.options.verify || replays != 0;
                  return true;
