@@ -180,6 +180,19 @@ int main(int argc, char** argv) {
   app.add_flag("--strict", o.strict, "a difference that a warning foretells is a failure too");
   CLI11_PARSE(app, argc, argv);
   cnctrans::splice::watch_for_crashes("splice");
+  const auto holds_tests = [](const std::string& root) {
+    std::error_code none;
+    return std::filesystem::is_directory(root + "/tests/pairs", none);
+  };
+  if (o.program.empty() && !holds_tests(o.root)) {  // it was built where the repository stands elsewhere
+    if (app.count("--root") == 0 && holds_tests(".")) {
+      o.root = ".";
+    } else {
+      std::printf("splice: there are no programs under %s; --root names the folder of the repository\n",
+                  o.root.c_str());
+      return 2;
+    }
+  }
   const bool given = !o.program.empty();
   cnctrans::splice::Splices splices(std::move(o));
   return given ? splices.given() : splices.run();

@@ -50,17 +50,30 @@ std::string without_numbers(const std::string& text) {
 struct Narrow {
   std::string_view code, about;
 };
-constexpr std::array<Narrow, 4> narrow = {
-    {{"TRN-159", "feed"}, {"TRN-159", "thread pitch"}, {"TRN-392", ""}, {"TRN-394", ""}}};
-/// Said once for all moves behind it.
+constexpr std::array<Narrow, 3> narrow = {{{"TRN-159", "feed"}, {"TRN-392", ""}, {"TRN-394", ""}}};
+/// Said once for all moves up to the next word of an offset.
 constexpr std::array<Narrow, 1> lasting = {{{"TRN-522", "tool offset"}}};
 
-bool foretells(const Diagnostic& d, const std::string& kind, FileId file, std::uint32_t line) {
+/// A word D stands behind line `from` (counted from 1), at `to` or before.
+bool has_offset_word(const Program& p, std::uint32_t from, std::uint32_t to) {
+  for (std::size_t i = from; i < std::min<std::size_t>(to, p.lines.size()); ++i) {
+    const std::string& line = p.lines[i];
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const bool begins = k == 0 || std::isalpha(static_cast<unsigned char>(line[k - 1])) == 0;
+      if (line[k] == 'D' && begins && std::isdigit(static_cast<unsigned char>(line[k + 1])) != 0) return true;
+    }
+  }
+  return false;
+}
+
+bool foretells(const Program& p, const Diagnostic& d, const std::string& kind, FileId file, std::uint32_t line) {
   if (d.severity != Severity::warning || !d.span.known() || d.span.file != file) return false;
   const auto says = [&](const Narrow& n) {
     return n.code == d.code && !n.about.empty() && kind.find(n.about) != std::string::npos;
   };
-  if (line >= d.span.line && std::any_of(lasting.begin(), lasting.end(), says)) return true;
+  if (line >= d.span.line && std::any_of(lasting.begin(), lasting.end(), says) &&
+      !has_offset_word(p, d.span.line, line))
+    return true;
   if (line < d.span.line || line > std::max(d.span.line, d.span.end_line)) return false;
   return std::none_of(narrow.begin(), narrow.end(), [&](const Narrow& n) { return n.code == d.code; }) ||
          std::any_of(narrow.begin(), narrow.end(), says);
@@ -79,7 +92,7 @@ std::vector<std::pair<FileId, std::uint32_t>> lines_of(const translator::Transla
   return lines;
 }
 
-Outcome judged(const translator::TranslateResult& r) {
+Outcome judged(const Program& p, const translator::TranslateResult& r) {
   Outcome out;
   if (r.refused || !r.error.empty()) {
     out.fate = Fate::refused;
@@ -98,7 +111,7 @@ Outcome judged(const translator::TranslateResult& r) {
   out.kind = without_numbers(v.status == verifier::Status::differs ? v.difference.what : v.reason);
   for (const auto& d : r.diagnostics.all()) {
     for (const auto& [file, line] : lines_of(r)) {
-      if (foretells(d, out.kind, file, line)) out.codes.insert(d.code);
+      if (foretells(p, d, out.kind, file, line)) out.codes.insert(d.code);
     }
   }
   out.fate = out.codes.empty() ? Fate::silent : Fate::foretold;
@@ -129,7 +142,7 @@ Outcome prove(const Program& p, const std::string& to) {
   options.verify = true;
   options.further = {true, replays, std::nullopt};
   limit(options.run);
-  return judged(translator::translate(SourceText::from_string(p.file_name(), p.text()), options));
+  return judged(p, translator::translate(SourceText::from_string(p.file_name(), p.text()), options));
 }
 
 std::string command(const Program& p, const std::string& to) {
