@@ -202,9 +202,17 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     for (std::size_t n = k + 1; n < order.size(); ++n) {
       if (order[n]->kind == EventKind::message && !keep_messages) continue;
       if (is_barrier(order[n]->kind)) return false;
-      if (order[n]->kind == EventKind::tool) return order[n]->change && order[n]->number == order[k]->number;
+      if (order[n]->kind != EventKind::tool) continue;
+      if (order[n]->number != order[k]->number) return false;
+      if (order[n]->change) return true;  // chosen again before it changes nothing
     }
     return false;
+  };
+  // Radius compensation that ends before anything moves never began.
+  const auto never_used = [&order = taps.order](std::size_t k) {
+    const auto next = std::find_if(order.begin() + static_cast<std::ptrdiff_t>(k) + 1, order.end(),
+                                   [](const Event* n) { return is_motion(n->kind) || n->kind == EventKind::comp; });
+    return next != order.end() && (*next)->kind == EventKind::comp && (*next)->state == "off";
   };
   for (std::size_t k = 0; k < taps.order.size(); ++k) {
     const Event& e = *taps.order[k];
@@ -212,6 +220,7 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     if (e.kind == EventKind::offset && !keep_offsets) continue;
     if (e.kind == EventKind::message && !keep_messages) continue;
     if (e.kind == EventKind::tool && !e.change && (!keep_selections || changed_at_once(k))) continue;
+    if (e.kind == EventKind::comp && e.state != "off" && never_used(k)) continue;
     if (!filter.changes(e)) continue;
     if (is_barrier(e.kind)) {
       close_stretch();

@@ -32,6 +32,7 @@ class HoleText {
 
   std::optional<CycleText> text() {
     if (!c_.has_feed && !feed_.literal()) return std::nullopt;
+    if (c_.has_feed_out && !c_.feed_out.literal()) return std::nullopt;  // Q208=0 is the feed of Q206
     if (c_.axis != ir::axis::none && c_.axis != ir::axis::z) return std::nullopt;
     if (c_.keeps_initial || c_.reference_may_be_below || c_.approach_by_retract || c_.dwell_in_revolutions)
       return std::nullopt;

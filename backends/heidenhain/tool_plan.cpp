@@ -40,9 +40,11 @@ const ir::SetSpindle* ToolPlan::speed_of(const ir::Action& change) const {
 void ToolPlan::routine(std::size_t index, const LabelUse& use) {
   const ir::Routine& r = program_.routines[index];
   const ir::Action* waiting = nullptr;  // a choice with nothing behind it yet
+  std::uint32_t waits_under = 0;        // its skip levels
   for (std::size_t i = 0; i < r.body.size(); ++i) {
     const ir::Statement& s = r.body[i];
-    if (is_join(s, index, use)) waiting = nullptr;
+    if (is_join(s, index, use) || s.line.skip_mask != waits_under) waiting = nullptr;
+    waits_under = s.line.skip_mask;
     const auto* b = std::get_if<ir::Block>(&s.node);
     if (b == nullptr) {
       if (!passes_by(s)) waiting = nullptr;

@@ -181,7 +181,10 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
     return block != nullptr && block->empty() && s.line.number.empty() && s.line.labels.empty();
   };
   const auto last = std::find_if_not(r.body.rbegin(), r.body.rend(), remark);
-  if (r.kind == ir::RoutineKind::sub && !same_dialect() && (last == r.body.rend() || !returns(*last))) raw_line("M17");
+  if (r.kind == ir::RoutineKind::sub && !same_dialect() && (last == r.body.rend() || !returns(*last))) {
+    if (offset_pending_) offset_line(r.body.back().line.span);
+    raw_line("M17");
+  }
 }
 
 /// A call with parameters of a program in another file needs its signature at the head of the caller's.

@@ -122,6 +122,11 @@ bool BlockMachine::use_frame(const Frame& f) {
   if (f == frame_ && frame_serial_ != 0) return true;
   Frame inverse;
   if (!invert(f, inverse)) return failure_.fail(code::frame, "a scale of zero");
+  if (pending_) {  // the move before goes out in the coordinates that it was written in
+    const bool asked = !pending_->modal;
+    release_pending();
+    if (asked && !without_corner("what follows the corner is no move in the same plane and frame")) return false;
+  }
   const Axes machine = frame_.apply(p_);
   const Axes seen = inverse.apply(machine);
   const bool keeps = policy_.keeps_programmed && modal_.surface == ir::Surface::none;

@@ -102,6 +102,16 @@ class CalledParts {
     program_.routines.push_back(std::move(part));
     return true;
   }
+  /// One line alone has it.
+  static bool once(const Body& body, const LabelRef& label) {
+    std::size_t count = 0;
+    for_each_statement(body, [&](const Statement& s) {
+      const auto on = labels_on(s.line);
+      count += static_cast<std::size_t>(
+          std::count_if(on.begin(), on.end(), [&label](const LabelRef& l) { return same_label(l, label); }));
+    });
+    return count == 1;
+  }
   static std::string shown(const LabelRef& l) { return (l.is_number ? "N" : "") + l.text; }
 
   static std::optional<std::size_t> repeat_of_others(const Body& body, std::size_t from) {
@@ -129,6 +139,7 @@ class CalledParts {
     const std::size_t begin = find(body, repeat.first);
     std::size_t end = find(body, repeat.last);
     if (begin == body.size() || end == body.size() || end < begin || (at >= begin && at <= end)) return false;
+    if (!once(body, repeat.first) || !once(body, repeat.last)) return false;
     for (++end; end < body.size() && body[end].line.joined;) ++end;
     if ((at >= begin && at < end) || body[begin].line.joined || !apart(home, begin, end, repeat)) return false;
     Routine part;

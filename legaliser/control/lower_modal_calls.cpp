@@ -88,8 +88,18 @@ class ModalCalls {
   bool by_another_way(const Statement& s, const Block& b) const {
     const auto* state = in_force_.before(s);
     if (state == nullptr || *state == from_ || (from_ == 0 && *state == brought_)) return false;
-    if (runs(b, facts_.before(s), words_run(context_.source_machine)) || pattern_in(b)) return some_written_out_;
-    return runs(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
+    if (runs_modal_call(b, facts_.before(s), words_run(context_.source_machine)) || pattern_in(b))
+      return some_written_out_;
+    return runs_modal_call(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
+  }
+  /// A routine that begins or ends modal calls itself may be called while another one is in force on the target.
+  bool brought_by_caller(const Statement& s) const {
+    const auto* state = in_force_.before(s);
+    if (!context_.target.modal_call || state == nullptr || *state == 0 || from_ != 0) return false;
+    const auto begun = defined_.find(*state);
+    if (begun == defined_.end() || never_modal(begun->second.call)) return false;
+    const auto callee = calls_.index_of(begun->second.call.routine);
+    return !callee || reached_from(calls_, *callee).count(routine_) == 0;  // its own subprogram runs without it
   }
   /// The target's own modal call takes its place.
   bool stays_modal(const ModalCall& m) const {
@@ -99,19 +109,8 @@ class ModalCalls {
   bool take_back_on(const Statement& next, Body& out) {
     if (wrapped_in_ != &out || out.size() != wrapped_size_ || is_target(next)) return false;
     out.pop_back();
+    wrapped_in_ = nullptr;
     return true;
-  }
-
-  /// Whether the block runs the subprogram, on a machine where words alone do so or not.
-  bool runs(const Block& b, const Facts& facts, bool by_words) const {
-    if (b.has_motion && b.motion.moves()) return true;
-    if (!by_words) return false;
-    const auto kind = motion_in(b, facts);
-    if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return false;
-    if (b.has_motion && b.motion.explicit_code) return true;
-    return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
-      return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
-    });
   }
 
   void one(Statement&& s, Body& out) {
@@ -124,37 +123,38 @@ class ModalCalls {
     }
     if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
     auto* b = std::get_if<Block>(&s.node);
-    if (b != nullptr && by_another_way(s, *b)) {
-      refuse(
-          s, program_, context_, "TRN-393",
+    if (b != nullptr && by_another_way(s, *b))
+      return refused(
+          std::move(s), out, "TRN-393",
           "which subprogram is modal here depends on the path that leads here, and its calls would stand in the text",
           "call the subprogram where it is to run, or end the modal call on every path");
-      out.push_back(std::move(s));
-      return;
+    const bool called_under = !active_ && !on_target_ && brought_by_caller(s);
+    if (b != nullptr && pattern_in(*b) == nullptr &&
+        ((on_target_ && cycle_beside(*b, true)) || (called_under && action_in<CycleDefine>(*b) != nullptr)))
+      return refused(std::move(s), out, "TRN-561",
+                     "a canned cycle beside a modal subprogram: the target has one of them at a time",
+                     "end the modal subprogram before the cycle");
+    if (b != nullptr && called_under && b->repeat_given != 0) {
+      const auto begun = defined_.find(*in_force_.before(s));
+      if (begun != defined_.end()) goes_on_with_locals(s, begun->second.call);
     }
-    if (b == nullptr || (!active_ && !on_target_)) {
-      out.push_back(std::move(s));
-      return;
-    }
-    if (const auto* pattern = pattern_in(*b)) {
-      return points(std::move(s), *pattern, out);
-    }
-    if (on_target_ && cycle_beside(*b, true)) {
-      refuse(s, program_, context_, "TRN-561",
-             "a canned cycle beside a modal subprogram: the target has one of them at a time",
-             "end the modal subprogram before the cycle");
-      out.push_back(std::move(s));
-      return;
-    }
+    if (b == nullptr || (!active_ && !on_target_)) return out.push_back(std::move(s));
+    if (const auto* pattern = pattern_in(*b)) return points(std::move(s), *pattern, out);
     const bool only_moves = b->repeat_given != 0 && b->repeat.is(0);
+    if (const Facts& now = facts_.before(s); only_moves && (now.cycle_active || !now.cycle_active_known))
+      return refused(std::move(s), out, "TRN-199",
+                     "a block that only positions, with a modal subprogram and perhaps a cycle in force: the target "
+                     "would run one of them",
+                     "end the modal subprogram and the cycle before the block");
     if (only_moves) {
       b->repeat_given = 0;
       b->repeat = Value{};
     }
-    const bool in_source = !only_moves && runs(*b, facts_.before(s), words_run(context_.source_machine));
+    const bool in_source = !only_moves && runs_modal_call(*b, facts_.before(s), words_run(context_.source_machine));
     if (b->repeat_given != 0 && in_source) goes_on_with_locals(s, active_ ? *active_ : on_target_->call);
     if (active_) return in_source ? written_out(std::move(s), out) : out.push_back(std::move(s));
-    const bool in_target = runs(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
+    const bool in_target =
+        runs_modal_call(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
     if (in_source && acts_behind_motion(*b) && program_.dialect != context_.target.dialect)
       return by_itself_with_call(std::move(s), out);
     if (in_source || !in_target) {
@@ -178,6 +178,10 @@ class ModalCalls {
     out.push_back(made(like, *on_target_));
     wrapped_in_ = &out;
     wrapped_size_ = out.size();
+  }
+  void refused(Statement&& s, Body& out, const char* code, const std::string& why, const std::string& hint) {
+    refuse(s, program_, context_, code, why, hint);
+    out.push_back(std::move(s));
   }
   /// The moves of a called subprogram run the modal one as well, and nothing is written there.
   void inside(const CallRoutine& call, const Statement& s) const {
@@ -211,11 +215,10 @@ class ModalCalls {
     }
     if (!blocks || !error.empty()) {
       if (error.empty()) error = "its words are computed when the program runs";
-      refuse(s, program_, context_, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
-             "give the pattern's words and the place before it as numbers");
-      out.push_back(std::move(s));
-      return;
+      return refused(std::move(s), out, "TRN-330", "a pattern that the target lacks can't be written out: " + error,
+                     "give the pattern's words and the place before it as numbers");
     }
+    if (leaves_its_point(program_, calls_, call, facts_)) say_all_axes(*blocks, facts_.before(s));
     balance_increments(*blocks, s, std::get<Block>(s.node), facts_.before(s), context_);
     Body pieces;
     if (!active_ && !just_begun(s, out)) pieces.push_back(made(like, off_call()));
@@ -344,12 +347,11 @@ class ModalCalls {
       leave_line(std::move(s), out);
       return;
     }
-    if (program_.dialect != context_.target.dialect && changes_modal_calls(program_, calls_, m.call)) {
-      refuse(s, program_, context_, "TRN-393",
-             "the modal subprogram begins or ends a modal call itself: what is modal behind it depends on its runs",
-             "end the modal call where it was begun");
-      return out.push_back(std::move(s));
-    }
+    if (program_.dialect != context_.target.dialect && changes_modal_calls(program_, calls_, m.call))
+      return refused(
+          std::move(s), out, "TRN-393",
+          "the modal subprogram begins or ends a modal call itself: what is modal behind it depends on its runs",
+          "end the modal call where it was begun");
     const bool modal = context_.target.modal_call && !never_modal(m.call);
     const LineInfo like = s.line;
     if (take_back_on(s, out)) on_target_.reset();
@@ -415,10 +417,9 @@ class ModalCalls {
     if (!context_.target.modal_cycle_by_call || (facts.cycle_active_known && !facts.cycle_active)) return false;
     const auto* state = in_force_.before(s);
     if (on_target_ || state == nullptr || *state != 0) {
-      refuse(s, program_, context_, "TRN-561",
-             "the end of a modal subprogram, behind which a canned cycle may go on: the target ends both",
-             "write G80, or end the modal subprogram before the cycle is defined");
-      out.push_back(std::move(s));
+      refused(std::move(s), out, "TRN-561",
+              "the end of a modal subprogram, behind which a canned cycle may go on: the target ends both",
+              "write G80, or end the modal subprogram before the cycle is defined");
       return true;
     }
     leave_line(std::move(s), out);

@@ -47,7 +47,10 @@ class RepeatPass {
     std::size_t n = 0;
     for_each_statement(editor_.routine.body, [&](const Statement& s) {
       ++n;
-      for (const auto& l : labels_on(s.line)) places.emplace(std::make_pair(l.is_number, l.text), n);
+      for (const auto& l : labels_on(s.line)) {
+        places.emplace(std::make_pair(l.is_number, l.text), n);
+        ++carriers_[{l.is_number, l.text}];
+      }
     });
     for_each_statement(editor_.routine.body, [&](Statement& s) {
       auto* r = std::get_if<Repeat>(&s.node);
@@ -267,7 +270,8 @@ class RepeatPass {
 
   LabelRef label_on(Statement& s) {
     for (const auto& l : labels_on(s.line)) {
-      if (l.is_number ? !target_.repeat_needs_identifiers : target_.identifier_labels) return l;
+      const bool fits = l.is_number ? !target_.repeat_needs_identifiers : target_.identifier_labels;
+      if (fits && carriers_[{l.is_number, l.text}] == 1) return l;
     }
     const LabelRef fresh = editor_.fresh_label();
     set_label(s.line, fresh, editor_.program);
@@ -367,6 +371,7 @@ class RepeatPass {
   const HeadConstants& constants_;
   const bool cycles_;  ///< the program has canned cycles: the cycles pass sees to their blocks
   bool& limit_told_;
+  std::map<std::pair<bool, std::string>, int> carriers_;  ///< lines that carry a label
 };
 
 }  // namespace

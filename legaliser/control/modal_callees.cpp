@@ -64,9 +64,7 @@ bool may_move(const Program& program, const CallGraph& calls, const CallRoutine&
   });
 }
 
-/// Its increments in the plane do not add up to nothing, or it goes to places there.
-static bool leaves_its_point(const Program& program, const CallGraph& calls, const CallRoutine& call,
-                             const FactsOf& facts) {
+bool leaves_its_point(const Program& program, const CallGraph& calls, const CallRoutine& call, const FactsOf& facts) {
   std::map<AxisId, double> travel;
   bool straight = true, places = false;
   const bool unknown = !callee_of(calls, call) || any_below(program, calls, call, [&](const Statement& s) {
@@ -95,6 +93,45 @@ bool arcs_from_elsewhere(const Body& way, const Program& program, const CallGrap
     return b != nullptr && b->motion.kind != MotionKind::rapid && b->motion.kind != MotionKind::linear;
   });
   return arcs && leaves_its_point(program, calls, call, facts);
+}
+
+bool runs_modal_call(const Block& b, const Facts& facts, bool by_words) {
+  if (b.has_motion && b.motion.moves()) return true;
+  if (!by_words) return false;
+  const auto kind = motion_in(b, facts);
+  if (kind && kind != MotionKind::rapid && kind != MotionKind::linear) return false;
+  if (b.has_motion && b.motion.explicit_code) return true;
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
+  });
+}
+
+void say_all_axes(Body& way, const Facts& facts) {
+  std::map<AxisId, CoordWord> last;
+  const auto plane = setting<Plane>(facts, Setting::plane);
+  for (const auto& s : way) {  // where the tool stands before the first one
+    const auto* b = std::get_if<Block>(&s.node);
+    const bool absolute = b != nullptr && !b->motion.coords.empty() && b->motion.coords[0].mode == WordMode::absolute;
+    if (!absolute || !plane) break;
+    for (const AxisId axis : {plane_axes(*plane).u, plane_axes(*plane).v}) {
+      CoordWord word = b->motion.coords[0];
+      word.axis = axis;
+      if (facts.position[axis]) word.value = Value{*facts.position[axis]};
+      if (facts.position[axis]) last.insert_or_assign(axis, word);
+    }
+    break;
+  }
+  for (auto& s : way) {
+    auto* b = std::get_if<Block>(&s.node);
+    if (b == nullptr || !b->has_motion) continue;
+    for (const auto& c : b->motion.coords) last.erase(c.axis);
+    for (const auto& [axis, word] : last) b->motion.coords.push_back(word);
+    std::sort(b->motion.coords.begin(), b->motion.coords.end(),
+              [](const auto& a, const auto& c) { return a.axis < c.axis; });
+    for (const auto& c : b->motion.coords) {
+      if (c.mode == WordMode::absolute) last.insert_or_assign(c.axis, c);
+    }
+  }
 }
 
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed) {

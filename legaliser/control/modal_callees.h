@@ -15,10 +15,17 @@ bool changes_modal_calls(const Program& program, const CallGraph& calls, const C
 bool defines_cycle(const Program& program, const CallGraph& calls, const CallRoutine& call);
 /// It, or one below it, moves, goes to the points of a pattern, or calls what is not at hand.
 bool may_move(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// Its increments in the plane do not add up to nothing, or it goes to places there.
+bool leaves_its_point(const Program& program, const CallGraph& calls, const CallRoutine& call, const FactsOf& facts);
+/// The way from point to point starts elsewhere each time: the axes of the plane are said at all points. `facts`:
+/// before the first one.
+void say_all_axes(Body& way, const Facts& facts);
 /// The way goes along arcs, each of which starts where the subprogram ends: perhaps at another point of the plane than
 /// where it was called.
 bool arcs_from_elsewhere(const Body& way, const Program& program, const CallGraph& calls, const CallRoutine& call,
                          const FactsOf& facts);
+/// The block runs the modal subprogram, on a machine where words alone do so or not. `facts`: before it.
+bool runs_modal_call(const Block& b, const Facts& facts, bool by_words);
 /// Behind it this feed is in force when it is before it.
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed);
 /// What the block does behind its motion, or in blocks of their own on another control, a modal call would come before.

@@ -2,6 +2,7 @@
 // that ends at its number ends behind the last of them. A last line that later passes may write as several (a call, a
 // condition, a point of a modal call) has the end behind it on a mark, which goes where it stayed one line.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -22,7 +23,10 @@ class RangeEnds {
   }
 
   void run() {
-    if (program_.dialect != editor_.context.target.dialect) refuse_ends_at_else();
+    if (program_.dialect != editor_.context.target.dialect) {
+      refuse_ends_at_else();
+      refuse_broken_parts();
+    }
     each_line(routine_.body, [this](const LineInfo& line) {
       for (const auto& l : labels_on(line)) ++carriers_[{l.is_number, l.text}];
     });
@@ -186,6 +190,47 @@ class RangeEnds {
                "the repeated part begins or ends at the ELSE of an IF: what is carried out then is stated nowhere",
                "put the number on a line of the branch");
     });
+  }
+
+  /// Whether a run of the part comes to its end depends on a condition, or the part repeats itself.
+  void refuse_broken_parts() {
+    struct Place {
+      const Body* body = nullptr;
+      std::size_t at = 0;
+    };
+    std::map<std::pair<bool, std::string>, Place> places;
+    struct Part {
+      Statement* s;
+      std::size_t at;
+      const LabelRef *first, *last;
+    };
+    std::vector<Part> parts;
+    std::size_t n = 0;
+    const std::function<void(Body&)> look = [&](Body& body) {
+      for (auto& s : body) {
+        ++n;
+        for (const auto& l : labels_on(s.line)) places.emplace(std::make_pair(l.is_number, l.text), Place{&body, n});
+        if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && !r->has_program)
+          parts.push_back({&s, n, &r->first, &r->last});
+        if (const auto* c = std::get_if<CallRoutine>(&s.node);
+            c != nullptr && c->has_range && !c->computed && program_.find(c->routine) == &routine_)
+          parts.push_back({&s, n, &c->first, &c->last});
+        each_body(s, look);
+      }
+    };
+    look(routine_.body);
+    for (const auto& [s, at, from, to] : parts) {
+      if (from->computed || to->computed) continue;
+      const auto first = places.find({from->is_number, from->text}), last = places.find({to->is_number, to->text});
+      if (first == places.end() || last == places.end()) continue;
+      const bool broken = first->second.body != last->second.body;
+      const bool itself = at > first->second.at && at < last->second.at;
+      if (!broken && !itself) continue;
+      refuse(*s, program_, editor_.context, "TRN-163",
+             broken ? "the repeated part begins or ends in a branch or loop that it does not begin and end in"
+                    : "the repeated part repeats itself: where its runs end is stated nowhere",
+             broken ? "let the part begin and end in the same branch" : "put the repetition behind the part");
+    }
   }
 
   void redirect(const LabelRef& from, const LabelRef& to) {

@@ -219,8 +219,9 @@ class Closing {
           move_before(from, s.line);
         }
       }
-      first = false;
       if (!is_remark(s) && !std::holds_alternative<Label>(s.node)) s.line.skip_mask = under.skip_mask;
+      if (!first && out.back().line.skip_mask != s.line.skip_mask) s.line.joined = false;  // a line has one mark
+      first = false;
       out.push_back(std::move(s));
     }
     if (first && (!labels_on(under).empty() || !under.comments.empty())) out.push_back(make_label_line(under));

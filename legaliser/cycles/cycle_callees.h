@@ -29,7 +29,8 @@ struct CycleCallees {
   std::vector<std::unique_ptr<Copy>> copies;
   int made = 0;
   std::optional<SpindleWays> spindle;  ///< of the source
-  /// Definitions whose cycle goes on behind the end of their routine, and the target has none in force there.
+  /// Definitions whose cycle goes on behind the end of their routine, or past its own end on some way, and the target
+  /// has none in force there.
   std::set<std::uint32_t> left_off;
   std::set<std::uint32_t> bound_taps;  ///< definitions of taps whose pitch a new F or S would change
   /// Blocks with F or S under a cycle that another routine has defined.
@@ -37,8 +38,13 @@ struct CycleCallees {
   std::set<std::size_t> entered;  ///< routines that are called while a cycle of another routine may be in force
   /// Blocks of a routine that are no points, where a modal call runs all the same.
   std::vector<std::pair<std::size_t, Span>> disturbed;
-  /// Points of a cycle that another routine may have left in force: where, and its definition as in Facts::cycle_from.
-  std::vector<std::pair<Span, std::uint32_t>> points;
+  /// A point of a cycle that another routine may have left in force, and its definition as in Facts::cycle_from.
+  struct Point {
+    std::size_t routine = 0;  ///< beyond the last one: a copy
+    Span where;
+    std::uint32_t from = 0;
+  };
+  std::vector<Point> points;
 };
 /// What goes wrong with cycles that another routine has defined (TRN-330, TRN-331).
 void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& context);

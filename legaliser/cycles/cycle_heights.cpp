@@ -66,6 +66,30 @@ bool CyclePass::follow_height(const Block& b, const Facts& facts) {
   return true;
 }
 
+bool CyclePass::refuse_other_levels(Statement& s, Body& out) const {
+  const auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
+  if (!facts.reachable || (facts.cycle_active_known && !facts.cycle_active) || action_in<CycleDefine>(b) != nullptr ||
+      action_in<CycleCancel>(b) != nullptr)
+    return false;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  const auto along = [&plane](const FrameWord& w) { return !plane || w.axis == plane_axes(*plane).w; };
+  const bool other = std::any_of(b.actions.begin(), b.actions.end(), [&](const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    const FrameChange* c = f != nullptr ? f->change.get() : nullptr;
+    return c != nullptr && c->combine != FrameCombine::preset && c->kind != FrameKind::rotate &&
+           (c->uniform_scale || std::any_of(c->words.begin(), c->words.end(), along));
+  });
+  if (!other) return false;
+  refuse(
+      s, program_, context_, "TRN-331",
+      "the scale, the shift or the mirror along the tool changes while a cycle is active: whether its levels go along "
+      "is not the same on every control",
+      "cancel the cycle before this block and define it again behind it");
+  out.push_back(std::move(s));
+  return true;
+}
+
 bool CyclePass::moves_coordinates(const Statement& s) const {
   if (const auto* a = std::get_if<Assign>(&s.node)) {
     return std::any_of(a->items.begin(), a->items.end(), [](const Assign::Item& i) {

@@ -120,11 +120,16 @@ void CyclePass::remark_words(const LineInfo& line, Body& out) {
 
 /// Copies of profiles, behind the end of the routine.
 void CyclePass::add_copies(Body& out) {
+  bool copies = false;  // what stands behind the end of the routine is not carried out
   for (std::size_t i = 0; i < uses_of_profiles_.size(); ++i) {
     const auto& use = uses_of_profiles_[i];
     const auto here = uses_of_profiles_.begin() + static_cast<std::ptrdiff_t>(i);
     const auto same = [&](const ProfileUse& o) { return o.first_label == use.first_label; };
     if (use.copy.empty() || std::find_if(uses_of_profiles_.begin(), here, same) != here) continue;
+    const bool falls = out.empty() || (!std::holds_alternative<Return>(out.back().node) &&
+                                       !std::holds_alternative<End>(out.back().node) && !copies);
+    if (falls && editor_.routine.kind != RoutineKind::main) out.push_back(made(editor_.routine.header, Return{}));
+    copies = true;
     for (auto& s : copied_profile(use, editor_.program)) out.push_back(std::move(s));
   }
 }

@@ -111,9 +111,14 @@ class CyclePass {
   /// The block is a point in the words of the target too, whichever of its own cycles is in force.
   [[nodiscard]] bool bare_point(const Block& b, const Facts& facts) const;
   void refuse_other_ways(Statement& s) const;
+  void refuse_other_ways(Statement&& s, Body& out) const {
+    refuse_other_ways(s);
+    out.push_back(std::move(s));
+  }
   [[nodiscard]] bool gives_back(bool reachable) const;  ///< a subprogram, a modal call that it leaves in force
   void leave_while_off(const Statement& s) const;
-  void leave_off() const;  ///< an end of the routine, perhaps with a cycle in force that the target has not
+  /// The end of the routine or of its cycle in the text; on other ways the cycle goes on, and the target has none.
+  void leave_off() const;
   /// F, S or a motion code alone under a cycle by call of another program part: it runs there in the source alone.
   [[nodiscard]] bool path_word_under_call(const Block& b, const Facts& facts) const;
   /// The block is a point of whichever hole cycle may be in force: its moves are not along the tool alone.
@@ -289,22 +294,7 @@ class CyclePass {
   /// A new F, S or sense at a point would give the tap another pitch or end on one of the two controls only.
   void check_tap(const Statement& s) const;
 
-  void cancel_statement(Statement&& s, Body& out) {
-    const bool on = active_->on_target || active_->maybe_on_target;
-    tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s)) || (on && !by_call_ && active_->needs.feed);
-    active_.reset();
-    if (on) {
-      if (!by_call_) {
-        Block b;
-        b.actions.push_back(action(CycleCancel{}));
-        feed_comes_back(s, b, facts_.before(s));
-        s.node = std::move(b);
-      }
-      out.push_back(std::move(s));
-      return;
-    }
-    leave_line(std::move(s), out);
-  }
+  void cancel_statement(Statement&& s, Body& out);
 
   static void leave_line(Statement&& s, Body& out) {
     if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
@@ -324,8 +314,10 @@ class CyclePass {
       if (by_call_ && active_ && active_->on_target && refuse_stale(s, out)) return;
       return position(std::move(s), out);
     }
+    if (refuse_other_levels(s, out)) return;
     if (!active_ || !active_->needs.feed) tap_feed_ = tap_feed_ && action_in<SetFeed>(b) == nullptr;
     const bool cancelled = take_cancel(b);
+    if (!cancelled && pattern_in(b) != nullptr) note_foreign(s, facts_.before(s));
     const auto definition = take_definition(b, pos);
     Body pieces;
     if (cancelled || definition) tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s));
@@ -426,6 +418,9 @@ class CyclePass {
   /// The tool leaves the height at which the cycle was defined, which only the run knows: a cycle of the target that
   /// begins anew would take the present one for it. True: the target's own one has changed.
   bool follow_height(const Block& b, const Facts& facts);
+  /// The coordinates along the tool change while a cycle is active: its levels go along on some controls. True:
+  /// refused.
+  [[nodiscard]] bool refuse_other_levels(Statement& s, Body& out) const;
   /// Heights from before count in other coordinates behind it.
   [[nodiscard]] bool moves_coordinates(const Statement& s) const;
   void leave_height(const Statement& s);  ///< one that a loop or a called routine carries out
@@ -438,6 +433,8 @@ class CyclePass {
   void own_labels(SimilarForm& form);
   /// What the target's tap does not do.
   void tell_tap(const Active& a, const LineInfo& where) const;
+  /// Where the reference plane lies only the run knows.
+  void tell_reference(const Active& a, const LineInfo& where) const;
   /// A tap in pecks as one tap a peck, each back to the reference plane; nullopt: the target has none. `differs`: what
   /// is not the same.
   std::optional<Explosion> tap_strokes(const HoleCycle& c, const Statement& s, const Block& b, std::string* differs);

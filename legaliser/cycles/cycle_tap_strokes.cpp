@@ -11,12 +11,14 @@ void CyclePass::modal_call(Statement&& s, Body& out) {
   const ModalCall m = std::get<ModalCall>(s.node);
   const bool ends_old = old_may_run(facts_.before(s));
   tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s));
+  leave_off();
   active_ = define(m.cycle, CycleTrigger::path_motion, Block{}, facts_for_tap(s, Block{}));
   active_->from = s.id;
   active_->said_by = {s.id};
   active_->deferred = true;
   lacking_ = lacking_ || !active_->native;
   tell_tap(*active_, s.line);
+  tell_reference(*active_, s.line);
   if (by_call_ && active_->native) {
     std::get<ModalCall>(s.node).cycle = active_->native;
     active_->on_target = true;
@@ -80,6 +82,18 @@ void CyclePass::tell_tap(const Active& a, const LineInfo& where) const {
   context_.diagnostics.warning("TRN-423", where.span,
                                "the target's tap takes the place of this one: " + a.needs.differs,
                                "the thread is the same; check the tap on the target");
+}
+
+void CyclePass::tell_reference(const Active& a, const LineInfo& where) const {
+  const auto* hole = std::get_if<HoleCycle>(&a.source->node);
+  if (hole == nullptr || !hole->retract.given || !hole->reference.given || program_.dialect == context_.target.dialect)
+    return;
+  const bool by_surface = hole->reference.base == LevelBase::from_surface && hole->surface.given;
+  if (hole->reference.value.literal() && (!by_surface || hole->surface.value.literal())) return;
+  context_.diagnostics.warning(
+      "TRN-334", where.span,
+      "the reference plane is taken to lie below the retract plane: how high it is only the run "
+      "knows, and above it the controls move otherwise or stop");
 }
 
 std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statement& s, const Block& b,

@@ -2,7 +2,6 @@
 // the text does not say which one a point runs.
 #include <algorithm>
 
-#include "ir/analysis/hole_points.h"
 #include "legaliser/cycles/cycle_pass.h"
 
 namespace cnctrans::ir::passes {
@@ -76,7 +75,7 @@ bool CyclePass::refuse_two_ways(Statement& s, Body& out) const {
   const auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const bool either = active_ ? active_->native && !facts.cycle_active_known
-                              : facts.cycle_from == Facts::several_cycles && hole_point(b, facts) == HolePoint::perhaps;
+                              : facts.cycle_from == Facts::several_cycles && may_be_point(b, facts);
   if (!by_call_ || !either || !facts.reachable || surely_active_ || !b.has_motion || !b.motion.moves() ||
       b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
       context_.source_machine.option("cycle.positioning") != "rapid")
@@ -111,6 +110,21 @@ void CyclePass::check_tap(const Statement& s) const {
   }
 }
 
+void CyclePass::cancel_statement(Statement&& s, Body& out) {
+  const bool on = active_->on_target || active_->maybe_on_target;
+  tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s)) || (on && !by_call_ && active_->needs.feed);
+  leave_off();
+  active_.reset();
+  if (!on) return leave_line(std::move(s), out);
+  if (!by_call_) {
+    Block b;
+    b.actions.push_back(action(CycleCancel{}));
+    feed_comes_back(s, b, facts_.before(s));
+    s.node = std::move(b);
+  }
+  out.push_back(std::move(s));
+}
+
 void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& pieces) {
   // A cancel where nothing can be active is a habit of safe starts; as a modal call it would only puzzle.
   const Facts& facts = facts_.before(s);
@@ -119,6 +133,7 @@ void CyclePass::cancel(const Statement& s, Block& b, bool defines_again, Body& p
   const bool on =
       active_ ? active_->on_target || active_->maybe_on_target : !defines_again && !(written_out_ && own) && !none;
   tap_feed_ = tap_feed_ || (on && !by_call_ && active_ && active_->needs.feed);
+  leave_off();
   active_.reset();
   if (defines_again) return;
   if (on && by_call_)
@@ -221,18 +236,25 @@ static void refuse_given_back(const Span& where, const LegaliseContext& context)
 }
 
 void CyclePass::leave_off() const {
-  if (active_ && !active_->on_target && definitions_.count(active_->from) != 0) callees_.left_off.insert(active_->from);
+  if (active_ && !active_->on_target && !active_->maybe_on_target && definitions_.count(active_->from) != 0)
+    callees_.left_off.insert(active_->from);
 }
 
 void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& context) {
   const auto among = [](const std::set<std::uint32_t>& all, std::uint32_t from) {
     return from == Facts::several_cycles ? !all.empty() : all.count(from) != 0;
   };
-  for (const auto& [where, from] : callees.points) {
-    if (among(callees.left_off, from))
+  // Calls under a cycle that is known go to copies; the original is left to those without one.
+  const auto for_others = [&callees](std::size_t routine) {
+    return callees.entered.count(routine) == 0 &&
+           std::any_of(callees.copies.begin(), callees.copies.end(),
+                       [routine](const auto& c) { return c->original == routine; });
+  };
+  for (const auto& [routine, where, from] : callees.points) {
+    if (among(callees.left_off, from) && !for_others(routine))
       context.diagnostics.error("TRN-331", where,
-                                "the cycle that is active here is written out as its moves in the subprogram that "
-                                "defines it, and goes on behind it: the target has none in force here",
+                                "a cycle that another part of the program defines may be active here, and the target "
+                                "has none in force: it is written out there, or defined at a point that is not passed",
                                 "define the cycle again before this block");
   }
   for (const auto& [where, from] : callees.feeds) {
@@ -275,16 +297,16 @@ void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr || facts.cycle_from == 0 || definitions_.count(facts.cycle_from) != 0) return;
   const bool point = may_be_point(*b, facts);
-  if (point) callees_.points.emplace_back(s.line.span, facts.cycle_from);
+  std::size_t here = 0;  // a copy: behind the last one
+  while (here < program_.routines.size() && &program_.routines[here] != &editor_.routine) ++here;
+  if (point && !(active_ && sure(facts))) callees_.points.push_back({here, s.line.span, facts.cycle_from});
   const bool feed = std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
     return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
   });
   if (feed) callees_.feeds.emplace_back(s.line.span, facts.cycle_from);
   const bool moves = b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal;
   if (!by_call_ || active_ || point || !(moves || disturbs_call(*b))) return;
-  for (std::size_t i = 0; i < program_.routines.size(); ++i) {
-    if (&program_.routines[i] == &editor_.routine) callees_.disturbed.emplace_back(i, s.line.span);
-  }
+  if (here < program_.routines.size()) callees_.disturbed.emplace_back(here, s.line.span);
 }
 
 bool CyclePass::refuse_foreign_plane(Statement& s, Body& out) const {

@@ -43,11 +43,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool again = wrap || (changed && was_on);
   const bool perhaps = again && facts.reachable && !facts.cycle_active_known && !surely_active_;
   if (perhaps || ((hole_here || changed || wrap) && !sure(facts))) {
-    if (perhaps || !follows || changed || wrap) {
-      refuse_other_ways(s);
-      out.push_back(std::move(s));
-      return;
-    }
+    if (perhaps || !follows || changed || wrap) return refuse_other_ways(std::move(s), out);
     unsure_.push_back(s.line.span);
   }
   if (changed && !active_->native && was_on) {
@@ -102,6 +98,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   const bool may_be_on = active_->on_target || active_->maybe_on_target;
   // The target would go up first, the source goes straight down.
   if ((moves_tool || !may_be_on) && sure(facts) && below_retract_plane(b, facts)) {
+    if (facts.reachable && !surely_on(facts)) return refuse_other_ways(std::move(s), out);
     if (refuse_stale(s, out)) return;
     if (may_be_on) pieces.push_back(off_statement(s.line, false));
     active_->on_target = active_->maybe_on_target = false;
@@ -128,11 +125,8 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     }
     return put(out, std::move(pieces), std::move(s));
   }
-  if (!sure(facts) || (facts.reachable && !surely_on(facts))) {  // each way would have to be written here
-    refuse_other_ways(s);
-    out.push_back(std::move(s));
-    return;
-  }
+  if (!sure(facts) || (facts.reachable && !surely_on(facts)))  // each way would have to be written here
+    return refuse_other_ways(std::move(s), out);
   if (refuse_stale(s, out)) return;
   if (may_be_on && !active_->on_target) pieces.push_back(off_statement(like, false));  // the way would run it
   active_->maybe_on_target = false;
@@ -270,6 +264,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
     return;
   }
   hold_back(b);
+  if (d.modal) leave_off();
   const auto old_on = active_ && active_->on_target;
   const bool old_may = old_may_run(facts);
   const auto* named = std::get_if<NamedCycle>(&d.cycle->node);
@@ -283,6 +278,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   if (!a.native && !d.modal && d.here) feed_as_a_word(a, b, facts);
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
   tell_tap(a, s.line);
+  tell_reference(a, s.line);
   if (a.needs.bound) callees_.bound_taps.insert(s.id);
   if (!a.native || !a.needs.feed) feed_comes_back(s, b, facts);
   a.from = s.id;

@@ -14,9 +14,16 @@ bool scales_axes(const FrameChange& c) {
   return c.kind == FrameKind::scale && !c.uniform_scale && c.combine == FrameCombine::replace_named;
 }
 
+/// Takes back what no program of factors alone has put: written, it would take the factors back on the target.
+bool takes_nothing_back(const Action& a, const FrameChange& c) {
+  return c.combine == FrameCombine::clear && c.slot != FrameSlot::chain && c.slot != FrameSlot::scale &&
+         a.pos.column != 0;
+}
+
 /// Leaves a frame as it is where nothing else changes it: the reset that a reader adds to an offset, a factor of 1.
-bool idle(const FrameChange& c) {
-  if (c.combine == FrameCombine::clear) return c.slot != FrameSlot::chain;
+bool idle(const Action& a, const FrameChange& c) {
+  if (c.combine == FrameCombine::clear)
+    return takes_nothing_back(a, c) || (c.slot != FrameSlot::chain && a.pos.column == 0);
   return c.kind == FrameKind::scale && c.uniform_scale && c.words.size() == 1 && c.words[0].value.is(1);
 }
 
@@ -36,7 +43,7 @@ bool only_scales(const Program& program) {
         const FrameChange* c = change_in(a);
         if (c == nullptr) continue;
         found = found || scales_axes(*c);
-        other = other || !(scales_axes(*c) || idle(*c));
+        other = other || !(scales_axes(*c) || idle(a, *c));
       }
     });
   }
@@ -88,6 +95,7 @@ void write_axis_scales(Program& program, const LegaliseContext& context) {
       if (b != nullptr) {
         std::erase_if(b->actions, [&all](const Action& a) {
           const FrameChange* c = change_in(a);
+          if (c != nullptr && takes_nothing_back(a, *c)) return true;
           if (c == nullptr || !scales_axes(*c)) return false;
           for (const auto& w : c->words) all.items.push_back(component(w));
           return true;

@@ -112,7 +112,7 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
   if (c.kind == FrameKind::rotate && (!c.words.empty() || about_point)) return std::nullopt;
   const bool turned_about = before.slot(FrameSlot::rotation).has_shift() || after.slot(FrameSlot::rotation).has_shift();
   const bool holds_preset =
-      preset_as_shift_ && !(before.slot(FrameSlot::preset).neutral() && after.slot(FrameSlot::preset).neutral());
+      !keeps_preset() && !(before.slot(FrameSlot::preset).neutral() && after.slot(FrameSlot::preset).neutral());
   const bool shared = turned_about || holds_preset;  // the target's shift is not this one alone
   if (c.kind == FrameKind::translate && c.combine != FrameCombine::preset && shared) return std::nullopt;
   if (c.kind == FrameKind::mirror) name_all_mirrored(change, after.slot(c.slot).mirror);

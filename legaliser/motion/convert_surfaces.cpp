@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/text.h"
+#include "ir/cycles/machining.h"
 #include "ir/edit/search.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/blocks.h"
@@ -186,6 +187,11 @@ class SurfacePass {
                        });
     if (turns && plane != plane_of(*surface))
       report(s, "TRN-452", "an arc, a corner or radius compensation outside of the plane of the face or the cylinder");
+    const auto* define = action_in<CycleDefine>(b);
+    const auto* turned = define != nullptr && define->cycle ? std::get_if<NamedCycle>(&define->cycle->node) : nullptr;
+    if (turned != nullptr && cycles::find_machining(turned->name) != nullptr)
+      report(s, "TRN-452", "a turning or threading cycle while the face or the cylinder is in force",
+             "end the work with the C axis before it");
     if (arc && *surface == Surface::cylinder && (!b.motion.centers.empty() || b.motion.extra))
       report(s, "TRN-452", "an arc by its centre on the cylinder: the letter of the centre is that of both axes there",
              "write the arc by its radius");

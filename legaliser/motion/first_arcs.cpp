@@ -97,18 +97,22 @@ void check_radii(const Program& program, const LegaliseContext& context, const F
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
-      if (b == nullptr || !b->has_motion || b->motion.centers.empty()) return;
+      if (b == nullptr || !b->has_motion || (b->motion.centers.empty() && !b->motion.radius_given)) return;
       const auto path = points.path_of(s);
       if (!path || !path->e.arc) return;
       const auto& e = path->e;
       const double unit = setting_in<Units>(*b, facts.before(s), Setting::units) == Units::inch ? 25.4 : 1;
-      const double off = std::abs(geometry::length(e.a - e.c) - geometry::length(e.b - e.c)) * unit;
+      const bool by_radius = b->motion.radius_given && b->motion.radius.literal();
+      const double off = by_radius ? geometry::length(e.b - e.a) * unit - 2 * std::abs(b->motion.radius.number) * unit
+                                   : std::abs(geometry::length(e.a - e.c) - geometry::length(e.b - e.c)) * unit;
       if (off <= most || off > context.source_machine.arc_tolerance) return;
-      context.diagnostics.error("TRN-317", s.line.span,
-                                "the radius of this arc differs by " + rounded(off, 4) +
-                                    " mm between its start and its end; the source's control takes that, the target " +
-                                    rounded(most, 4) + " mm at most",
-                                "correct its end or its centre, or write the arc by its radius");
+      context.diagnostics.error(
+          "TRN-317", s.line.span,
+          (by_radius ? "the end of this arc lies " + rounded(off, 4) + " mm beyond its diameter"
+                     : "the radius of this arc differs by " + rounded(off, 4) + " mm between its start and its end") +
+              "; the source's control takes that, the target " + rounded(most, 4) + " mm at most",
+          by_radius ? "correct its end or its radius"
+                    : "correct its end or its centre, or write the arc by its radius");
     });
   }
 }

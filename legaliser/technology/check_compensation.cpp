@@ -86,6 +86,13 @@ void check_changes(Program& program, const LegaliseContext& context) {
         refused.insert(s.id);
         return;
       }
+      if (b->has_motion && b->motion.kind == MotionKind::reference_point) {
+        context.diagnostics.warning("TRN-395", s.line.span,
+                                    "a search of the reference point while radius compensation is on: some controls "
+                                    "end the compensation there, others refuse it or keep it",
+                                    "end the compensation before it and start it again after it");
+        return;
+      }
       const Action* a = forbidden(*b, before);
       if (a == nullptr) return;
       context.diagnostics.warning(

@@ -173,6 +173,8 @@ void FileReading::end_routine() {
   if (!open_) return;
   statements_.end_routine(source_.get());
   open_ = false;
+  if (routine_.has_signature && program_.main() != nullptr)
+    routine_.kind = ir::RoutineKind::sub;  // PROC behind a main program
   program_.routines.push_back(std::move(routine_));
 }
 
