@@ -54,6 +54,10 @@ constexpr std::array specs{
                "levels of a cycle in a block under increments: each says what it is, or all follow the mode"},
     OptionSpec{"cycle.below_reference", "passes|refused", "passes",
                "a hole cycle called while the tool stands between its reference plane and its depth"},
+    OptionSpec{
+        "cycle.stops", "needed|all", "needed",
+        "what a run says of a hole cycle: the moves that it needs, or its stop at the reference plane on the way "
+        "out and each turn of the spindle of a tap that breaks chips as well"},
     OptionSpec{"cycle.positioning", "modal|rapid", "modal",
                "how a block reaches the next hole of a modal cycle when it writes no motion code of its own"},
     OptionSpec{"cycle.pocket_entry", "arc|straight", "arc",

@@ -30,7 +30,8 @@ std::string Writer::definition(const ir::Statement& call, const ir::CycleDefine&
     refuse(no_cycle, {}, "this cycle is not one of this control's", "use --cycles=explode");
     return {};
   }
-  if (!feed && !hole->has_feed && facts::find_parameter(*text->row, 206) != nullptr) {
+  const bool own = hole->has_feed || hole->kind == ir::HoleKind::mill;
+  if (!feed && !own && facts::find_parameter(*text->row, 206) != nullptr) {
     refuse(no_cycle, {}, "a cycle names its feed here, and which F is in force is not known",
            "write F before the cycle on every path, or use --cycles=explode");
     return {};

@@ -44,7 +44,8 @@ class HoleText {
     if (number == 0 || !levels()) return std::nullopt;
     text_.row = facts::find_cycle(number);
     for (const auto& [q, v] : text_.values) {
-      if (facts::find_parameter(*text_.row, q) == nullptr || !sayable(v)) return std::nullopt;
+      const bool unused = q == 202 && c_.kind == HoleKind::mill;
+      if ((facts::find_parameter(*text_.row, q) == nullptr && !unused) || !sayable(v)) return std::nullopt;
     }
     return text_;
   }
@@ -103,7 +104,9 @@ class HoleText {
 
   /// What the size of a peck has to do with the depth and the clearance.
   bool pecks() {
-    if (one_stroke_) q(202, Value(depth_));
+    const auto infeed = text_.values.find(202);  // of a pocket: none is one in the IR
+    const bool whole = c_.kind == HoleKind::mill && (infeed == text_.values.end() || infeed->second.is(0));
+    if (one_stroke_ || whole) q(202, Value(depth_));
     const ir::Pecks& p = c_.pecks;
     if (c_.kind == HoleKind::peck_full) {
       const bool own = p.reapproach.literal() && std::fabs(p.reapproach.number - text_.values[200].number) < tiny;
@@ -195,6 +198,7 @@ class HoleText {
           return 0;
         feed_in();
         return 206;
+      case HoleKind::mill: return mill_text(c_, text_.values);
       default: return 0;
     }
   }

@@ -26,6 +26,7 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   tool_came_with_t_ = machine::changes_on_select(profile);
   policy_.cycle_rapid = is("cycle.positioning", "rapid");
   policy_.modal_words = is("call.modal_words", "yes");
+  policy_.cycles_in_full = is("cycle.stops", "all");
   policy_.rotary_triggers = is("cycle.rotary_triggers", "yes");
   policy_.keeps_programmed = is("frame.change_keeps", "programmed");
   policy_.centre_through_frame = is("frame.rotation_centre", "scaled_and_mirrored");

@@ -170,7 +170,7 @@ class BlockMachine final : public SystemData {
     bool data_modal = false;                         ///< machine data in the units of the program
     bool table_offset = false, edge_offset = false;  ///< of a tool without a D
     bool mill = false;
-    bool plane_ends_cycle = false;
+    bool plane_ends_cycle = false, cycles_in_full = false;
   };
   struct Pending {
     Move move;

@@ -186,6 +186,7 @@ bool BlockMachine::run_cycle() {
 /// The hole at the place where the tool stands.
 bool BlockMachine::run_hole() {
   std::string error;
+  hole_->told_in_full = policy_.cycles_in_full;
   const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);
   if (!error.empty()) return failure_.fail(code::not_carried, error);
   const bool taps = hole_->kind == ir::HoleKind::tap || hole_->kind == ir::HoleKind::tap_floating;

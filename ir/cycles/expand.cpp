@@ -121,17 +121,20 @@ void spindle(Path& path, SpindleStep step, std::optional<CycleStep> usual) {
 void tap(const HoleNumbers& h, Path& path) {
   if (h.orient_first) path.spindle(CycleStep::spindle_orient, h.orient_angle);
   if (h.has_speed) path.spindle(CycleStep::spindle_speed, h.speed);
-  double z = h.reference;
-  const auto sizes = peck_sizes(h, std::abs(h.reference - h.bottom));
+  double z = h.from_surface ? h.surface : h.reference;
+  const auto sizes = peck_sizes(h, std::abs(z - h.bottom));
   for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
     z -= h.up * sizes[i];
     path.thread(z);
     path.dwell(h.dwell_bottom);
+    if (h.told_in_full) path.spindle(CycleStep::spindle_reverse);
     path.thread(h.lift > 0 ? h.up * std::min(h.up * h.reference, h.up * z + h.lift) : h.reference);
+    if (h.told_in_full) path.spindle(CycleStep::spindle_restore);
   }
   path.thread(h.bottom);
-  path.dwell(h.dwell_bottom);
+  if (!h.told_in_full) path.dwell(h.dwell_bottom);
   spindle(path, h.spindle_bottom, CycleStep::spindle_reverse);
+  if (h.told_in_full) path.dwell(h.dwell_bottom);  // the reversal takes its time
   if (h.has_speed_out) path.spindle(CycleStep::spindle_speed, h.speed_out);
   path.thread(h.reference);
 }
@@ -141,14 +144,37 @@ void shifted_bore(const HoleNumbers& h, Path& path, double retract) {
   path.dwell(h.dwell_bottom);
   path.spindle(CycleStep::spindle_orient, h.orient_angle);
   path.rapid(h.bottom + h.shift_w, h.shift_u, h.shift_v);
-  path.rapid(h.reference, h.shift_u, h.shift_v);
+  if (h.has_feed_out) {
+    path.feed_out(h.reference);
+    path.rapid(retract, h.shift_u, h.shift_v);
+  } else {
+    path.rapid(h.reference, h.shift_u, h.shift_v);
+  }
   path.rapid(retract, 0, 0);
+}
+
+/// Through the hole with the tip turned inward, up into the work from below by the reapproach, and out again.
+void back_bore(const HoleNumbers& h, Path& path, double retract) {
+  const double below = h.bottom - h.up * h.reapproach;
+  const auto through = [&](double to, double then) {
+    path.spindle(CycleStep::spindle_orient, h.orient_angle);
+    path.rapid(path.height(), h.shift_u, h.shift_v);
+    path.feed_out(to);
+    path.rapid(then, h.shift_u, h.shift_v);
+    path.rapid(then, 0, 0);
+  };
+  through(below, below);
+  path.spindle(CycleStep::spindle_restore);
+  path.feed(h.bottom);
+  path.dwell(h.dwell_bottom);
+  path.feed_out(below);
+  through(h.reference, retract);
 }
 
 /// The sense after the cycle, before the retract or behind it; kinds that leave the spindle alone have none.
 void restore_spindle(const HoleNumbers& h, Path& path) {
   const bool switches = h.kind == HoleKind::tap || h.kind == HoleKind::tap_floating || h.kind == HoleKind::bore_shift ||
-                        h.kind == HoleKind::bore_stop;
+                        h.kind == HoleKind::bore_stop || h.kind == HoleKind::back_bore;
   spindle(path, h.spindle_after, switches ? std::optional(CycleStep::spindle_restore) : std::nullopt);
 }
 
@@ -279,13 +305,20 @@ std::vector<CycleMove> expand(const HoleNumbers& h, double height, RetractPlane 
       break;
     case HoleKind::bore_shift: shifted_bore(h, path, retract); break;
     case HoleKind::back_bore:
+      if (h.reapproach > tiny) {
+        back_bore(h, path, retract);
+        break;
+      }
+      *error = "boring from the back needs the distance below the work at which the tip turns";
+      moves.clear();
+      return moves;
     case HoleKind::mill:
-      *error = h.kind == HoleKind::mill ? "milling cycles have an expansion of their own"
-                                        : "boring from the back is not carried out yet";
+      *error = "milling cycles have an expansion of their own";
       moves.clear();
       return moves;
   }
   if (!h.spindle_after_retract) restore_spindle(h, path);
+  if (h.told_in_full && h.up * (h.reference - path.height()) > tiny) path.rapid(h.reference);
   path.rapid(retract);
   if (h.spindle_after_retract) restore_spindle(h, path);
   return moves;

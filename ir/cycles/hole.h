@@ -45,6 +45,7 @@ struct HoleNumbers {
   SpindleStep spindle_before = SpindleStep::usual, spindle_bottom = SpindleStep::usual,
               spindle_after = SpindleStep::usual;
   bool spindle_after_retract = false;
+  bool told_in_full = false;  ///< stops at the reference plane on the way out; a tap says each turn of its spindle
   bool has_speed = false, has_speed_out = false;
   double speed = 0, speed_out = 0;  ///< rev/min
 };

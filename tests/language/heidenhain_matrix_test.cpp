@@ -42,7 +42,7 @@ std::string sentence_table() {
   for (const auto& f : facts::figures) figures += (figures.empty() ? "" : " ") + std::string(f.word);
   return "| Sentences | Support |\n|---|---|\n| " + read + " | carried |\n| " + kept + " | " + kept_there +
          " |\n| APPR, DEP with " + leads + " | carried: the lines and arcs that they are |\n| PLANE " + tilts +
-         " with STAY | carried; with TURN or MOVE " + kept_there + " |\n| PATTERN DEF with " + figures +
+         " with STAY | carried; with TURN or MOVE about one axis carried, else " + kept_there + " |\n| PATTERN DEF with " + figures +
          " | carried |\n";
 }
 

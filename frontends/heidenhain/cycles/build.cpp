@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dialects/heidenhain/limits.h"
+#include "frontends/heidenhain/state/datum.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -25,12 +26,7 @@ Value larger(const Value& a, const Value& b) {
 }
 
 ir::ExprPtr programmed_speed() {
-  ir::SystemRef ref;
-  ref.datum = ir::Datum::rpm;
-  ref.text = "S";
-  auto e = std::make_shared<ir::Expr>();
-  e->node = std::move(ref);
-  return e;
+  return datum(ir::Datum::rpm, "S");
 }
 
 }  // namespace
@@ -62,15 +58,34 @@ ir::CyclePtr CycleBuilder::build() {
                                                         : not_carried();
   else
     good = cycle_.old != nullptr ? old() : not_carried();
-  if (good && as_moves_ && !report_.refused()) {
-    *context_.moves = peck_moves(cycle_, context_);
-    if (context_.moves->empty()) refuse("with these pecks its parameters must be numbers");
-    return nullptr;
-  }
-  if (!good || report_.refused() || skipped_) return nullptr;
+  if (!good || report_.refused() || skipped_ || !context_.moves->empty()) return nullptr;
   if (hole_.kind == HoleKind::mill && context_.tool_radius)
     hole_.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
-  return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
+  auto made = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
+  if (!aside_) return made;
+  MoveList steps;
+  steps.plane({ir::Value(aside_->first), ir::Value(aside_->second), false, {}, {}});
+  steps.cycle(std::move(made));
+  if (cycle_.number == 251) steps.plane({ir::Value(-aside_->first), ir::Value(-aside_->second), false, {}, {}});
+  told(steps);
+  return nullptr;
+}
+
+bool CycleBuilder::told(MoveList& steps) {
+  *context_.moves = steps.take();
+  return true;
+}
+
+bool CycleBuilder::numbers() {
+  for (const auto& [number, v] : cycle_.values) {
+    if (!q(number).literal()) return refuse("its parameters must be numbers");
+  }
+  return !context_.shift || context_.shift->literal() || refuse("its surface must be a number");
+}
+
+ir::Value CycleBuilder::radius() const {
+  if (context_.tool_radius) return Value(*context_.tool_radius / (context_.inch ? 25.4 : 1));
+  return Value(datum(ir::Datum::tool_radius, "Q108"));
 }
 
 bool CycleBuilder::refuse(std::string message) {
@@ -94,32 +109,51 @@ bool CycleBuilder::rapid(std::int16_t number) const {
   return v.literal() && v.number >= facts::rapid_stand_in;
 }
 
+/// How deep the point of the tool goes before its full width is there, for a width of 1 (T-ANGLE of the tool table).
+Value CycleBuilder::point() const {
+  using ir::BinaryOp;
+  const auto angle = ir::binary(BinaryOp::divide, datum(ir::Datum::other, "T_ANGLE"), ir::number(2));
+  return Value(ir::binary(BinaryOp::divide, ir::number(0.5), ir::call(ir::Function::tan, {angle})));
+}
+
+/// Q201, or that of the diameter Q344 which the point makes (240).
+Value CycleBuilder::depth() const {
+  if (cycle_.number != 240 || !q(343).is(1) || !q(344).literal() || q(344).is(0)) return q(201);
+  return Value(ir::binary(ir::BinaryOp::multiply, ir::number(q(344).number), ir::as_expr(point())));
+}
+
 bool CycleBuilder::levels() {
   for (const auto n : std::initializer_list<std::int16_t>{200, 201, 203, 204}) {
     if (!only_value(n)) return false;
   }
-  const Value depth = q(201), clearance = q(200);
+  const Value depth = this->depth(), clearance = q(200);
   if (depth.is(0)) {
     skipped_ = true;
     report_.note("HEI-019", {}, "depth 0: the cycle does nothing");
     return true;
   }
-  if (depth.literal() && depth.number > 0)
+  const bool upward = depth.literal() && depth.number > 0;
+  if (upward && hole_.kind == HoleKind::mill)
     return refuse("a positive depth turns the approach round; that is not carried");
+  if (upward) warn("a positive depth: the tool goes in rapid to Q203 - Q200, below the surface, and works upward");
   if (!depth.literal()) report_.note("HEI-019", {}, "the depth is taken to be negative, as it should");
   Value surface = q(203);
   if (context_.shift) surface = ir::add(surface, *context_.shift);
   hole_.surface = level_of(surface, LevelBase::absolute);
-  hole_.reference = level_of(clearance, LevelBase::from_surface);
+  hole_.reference = level_of(upward ? ir::negate(clearance) : clearance, LevelBase::from_surface);
   hole_.bottom = level_of(depth, LevelBase::from_surface);
-  hole_.retract = level_of(ir::add(surface, larger(q(204), clearance)), LevelBase::absolute);
+  const Value second = q(204);
+  const bool low = upward && second.literal() && clearance.literal() && second.number <= clearance.number;
+  const Value above = low ? ir::negate(clearance) : larger(second, clearance);
+  hole_.retract = level_of(ir::add(surface, above), LevelBase::absolute);
   return true;
 }
 
 /// The cycle is told by peck_moves().
 bool CycleBuilder::as_moves() {
-  as_moves_ = true;
-  return true;
+  if (cycle_.values.count(395) != 0 && !q(395).is(0)) return refuse("with these pecks Q395 is not carried");
+  *context_.moves = peck_moves(cycle_, context_);
+  return !context_.moves->empty() || refuse("with these pecks its parameters must be numbers");
 }
 
 bool CycleBuilder::feed_in(std::int16_t number) {
@@ -145,9 +179,11 @@ bool CycleBuilder::feed_out() {
 }
 
 bool CycleBuilder::tip() {
-  const Value t = q(395);
-  if (t.is(0)) return true;
-  return refuse("Q395=1 needs the point angle of the tool, which is not in the machine profile");
+  if (q(395).is(0)) return true;
+  const Value wide = ir::scale(radius(), 2);
+  const Value deeper(ir::binary(ir::BinaryOp::multiply, ir::as_expr(wide), ir::as_expr(point())));
+  hole_.bottom = level_of(ir::subtract(q(201), deeper), LevelBase::from_surface);
+  return true;
 }
 
 /// One stroke where the peck is not smaller than the depth.
@@ -164,6 +200,7 @@ void CycleBuilder::pecks(const Value& peck) {
 
 bool CycleBuilder::hole() {
   hole_.kind = cycle_.row->hole;
+  if (cycle_.number == 204) return back_bore();
   if (!levels()) return false;
   if (skipped_) return true;
   switch (cycle_.number) {
@@ -203,15 +240,38 @@ bool CycleBuilder::bore() {
   hole_.dwell_bottom = q(211);
   hole_.orient_angle = q(336);
   if (!feed_in()) return false;
-  if (!rapid(208)) {
-    warn("the retract with the freed tip is in rapid, not at Q208");
-  }
+  if (!rapid(208) && !feed_out()) return false;
   const Value side = q(214);
   if (!side.literal()) return refuse("Q214 must be a number");
   constexpr double inch = 25.4;
   const double d = facts::freed_distance / (context_.inch ? inch : 1);
   if (side.is(1) || side.is(3)) hole_.shift_u = Value(side.is(1) ? -d : d);
   if (side.is(2) || side.is(4)) hole_.shift_v = Value(side.is(2) ? -d : d);
+  return true;
+}
+
+/// Q249 of the tool's edge, which lies Q252 above the end of the bar, into the underside of a plate of Q250.
+bool CycleBuilder::back_bore() {
+  if (!numbers()) return false;
+  const double side = n(214), off = n(251);
+  if (side < 1 || side > 4) return refuse("Q214 says the side to which the tool goes off the middle: 1 to 4");
+  if (n(249) == 0) {
+    skipped_ = true;
+    return true;
+  }
+  if (n(249) < 0) return refuse("a negative depth bores downward; that is not carried");
+  const double surface = n(203) + (context_.shift ? context_.shift->number : 0);
+  hole_.surface = level_of(Value(surface), LevelBase::absolute);
+  hole_.reference = level_of(Value(n(200)), LevelBase::from_surface);
+  hole_.bottom = level_of(Value(n(249) - n(250) - n(252)), LevelBase::from_surface);
+  hole_.retract = level_of(Value(surface + std::max(n(204), n(200))), LevelBase::absolute);
+  hole_.pecks.reapproach = Value(n(249) + n(200));
+  hole_.orient_angle = q(336);
+  (side == 1 || side == 3 ? hole_.shift_u : hole_.shift_v) = Value(side <= 2 ? -off : off);
+  hole_.dwell_bottom = q(255);
+  hole_.feed = q(254);
+  hole_.feed_out = q(253);
+  hole_.has_feed = hole_.has_feed_out = true;
   return true;
 }
 
@@ -283,13 +343,14 @@ bool CycleBuilder::tap_in_pecks() {
     if (!factor.literal() || !pitch.literal()) return refuse("Q256 and Q239 must be numbers");
     hole_.pecks.lift = Value(factor.number * pitch.number);
   }
+  hole_.pecks.first_from_surface = true;
   return true;
 }
 
 bool CycleBuilder::centre() {
   hole_.dwell_bottom = q(211);
-  if (!q(343).is(0))
-    return refuse("a depth by its diameter (Q343=1) needs the point angle of the tool, which is not in the profile");
+  if (!q(343).is(0) && (!q(343).is(1) || !q(344).literal() || q(344).number > 0))
+    return refuse("Q343 is 0, or 1 with a negative diameter in Q344");
   return feed_in();
 }
 

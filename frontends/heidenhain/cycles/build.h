@@ -11,11 +11,20 @@
 
 namespace cnctrans::frontends::heidenhain {
 
-/// A move along the tool axis, or what is done between two.
+/// Of a move in the plane.
+struct PlaneMove {
+  ir::Value u, v;         ///< from where the tool stands
+  bool absolute = false;  ///< ... or from the datum
+  ir::Value cu, cv;       ///< of an arc: its centre from its start
+};
+/// A step of a cycle that is told by what it does.
 struct CycleMove {
-  enum class Kind : std::uint8_t { rapid, feed, dwell, spindle, function } kind = Kind::rapid;
-  double w = 0;       ///< absolute; spindle: 3, 4 or 5 as the M functions
-  double amount = 0;  ///< feed, seconds, rev/min, or the number of the M function
+  enum class Kind : std::uint8_t { rapid, feed, arc_cw, arc_ccw, dwell, spindle, function, cycle } kind = Kind::rapid;
+  std::optional<ir::Value> w;      ///< height, absolute
+  std::optional<PlaneMove> plane;  ///< a move in the plane, too
+  double amount = 0;               ///< feed, seconds, rev/min, or the number of the M function
+  int code = 0;                    ///< spindle: 3, 4 or 5 as the M functions
+  ir::CyclePtr cycle;
 };
 struct CycleContext {
   /// The value of a Q parameter at the call.

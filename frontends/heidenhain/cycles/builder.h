@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dialects/heidenhain/cycle_words.h"
-#include "frontends/heidenhain/cycles/build.h"
+#include "frontends/heidenhain/cycles/move_list.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -26,9 +26,18 @@ class CycleBuilder {
   /// FMAX, or the number that programs write for it.
   [[nodiscard]] bool rapid(std::int16_t number) const;
 
+  [[nodiscard]] ir::Value point() const;
+  [[nodiscard]] ir::Value depth() const;
   bool levels();
   /// The cycle is told by peck_moves().
   bool as_moves();
+  /// ... or by these steps.
+  bool told(MoveList& steps);
+  /// Its parameters are numbers; a refusal where they are not.
+  bool numbers();
+  [[nodiscard]] double n(std::int16_t number) const { return q(number).number; }
+  /// Of the tool, in the unit of the program: a number where the program says it.
+  [[nodiscard]] ir::Value radius() const;
   bool feed_in(std::int16_t number = 206);
   /// Q208: 0 is the feed itself.
   bool feed_out();
@@ -42,6 +51,7 @@ class CycleBuilder {
   bool ream();
   /// The tip is freed by 0.2 mm toward Q214, then the retract.
   bool bore();
+  bool back_bore();
   bool universal();
   bool pecking();
   bool tap();
@@ -57,8 +67,18 @@ class CycleBuilder {
   bool helix_thread();
   /// 230: one level in lines to and fro; 232: in levels, Q389 2 in lines one way.
   bool face();
-  /// 22, 23 and 24 in one pocket of cycle 14.
+  /// 21 to 24 in one pocket of cycle 14.
   bool area();
+  /// 25 along the one contour of cycle 14.
+  bool train();
+  /// Q367: the tool stands at an end or in a corner of the shape; the way from there to its middle.
+  bool place();
+
+  // told.cpp
+
+  bool thread_with_countersink();
+  void countersink(MoveList& steps, std::int16_t depth, const ir::Value& offset);
+  bool ruled_surface();
 
   bool mill_word(std::int16_t number);
 
@@ -76,7 +96,8 @@ class CycleBuilder {
   const CycleContext& context_;
   Report& report_;
   ir::HoleCycle hole_;
-  bool skipped_ = false, as_moves_ = false;
+  bool skipped_ = false;
+  std::optional<std::pair<double, double>> aside_;  ///< from the tool to the middle of the shape
 };
 
 ir::Level level_of(ir::Value v, ir::LevelBase base);

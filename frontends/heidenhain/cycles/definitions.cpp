@@ -53,8 +53,9 @@ bool Lowering::words_of_the_line(CycleDefinition& cycle) {
   const auto& words = block_->words;
   for (std::size_t i = 1; i + 2 < words.size(); ++i) {
     const Word &name = words[i], &number = words[i + 2];
+    const bool feed = !number.address.empty() && number.address != "=";
     const bool pair = name.is_expression &&  // the number of the cycle or a word of its name may stand before it
-                      words[i + 1].address == "=" && number.address.empty() && number.has_value;
+                      words[i + 1].address == "=" && (feed || number.has_value);
     const Expr* variable = pair ? &block_->exprs[static_cast<std::size_t>(name.expr)] : nullptr;
     if (variable == nullptr || variable->kind != ExprKind::variable || variable->text != "Q") continue;
     const auto q = saturate<std::int16_t>(variable->args.at(0).number);
@@ -62,6 +63,8 @@ bool Lowering::words_of_the_line(CycleDefinition& cycle) {
     QValue v;
     v.where = word_span(report_.line(), name.pos);
     v.value = value(number);
+    if (feed && !feed_name(to_upper_ascii(number.address), number.has_value ? &v.value : nullptr, number.pos, v))
+      continue;
     cycle.values[q] = std::move(v);
     i += 2;
   }
@@ -88,29 +91,49 @@ bool Lowering::cycle_word(const syntax::Statement& s) {
   v.where = word_span(report_.line(), s.pos);
   const Expr& e = s.args[1];
   const bool named = e.kind == ExprKind::name || (e.kind == ExprKind::call && e.args.size() == 1);
-  using Kind = QValue::Kind;
-  if (named && (e.text == "FMAX" || e.text == "MAX")) {
-    v.kind = Kind::rapid;
-    v.value = ir::Value(facts::rapid_stand_in);
-  } else if (named && (e.text == "FAUTO" || e.text == "AUTO")) {
-    if (!tool_feed_) {
-      report_.refuse("HEI-005", s.pos, "FAUTO takes the feed of TOOL CALL, and the one above has none");
-      return true;
-    }
-    v.value = *tool_feed_;
-  } else if (named && e.text == "PREDEF") {
-    v.kind = Kind::linked;
-  } else if (named && e.text.substr(0, 2) == "FU") {
-    v.kind = Kind::per_rev;
-  } else if (named && e.text.substr(0, 2) == "FZ") {
-    v.kind = Kind::per_tooth;
-  } else {
+  const ir::Value amount = e.kind == ExprKind::call && named ? ir::Value(expression(e.args[0])) : ir::Value{};
+  const bool feed = named && feed_name(e.text, e.kind == ExprKind::call ? &amount : nullptr, s.pos, v);
+  if (report_.refused()) return true;
+  if (!feed) {
     const ir::ExprPtr value = expression(e);
     if (!value) return true;
     const auto constant = ir::constant_value(value);
     v.value = constant ? ir::Value(*constant) : ir::Value(value);
   }
   cycle.values[q] = std::move(v);
+  return true;
+}
+
+/// FMAX, FAUTO, FU, FZ and PREDEF in place of a number. False: it is none of them.
+bool Lowering::feed_name(std::string_view name, const ir::Value* amount, WordPos pos, QValue& v) {
+  using Kind = QValue::Kind;
+  const auto is = [&](std::string_view a) { return iequals_ascii(name, a); };
+  if (amount == nullptr && (is("FMAX") || is("MAX"))) {
+    v.kind = Kind::rapid;
+    v.value = ir::Value(facts::rapid_stand_in);
+    return true;
+  }
+  if (amount == nullptr && (is("FAUTO") || is("AUTO"))) {
+    if (!tool_feed_)
+      report_.refuse("HEI-005", pos, "FAUTO takes the feed of TOOL CALL, and the one above has none");
+    else
+      v.value = *tool_feed_;
+    return true;
+  }
+  if (is("PREDEF")) {
+    v.kind = Kind::linked;
+    return true;
+  }
+  if (is("FZ")) {
+    v.kind = Kind::per_tooth;
+    return true;
+  }
+  if (!is("FU") || amount == nullptr) return name.substr(0, 2) == "FU" && (v.kind = Kind::per_rev, true);
+  const auto feed = ir::constant_value(ir::as_expr(*amount));
+  v.kind = Kind::per_rev;  // by the speed of TOOL CALL, where that is a number
+  if (!feed || !speed_ || !speed_->literal() || per_rev_) return true;
+  v.kind = Kind::value;
+  v.value = ir::Value(*feed * speed_->number);
   return true;
 }
 
@@ -183,10 +206,11 @@ void Lowering::flush() {
   } else if (called) {
     if (cycle.row != nullptr && cycle.row->on_contours) {
       cycle.labels = contour_labels_;
-      if (contour_data_ >= 0) {
-        for (const auto& [q, v] : flat_.cycles[static_cast<std::size_t>(contour_data_)].values)
-          cycle.values.emplace(q, v);
+      const int data = cycle.number == 25 ? train_data_ : contour_data_;
+      if (data >= 0) {
+        for (const auto& [q, v] : flat_.cycles[static_cast<std::size_t>(data)].values) cycle.values.emplace(q, v);
       }
+      if (cycle.number != 25) train_data_ = -1;
     }
     put(ItemKind::cycle, ir::Block{}).index = index;
   } else {
@@ -232,8 +256,6 @@ bool Lowering::cycle_call(const syntax::Statement& s) {
     out_.motion.kind = rapid_ ? ir::MotionKind::rapid : ir::MotionKind::linear;
     out_.motion.explicit_code = true;
     out_.has_motion = true;
-    report_.note("HEI-019", s.pos,
-                 "the tool is taken to stand above the surface: it goes in the plane first, then along its axis");
   }
   const bool moves = out_.has_motion;
   if (at_pattern) {  // its feed or FMAX is that of the ways between the points

@@ -49,7 +49,19 @@ const ir::Value* last_value(const CycleDefinition& cycle, int part) {
 /// 7 shift, 8 mirror, 10 rotation, 11 and 26 scale.
 void Lowering::frame_cycle(const CycleDefinition& cycle) {
   ir::Block b;
-  const auto add = [&b](ir::FrameChange c) { b.actions.emplace_back().data = frame_op(std::move(c)); };
+  const auto add = [&](ir::FrameChange c) {
+    const bool slot =
+        c.slot == ir::FrameSlot::mirror || c.slot == ir::FrameSlot::rotation || c.slot == ir::FrameSlot::scale;
+    if (slot && tilt_) {
+      if (!in_tilt(std::move(c)))
+        report_.keep("HEI-022", {}, "IROT behind a tilt adds to a rotation before it; that is not carried",
+                     "motion.transformation");
+      return;
+    }
+    if (slot && c.combine == ir::FrameCombine::clear) outer_.erase(c.kind);
+    if (slot && c.combine != ir::FrameCombine::clear) outer_.insert(c.kind);
+    b.actions.emplace_back().data = frame_op(std::move(c));
+  };
   const auto wrong = [&](std::string message) { report_.refuse("HEI-020", {}, std::move(message)); };
   using ir::FrameCombine;
   using ir::FrameKind;
@@ -77,9 +89,8 @@ void Lowering::frame_cycle(const CycleDefinition& cycle) {
     if (!absolute.words.empty()) add(std::move(absolute));
     if (!added.words.empty()) add(std::move(added));
     if (b.actions.empty()) return wrong("cycle 7 shifts nothing");
-  } else if (tilt_) {
-    return report_.keep("HEI-022", {}, "mirror, rotation and scale in a tilted plane are not carried",
-                        "motion.transformation");
+  } else if (tilt_ && cycle.old->kind == OldKind::axis_scale) {
+    return report_.keep("HEI-022", {}, "cycle 26 in a tilted plane is not carried", "motion.transformation");
   } else if (cycle.old->kind == OldKind::mirror) {
     ir::FrameChange m = frame(FrameSlot::mirror, FrameKind::mirror, FrameCombine::replace);
     for (const auto& [n, part] : cycle.parts) {
@@ -154,7 +165,7 @@ void Lowering::frame_cycle(const CycleDefinition& cycle) {
     }
     add(std::move(k));
   }
-  put(std::move(b));
+  if (!b.actions.empty()) put(std::move(b));
 }
 
 void Lowering::effect(const CycleDefinition& cycle) {
@@ -178,8 +189,8 @@ void Lowering::effect(const CycleDefinition& cycle) {
       item.call = CycleCall::once;
       return;
     }
-    if (cycle.number == 20) {
-      contour_data_ = static_cast<int>(&cycle - flat_.cycles.data());
+    if (cycle.number == 20 || cycle.number == 270) {
+      (cycle.number == 20 ? contour_data_ : train_data_) = static_cast<int>(&cycle - flat_.cycles.data());
       return;
     }
     return report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet",
@@ -231,7 +242,8 @@ void Lowering::effect(const CycleDefinition& cycle) {
           }
         }
       }
-      return tilt(angles);
+      tilt(angles);
+      return;
     }
     default:
       report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet", "cycle.milling");

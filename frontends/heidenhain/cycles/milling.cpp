@@ -1,6 +1,7 @@
 // Milling cycles -> neutral ones (reference 16, 17).
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "dialects/heidenhain/limits.h"
@@ -20,7 +21,9 @@ bool CycleBuilder::mill() {
   if (cycle_.row->on_contours) return area();
   if (cycle_.number == 208) return helix_bore();
   if (cycle_.number == 262 || cycle_.number == 267) return helix_thread();
+  if (cycle_.number >= 263 && cycle_.number <= 265) return thread_with_countersink();
   if (cycle_.number == 230 || cycle_.number == 232) return face();
+  if (cycle_.number == 231) return ruled_surface();
   switch (cycle_.number) {
     case 251:
     case 252:
@@ -36,9 +39,32 @@ bool CycleBuilder::mill() {
   for (const auto& p : cycle_.row->parameters) {
     if (p.number != 0 && !mill_word(p.number)) return false;
   }
+  if (cycle_.number != 254 && cycle_.values.count(367) != 0 && !place()) return false;
   if (cycle_.number == 253) word("corner", half(q(219)));
   if (cycle_.number == 257 || cycle_.number == 256) word("variant", Value(1));
   warn("the way of the passes is that of this program, the part is the same");
+  return true;
+}
+
+bool CycleBuilder::place() {
+  const Value at = q(367);
+  if (at.is(0)) return true;
+  const bool slot = cycle_.number == 253;
+  const Value length = q(218), width = q(219), angle = q(slot ? 374 : 224);
+  if (!at.literal() || !length.literal() || !width.literal() || !angle.literal())
+    return refuse("where the tool stands in the shape (Q367) must be known by numbers");
+  const double a = length.number / 2, b = width.number / 2;
+  double u = 0, v = 0;
+  if (slot) {
+    u = at.is(1) ? a : at.is(2) ? a - b : at.is(3) ? b - a : -a;
+  } else {
+    u = at.is(1) || at.is(4) ? a : -a;
+    v = at.is(1) || at.is(2) ? b : -b;
+  }
+  constexpr double degrees = std::numbers::pi / 180, places = 1e10;
+  const double c = std::cos(angle.number * degrees), s = std::sin(angle.number * degrees);
+  const auto plain = [](double x) { return std::round(x * places) / places + 0.0; };
+  aside_ = {plain(c * u - s * v), plain(s * u + c * v)};
   return true;
 }
 
@@ -96,20 +122,66 @@ bool CycleBuilder::face() {
     word("variant", Value(32));
   } else {
     if (bottom >= top) return refuse("the end (Q386) lies above the start (Q227)");
-    if (!q(369).is(0)) return refuse("a finishing pass (Q369) is not carried");
     word("infeed", q(202));
     word("step_factor", half(q(370)));
     word("overrun", q(357));
     word("variant", Value(q(389).is(2) ? 11 : 31));
   }
   warn("the way of the passes is that of this program, the part is the same");
+  const double skin = multipass ? 0 : n(369);
+  if (skin <= 0 || skin >= top - bottom) return true;
+  ir::HoleCycle rough = hole_, last = hole_;  // the last level is as high as the allowance, at a feed of its own
+  rough.bottom = last.surface = level_of(Value(bottom + skin), LevelBase::absolute);
+  for (auto& [name, v] : last.mill.words) {
+    if (name == "infeed") v = Value(skin);
+    if (name == "mill_feed" && !q(385).is(0)) v = q(385);
+  }
+  MoveList steps;
+  for (auto* h : {&rough, &last}) {
+    if (context_.tool_radius)
+      h->mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
+    steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{std::move(*h)}));
+  }
+  return told(steps);
+}
+
+/// 25: the contour of one label, approached along a line or a quadrant.
+bool CycleBuilder::train() {
+  if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
+  if (!numbers()) return false;
+  const double top = n(5), depth = n(1);
+  if (depth >= 0) return refuse("a depth of 0 or above is not carried");
+  if (n(18) != 0) return refuse("Q18 (a coarser tool was there) is not carried");
+  if (n(15) == 0) return refuse("to and fro over the infeeds (Q15=0) is not carried");
+  const bool data = cycle_.values.count(390) != 0;
+  if (data && cycle_.side != 0) return refuse("beside cycle 270 the label has no compensation of its own");
+  const double own = data ? n(391) : 0;
+  const int side = own == 1 ? 1 : own == 2 ? -1 : cycle_.side;
+  if (side == 0 && n(3) != 0) return refuse("an allowance (Q3) needs the side of the contour: RL or RR");
+  const bool arc = data ? n(390) == 1 && side != 0 : false;
+  const double length = !data ? n(448) : arc ? n(392) : n(394);
+  if (length <= 0) return refuse("the way onto the contour has no length");
+  hole_.surface = level_of(Value(top), LevelBase::absolute);
+  hole_.bottom = level_of(Value(top + depth), LevelBase::absolute);
+  hole_.reference = hole_.retract = level_of(q(7), LevelBase::absolute);
+  word("infeed", magnitude(q(10)));
+  word("plunge_feed", q(11));
+  word("mill_feed", q(12));
+  word("variant", Value(1));
+  word("side", Value(side == 0 ? 40 : side > 0 ? 41 : 42));
+  if (n(3) != 0) word("wall_stock", q(3));
+  for (const char* way : {"approach", "leave"}) word(way, Value(arc ? 2 : 1));
+  for (const char* way : {"approach_length", "leave_length"}) word(way, Value(length));
+  ir::cycles::put_contours(hole_, cycle_.areas.front());
+  warn("the ways onto the contour and off it are those of this program");
   return true;
 }
 
-/// 22, 23 and 24 in one pocket of cycle 14.
+/// 21: where the roughing goes down, drilled; 22, 23 and 24 in one pocket of cycle 14.
 bool CycleBuilder::area() {
-  const bool rough = cycle_.number == 22, floor = cycle_.number == 23;
-  if (!rough && !floor && cycle_.number != 24) return not_carried();
+  if (cycle_.number == 25) return train();
+  const bool drills = cycle_.number == 21, rough = cycle_.number == 22, floor = cycle_.number == 23;
+  if (!drills && !rough && !floor && cycle_.number != 24) return not_carried();
   if (cycle_.labels.empty() || cycle_.values.count(1) == 0) return refuse("cycles 14 and 20 stand before it");
   if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
   for (const std::int16_t n : {1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12}) {
@@ -122,13 +194,23 @@ bool CycleBuilder::area() {
   hole_.reference = level_of(Value(top + q(6).number), LevelBase::absolute);
   hole_.bottom = level_of(Value(bottom), LevelBase::absolute);
   hole_.retract = level_of(q(7), LevelBase::absolute);
-  word("operation", Value(rough || floor ? 1 : 2));
+  if (drills) {
+    hole_.kind = HoleKind::peck_full;
+    hole_.bottom = level_of(Value(bottom + skin), LevelBase::absolute);
+    pecks(magnitude(q(10)));
+    hole_.pecks.reapproach_automatic = true;
+    hole_.feed = q(11);
+    hole_.has_feed = true;
+    if (!q(13).literal()) return refuse("Q13 must be the number of a tool");
+    word("tool", q(13));
+  }
+  word("operation", Value(rough || floor || drills ? 1 : 2));
   if (!floor) word("infeed", magnitude(q(10)));
   word("plunge_feed", q(11));
-  word("mill_feed", q(12));
+  if (!drills) word("mill_feed", q(12));
   word("step_factor", half(q(2)));
-  if (rough || floor) word("wall_stock", q(3));
-  if (rough) word("floor_stock", q(4));
+  if (rough || floor || drills) word("wall_stock", q(3));
+  if (rough || drills) word("floor_stock", q(4));
   word("sense", Value(q(9).is(-1) ? 1 : 0));
   word("outside", Value(1));
   const auto coarse = cycle_.values.find(18);
@@ -147,8 +229,7 @@ bool CycleBuilder::mill_word(std::int16_t number) {
   switch (row->role) {
     case Role::mill:
       if (cycle_.number == 254 && number == 369) {
-        if (v.is(0) || q(215).is(2)) return true;
-        if (!q(215).is(1)) return refuse("an allowance for the floor (Q369) is carried with roughing alone (Q215=1)");
+        if (v.is(0) || !q(215).is(1)) return true;  // finishing takes it
         hole_.bottom = level_of(ir::add(q(201), v), LevelBase::from_surface);
         return true;
       }
@@ -172,11 +253,9 @@ bool CycleBuilder::mill_word(std::int16_t number) {
       if (!only_value(number)) return false;
       word("plunge_feed", v);
       return true;
-    case Role::place: {
-      const double centre = 0;
-      if (v.is(centre)) return true;
-      return refuse("Q367 other than 0: the tool does not stand in the middle; not carried yet");
-    }
+    case Role::place:
+      if (cycle_.number != 254 || v.is(0)) return true;
+      return refuse("Q367 other than 0: where the slots lie depends on the place of the tool; not carried yet");
     case Role::plunge_way:
       if (!v.is(0)) warn("the tool goes straight down, not on a helix or a ramp (Q366)");
       return true;

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dialects/heidenhain/limits.h"
-#include "frontends/heidenhain/cycles/build.h"
+#include "frontends/heidenhain/cycles/move_list.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -19,22 +18,22 @@ class PeckMoves {
       : q_(q), surface_(get(203) + shift), depth_(std::abs(get(201))), clear_(surface_ + get(200)), inch_(inch) {}
 
   std::vector<CycleMove> universal() {
-    rapid(clear_);
+    moves_.rapid(ir::Value(clear_));
     double done = 0, stroke = get(202), breaks = 0;
     bool out = false;
     while (moves_.size() < most_moves) {
       const double next = stroke <= nothing ? depth_ : std::min(done + stroke, depth_);
-      if (out) rapid(surface_ - done + get(200));
-      feed(surface_ - next, get(206));
+      if (out) moves_.rapid(ir::Value(surface_ - done + get(200)));
+      moves_.feed(ir::Value(surface_ - next), get(206));
       done = next;
       if (depth_ - done < nothing) break;
       out = breaks >= get(213);
       if (out) {
-        rapid(clear_);
-        dwell(get(210));
+        moves_.rapid(ir::Value(clear_));
+        moves_.dwell(get(210));
         breaks = 0;
       } else {
-        feed(surface_ - done + get(256), get(206));
+        moves_.feed(ir::Value(surface_ - done + get(256)), get(206));
         ++breaks;
       }
       stroke = shrunk(stroke);
@@ -42,9 +41,9 @@ class PeckMoves {
     return end();
   }
   std::vector<CycleMove> pecking() {
-    rapid(clear_);
+    moves_.rapid(ir::Value(clear_));
     double done = std::max(0.0, get(379));
-    if (done > nothing) feed(surface_ - done + get(200), get(253));
+    if (done > nothing) moves_.feed(ir::Value(surface_ - done + get(200)), get(253));
     std::vector<double> bottoms;
     double stroke = get(202);
     for (double at = done; depth_ - at > nothing && bottoms.size() < most_moves; stroke = shrunk(stroke)) {
@@ -54,17 +53,17 @@ class PeckMoves {
     const double entries = std::max(1.0, static_cast<double>(bottoms.size()) - 2);
     for (std::size_t k = 0; k < bottoms.size(); ++k) {
       if (k != 0) {
-        rapid(clear_);
+        moves_.rapid(ir::Value(clear_));
         const double stop = get(258) + (get(259) - get(258)) * static_cast<double>(k - 1) / entries;
-        rapid(surface_ - done + stop);
+        moves_.rapid(ir::Value(surface_ - done + stop));
       }
       const double chip = get(257), lift = get(256);
       for (double at = done + chip; chip > nothing && bottoms[k] - at > nothing && moves_.size() < most_moves;
            at += chip) {
-        feed(surface_ - at, get(206));
-        feed(surface_ - at + lift, facts::chip_break_feed / (inch_ ? 25.4 : 1));
+        moves_.feed(ir::Value(surface_ - at), get(206));
+        moves_.feed(ir::Value(surface_ - at + lift), facts::chip_break_feed / (inch_ ? 25.4 : 1));
       }
-      feed(surface_ - bottoms[k], get(206));
+      moves_.feed(ir::Value(surface_ - bottoms[k]), get(206));
       done = bottoms[k];
     }
     return end();
@@ -72,30 +71,26 @@ class PeckMoves {
 
   /// Slowly into the hole that is there already, then at the speed of drilling (241).
   std::vector<CycleMove> single_lip() {
-    rapid(clear_);
-    spindle(get(426), get(427));
+    moves_.rapid(ir::Value(clear_));
+    moves_.spindle(static_cast<int>(get(426)), get(427));
     const double start = std::max(0.0, get(379));
-    if (start > nothing) feed(surface_ - start + get(200), get(253));
-    spindle(3, get(428));
-    function(get(429));
+    if (start > nothing) moves_.feed(ir::Value(surface_ - start + get(200)), get(253));
+    moves_.spindle(3, get(428));
+    moves_.function(get(429));
     if (get(435) > nothing && get(435) < depth_) {
-      feed(surface_ - get(435), get(206));
-      dwell(get(211));
+      moves_.feed(ir::Value(surface_ - get(435)), get(206));
+      moves_.dwell(get(211));
     }
-    feed(surface_ - depth_, get(206));
-    dwell(get(211));
-    function(get(430));
-    spindle(get(426), get(427));
-    feed(clear_, get(208) == 0 ? get(206) : get(208));
-    if (get(204) > get(200)) rapid(surface_ + get(204));
-    return std::move(moves_);
+    moves_.feed(ir::Value(surface_ - depth_), get(206));
+    moves_.dwell(get(211));
+    moves_.function(get(430));
+    moves_.spindle(static_cast<int>(get(426)), get(427));
+    moves_.feed(ir::Value(clear_), get(208) == 0 ? get(206) : get(208));
+    if (get(204) > get(200)) moves_.rapid(ir::Value(surface_ + get(204)));
+    return moves_.take();
   }
 
  private:
-  void spindle(double code, double speed) { moves_.push_back({CycleMove::Kind::spindle, code, speed}); }
-  void function(double code) {
-    if (code > 0) moves_.push_back({CycleMove::Kind::function, 0, code});
-  }
   static constexpr std::size_t most_moves = 20'000;
   [[nodiscard]] double get(std::int16_t n) const {
     const auto it = q_.find(n);
@@ -104,31 +99,17 @@ class PeckMoves {
   [[nodiscard]] double shrunk(double stroke) const {
     return get(212) > nothing ? std::max(stroke - get(212), std::max(get(205), nothing)) : stroke;
   }
-  void add(CycleMove::Kind kind, double w, double amount) {
-    if (kind != CycleMove::Kind::dwell && has_ && std::abs(w - at_) < nothing) return;
-    if (kind != CycleMove::Kind::dwell) at_ = w;
-    has_ = has_ || kind != CycleMove::Kind::dwell;
-    constexpr double places = 1e10;
-    moves_.push_back({kind, std::round(w * places) / places + 0.0, amount});
-  }
-  void rapid(double w) { add(CycleMove::Kind::rapid, w, 0); }
-  void feed(double w, double f) { f >= facts::rapid_stand_in ? rapid(w) : add(CycleMove::Kind::feed, w, f); }
-  void dwell(double seconds) {
-    if (seconds > 0) add(CycleMove::Kind::dwell, at_, seconds);
-  }
   std::vector<CycleMove> end() {
-    dwell(get(211));
-    feed(clear_, get(208) == 0 ? get(206) : get(208));
-    if (get(204) > get(200)) rapid(surface_ + get(204));
-    return std::move(moves_);
+    moves_.dwell(get(211));
+    moves_.feed(ir::Value(clear_), get(208) == 0 ? get(206) : get(208));
+    if (get(204) > get(200)) moves_.rapid(ir::Value(surface_ + get(204)));
+    return moves_.take();
   }
 
   const std::map<std::int16_t, double>& q_;
   double surface_, depth_, clear_;
   bool inch_;
-  std::vector<CycleMove> moves_;
-  double at_ = 0;
-  bool has_ = false;
+  MoveList moves_;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Tilted planes (reference 18.7, 18.8, 18.10): cycle 19 and PLANE. The plane is turned about the datum in force; shifts
 // behind it move the turned system.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -93,7 +94,39 @@ void Lowering::put_tilt() {
     }
     add(std::move(shift));
   }
+  if (tilt_) {
+    for (const auto& c : tilt_->inner) add(c);
+  }
   put(std::move(b));
+}
+
+/// Mirror, rotation or scale of the turned system. One programmed before the tilt is replaced.
+bool Lowering::in_tilt(ir::FrameChange c) {
+  const ir::FrameKind kind = c.kind;
+  const bool neutral = c.combine == ir::FrameCombine::clear, adds = c.combine == ir::FrameCombine::add;
+  if (outer_.erase(kind) != 0) {
+    if (adds) return false;
+    ir::FrameChange none = c;
+    none.words.clear();
+    none.has_angle = false;
+    none.combine = ir::FrameCombine::clear;
+    ir::Block b;
+    b.actions.emplace_back().data = ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(none))};
+    put(std::move(b));
+  }
+  auto& inner = tilt_->inner;
+  const auto old = std::find_if(inner.begin(), inner.end(), [kind](const auto& i) { return i.kind == kind; });
+  if (adds && old != inner.end()) c.angle = ir::add(old->angle, c.angle);
+  if (old != inner.end()) inner.erase(old);
+  c.slot = ir::FrameSlot::chain;
+  c.combine = ir::FrameCombine::compose;
+  const auto rank = [](const ir::FrameChange& f) {
+    return f.kind == ir::FrameKind::mirror ? 0 : f.kind == ir::FrameKind::rotate ? 1 : 2;
+  };
+  const auto at = std::find_if(inner.begin(), inner.end(), [&](const auto& i) { return rank(i) > rank(c); });
+  if (!neutral) inner.insert(at, std::move(c));
+  put_tilt();
+  return true;
 }
 
 /// Behind the tilt: the shift of the turned system.
@@ -104,19 +137,26 @@ bool Lowering::shift_in_tilt(ir::AxisId axis, const ir::Value& v, bool adds) {
   return true;
 }
 
-void Lowering::tilt(std::array<ir::Value, 3> angles) {
-  if (scaled_about_)
-    return report_.keep("HEI-022", {}, "a tilted plane beside cycle 26 about a centre is not carried",
-                        "motion.transformation");
+/// False: it was refused.
+bool Lowering::tilt(std::array<ir::Value, 3> angles) {
+  const auto refuse = [this](std::string text) {
+    report_.keep("HEI-022", {}, std::move(text), "motion.transformation");
+    return false;
+  };
+  if (scaled_about_) return refuse("a tilted plane beside cycle 26 about a centre is not carried");
+  if (tilt_ && !tilt_->inner.empty())
+    return refuse(
+        "a mirror, rotation or scale that was programmed in the tilted plane outlasts it; take it back before");
   bool any = false;
   for (const auto& a : angles) any = any || !a.is(0);
   if (!any && !tilt_) {
-    return report_.carry("HEI-021", {}, "no tilted plane is in force: kept as text", "motion.transformation");
+    report_.carry("HEI-021", {}, "no tilted plane is in force: kept as text", "motion.transformation");
+    return true;
   }
   tilt_.reset();
-  if (any) tilt_ = Tilt{angles, {}};
+  if (any) tilt_ = Tilt{angles, {}, {}};
   put_tilt();
-  if (!any || (!angles[0].is(0) && !angles[1].is(0))) return;
+  if (!any || (!angles[0].is(0) && !angles[1].is(0))) return true;
   // Q120 to Q122: of axes that turn as the spatial angles say.
   for (std::int64_t k = 0; k < 3; ++k) {
     ir::Assign::Item item;
@@ -129,6 +169,33 @@ void Lowering::tilt(std::array<ir::Value, 3> angles) {
     assign.items.push_back(std::move(item));
     put_item.statement.node = std::move(assign);
   }
+  return true;
+}
+
+/// TURN and MOVE: the axes that turn as the spatial angles say. The tip of the tool stays, with MOVE, or is not told.
+bool Lowering::turn_axes(const std::array<ir::Value, 3>& angles, bool rapid, const Word* own_feed) {
+  ir::Block b;
+  b.has_motion = true;
+  b.motion.kind = rapid || own_feed == nullptr ? ir::MotionKind::rapid : ir::MotionKind::linear;
+  b.motion.explicit_code = true;
+  for (const ir::AxisId axis : {ir::axis::a, ir::axis::b, ir::axis::c}) {
+    const ir::Value& to = angles[axis - ir::axis::a];
+    if (to.is(0) && rotary_moved_.count(axis) == 0) continue;
+    if (!has_axis(axis)) return false;
+    ir::CoordWord& c = b.motion.coords.emplace_back();
+    c.axis = axis;
+    c.mode = ir::WordMode::absolute;
+    c.value = to;
+    rotary_moved_.insert(axis);
+  }
+  if (b.motion.coords.empty()) return true;
+  if (own_feed != nullptr && !rapid) {
+    ir::SetFeed f{value(*own_feed)};
+    f.block_only = true;
+    b.actions.emplace_back().data = std::move(f);
+  }
+  put(std::move(b));
+  return true;
 }
 
 bool Lowering::plane(const syntax::Statement& s) {
@@ -140,7 +207,8 @@ bool Lowering::plane(const syntax::Statement& s) {
     return false;
   }
   std::map<std::string, ir::Value> given;
-  bool stays = false, turns = false, literal = true;
+  bool stays = false, turns = false, literal = true, fast = false, other = false, far = false;
+  const Word *back = nullptr, *own_feed = nullptr;
   for (std::size_t i = 1; i < words.size() && !report_.refused(); ++i) {
     std::string address = to_upper_ascii(words[i].address);
     const Word* number = &words[i];
@@ -150,7 +218,16 @@ bool Lowering::plane(const syntax::Statement& s) {
     }
     stays = stays || address == "STAY";
     turns = turns || address == "TURN" || address == "MOVE";
-    if (stays || turns) continue;  // what follows says how the axes are moved
+    if (stays || turns) {  // what follows says how the axes are moved
+      const Word& w = words[i];
+      const bool max = i + 1 < words.size() && iequals_ascii(words[i + 1].address, "MAX");
+      if (address == "FMAX" || (address == "F" && max)) fast = true;
+      if (address == "F" && w.has_value) own_feed = &w;
+      if (address == "MB" && w.has_value) back = &w;
+      if (address == "MBMAX" || (address == "MB" && max)) far = true;
+      if (address == "SEQ" && w.number_text == "-") other = true;
+      continue;
+    }
     if (!number->has_value || !facts::in_words(row->words, address)) {
       report_.refuse("HEI-002", words[i].pos,
                      "`" + std::string(slice(words[i])) + "` means nothing in PLANE " + std::string(row->word), {},
@@ -169,10 +246,7 @@ bool Lowering::plane(const syntax::Statement& s) {
     report_.keep("HEI-022", s.pos, std::move(text), "motion.transformation");
     return false;
   };
-  if (!stays && row->form != TiltForm::reset)
-    return refuse("TURN and MOVE position the rotary axes: to where is known to the machine only");
-  if (!stays && (rotary_moved_ || row->form != TiltForm::reset))
-    return refuse("PLANE RESET moves the rotary axes back: how is known to the machine only");
+  if (other) return refuse("SEQ-: where the rotary axes stand then is known to the machine only");
   if (!literal && row->form != TiltForm::spatial) return refuse("its angles must be numbers");
   const auto n = [&get](const char* name) { return get(name).number; };
   std::optional<Matrix> m;
@@ -217,8 +291,20 @@ bool Lowering::plane(const syntax::Statement& s) {
     const ir::Turns a = ir::turns_of(column(0), column(1), column(2));
     for (std::size_t i = 0; i < 3; ++i) angles[i] = ir::Value(std::round(a[i] * places) / places + 0.0);
   }
+  const bool by_axes = angles[0].is(0) || angles[1].is(0);
+  if (turns && !by_axes) return refuse("TURN and MOVE position the rotary axes: to where is known to the machine only");
   const std::size_t before = flat_.items.size();
-  tilt(angles);
+  if (turns && (back != nullptr || far)) {  // first the tool goes back
+    retract_far_ = far;
+    if (!far) {
+      retract_ = *back;
+    }
+    rapid_ = fast;
+    retract(fast ? nullptr : own_feed, false);
+    put(std::exchange(out_, {}));
+  }
+  if (!tilt(angles)) return false;
+  if (turns && !turn_axes(angles, fast, own_feed)) return refuse("the machine has no rotary axis for this plane");
   if (flat_.items.size() == before && !report_.refused()) put(ir::Block{});
   return !report_.refused();
 }

@@ -67,10 +67,20 @@ class AreaReader {
   struct Contour {
     MillContour line;
     bool pocket = false;
+    int side = 0;
   };
 
   std::string areas(CycleDefinition& cycle) {
     std::vector<Contour> all;
+    if (cycle.number == 25) {
+      Contour c;
+      if (cycle.labels.size() != 1) return "cycle 25 takes one contour";
+      if (std::string fault = contour(cycle.labels[0], c, true); !fault.empty())
+        return "LBL " + cycle.labels[0] + ": " + fault;
+      cycle.side = c.side;
+      cycle.areas.push_back({std::move(c.line)});
+      return {};
+    }
     for (const auto& label : cycle.labels) {
       Contour c;
       if (std::string fault = contour(label, c); !fault.empty()) return "LBL " + label + ": " + fault;
@@ -98,7 +108,8 @@ class AreaReader {
     return {};
   }
 
-  std::string contour(const std::string& label, Contour& out) {
+  /// `open`: a contour that is followed, not one that bounds an area.
+  std::string contour(const std::string& label, Contour& out, bool open = false) {
     std::size_t first = 0;
     while (first < flat_.items.size() && !(flat_.items[first].kind == ItemKind::label && flat_.items[first].number &&
                                            flat_.items[first].label == label))
@@ -138,9 +149,10 @@ class AreaReader {
     auto read = interpreter::mill_contours_of(profile_, modal, blocks, false, nullptr, &error);
     if (!read) return error;
     out.line = std::move(read->front());
-    close(out.line);
-    if (side == 0) return "RL or RR says whether it is a pocket or an island";
-    out.pocket = (signed_area(out.line) > 0) == (side > 0);
+    out.side = side;
+    if (!open) close(out.line);
+    if (!open && side == 0) return "RL or RR says whether it is a pocket or an island";
+    out.pocket = !open && (signed_area(out.line) > 0) == (side > 0);
     for (std::size_t k = first; k <= i; ++k) flat_.items[k].contour = true;
     return {};
   }

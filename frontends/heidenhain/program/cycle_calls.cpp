@@ -182,12 +182,13 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   context.value = [&](std::int16_t q) {
     const bool height = q == 200 || q == 203 || q == 204;
     if (overlay == nullptr || !height) return parameter(*cycle, q, any);
+    if (q == 204 && overlay->values.at(301).value.is(0)) return ir::Value(0);  // from point to point on the clearance
     return overlay->values.at(q).value;
   };
   out.cycle = build_cycle(*cycle, context, report);
   for (context.area = 1; out.cycle != nullptr && context.area < cycle->areas.size(); ++context.area)
     out.more.push_back(build_cycle(*cycle, context, report));
-  out.goes_back = !cycle->areas.empty();
+  out.goes_back = !cycle->areas.empty() && cycle->number != 25;
   return out;
 }
 
@@ -201,8 +202,67 @@ bool CycleCalls::heights_differ(const CycleDefinition& cycle) const {
   }
   return false;
 }
-/// Where the tool stands, behind the last statement. `axis`: of the tool.
-void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) const {
+/// One step of a cycle that is told by what it does.
+ir::Block CycleCalls::step_block(const CycleMove& step, const ir::PlaneAxes& plane) const {
+  using Kind = CycleMove::Kind;
+  ir::Block b;
+  if (step.kind == Kind::spindle) {
+    using ir::SpindleState;
+    b.actions.emplace_back().data = ir::SetSpindle{1, ir::Value(step.amount)};
+    b.actions.emplace_back().data = ir::SpindleRun{1, step.code == 3   ? SpindleState::cw
+                                                      : step.code == 4 ? SpindleState::ccw
+                                                                       : SpindleState::off};
+    return b;
+  }
+  if (step.kind == Kind::function) {
+    b.actions.push_back(lowering_.function_action(step.amount));
+    return b;
+  }
+  if (step.kind == Kind::dwell) {
+    ir::Dwell dwell;
+    dwell.value = ir::Value(step.amount);
+    b.actions.emplace_back().data = std::move(dwell);
+    return b;
+  }
+  if (step.kind == Kind::cycle) {
+    ir::CycleDefine define;
+    define.cycle = step.cycle;
+    define.modal = false;
+    b.actions.emplace_back().data = std::move(define);
+    return b;
+  }
+  const bool arc = step.kind == Kind::arc_cw || step.kind == Kind::arc_ccw, rapid = step.kind == Kind::rapid;
+  b = move(rapid                       ? ir::MotionKind::rapid
+           : step.kind == Kind::arc_cw ? ir::MotionKind::arc_cw
+           : arc                       ? ir::MotionKind::arc_ccw
+                                       : ir::MotionKind::linear,
+           {});
+  auto& words = b.motion.coords;
+  if (step.plane) {
+    for (const bool first : {true, false}) {
+      const ir::Value& v = first ? step.plane->u : step.plane->v;
+      if (!step.plane->absolute && v.is(0) && !arc) continue;
+      words.push_back(coordinate(first ? plane.u : plane.v, v));
+      if (!step.plane->absolute) words.back().mode = ir::WordMode::incremental;
+    }
+    for (const bool first : {true, false}) {
+      if (!arc) break;
+      ir::CenterWord c;
+      c.axis = first ? plane.u : plane.v;
+      c.mode = ir::CenterMode::from_start;
+      c.value = first ? step.plane->cu : step.plane->cv;
+      b.motion.centers.push_back(std::move(c));
+    }
+  }
+  if (step.w) words.push_back(coordinate(plane.w, *step.w));
+  ir::SetFeed feed{ir::Value(step.amount)};
+  feed.block_only = true;
+  if (!rapid) b.actions.emplace_back().data = std::move(feed);
+  return b;
+}
+
+/// Where the tool stands, behind the last statement.
+void CycleCalls::put(const Machining& m, const ir::PlaneAxes& plane, Statements& out) const {
   const ir::Statement first = out.back();
   if (!m.program.empty()) {
     ir::CallRoutine routine;
@@ -225,29 +285,28 @@ void CycleCalls::put(const Machining& m, ir::AxisId axis, Statements& out) const
     speed.actions.emplace_back().data = ir::SetSpindle{1, *m.speed_after};
     out.push_back(behind(first, std::move(speed)));
   }
-  for (const CycleMove& step : m.moves) {
-    ir::Block b;
-    if (step.kind == CycleMove::Kind::spindle) {
-      using ir::SpindleState;
-      b.actions.emplace_back().data = ir::SetSpindle{1, ir::Value(step.amount)};
-      b.actions.emplace_back().data = ir::SpindleRun{1, step.w == 3   ? SpindleState::cw
-                                                        : step.w == 4 ? SpindleState::ccw
-                                                                      : SpindleState::off};
-    } else if (step.kind == CycleMove::Kind::function) {
-      b.actions.push_back(lowering_.function_action(step.amount));
-    } else if (step.kind == CycleMove::Kind::dwell) {
-      ir::Dwell dwell;
-      dwell.value = ir::Value(step.amount);
-      b.actions.emplace_back().data = std::move(dwell);
-    } else {
-      const bool rapid = step.kind == CycleMove::Kind::rapid;
-      b = move(rapid ? ir::MotionKind::rapid : ir::MotionKind::linear, {coordinate(axis, ir::Value(step.w))});
-      ir::SetFeed feed{ir::Value(step.amount)};
-      feed.block_only = true;
-      if (!rapid) b.actions.emplace_back().data = std::move(feed);
-    }
-    out.push_back(behind(first, std::move(b)));
+  for (const CycleMove& step : m.moves) out.push_back(behind(first, step_block(step, plane)));
+}
+
+/// CYCL CALL POS: a tool below the surface goes up to the clearance first, then in the plane.
+void CycleCalls::above_first(const Item& item, const Machining& m, const ir::PlaneAxes& plane, Statements& out) {
+  const auto* hole = m.cycle == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&m.cycle->node);
+  const auto number = [](const ir::Level& l) { return l.given && l.value.literal(); };
+  const bool known = hole != nullptr && number(hole->surface) && hole->surface.base == ir::LevelBase::absolute &&
+                     number(hole->reference) && hole->reference.base == ir::LevelBase::from_surface && item.height &&
+                     item.height->literal();
+  if (!known) {
+    lowering_.report().note("HEI-019", {},
+                            "the tool is taken to stand above the surface: it goes in the plane first, then along its "
+                            "axis");
+    return;
   }
+  const double surface = hole->surface.value.number;
+  if (item.height->number >= surface) return;
+  ir::Statement up = behind(out.back(), move(ir::MotionKind::rapid,
+                                             {coordinate(plane.w, ir::Value(surface + hole->reference.value.number))}));
+  std::swap(up.line, out.back().line);
+  out.insert(out.end() - 1, std::move(up));
 }
 
 void CycleCalls::call(std::size_t i, Statements& out) {
@@ -263,9 +322,10 @@ void CycleCalls::call(std::size_t i, Statements& out) {
     return;
   }
   if (!m.any()) return;  // depth 0, or never reached
-  const std::size_t at = out.size();
   const auto plane = plane_at(arrival(i));
-  put(m, plane.w, out);
+  if (item.shift) above_first(item, m, plane, out);
+  const std::size_t at = out.size();
+  put(m, plane, out);
   if (m.goes_back && item.place) {
     ir::Statement back = behind(out.back(), move(ir::MotionKind::rapid, {coordinate(plane.u, item.place->first),
                                                                          coordinate(plane.v, item.place->second)}));
@@ -319,7 +379,7 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
       b.actions.emplace_back().data = std::move(define);
     }
     out.push_back(behind(first, std::move(b)));
-    if (!modal) put(each[level ? 0 : k], plane.w, out);
+    if (!modal) put(each[level ? 0 : k], plane, out);
   }
   if (!modal) return;
   ir::Block cancel;
@@ -330,8 +390,13 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
 /// Between the points the tool goes where it stood at the call, if that is higher than the cycle's own way out.
 void CycleCalls::raise(Machining& m, const std::optional<ir::Value>& height) {
   if (!height || !height->literal()) return;
-  if (!m.moves.empty() && m.moves.back().kind == CycleMove::Kind::rapid && m.moves.back().w < height->number)
-    m.moves.push_back({CycleMove::Kind::rapid, height->number, 0});
+  const auto* last = m.moves.empty() ? nullptr : &m.moves.back();
+  if (last != nullptr && last->kind == CycleMove::Kind::rapid && last->w && last->w->literal() &&
+      last->w->number < height->number) {
+    CycleMove up;
+    up.w = *height;
+    m.moves.push_back(std::move(up));
+  }
   const auto* hole = m.cycle == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&m.cycle->node);
   if (hole == nullptr || hole->retract.base != ir::LevelBase::absolute || !hole->retract.value.literal() ||
       hole->retract.value.number >= height->number)
@@ -366,19 +431,18 @@ void CycleCalls::pattern(std::size_t i, Statements& out) {
     ir::Block b = move(ir::MotionKind::rapid,
                        {coordinate(plane.u, ir::Value(points[k].u)), coordinate(plane.v, ir::Value(points[k].v))});
     if (k == 0 && m.cycle != nullptr && !m.speed_after) {
-      auto hole = std::get<ir::HoleCycle>(m.cycle->node);
-      if (low) hole.retract = hole.reference;
       ir::CycleDefine define;
-      define.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
+      define.cycle = m.cycle;
       b.actions.emplace_back().data = std::move(define);
     }
     out.push_back(behind(first, std::move(b)));
-    if (m.cycle == nullptr || m.speed_after) put(m, plane.w, out);
+    if (m.cycle == nullptr || m.speed_after) put(m, plane, out);
   }
-  if (m.cycle == nullptr || m.speed_after) return;
-  ir::Block cancel;
-  cancel.actions.emplace_back().data = ir::CycleCancel{};
-  out.push_back(behind(first, std::move(cancel)));
+  if (m.cycle != nullptr && !m.speed_after) {
+    ir::Block cancel;
+    cancel.actions.emplace_back().data = ir::CycleCancel{};
+    out.push_back(behind(first, std::move(cancel)));
+  }
   if (low) out.push_back(behind(first, move(ir::MotionKind::rapid, {coordinate(plane.w, ir::Value(top))})));
 }
 

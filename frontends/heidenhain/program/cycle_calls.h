@@ -47,7 +47,9 @@ class CycleCalls {
   Machining machining(const Item& item, const Arrival& a, const std::optional<ir::Value>& shift,
                       const CycleDefinition* overlay);
   static void raise(Machining& m, const std::optional<ir::Value>& height);
-  void put(const Machining& m, ir::AxisId axis, Statements& out) const;
+  [[nodiscard]] ir::Block step_block(const CycleMove& step, const ir::PlaneAxes& plane) const;
+  void put(const Machining& m, const ir::PlaneAxes& plane, Statements& out) const;
+  void above_first(const Item& item, const Machining& m, const ir::PlaneAxes& plane, Statements& out);
 
   Lowering& lowering_;
   const Flow& flow_;

@@ -4,18 +4,14 @@
 #include <utility>
 
 #include "frontends/heidenhain/program/cycle_calls.h"
+#include "frontends/heidenhain/state/datum.h"
 
 namespace cnctrans::frontends::heidenhain {
 
 namespace {
 
 ir::Value pole_datum(bool first) {
-  ir::SystemRef ref;
-  ref.datum = first ? ir::Datum::pole_first : ir::Datum::pole_second;
-  ref.text = "CC";
-  auto e = std::make_shared<ir::Expr>();
-  e->node = std::move(ref);
-  return ir::Value(ir::ExprPtr(std::move(e)));
+  return ir::Value(datum(first ? ir::Datum::pole_first : ir::Datum::pole_second, "CC"));
 }
 
 class Finisher {

@@ -53,7 +53,7 @@ class LeadWriter {
             items[i].moves ? way_.end_of(std::get<ir::Block>(items[i].statement.node).motion) : way_.point();
         if (at) items[i].place = std::pair(at->u.value(), at->v.value());
       }
-      if (items[i].at_pattern) {
+      if (items[i].at_pattern || items[i].shift) {
         const auto height = way_.coordinate(way_.plane().w);
         if (height) items[i].height = height->value();
       }
@@ -386,7 +386,7 @@ void write_leads(Lowering& lowering) {
   const auto& flat = lowering.flat();
   const bool needed =
       !flat.leads.empty() || !flat.elements.empty() ||
-      std::any_of(flat.items.begin(), flat.items.end(), [](const Item& i) { return i.at_pattern; }) ||
+      std::any_of(flat.items.begin(), flat.items.end(), [](const Item& i) { return i.at_pattern || i.shift; }) ||
       std::any_of(flat.cycles.begin(), flat.cycles.end(), [](const auto& c) { return !c.labels.empty(); });
   if (needed) LeadWriter(lowering).run();
 }

@@ -67,6 +67,7 @@ struct CycleDefinition {
   std::vector<std::vector<ir::cycles::MillContour>> areas;
   std::string area_fault;
   bool refused = false;  ///< said at the definition; its calls say nothing more
+  int side = 0;  ///< cycle 25: of the contour, RL 1, RR -1
 };
 
 struct Pole {
@@ -121,7 +122,7 @@ struct Item {
   int pattern = -1;                   ///< PATTERN DEF, or (Arrival::several) a table of points
   bool at_pattern = false;            ///< CYCL CALL PAT
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
-  std::optional<ir::Value> height;                       ///< CYCL CALL PAT: of the tool, where it is known
+  std::optional<ir::Value> height;                       ///< CYCL CALL PAT and POS: of the tool, where it is known
   CycleCall call = CycleCall::none;
   std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
   std::vector<ir::VarRef> writes;  ///< variables

@@ -88,6 +88,7 @@ class Lowering {
   void machine_function(const Word& w);
   bool feed(const Word& w);
   void end_motion();
+  void retract(const Word* own_feed, bool modal = true);
   ir::Value value(const Word& w);
   ir::Action& act(const Word& w, ir::ActionData data, ir::Order order = ir::Order::before);
 
@@ -96,6 +97,7 @@ class Lowering {
   bool cycle_word(const syntax::Statement& s);
   void global_word(const syntax::Statement& s);
   bool words_of_the_line(CycleDefinition& cycle);
+  bool feed_name(std::string_view name, const ir::Value* amount, WordPos pos, QValue& v);
   bool old_part(const syntax::Statement& s, std::int64_t number, int part);
   bool cycle_call(const syntax::Statement& s);
   bool pattern_def(const syntax::Statement& s);
@@ -104,7 +106,9 @@ class Lowering {
   void effect(const CycleDefinition& cycle);
   bool pattern_cycle(const CycleDefinition& cycle);
   bool plane(const syntax::Statement& s);
-  void tilt(std::array<ir::Value, 3> angles);
+  bool tilt(std::array<ir::Value, 3> angles);
+  bool turn_axes(const std::array<ir::Value, 3>& angles, bool rapid, const Word* own_feed);
+  bool in_tilt(ir::FrameChange c);
   void put_tilt();
   bool shift_in_tilt(ir::AxisId axis, const ir::Value& v, bool adds);
   void trans_datum(const syntax::Statement& s);
@@ -131,17 +135,21 @@ class Lowering {
   // Along the text
   int tool_axis_ = 2;                                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
   std::optional<ir::Value> tool_feed_;                  ///< F of the last TOOL CALL
+  std::optional<ir::Value> speed_;                      ///< S of the last TOOL CALL
   std::optional<ir::Value> orient_;                     ///< cycle 13
   std::optional<std::pair<double, double>> free_pole_;  ///< FPOL
   std::vector<std::string> contour_labels_;             ///< cycle 14
   int contour_data_ = -1;                               ///< the definition of cycle 20
+  int train_data_ = -1;                                 ///< of cycle 270
   /// The plane that is turned, and the shift behind the turn.
   struct Tilt {
     std::array<ir::Value, 3> angles;
     std::map<ir::AxisId, ir::Value> shift;
+    std::vector<ir::FrameChange> inner;  ///< mirror, rotation and scale behind the turn
   };
   std::optional<Tilt> tilt_;
-  bool rotary_moved_ = false;             ///< a rotary axis stood in a block above
+  std::set<ir::AxisId> rotary_moved_;     ///< rotary axes in the blocks above
+  std::set<ir::FrameKind> outer_;         ///< mirror, rotation and scale that were programmed outside of a tilt
   std::map<std::int64_t, double> radii_;  ///< TOOL DEF n R
   std::optional<double> radius_;          ///< of the tool of the last TOOL CALL, as TOOL DEF says it
   bool scaled_about_ = false;             ///< cycle 26 has a centre

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "dialects/heidenhain/functions.h"
 #include "dialects/heidenhain/variables.h"
+#include "frontends/heidenhain/state/datum.h"
 #include "frontends/heidenhain/state/lowering.h"
 #include "frontends/heidenhain/state/term.h"
 
@@ -24,16 +25,6 @@ std::optional<ir::SpaceId> space_of(std::string_view prefix, std::int64_t number
   if (prefix == "QR" && within(facts::qr_max)) return facts::space_qr;
   if (prefix == "QS" && within(facts::qs_max)) return facts::space_qs;
   return std::nullopt;
-}
-
-ir::ExprPtr datum(ir::Datum d, std::string text, ir::AxisId axis = ir::axis::none) {
-  ir::SystemRef ref;
-  ref.datum = d;
-  ref.text = std::move(text);
-  ref.axis = axis;
-  auto e = std::make_shared<ir::Expr>();
-  e->node = std::move(ref);
-  return e;
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // Path functions (reference 5, 9, 10): L, C, CR, CT, LP, CP, CTP, CC, RND, CHF, and lines of M functions.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/heidenhain/limits.h"
+#include "frontends/heidenhain/state/datum.h"
 #include "frontends/heidenhain/state/lowering.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -63,7 +65,7 @@ void Lowering::axis_word(const Word& w, ir::AxisId axis, bool incremental) {
   c.mode = incremental ? ir::WordMode::incremental : ir::WordMode::modal;  // absolute is in force always
   c.value = value(w);
   c.pos = w.pos;
-  rotary_moved_ = rotary_moved_ || ir::is_rotary_letter(axis);
+  if (ir::is_rotary_letter(axis)) rotary_moved_.insert(axis);
   if (shortest_ && ir::is_rotary_letter(axis) && !incremental) c.direction = ir::RotaryDirection::shortest;
 }
 
@@ -80,19 +82,23 @@ bool Lowering::feed(const Word& w) {
     if (!tool_feed_) {
       report_.refuse("HEI-005", w.pos, "FAUTO takes the feed of TOOL CALL, and the one above has none", "write F");
     } else {
+      if (std::exchange(feed_by_fu_, false)) mode(per_rev_ ? ir::FeedMode::per_rev : ir::FeedMode::per_minute);
       act(w, ir::SetFeed{*tool_feed_});
     }
     return true;
   }
-  if (is(w, "FU") && w.has_value) {
+  const bool per_tooth = is(w, "FZ");
+  if ((is(w, "FU") || per_tooth) && w.has_value) {  // the teeth are those of the tool table
     mode(ir::FeedMode::per_rev);
     feed_by_fu_ = true;
-    act(w, ir::SetFeed{value(w)});
+    const ir::Value amount = value(w);
+    const ir::ExprPtr teeth = per_tooth ? datum(ir::Datum::other, "CUT") : nullptr;
+    act(w, ir::SetFeed{teeth ? ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(amount), teeth)) : amount});
     return true;
   }
-  if (is(w, "FZ") || is(w, "FT") || is(w, "FMAXT")) {
+  if (is(w, "FT") || is(w, "FMAXT")) {
     report_.keep("HEI-005", w.pos,
-                 "`" + std::string(slice(w)) + "`: a feed by teeth or by time needs data that are not in the program",
+                 "`" + std::string(slice(w)) + "`: a feed by time needs data that are not in the program",
                  "feed.of_the_tool", "write F");
     return true;
   }
@@ -185,7 +191,7 @@ bool Lowering::path() {
   }
   const bool named = form != Form::none;
   if (!named) form = Form::line;
-  const Word* radius = nullptr;
+  const Word *radius = nullptr, *retract_feed = nullptr;  // of M140
   const Word *polar_radius = nullptr, *polar_angle = nullptr;
   for (std::size_t i = named ? 1 : 0; i < words.size() && !report_.refused(); ++i) {
     Word w = words[i];
@@ -247,6 +253,10 @@ bool Lowering::path() {
                    "`" + std::string(slice(w)) + "`: a move lengthened by the tool radius is not carried", "block.word",
                    "write L with RL or RR");
       break;
+    }
+    if ((retract_ || retract_far_) && is(w, "F") && w.has_value) {
+      retract_feed = &words[i];
+      continue;
     }
     if (!tail(w)) {
       report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing in this block", {}, "block.word");
@@ -313,22 +323,7 @@ bool Lowering::path() {
   if (!named && m.coords.size() > 1)
     report_.warn("HEI-006", first.pos, "axis words without a path function are read as L", "write L before them");
   const bool by_pole = form == Form::arc || form == Form::polar_arc;
-  if (retract_ || retract_far_) {
-    if (retract_far_ || out_.has_motion) {
-      report_.keep("HEI-009", first.pos,
-                   "M140 goes back to the limit of the axis, or beside a move: where that ends is not in the program",
-                   "block.word", "write M140 MB with a distance in a block of its own");
-      return false;
-    }
-    m.kind = rapid_ || !retract_->has_value ? MotionKind::rapid : MotionKind::linear;
-    m.explicit_code = true;
-    ir::CoordWord& c = m.coords.emplace_back();
-    c.axis = static_cast<ir::AxisId>(tool_axis_);
-    c.mode = ir::WordMode::incremental;
-    c.value = value(*retract_);
-    c.pos = retract_->pos;
-    out_.has_motion = true;
-  }
+  if (retract_ || retract_far_) retract(retract_feed);
   const bool moves = out_.has_motion;
   const bool only_ends = !end_text_.empty() && out_.empty() && call_ == CycleCall::none;
   if (!only_ends) {
@@ -345,6 +340,42 @@ bool Lowering::path() {
     ended_ = true;
   }
   return true;
+}
+
+/// M140: back along the tool axis before the block moves otherwise, at the F behind it, else in rapid. MB MAX goes to
+/// the end of the axis, which the profile says.
+void Lowering::retract(const Word* own_feed, bool modal) {
+  ir::Block up;
+  ir::Motion& m = up.motion;
+  const bool alone = !out_.has_motion;
+  const auto is_feed = [](const ir::Action& a) { return std::holds_alternative<ir::SetFeed>(a.data); };
+  const bool fed = own_feed != nullptr || (alone && std::any_of(out_.actions.begin(), out_.actions.end(), is_feed));
+  m.kind = rapid_ || !fed ? ir::MotionKind::rapid : ir::MotionKind::linear;
+  m.explicit_code = true;
+  ir::CoordWord& c = m.coords.emplace_back();
+  c.axis = static_cast<ir::AxisId>(tool_axis_);
+  c.mode = retract_far_ ? ir::WordMode::absolute : ir::WordMode::incremental;
+  if (retract_far_) {
+    m.frame = ir::FrameUse::machine;
+    c.value = ir::Value(datum(ir::Datum::other, "MB_MAX"));
+  } else {
+    c.value = value(*retract_);
+    c.pos = retract_->pos;
+  }
+  up.has_motion = true;
+  if (own_feed != nullptr && !(alone && modal)) {
+    ir::SetFeed f{value(*own_feed)};
+    f.block_only = true;
+    up.actions.emplace_back().data = std::move(f);
+  }
+  if (alone) {
+    if (own_feed != nullptr && modal) feed(*own_feed);
+    if (own_feed != nullptr && !modal) out_.actions = std::move(up.actions);
+    out_.motion = std::move(m);
+    out_.has_motion = true;
+    return;
+  }
+  put(std::move(up));
 }
 
 /// RND and CHF stand behind the element that ends in the corner.

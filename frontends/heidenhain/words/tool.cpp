@@ -75,7 +75,8 @@ bool Lowering::tool_call(const syntax::Statement& s) {
   ir::Block after;
   if (speed != nullptr) {
     ir::Action set;
-    set.data = ir::SetSpindle{1, value(*speed)};
+    speed_ = value(*speed);
+    set.data = ir::SetSpindle{1, *speed_};
     set.pos = speed->pos;
     (changes ? after : out_).actions.push_back(std::move(set));
   }

@@ -292,6 +292,42 @@ class Teller {
     return done();
   }
 
+  /// Whole sizes at the place of the tool, with a sense; the allowances are taken at last in the same call, and the
+  /// step is a factor of the tool's diameter.
+  std::optional<PocketForm> by_one_call() {
+    if (!start(false)) return std::nullopt;
+    const auto feed = p_.mill_feed ? p_.mill_feed : s_.feed;
+    const auto plunge = p_.plunge_feed ? p_.plunge_feed : feed;
+    if (!feed) return why = "the feed in force is not known here", std::nullopt;
+    if (p_.circle) {
+      put("radius", p_.radius);
+    } else {
+      put("length", p_.length);
+      put("width", p_.width);
+      if (p_.corner) put("corner", *p_.corner);
+      if (p_.angle != 0) put("angle", Value(p_.angle));
+    }
+    put("infeed", p_.infeed);
+    double factor = 0.5;
+    const auto step = p_.step ? known_number(*p_.step) : std::nullopt;
+    if (step && s_.radius && *step > 0 && *step <= 1.4 * *s_.radius)
+      factor = *step / (2 * *s_.radius);
+    else
+      out_.differs += ", the step in the plane is the radius of the tool";
+    put("step_factor", Value(factor));
+    const bool finishes = !nothing(p_.floor_cut) || !nothing(p_.wall_cut);
+    if (!nothing(p_.wall_cut)) put("wall_stock", *p_.wall_cut);
+    if (!nothing(p_.floor_cut)) put("floor_stock", *p_.floor_cut);
+    put("operation", Value(finishes ? 0 : 1));
+    put("sense", Value(p_.ccw != (s_.sense == SpindleState::ccw) ? 0 : 1));
+    put("mill_feed", *feed);
+    put("plunge_feed", *plunge);
+    if (finishes && p_.finish_feed) put("finish_feed", *p_.finish_feed);
+    c_.surface = absolute(p_.surface);
+    c_.reference = absolute(p_.reference);
+    return done();
+  }
+
   /// Whole sizes at a place of its own; roughing and finishing are two calls.
   std::optional<PocketForm> by_calls() {
     if (!start(true)) return std::nullopt;
@@ -407,7 +443,7 @@ std::optional<PocketForm> similar_pocket(const PocketSource& source, const std::
   why->clear();
   const auto pocket = Reader(source, why).read();
   if (!pocket) return std::nullopt;
-  for (const auto form : {&Teller::by_half_sizes, &Teller::by_whole_sizes, &Teller::by_calls}) {
+  for (const auto form : {&Teller::by_half_sizes, &Teller::by_whole_sizes, &Teller::by_calls, &Teller::by_one_call}) {
     Teller teller(source, *pocket);
     auto said = (teller.*form)();
     if (!said) {
