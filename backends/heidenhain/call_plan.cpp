@@ -21,6 +21,13 @@ bool has_room(const ir::Block& b) {
   return functions < dialects::heidenhain::m_functions;
 }
 
+template <class Data>
+const Data* lone_action(const ir::Statement& s) {
+  const auto* b = std::get_if<ir::Block>(&s.node);
+  if (b == nullptr || b->has_motion || b->actions.size() != 1) return nullptr;
+  return std::get_if<Data>(&b->actions.front().data);
+}
+
 }  // namespace
 
 const ir::CycleDefine* lone_call(const ir::Statement& s) {
@@ -34,6 +41,11 @@ CallPlan::CallPlan(const ir::Program& program, const LabelUse& use) {
   for (std::size_t r = 0; r < program.routines.size(); ++r) {
     const ir::Body& body = program.routines[r].body;
     for (std::size_t i = 0; i + 1 < body.size(); ++i) {
+      const auto* frame = lone_action<ir::FrameOp>(body[i]);
+      const auto* offset = lone_action<ir::WorkOffset>(body[i + 1]);
+      if (frame != nullptr && offset != nullptr && !offset->off && frame->change->slot == ir::FrameSlot::shift &&
+          frame->change->combine == ir::FrameCombine::clear && body[i + 1].line.skip_mask == body[i].line.skip_mask)
+        taken_back_.insert(body[i].id);
       const auto* b = std::get_if<ir::Block>(&body[i].node);
       const ir::LineInfo& next = body[i + 1].line;
       if (b == nullptr || !b->has_motion || !b->motion.moves() || b->motion.frame != ir::FrameUse::normal ||

@@ -17,10 +17,12 @@ class CallPlan {
   [[nodiscard]] const ir::Statement* call_behind(const ir::Statement& move) const;
   /// The move before it calls it.
   [[nodiscard]] bool is_called(const ir::Statement& call) const { return called_.count(call.id) != 0; }
+  /// Its end of the shift is part of the cycle 247 behind it.
+  [[nodiscard]] bool is_taken_back(const ir::Statement& shift) const { return taken_back_.count(shift.id) != 0; }
 
  private:
   std::map<std::uint32_t, const ir::Statement*> calls_;
-  std::set<std::uint32_t> called_;
+  std::set<std::uint32_t> called_, taken_back_;
 };
 
 /// The cycle of a block that runs one and does nothing else.

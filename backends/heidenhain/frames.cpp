@@ -11,6 +11,7 @@ void Writer::work_offset(const ir::Action& a, const ir::WorkOffset& w) {
 
 /// Cycle 7 keeps the axes that it does not name: a shift that holds for all names all.
 void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
+  if (plan_.is_taken_back(current())) return;
   std::vector<std::string> parts{"DATUM SHIFT"};
   if (c.combine == ir::FrameCombine::clear || c.combine == ir::FrameCombine::replace) {
     for (const auto& axis : profile().axes) {

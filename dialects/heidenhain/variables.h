@@ -64,6 +64,8 @@ constexpr const SystemQ* find_system_q(std::int64_t number) {
   }
   return nullptr;
 }
+/// What the text says: 0 X, 1 Y, 2 Z, -1 no tool; 0 mm, 1 inch.
+inline constexpr std::int64_t q_tool_axis = 109, q_unit = 113;
 /// Without a neutral counterpart: read as machine data under their own name.
 constexpr bool is_control_q(std::int64_t n) {
   return (n >= 100 && n <= 107) || (n >= 109 && n <= 113);

@@ -133,6 +133,7 @@ class Lowering {
   bool inch_ = false, began_ = false, ended_ = false;
 
   // Along the text
+  bool tool_called_ = false;
   int tool_axis_ = 2;                                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
   std::optional<ir::Value> tool_feed_;                  ///< F of the last TOOL CALL
   std::optional<ir::Value> speed_;                      ///< S of the last TOOL CALL

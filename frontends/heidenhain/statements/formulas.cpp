@@ -44,6 +44,8 @@ ir::ExprPtr Lowering::variable(const Expr& e, bool written) {
       return nullptr;
     }
     if (system != nullptr) return ir::at(datum(system->datum, "Q" + std::to_string(number)), e.pos);
+    if (number == facts::q_tool_axis) return ir::at(ir::number(tool_called_ ? tool_axis_ : -1), e.pos);
+    if (number == facts::q_unit) return ir::at(ir::number(inch_ ? 1 : 0), e.pos);
     if (facts::is_control_q(number)) return ir::at(datum(ir::Datum::other, "Q" + std::to_string(number)), e.pos);
     (written ? writes_ : reads_).insert(number);
   }

@@ -63,6 +63,7 @@ bool Lowering::tool_call(const syntax::Statement& s) {
     act(at, ir::ToolChange{});
   }
   if (axis) {
+    tool_called_ = true;
     tool_axis_ = *axis;
     act(at, ir::ModalSet{ir::Setting::plane, static_cast<std::uint8_t>(plane_of(tool_axis_))});
   }
