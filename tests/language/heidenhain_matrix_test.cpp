@@ -42,8 +42,8 @@ std::string sentence_table() {
   for (const auto& f : facts::figures) figures += (figures.empty() ? "" : " ") + std::string(f.word);
   return "| Sentences | Support |\n|---|---|\n| " + read + " | carried |\n| " + kept + " | " + kept_there +
          " |\n| APPR, DEP with " + leads + " | carried: the lines and arcs that they are |\n| PLANE " + tilts +
-         " with STAY | carried; with TURN or MOVE about one axis carried, else " + kept_there + " |\n| PATTERN DEF with " + figures +
-         " | carried |\n";
+         " with STAY | carried; with TURN or MOVE about one axis carried, else " + kept_there +
+         " |\n| PATTERN DEF with " + figures + " | carried |\n";
 }
 
 std::string cycle_table() {
