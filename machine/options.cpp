@@ -108,6 +108,8 @@ constexpr std::array specs{
         "beside a rotation, not beside a rotation or a shift"},
     OptionSpec{"frame.plane_change", "keeps|may_end_rotation", "keeps",
                "a plane function while a rotation is in force: the rotation stays, or that is not certain"},
+    OptionSpec{"frame.shift", "as_said|by_distance", "as_said",
+               "what increments make of the words of a shift: add to it"},
     OptionSpec{
         "frame.preset", "own|with_work_offset", "own",
         "a preset of the zero point stands by itself, or belongs to the work offset and is out of force with it"},

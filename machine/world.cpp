@@ -63,7 +63,8 @@ Profile put_into(const World& world, const Profile& machine) {
   Profile there = machine;
   for (auto& a : there.axes) {
     a.start = world.start(a);
-    if (world.reference_points) a.reference_point = world.reference_point(a.id);
+    if (!world.reference_points) continue;  // where the target has no words for such points
+    a.reference_point = world.reference_point(a.id);
     if (a.fixed_points.size() < fixed_points) a.fixed_points.resize(fixed_points);
     for (std::size_t n = 0; n < a.fixed_points.size(); ++n) a.fixed_points[n] = world.fixed_point(n + 1, a.id);
   }

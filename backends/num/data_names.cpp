@@ -34,13 +34,17 @@ std::optional<std::int64_t> fixed_index(const ir::SystemRef& ref) {
   return saturate<std::int64_t>(*n);
 }
 
+/// What the control has in force (reference 14.6).
+constexpr std::array<std::pair<Datum, std::string_view>, 3> states{
+    {{Datum::feed, "[.RF]"}, {Datum::spindle_speed, "[.RS]"}, {Datum::tool_number, "[.RT]"}}};
+
 double units_of(ir::AxisId axis) {
   return ir::is_rotary_letter(axis) ? facts::units_per_degree : facts::units_per_mm;
 }
 
 }  // namespace
 
-std::optional<ir::DataForm> data_form(const ir::SystemRef& ref, bool lathe) {
+std::optional<ir::DataForm> data_form(const ir::SystemRef& ref, bool lathe, bool symbols) {
   const auto index = fixed_index(ref);
   switch (ref.datum) {
     case Datum::tool_radius: return index ? row(EMeaning::tool_radius, *index, facts::units_per_mm) : std::nullopt;
@@ -57,8 +61,12 @@ std::optional<ir::DataForm> data_form(const ir::SystemRef& ref, bool lathe) {
       return ref.axis < ir::axis::first_extra ? row(EMeaning::position, ref.axis, units_of(ref.axis)) : std::nullopt;
     case Datum::offset_number: return row(EMeaning::active_offset, 0, 1);
     case Datum::feed_override: return row(EMeaning::feed_override, 0, 1);
-    default: return std::nullopt;
+    default: break;
   }
+  for (const auto& [datum, symbol] : states) {
+    if (symbols && datum == ref.datum && ref.args.empty()) return ir::DataForm{std::string(symbol), 1, false};
+  }
+  return std::nullopt;
 }
 
 ir::ExprPtr work_position(ir::AxisId axis) {
@@ -79,6 +87,9 @@ ir::ExprPtr work_position(ir::AxisId axis) {
 }
 
 bool is_parameter_name(std::string_view text) {
+  for (const auto& [datum, symbol] : states) {
+    if (symbol == text) return true;
+  }
   return text.size() == 6 && text[0] == 'E' &&
          std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }

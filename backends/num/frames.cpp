@@ -26,8 +26,7 @@ void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
   }
   if (c.combine == ir::FrameCombine::clear || c.combine == ir::FrameCombine::replace) {
     // G59 keeps the axes it does not name: all of them are named.
-    if (mode != code_value(ir::Distance::absolute))
-      return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
+    if (!mode) return refuse(no_word, a.pos, "the programmed shift is set while G90 or G91 is not known");
     for (const auto& axis : profile().axes) {
       if (axis.rotary) continue;
       ir::Value v(0);
@@ -36,6 +35,7 @@ void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
       }
       text += ' ' + word(axis_name(axis.id), v, a.pos);
     }
+    if (mode != code_value(ir::Distance::absolute)) text = "G90 " + text + " G91";
     return add(text, Rank::setting, a.pos);
   }
   const auto wanted = add_up ? ir::Distance::incremental : ir::Distance::absolute;

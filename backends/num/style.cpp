@@ -96,6 +96,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.routine_number_min = facts::program_min;
   c.routine_number_max = facts::program_max;
   c.spaces = facts::spaces();
+  if (!structured) c.spaces.resize(facts::space_symbol);  // symbols came with the structured words
   c.pools = pools(later);
   c.distance_inside_block = true;
   c.centers = {ir::CenterMode::follows_distance};
@@ -132,7 +133,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.surfaces = lathe ? ir::SurfaceForm::y_from_x : ir::SurfaceForm::none;
   c.surface_x_radius = true;
   c.system_data = [](const ir::SystemRef& s) { return is_parameter_name(s.text); };
-  c.data_form = [lathe](const ir::SystemRef& s) { return data_form(s, lathe); };
+  c.data_form = [lathe, structured](const ir::SystemRef& s) { return data_form(s, lathe, structured); };
   if (!lathe) c.work_position = work_position;
   c.native_cycle = [later](const ir::Cycle& cycle) {
     const auto* hole = std::get_if<ir::HoleCycle>(&cycle.node);

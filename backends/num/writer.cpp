@@ -236,7 +236,8 @@ void Writer::assign(const ir::Assign& a) {
 }
 
 void Writer::declare(const ir::Declare& d) {
-  if (!same_dialect()) return refuse(no_statement, {}, "named variables are not declared here");
+  if (!same_dialect() && !structured(profile()))
+    return refuse(no_statement, {}, "named variables are not declared here");
   for (const auto& item : d.items) {
     std::string text = item.name.empty() || item.name.front() == '[' ? item.name : '[' + item.name + ']';
     if (!item.dimensions.empty()) {

@@ -16,7 +16,7 @@ void BlockMachine::offset_of_selected(bool own) {
 /// What the change makes of the offset. `own`: a D stands in its block and counts.
 void BlockMachine::offset_of_change(bool own) {
   if (own || (!policy_.table_offset && !policy_.edge_offset)) return;  // the one in force stays
-  if (tool_ == 0) {                                                    // out of the spindle: the machine's own rule
+  if (tool_ == 0 && tool_name_.empty()) {                              // out of the spindle: the machine's own rule
     offset_use_ = policy_.edge_offset ? OffsetUse::none : OffsetUse::open;
   } else if (bare_tool_) {
     offset_use_ = OffsetUse::some;

@@ -4,6 +4,7 @@
 #include "base/saturate.h"
 #include "ir/analysis/dataflow.h"
 #include "ir/analysis/fact_set.h"
+#include "ir/analysis/pattern_ends.h"
 #include "ir/check/missing_features.h"
 #include "ir/cycles/hole.h"
 #include "ir/cycles/machining.h"
@@ -32,6 +33,7 @@ class Transfer {
       if (a.order != Order::after && !leaves_path_alone(a)) std::visit(*this, a.data);
     }
     if (b.has_motion) motion(b);
+    const auto points_end = detail::pattern_end(b, f_);
     if (runs_here_ || (b.has_motion && b.motion.moves()) || detail::path_words(b)) cycle_moves();
     if (detail::has_pattern(b)) forget_positions();
     for (const auto& a : b.actions) {
@@ -39,6 +41,7 @@ class Transfer {
       if (a.order == Order::after && !std::holds_alternative<OpaqueWord>(a.data)) std::visit(*this, a.data);
     }
     if (runs_here_) cycle_moves();
+    for (const auto& [axis, place] : points_end) set_position(axis, place);
     if (follows_) forget_positions();  // the end follows from the next element
     if (machining_ != nullptr) machined();
     if (pocket_) {  // its operations have tools, feeds and functions of their own

@@ -149,6 +149,12 @@ bool ModalNeeds::behind(const CallSite& site, const ModalGroup& group) {
   return runs_into_use(search);
 }
 
+bool ModalNeeds::behind(std::size_t routine, const Statement& s, const ModalGroup& group) {
+  Search search{group};
+  behind_statement(routine, s, search);
+  return runs_into_use(search);
+}
+
 bool ModalNeeds::again(const CallSite& site, const ModalGroup& group) {
   if (!site.callee) return true;
   Search search{group};

@@ -23,6 +23,8 @@ class ModalNeeds {
   /// False: on every way behind the call the program sets the group again before anything depends on it. What is not
   /// followed (texts that are only kept, routines that are not at hand, modal calls) depends on it.
   [[nodiscard]] bool behind(const CallSite& site, const ModalGroup& group);
+  /// The same behind a statement of a routine.
+  [[nodiscard]] bool behind(std::size_t routine, const Statement& s, const ModalGroup& group);
   /// False: a further pass of the called routine sets the group again before anything depends on it.
   [[nodiscard]] bool again(const CallSite& site, const ModalGroup& group);
 

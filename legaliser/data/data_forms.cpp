@@ -10,6 +10,13 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// What is divided there: whole steps of the datum.
+ExprPtr in_steps(const ExprPtr& e, double units) {
+  const auto* b = std::get_if<Binary>(&e->node);
+  const auto* steps = b != nullptr && b->op == BinaryOp::divide ? as_number(b->right) : nullptr;
+  return steps != nullptr && steps->value == units && b->left->type == Type::integer ? b->left : nullptr;
+}
+
 void write(Assign::Item& i, const Statement& s, const LegaliseContext& context) {
   const auto& target = context.target;
   if (!i.to_system || i.system.given || !target.data_form || (target.system_data && target.system_data(i.system)))
@@ -20,6 +27,10 @@ void write(Assign::Item& i, const Statement& s, const LegaliseContext& context) 
   if (own->units == 1) return;
   const auto value = constant_value(i.value);
   if (!value) {
+    if (auto whole = in_steps(i.value, own->units)) {
+      i.value = std::move(whole);
+      return;
+    }
     i.value = call(Function::round, {binary(BinaryOp::multiply, i.value, number(own->units))});
     return;
   }

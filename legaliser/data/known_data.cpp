@@ -2,6 +2,8 @@
 // becomes a number; what the target reads under another name is written with that name and in its unit.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "base/saturate.h"
 #include "base/text.h"
@@ -102,10 +104,7 @@ class KnownData {
     const SystemRef& ref = *datum_in(e);
     if (!context_.source_machine.data.contains(ref.text)) {
       if (const auto value = known(s, ref)) {
-        if (e->pos.column != 0)  // else the reader has put it there
-          context_.diagnostics.note(
-              "TRN-132", word_span(s.line.span, e->pos),
-              ref.text + " is " + shortest(*value) + " here on every path: written as the number");
+        if (e->pos.column != 0) tell(word_span(s.line.span, e->pos), ref, *value);  // else the reader has put it there
         return number(*value);
       }
     }
@@ -125,6 +124,12 @@ class KnownData {
     if (!own) return in_frame(s, e, ref);
     const ExprPtr named = renamed(e, *own);
     return own->units == 1 ? named : binary(BinaryOp::divide, named, number(own->units));
+  }
+  void tell(const Span& where, const SystemRef& ref, double value) {
+    if (!told_.insert({where.file, where.line, where.column}).second) return;
+    // One question for what is in force became one for each code that could be.
+    const std::string is = ref.datum == Datum::active_modal ? " is known" : " is " + shortest(value);
+    context_.diagnostics.note("TRN-132", where, ref.text + is + " here on every path: written as the number");
   }
   /// The place in the program's coordinates as the target's data give it, where these coordinates are only shifted.
   ExprPtr in_frame(const Statement& s, const ExprPtr& e, const SystemRef& ref) {
@@ -337,6 +342,7 @@ class KnownData {
   std::optional<PathStates> path_;  ///< where a position is asked for
   const CallGraph calls_;
   const Routine* routine_ = nullptr;
+  std::set<std::tuple<FileId, std::uint32_t, std::uint32_t>> told_;  ///< places of notes
   bool gauges_ = false;  ///< the program counts with gauges of tools, or without its offsets
   FactsOf facts_;
   FrameStates frames_;

@@ -149,9 +149,22 @@ ExprPtr ExpressionLowering::node(const ExprPtr& e) {
     VarRef copy = *v;
     copy.index = lower(v->index);
     out = variable(std::move(copy), e->type);
+  } else if (v != nullptr && !v->indices.empty()) {
+    VarRef copy = *v;
+    for (auto& i : copy.indices) i = element_index(i);
+    out = variable(std::move(copy), e->type);
   }
   --depth_;
   return out;
+}
+
+/// What brackets behind the name of an array take: a variable or a number, or the sum of two.
+ExprPtr ExpressionLowering::element_index(const ExprPtr& e) {
+  const ExprPtr low = lower(e);
+  const auto* b = std::get_if<Binary>(&low->node);
+  const bool sum = b != nullptr && (b->op == BinaryOp::add || b->op == BinaryOp::subtract) && is_primary(b->left) &&
+                   is_primary(b->right);
+  return sum || is_primary(low) ? low : into_temporary(low);
 }
 
 /// Constants with more places than the target takes: a sum of two that it takes.

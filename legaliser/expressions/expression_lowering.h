@@ -33,6 +33,8 @@ class ExpressionLowering {
   ExprPtr lower(const ExprPtr& e);
   /// A number, a variable or a machine datum.
   ExprPtr primary(const ExprPtr& e);
+  /// What brackets behind the name of an array take.
+  ExprPtr element_index(const ExprPtr& e);
   /// As the value of a word.
   Value word(const Value& v);
   /// Appends to `pre`: go to `target` when the condition holds.

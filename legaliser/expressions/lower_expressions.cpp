@@ -64,6 +64,7 @@ class ExpressionPass {
       if (usable_as_scratch(item)) lowering.set_scratch(item.target);
       if (item.target.index && !constant_value(item.target.index))
         item.target.index = lowering.lower(item.target.index);
+      for (auto& i : item.target.indices) i = lowering.element_index(i);
       for (auto& x : item.system.args) x = lowering.lower(x);
       item.value = lowering.lower(item.value);
       if (in_place(item, lowering.pre)) {

@@ -12,6 +12,7 @@
 #include "legaliser/control/lower_calls.h"
 #include "legaliser/edit/given_names.h"
 #include "legaliser/edit/variable_pools.h"
+#include "legaliser/names/declared_arrays.h"
 #include "legaliser/names/variable_table.h"
 #include "legaliser/names/variable_use.h"
 #include "legaliser/passes.h"
@@ -195,6 +196,7 @@ class VariableMap {
     for (const auto& [key, info] : use_.named) {
       const auto& space = program_.spaces[key.first];
       if (space.prefix == level_prefix) continue;
+      if (space.prefix == array_prefix) continue;                                               // stays a name
       if (space.scope == Scope::routine && has_named_locals(context_.target.spaces)) continue;  // stays a name
       if (const auto place = given_.place_of(key.second, compensated(key.first, key.second), info.elements())) {
         named_places_[key] = *place;

@@ -8,11 +8,14 @@
 #include "legaliser/control/skip_levels.h"
 #include "legaliser/cycles/cycle_spindles.h"
 #include "legaliser/data/given_data.h"
+#include "legaliser/data/missing_offsets.h"
 #include "legaliser/data/written_files.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/frames/axis_scales.h"
 #include "legaliser/motion/balance_increments.h"
+#include "legaliser/names/declared_arrays.h"
 #include "legaliser/passes.h"
+#include "legaliser/style/shift_modes.h"
 #include "legaliser/technology/mixed_feeds.h"
 #include "legaliser/technology/motion_codes.h"
 #include "legaliser/technology/spindle_limits.h"
@@ -79,6 +82,8 @@ constexpr std::array table{
          "A computed count of a block as a branch: with 0 the block moves and runs nothing."},
     Pass{"lower_modal_calls", passes::lower_modal_calls, PassScope::program, "Calls after every block with motion."},
     Pass{"lower_calls", passes::lower_calls, PassScope::program, "Local levels, arguments and results of calls."},
+    Pass{"declare_arrays", passes::declare_arrays, PassScope::program,
+         "Arrays whose indices are computed, and large ones, become arrays of the target under their names."},
     Pass{"map_variables", passes::map_variables, PassScope::program,
          "Spaces, numbers and names of variables become those of the target."},
     Pass{"name_written_files", passes::name_written_files, PassScope::program,
@@ -90,6 +95,8 @@ constexpr std::array table{
          "Structured statements and switches become jumps where the target lacks them."},
     Pass{"select_written_offsets", passes::select_written_offsets, PassScope::program,
          "A work offset that the program writes is selected again where it does not count at once."},
+    Pass{"place_missing_offsets", passes::place_missing_offsets, PassScope::program,
+         "Work offsets that the target lacks: its one stands for the one in use, or each selection writes it."},
     Pass{"write_tap_speeds", passes::write_tap_speeds, PassScope::program,
          "Taps that turn the spindle by themselves, for targets whose taps take the spindle as it runs."},
     Pass{"lower_cycles", passes::lower_cycles, PassScope::program,
@@ -113,6 +120,8 @@ constexpr std::array table{
          "The coordinates of the face and the cylinder of work with the C axis."},
     Pass{"convert_frames", passes::convert_frames, PassScope::program,
          "Work offsets, shifts, rotation, mirror and scale."},
+    Pass{"say_shift_modes", passes::say_shift_modes, PassScope::program,
+         "Absolute words are said before a shift that counts by them, where they are not known to be in force."},
     Pass{"convert_poles", passes::convert_poles, PassScope::program, "Poles, and arcs by polar words."},
     Pass{"write_out_corners", passes::write_out_corners, PassScope::program,
          "Chamfers, roundings, lasting corners and their feeds."},

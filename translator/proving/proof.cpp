@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "base/saturate.h"
 #include "base/text.h"
 #include "interpreter/trace/run_codes.h"
 #include "legaliser/data/given_data.h"
+#include "legaliser/data/missing_offsets.h"
 #include "machine/data_at_rest.h"
 #include "translator/proving/coverage.h"
 #include "translator/proving/explore.h"
@@ -86,16 +88,45 @@ verifier::Verdict judge(const Side& from, const Replayed& source, const Side& to
   return verdict;
 }
 
+bool goes_to_fixed_point(const ir::Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      found = found || (b != nullptr && b->has_motion && b->motion.kind == ir::MotionKind::fixed_point);
+    });
+  }
+  return found;
+}
+
+/// Where the translation has taken 0 for a fixed point that the profile does not give (TRN-342), the source goes there.
+machine::Profile with_fixed_points(const Side& source, const ProofOptions& options) {
+  constexpr std::size_t points = 4;
+  machine::Profile there = source.profile;
+  if (options.target.motions.count(ir::MotionKind::fixed_point) != 0 || !goes_to_fixed_point(source.program))
+    return there;
+  for (auto& a : there.axes) {
+    if (a.fixed_points.empty()) a.fixed_points.resize(points);
+  }
+  return there;
+}
+
 class Prover {
  public:
   /// `called`: they begin in the state of their caller, its zero point included.
   Prover(const Side& source, const Side& target, const ProofOptions& options, bool called)
-      : source_(source), target_(target), options_(options) {
+      : source_profile_(with_fixed_points(source, options)),
+        source_{source.program, source_profile_, source.loader},
+        target_(target),
+        options_(options) {
     compared_.switches_length = options.target.length_comp_switch;
     compared_.stops_by_mode = options.target.exact_stop_modal;
     compared_.stops_in_block = options.target.exact_stop_block;
     compared_.offset_of_start = !options.leaves_offset_of_start;
     compared_.shows_messages = options.target.messages;
+    const Settings offset = options.target_settings({{std::string(ir::passes::offset_name), "1"}});
+    if (!offset.empty())
+      only_offset_ = saturate<std::int32_t>(parse_decimal(offset.front().first).value_or(only_offset_));
     if (!called) verifier::compare_zeros(compared_, source.profile, target.profile);
   }
 
@@ -194,7 +225,9 @@ class Prover {
     const auto& inputs = runs_.front().inputs;
     interpreter::Options run = options_.run;
     run.world = machine::world_for(source_.profile, target_.profile);
-    run.world->reference_points = options_.target.motions.count(ir::MotionKind::reference_point) != 0;
+    if (only_offset_ != 1 && source_.profile.power_on.work_offset == 0) run.world->start_row = only_offset_;
+    run.world->reference_points = says_points(ir::MotionKind::reference_point) &&
+                                  (says_points(ir::MotionKind::fixed_point) || !goes_to_fixed_point(source_.program));
     run.world->zeros = !proof.source.result.writes_zeros && !proof.target.result.writes_zeros;
     const Kept kept = kept_values(said, inputs.set);
     for (const bool at_zero : {false, true}) {
@@ -217,6 +250,19 @@ class Prover {
     }
     said.one_world = true;
     return proof;
+  }
+
+  [[nodiscard]] bool says_points(ir::MotionKind kind) const { return options_.target.motions.count(kind) != 0; }
+  /// The one work offset of the target has the values of that of the source which it stands for.
+  [[nodiscard]] Replayed replay_target(interpreter::Options run) const {
+    if (only_offset_ == 1 || !run.world || !run.world->zeros) return replay(target_, run);
+    machine::Profile there = target_.profile;
+    for (auto& a : there.axes) {
+      there.work_offsets[1][a.id] = run.world->work_offset(only_offset_, a.id);
+      a.start = run.world->start(a);
+    }
+    run.world->zeros = false;
+    return replay({target_.program, there, target_.loader}, run);
   }
 
   /// Values that an earlier program may have left in variables: for the source, and for those of the translation that
@@ -344,7 +390,7 @@ class Prover {
     const auto other = [&radii](const auto& a) { return a.second != radii.front().second; };
     if (!radii.empty() && std::none_of(radii.begin(), radii.end(), other))
       run.set.emplace_back(tool_radius, shortest(radii.front().second));
-    p.target = replay(target_, run);
+    p.target = replay_target(run);
     p.verdict = judge(source_, p.source, target_, p.target, run.world, compared_);
     return p;
   }
@@ -375,10 +421,12 @@ class Prover {
     return text.empty() || skips.empty() ? text + skips : text + " " + skips;
   }
 
-  const Side& source_;
+  const machine::Profile source_profile_;
+  const Side source_;
   const Side& target_;
   const ProofOptions& options_;
   verifier::Options compared_;
+  std::int32_t only_offset_ = 1;         ///< the work offset of the source that the one of the target stands for
   std::vector<Run> runs_;                ///< those that are always made: as written, with the switches on
   Settings target_kept_;                 ///< values in variables of the translation alone, in the next replay
   std::optional<machine::World> world_;  ///< of all replays but the first; none: the source can't run there
