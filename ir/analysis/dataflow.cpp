@@ -442,14 +442,14 @@ class Analysis {
   }
 
   bool block_with_modal_call(const Statement& s, Facts& f) {
-    const std::int32_t active = std::exchange(f.modal_call, 0);
-    apply(s, f, framed_);
+    const std::int32_t active = std::exchange(f.modal_call, Facts::in_modal_run);
+    apply(s, f, framed_);  // it runs at each point of a pattern
+    f.modal_call = std::max(active, 0);
     if (active < 0) {
       for (const auto target : modal_targets_) enter(target, f);
       f.forget();
       return true;
     }
-    f.modal_call = active;
     return run_modal(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, f);
   }
 

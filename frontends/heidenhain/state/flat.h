@@ -67,7 +67,7 @@ struct CycleDefinition {
   std::vector<std::vector<ir::cycles::MillContour>> areas;
   std::string area_fault;
   bool refused = false;  ///< said at the definition; its calls say nothing more
-  int side = 0;  ///< cycle 25: of the contour, RL 1, RR -1
+  int side = 0;          ///< cycle 25: of the contour, RL 1, RR -1
 };
 
 struct Pole {
