@@ -90,6 +90,11 @@ void BlockLowerer::gather_g(const Word& w) {
     state_.error("FAG-006", w.pos, "too many G functions in one block");
     return;
   }
+  const bool cycle = row->use == Use::machining || row->use == Use::pattern || row->use == Use::pocket;
+  if (cycle && cycle_row_ != nullptr) {
+    state_.error("FAG-006", w.pos, word_name(w) + " stands in a block with another cycle");
+    return;
+  }
   if (row->use == Use::machining) cycle_row_ = facts::find_cycle(row->code);
   if (row->use == Use::pattern) cycle_row_ = facts::find_pattern(row->code);
   if (row->use == Use::pocket) cycle_row_ = facts::find_pocket(row->code);
