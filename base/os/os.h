@@ -98,6 +98,7 @@ class Child {
 
  private:
   struct State;
+  [[nodiscard]] std::FILE* written() const;  ///< null: nothing more can be read of it
   std::unique_ptr<State> state_;
 };
 

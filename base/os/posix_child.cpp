@@ -53,24 +53,8 @@ bool Child::begun() const {
   return state_->id > 0 || state_->end;
 }
 
-bool Child::read_line(std::string& line) {
-  if (state_->in == nullptr) return false;
-  for (int c = std::fgetc(state_->in); c != EOF; c = std::fgetc(state_->in)) {
-    if (c == '\n') return true;
-    line += static_cast<char>(c);
-  }
-  return false;
-}
-
-std::string Child::read_all() {
-  std::string text;
-  std::array<char, 4096> piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): it is written first
-  while (state_->in != nullptr) {
-    const std::size_t n = std::fread(piece.data(), 1, piece.size(), state_->in);
-    if (n == 0) break;
-    text.append(piece.data(), n);
-  }
-  return text;
+std::FILE* Child::written() const {
+  return state_->in;
 }
 
 std::optional<Child::End> Child::ended(bool wait) {
