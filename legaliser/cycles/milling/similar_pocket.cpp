@@ -309,8 +309,11 @@ class Teller {
     }
     put("infeed", p_.infeed);
     double factor = 0.5;
+    constexpr double widest = 1.4;  // of the radius: beyond it the source leaves material where its rounds turn
     const auto step = p_.step ? known_number(*p_.step) : std::nullopt;
-    if (step && s_.radius && *step > 0 && *step <= 1.4 * *s_.radius)
+    if (step && s_.radius && *step > widest * *s_.radius)
+      return why = "the step in the plane is wider than the target's cycle makes it", std::nullopt;
+    if (step && s_.radius && *step > 0)
       factor = *step / (2 * *s_.radius);
     else
       out_.differs += ", the step in the plane is the radius of the tool";
