@@ -42,6 +42,7 @@ enum class Role : std::uint8_t {
   mill_half,       ///< a diameter, of which the IR has the radius
   mill_overlap,    ///< times the tool's radius is the step: half of `step_factor`
   mill_climb,      ///< +1 climb -> sense 0, -1 conventional -> sense 1
+  mill_blank,      ///< what is there before finishing: from the other sizes
   mill_feed_word,  ///< a feed; 0, FMAX and 99999 are no feed of milling
   place,           ///< Q367: where in the shape the tool stands
   plunge_way,      ///< 0 straight down, 1 helix, 2 ramp
@@ -72,6 +73,8 @@ inline constexpr std::array q_words{
     QWord{204, Role::second_clearance, "retract", "2ND SET-UP CLEARANCE"},
     // Holes
     QWord{202, Role::peck, "infeed", "PLUNGING DEPTH"},
+    QWord{202, Role::mill, "finish_infeed", "PLUNGING DEPTH", 212},
+    QWord{202, Role::mill, "finish_infeed", "PLUNGING DEPTH", 214},
     QWord{206, Role::feed, "plunge_feed", "FEED RATE FOR PLNGNG"},
     QWord{208, Role::feed_out, "", "RETRACTION FEED RATE"},
     QWord{210, Role::dwell_top, "", "DWELL TIME AT TOP"},
@@ -125,9 +128,13 @@ inline constexpr std::array q_words{
     QWord{219, Role::mill, "width", "SLOT WIDTH", 253},
     QWord{219, Role::mill, "width", "SLOT WIDTH", 254},
     QWord{220, Role::mill, "corner", "CORNER RADIUS"},
+    QWord{221, Role::mill, "wall_stock", "ALLOWANCE IN 1ST AX."},
+    QWord{221, Role::mill_blank, "", "ALLOWANCE IN 1ST AX.", 213},
     QWord{222, Role::mill, "blank_diameter", "WORKPIECE BLANK DIA."},
+    QWord{222, Role::mill_blank, "", "WORKPIECE BLANK DIA.", 214},
     QWord{223, Role::mill_half, "radius", "CIRCLE DIAMETER"},
     QWord{223, Role::mill, "diameter", "FINISHED PART DIA.", 257},
+    QWord{223, Role::mill, "diameter", "FINISHED PART DIA.", 215},
     QWord{224, Role::mill, "angle", "ANGLE OF ROTATION"},
     QWord{224, Role::pattern, "angle", "ANGLE OF ROTATION", 221},
     QWord{248, Role::mill, "opening", "ANGULAR LENGTH"},
@@ -152,10 +159,10 @@ inline constexpr std::array q_words{
     QWord{437, Role::other, "", "APPROACH POSITION"},
     QWord{439, Role::other, "", "FEED RATE REFERENCE"},
     // Patterns
-    QWord{216, Role::pattern, "u", "CENTER IN 1ST AXIS"},
-    QWord{216, Role::mill, "u", "CENTER IN 1ST AXIS", 254},
-    QWord{217, Role::pattern, "v", "CENTER IN 2ND AXIS"},
-    QWord{217, Role::mill, "v", "CENTER IN 2ND AXIS", 254},
+    QWord{216, Role::mill, "u", "CENTER IN 1ST AXIS"},
+    QWord{216, Role::pattern, "u", "CENTER IN 1ST AXIS", 220},
+    QWord{217, Role::mill, "v", "CENTER IN 2ND AXIS"},
+    QWord{217, Role::pattern, "v", "CENTER IN 2ND AXIS", 220},
     QWord{225, Role::pattern, "u", "STARTNG PNT 1ST AXIS"},
     QWord{226, Role::pattern, "v", "STARTNG PNT 2ND AXIS"},
     QWord{237, Role::pattern, "step", "SPACING IN 1ST AXIS"},
@@ -164,7 +171,9 @@ inline constexpr std::array q_words{
     QWord{242, Role::pattern, "count", "NUMBER OF COLUMNS"},
     QWord{243, Role::pattern, "count2", "NUMBER OF LINES"},
     QWord{244, Role::pattern_half, "radius", "PITCH CIRCLE DIA."},
+    QWord{244, Role::mill_half, "radius", "PITCH CIRCLE DIA.", 211},
     QWord{245, Role::pattern, "angle", "STARTING ANGLE"},
+    QWord{245, Role::mill, "angle", "STARTING ANGLE", 211},
     QWord{246, Role::stop_angle, "", "STOPPING ANGLE"},
     QWord{247, Role::pattern, "angle_step", "STEPPING ANGLE"},
     QWord{301, Role::height_between, "", "MOVE TO CLEARANCE"},

@@ -16,7 +16,7 @@ enum class MUse : std::uint8_t {
   plain,             ///< by its meaning
   coolant_too,       ///< M13, M14: the coolant comes on as well
   machine_position,  ///< M91: the coordinates of the block are those of the machine
-  maker_position,    ///< M92: refer to a point that the machine maker chose
+  maker_position,    ///< M92: the same, from a point that the machine maker chose
   untilted,          ///< M130: coordinates of the plane that is not tilted
   call_once,         ///< M99: the machining cycle in force, after the block
   call_modal,        ///< M89: after this and every later positioning block
@@ -28,6 +28,9 @@ enum class MUse : std::uint8_t {
   kept,              ///< no effect on the programmed path: kept as text
   compensated,       ///< changes what the control makes of the programmed path: left out with a warning
   frames_off,        ///< M142: no shift, mirror, rotation, scale is in force behind it
+  plunge_feed,       ///< M103: a share of F for what goes into the material
+  shortest,          ///< M126: rotary axes the shortest way
+  tip,               ///< M114, M128: the words are those of the tool's tip
   path               ///< changes the path in a way that is not carried: refused
 };
 struct MRow {
@@ -64,7 +67,7 @@ inline constexpr std::array m_codes{
     MRow{99, machine::MMeaning::none, ir::Order::after, MUse::call_once, "cycle call"},
     MRow{101, machine::MMeaning::none, ir::Order::after, MUse::kept, "replacement tool"},
     MRow{102, machine::MMeaning::none, ir::Order::after, MUse::kept, "no replacement tool"},
-    MRow{103, machine::MMeaning::none, ir::Order::before, MUse::kept, "smaller feed into the material"},
+    MRow{103, machine::MMeaning::none, ir::Order::before, MUse::plunge_feed, "smaller feed into the material"},
     MRow{107, machine::MMeaning::none, ir::Order::after, MUse::kept, "replacement tool may be larger"},
     MRow{108, machine::MMeaning::none, ir::Order::after, MUse::kept, "M107 off"},
     MRow{109, machine::MMeaning::none, ir::Order::before, MUse::contact_feed, "feed at the edge on all arcs"},
@@ -72,16 +75,16 @@ inline constexpr std::array m_codes{
     MRow{111, machine::MMeaning::none, ir::Order::after, MUse::centre_feed, "feed of the tool's middle"},
     MRow{112, machine::MMeaning::none, ir::Order::before, MUse::kept, "corner transitions"},
     MRow{113, machine::MMeaning::none, ir::Order::after, MUse::kept, "M112 off"},
-    MRow{114, machine::MMeaning::none, ir::Order::before, MUse::path, "tilted axes move the linear ones along"},
+    MRow{114, machine::MMeaning::none, ir::Order::before, MUse::tip, "tilted axes move the linear ones along"},
     MRow{115, machine::MMeaning::none, ir::Order::after, MUse::kept, "M114 off"},
     MRow{116, machine::MMeaning::none, ir::Order::before, MUse::kept, "feed of rotary axes in mm/min"},
     MRow{117, machine::MMeaning::none, ir::Order::after, MUse::kept, "M116 off"},
     MRow{118, machine::MMeaning::none, ir::Order::before, MUse::kept, "handwheel beside the path"},
     MRow{120, machine::MMeaning::none, ir::Order::before, MUse::compensated, "contour looked ahead under compensation"},
     MRow{124, machine::MMeaning::none, ir::Order::before, MUse::compensated, "points near to one another left out"},
-    MRow{126, machine::MMeaning::none, ir::Order::before, MUse::path, "rotary axes the shortest way"},
+    MRow{126, machine::MMeaning::none, ir::Order::before, MUse::shortest, "rotary axes the shortest way"},
     MRow{127, machine::MMeaning::none, ir::Order::after, MUse::kept, "M126 off"},
-    MRow{128, machine::MMeaning::none, ir::Order::before, MUse::path, "tip stays where it is when axes tilt"},
+    MRow{128, machine::MMeaning::none, ir::Order::before, MUse::tip, "tip stays where it is when axes tilt"},
     MRow{129, machine::MMeaning::none, ir::Order::after, MUse::kept, "M128 off"},
     MRow{130, machine::MMeaning::none, ir::Order::before, MUse::untilted, "coordinates of the plane not tilted"},
     MRow{134, machine::MMeaning::none, ir::Order::before, MUse::kept, "exact stop of rotary axes"},

@@ -8,6 +8,9 @@
 
 namespace cnctrans::dialects::heidenhain {
 
+/// Beside the coordinates of LN: the normal of the surface and the direction of the tool.
+inline constexpr std::string_view vector_words = "NX NY NZ TX TY TZ";
+
 enum class Sentence : std::uint8_t {
   none,
   begin_program,
@@ -75,7 +78,6 @@ inline constexpr std::array sentences{
     SentenceRow{"SEL PATTERN", Sentence::select_pattern},
     SentenceRow{"SEL TABLE", Sentence::carried},
     SentenceRow{"FUNCTION", Sentence::carried},
-    SentenceRow{"LN", Sentence::carried},
     SentenceRow{"SPL", Sentence::carried},
 };
 

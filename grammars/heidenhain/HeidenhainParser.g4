@@ -2,7 +2,7 @@
 parser grammar HeidenhainParser;
 options { tokenVocab = HeidenhainLexer; }
 
-block : SLASH? blockNumber? content? TILDE? COMMENT? EOF;
+block : SLASH? (blockNumber SLASH?)? content? TILDE? COMMENT? EOF;
 blockNumber : NUMBER;
 
 content

@@ -22,23 +22,20 @@ constexpr const char* kept_there = "kept as text: a run stops there, a translati
 
 /// Support of the cycles with numbered parts that no run carries out.
 bool old_cycle_is_kept(facts::OldKind kind) {
-  return kind == facts::OldKind::slot || kind == facts::OldKind::thread || kind == facts::OldKind::point_file;
+  return kind == facts::OldKind::point_file;
 }
 
 std::string sentence_table() {
   std::string read, kept;
   for (const auto& s : facts::sentences) {
     using enum facts::Sentence;
-    const bool as_text =
-        s.sentence == carried || s.sentence == probe || s.sentence == call_selected || s.sentence == select_program;
+    const bool as_text = s.sentence == carried || s.sentence == probe;
     std::string& list = as_text ? kept : read;
     list += (list.empty() ? "`" : ", `") + std::string(s.words) + "`";
   }
   std::string leads, tilts, figures;
   for (const auto& l : facts::leads) leads += (leads.empty() ? "" : " ") + std::string(l.word);
-  for (const auto& t : facts::tilts) {
-    if (t.form != facts::TiltForm::projected) tilts += (tilts.empty() ? "" : " ") + std::string(t.word);
-  }
+  for (const auto& t : facts::tilts) tilts += (tilts.empty() ? "" : " ") + std::string(t.word);
   for (const auto& f : facts::figures) figures += (figures.empty() ? "" : " ") + std::string(f.word);
   return "| Sentences | Support |\n|---|---|\n| " + read + " | carried |\n| " + kept + " | " + kept_there +
          " |\n| APPR, DEP with " + leads + " | carried: the lines and arcs that they are |\n| PLANE " + tilts +
@@ -73,10 +70,8 @@ std::string m_table() {
   std::string s = "| M | Function | Acts | Support |\n|---|---|---|---|\n";
   for (const auto& m : facts::m_codes) {
     using enum facts::MUse;
-    const bool row_of_path = m.use == path || m.use == maker_position || m.use == untilted;
-    const char* support = m.code == 126   ? "carried"
-                          : m.code == 128 ? "run with the positions of the tip (HEI-009); no other control gets it"
-                          : row_of_path   ? kept_there
+    const char* support = m.use == tip    ? "run with the positions of the tip (HEI-009); no other control gets it"
+                          : m.use == path ? kept_there
                           : m.use == kept ? "kept as text: the path is the same"
                           : m.use == compensated ? "left out with a warning"
                           : m.use == retract     ? "carried with MB and a distance, in a block of its own"

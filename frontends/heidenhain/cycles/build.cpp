@@ -11,7 +11,6 @@
 namespace cnctrans::frontends::heidenhain {
 
 namespace facts = dialects::heidenhain;
-using facts::OldKind;
 using facts::Role;
 using ir::HoleKind;
 using ir::Level;
@@ -64,9 +63,10 @@ ir::CyclePtr CycleBuilder::build() {
   auto made = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
   if (!aside_) return made;
   MoveList steps;
-  steps.plane({ir::Value(aside_->first), ir::Value(aside_->second), false, {}, {}});
+  steps.plane({aside_->first, aside_->second, false, {}, {}});
   steps.cycle(std::move(made));
-  if (cycle_.number == 251) steps.plane({ir::Value(-aside_->first), ir::Value(-aside_->second), false, {}, {}});
+  if (cycle_.number == 251 || cycle_.number == 3)
+    steps.plane({ir::negate(aside_->first), ir::negate(aside_->second), false, {}, {}});
   told(steps);
   return nullptr;
 }
@@ -352,114 +352,6 @@ bool CycleBuilder::centre() {
   if (!q(343).is(0) && (!q(343).is(1) || !q(344).literal() || q(344).number > 0))
     return refuse("Q343 is 0, or 1 with a negative diameter in Q344");
   return feed_in();
-}
-
-const Value* CycleBuilder::part(int n) const {
-  const auto it = cycle_.parts.find(n);
-  if (it == cycle_.parts.end()) return nullptr;
-  const Value* found = nullptr;
-  for (const auto& l : it->second.letters) {
-    if (l.has_value) found = &l.value;
-  }
-  return found;
-}
-
-/// All of them are counted from where the tool stands at the call.
-bool CycleBuilder::old() {
-  const auto kind = cycle_.old->kind;
-  const bool pocket = kind == OldKind::pocket || kind == OldKind::round_pocket;
-  if (kind == OldKind::slot) return refuse("the tool starts in the slot by its radius, which is not in the program");
-  if (!pocket && kind != OldKind::pecking && kind != OldKind::tapping && kind != OldKind::rigid_tapping)
-    return not_carried();
-  const Value *distance = part(1), *depth = part(2);
-  if (distance == nullptr || depth == nullptr) return refuse("the distance or the depth is missing");
-  if (depth->literal() && depth->number > 0) return refuse("a positive depth works upward; that is not carried");
-  if (depth->is(0)) {
-    skipped_ = true;
-    return true;
-  }
-  hole_.reference = level_of(Value(0), LevelBase::from_initial);
-  hole_.surface = level_of(ir::negate(magnitude(*distance)), LevelBase::from_reference);
-  hole_.bottom = level_of(ir::negate(magnitude(*depth)), LevelBase::from_surface);
-  hole_.retract = level_of(Value(0), LevelBase::from_initial);
-  if (pocket) return old_pocket(kind == OldKind::round_pocket);
-  const auto feed = [this](int n) {
-    if (const Value* f = part(n)) {
-      hole_.feed = *f;
-      hole_.has_feed = true;
-    }
-  };
-  if (kind == OldKind::pecking) {
-    const Value* peck = part(3);
-    if (const Value* dwell = part(4)) hole_.dwell_bottom = *dwell;
-    feed(5);
-    if (peck == nullptr) return refuse("the size of a peck is missing");
-    const Value size = magnitude(*peck);
-    if (size.literal() && depth->literal() && (size.number == 0 || size.number >= std::abs(depth->number) - 1e-9)) {
-      hole_.kind = HoleKind::drill;
-      return true;
-    }
-    hole_.kind = HoleKind::peck_full;
-    pecks(size);
-    hole_.pecks.reapproach_automatic = true;
-    return true;
-  }
-  if (kind == OldKind::tapping) {
-    hole_.kind = HoleKind::tap_floating;
-    if (const Value* dwell = part(3)) hole_.dwell_bottom = *dwell;
-    feed(4);
-    return true;
-  }
-  const Value* pitch = part(3);
-  if (pitch == nullptr) return refuse("the pitch is missing");
-  hole_.kind = HoleKind::tap;
-  hole_.rigid = true;
-  hole_.pitch = *pitch;
-  hole_.spindle_after = ir::SpindleStep::off;
-  return true;
-}
-
-const OldPartValue::Letter* CycleBuilder::letter(int n, std::string_view address) const {
-  const auto it = cycle_.parts.find(n);
-  if (it == cycle_.parts.end()) return nullptr;
-  for (const auto& l : it->second.letters) {
-    if (l.address == address) return &l;
-  }
-  return nullptr;
-}
-
-/// 4 and 5: `PECKG -5 F80`, the sides or `RADIUS 30`, `F200 DR+ RADIUS 5`. The tool stands in the middle.
-bool CycleBuilder::old_pocket(bool round) {
-  hole_.kind = HoleKind::mill;
-  hole_.mill.shape = round ? "pocket.circle" : "pocket.rect";
-  const int last = round ? 5 : 6;
-  const auto number = [&](int n) -> const Value* {  // the first one behind the words of the dialog
-    const auto it = cycle_.parts.find(n);
-    if (it == cycle_.parts.end()) return nullptr;
-    for (const auto& l : it->second.letters) {
-      if (l.has_value) return &l.value;
-    }
-    return nullptr;
-  };
-  const auto *peck = number(3), *first = number(4), *second = round ? first : number(5);
-  const auto *plunge = letter(3, "F"), *feed = letter(last, "F"), *sense = letter(last, "DR");
-  if (peck == nullptr || first == nullptr || second == nullptr || feed == nullptr || !feed->has_value)
-    return refuse("a size, the infeed or the feed is missing");
-  word("infeed", magnitude(*peck));
-  if (plunge != nullptr && plunge->has_value) word("plunge_feed", plunge->value);
-  word("mill_feed", feed->value);
-  word("sense", Value(sense != nullptr && sense->negative ? 2 : 3));
-  word("operation", Value(1));
-  if (round) {
-    word("radius", *first);
-  } else {
-    word("length", *first);
-    word("width", *second);
-    const auto* corner = letter(last, "RADIUS");
-    if (corner != nullptr && corner->has_value) word("corner", corner->value);
-  }
-  warn("the way of the passes is that of this program, the part is the same");
-  return true;
 }
 
 ir::CyclePtr build_cycle(const CycleDefinition& cycle, const CycleContext& context, Report& report) {

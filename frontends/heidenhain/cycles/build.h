@@ -19,9 +19,21 @@ struct PlaneMove {
 };
 /// A step of a cycle that is told by what it does.
 struct CycleMove {
-  enum class Kind : std::uint8_t { rapid, feed, arc_cw, arc_ccw, dwell, spindle, function, cycle } kind = Kind::rapid;
+  enum class Kind : std::uint8_t {
+    rapid,
+    feed,
+    arc_cw,
+    arc_ccw,
+    thread,  ///< by `w` along the tool axis from where it stands
+    dwell,
+    spindle,
+    spindle_stop,
+    function,
+    cycle
+  } kind = Kind::rapid;
   std::optional<ir::Value> w;      ///< height, absolute
   std::optional<PlaneMove> plane;  ///< a move in the plane, too
+  ir::Value lead;                  ///< of a thread
   double amount = 0;               ///< feed, seconds, rev/min, or the number of the M function
   int code = 0;                    ///< spindle: 3, 4 or 5 as the M functions
   ir::CyclePtr cycle;

@@ -91,13 +91,15 @@ class CycleBuilder {
   [[nodiscard]] const OldPartValue::Letter* letter(int n, std::string_view address) const;
   /// 4 and 5: `PECKG -5 F80`, the sides or `RADIUS 30`, `F200 DR+ RADIUS 5`. The tool stands in the middle.
   bool old_pocket(bool round);
+  bool old_slot();
+  bool thread();
 
   const CycleDefinition& cycle_;
   const CycleContext& context_;
   Report& report_;
   ir::HoleCycle hole_;
   bool skipped_ = false;
-  std::optional<std::pair<double, double>> aside_;  ///< from the tool to the middle of the shape
+  std::optional<std::pair<ir::Value, ir::Value>> aside_;  ///< from the tool to the middle of the shape
 };
 
 ir::Level level_of(ir::Value v, ir::LevelBase base);

@@ -6,6 +6,7 @@
 
 #include "dialects/heidenhain/limits.h"
 #include "frontends/heidenhain/cycles/builder.h"
+#include "ir/cycles/milling/milling.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -30,7 +31,13 @@ bool CycleBuilder::mill() {
     case 253:
     case 254:
     case 256:
-    case 257: break;
+    case 257:
+    case 210:
+    case 211:
+    case 212:
+    case 213:
+    case 214:
+    case 215: break;
     default: return not_carried();
   }
   if (!levels()) return false;
@@ -40,8 +47,21 @@ bool CycleBuilder::mill() {
     if (p.number != 0 && !mill_word(p.number)) return false;
   }
   if (cycle_.number != 254 && cycle_.values.count(367) != 0 && !place()) return false;
-  if (cycle_.number == 253) word("corner", half(q(219)));
-  if (cycle_.number == 257 || cycle_.number == 256) word("variant", Value(1));
+  switch (cycle_.number) {
+    case 210:
+    case 253: word("corner", half(q(219))); break;
+    case 211: word("count", Value(1)); break;
+    case 214: word("wall_stock", half(ir::subtract(q(223), q(222)))); [[fallthrough]];
+    case 212: word("operation", Value(2)); break;
+    case 213:
+      word("blank_length", ir::add(q(218), ir::scale(q(221), 2)));
+      word("blank_width", ir::add(q(219), ir::scale(q(221), 2)));
+      [[fallthrough]];
+    case 215:
+    case 256:
+    case 257: word("variant", Value(1)); break;
+    default: break;
+  }
   warn("the way of the passes is that of this program, the part is the same");
   return true;
 }
@@ -64,7 +84,7 @@ bool CycleBuilder::place() {
   constexpr double degrees = std::numbers::pi / 180, places = 1e10;
   const double c = std::cos(angle.number * degrees), s = std::sin(angle.number * degrees);
   const auto plain = [](double x) { return std::round(x * places) / places + 0.0; };
-  aside_ = {plain(c * u - s * v), plain(s * u + c * v)};
+  aside_ = {Value(plain(c * u - s * v)), Value(plain(s * u + c * v))};
   return true;
 }
 
@@ -259,6 +279,7 @@ bool CycleBuilder::mill_word(std::int16_t number) {
     case Role::plunge_way:
       if (!v.is(0)) warn("the tool goes straight down, not on a helix or a ramp (Q366)");
       return true;
+    case Role::mill_blank: return true;
     case Role::pattern: word(row->parameter, v); return true;
     case Role::other: {
       const bool harmless = number == 439 || number == 437;

@@ -34,6 +34,13 @@ class MoveList {
   void dwell(double seconds) {
     if (seconds > 0) put(Kind::dwell, seconds);
   }
+  void thread(ir::Value by, ir::Value lead) {
+    at_.reset();
+    CycleMove& m = put(Kind::thread, 0);
+    m.w = std::move(by);
+    m.lead = std::move(lead);
+  }
+  void spindle_stop() { put(Kind::spindle_stop, 0); }
   void spindle(int code, double speed) { put(Kind::spindle, speed).code = code; }
   void function(double code) {
     if (code > 0) put(Kind::function, code);

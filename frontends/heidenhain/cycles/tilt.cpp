@@ -137,8 +137,8 @@ bool Lowering::shift_in_tilt(ir::AxisId axis, const ir::Value& v, bool adds) {
   return true;
 }
 
-/// False: it was refused.
-bool Lowering::tilt(std::array<ir::Value, 3> angles) {
+/// False: it was refused. `named`: Q120 to Q122 get the angles of the axes, where those are known.
+bool Lowering::tilt(std::array<ir::Value, 3> angles, bool named) {
   const auto refuse = [this](std::string text) {
     report_.keep("HEI-022", {}, std::move(text), "motion.transformation");
     return false;
@@ -153,10 +153,15 @@ bool Lowering::tilt(std::array<ir::Value, 3> angles) {
     report_.carry("HEI-021", {}, "no tilted plane is in force: kept as text", "motion.transformation");
     return true;
   }
+  const bool shifted =
+      tilt_ && std::any_of(tilt_->shift.begin(), tilt_->shift.end(), [](const auto& s) { return !s.second.is(0); });
+  if (shifted)
+    report_.warn("HEI-022", {}, "the datum shift that was programmed in the tilted plane is taken to end with it",
+                 "take the shift back before");
   tilt_.reset();
   if (any) tilt_ = Tilt{angles, {}, {}};
   put_tilt();
-  if (!any || (!angles[0].is(0) && !angles[1].is(0))) return true;
+  if (!any || !named || (!angles[0].is(0) && !angles[1].is(0))) return true;
   // Q120 to Q122: of axes that turn as the spatial angles say.
   for (std::int64_t k = 0; k < 3; ++k) {
     ir::Assign::Item item;
@@ -246,7 +251,8 @@ bool Lowering::plane(const syntax::Statement& s) {
     report_.keep("HEI-022", s.pos, std::move(text), "motion.transformation");
     return false;
   };
-  if (other) return refuse("SEQ-: where the rotary axes stand then is known to the machine only");
+  if (other && turns) return refuse("SEQ-: where the rotary axes stand then is known to the machine only");
+  if (other) report_.warn("HEI-022", s.pos, "SEQ-: Q120 to Q122 are not set: the machine alone knows these angles");
   if (!literal && row->form != TiltForm::spatial) return refuse("its angles must be numbers");
   const auto n = [&get](const char* name) { return get(name).number; };
   std::optional<Matrix> m;
@@ -283,7 +289,15 @@ bool Lowering::plane(const syntax::Statement& s) {
       if (!m) return refuse("the points give no plane");
       break;
     }
-    case TiltForm::projected: return refuse("which way the projected angles turn is not known for sure");
+    case TiltForm::projected: {
+      report_.warn("HEI-022", s.pos, "the projected angles are taken to turn as SPB and SPA do");
+      const Matrix across = about(1, n("PROPR")), along = about(0, n("PROMIN"));  // the traces of the plane
+      const Vector x{across[0][0], across[1][0], across[2][0]}, y{along[0][1], along[1][1], along[2][1]};
+      m = frame_of(x, cross_of(x, y));
+      if (!m) return refuse("the angles give no plane");
+      m = product(*m, about(2, n("ROT")));
+      break;
+    }
   }
   if (m) {
     constexpr double places = 1e10;
@@ -303,7 +317,7 @@ bool Lowering::plane(const syntax::Statement& s) {
     retract(fast ? nullptr : own_feed, false);
     put(std::exchange(out_, {}));
   }
-  if (!tilt(angles)) return false;
+  if (!tilt(angles, !other)) return false;
   if (turns && !turn_axes(angles, fast, own_feed)) return refuse("the machine has no rotary axis for this plane");
   if (flat_.items.size() == before && !report_.refused()) put(ir::Block{});
   return !report_.refused();

@@ -8,6 +8,7 @@
 
 #include "frontends/heidenhain/cycles/builder.h"
 #include "frontends/heidenhain/state/term.h"
+#include "ir/cycles/milling/milling.h"
 
 namespace cnctrans::frontends::heidenhain {
 

@@ -167,11 +167,16 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
     }
     return out;
   }
-  if (a.overlaid && overlay == nullptr && heights_differ(*cycle)) {
-    report.refuse("HEI-017", {}, "cycle 220 or 221 has left other heights (Q200, Q203, Q204) for this cycle",
+  if (overlay == nullptr && a.overlay == Arrival::several && differs_from_patterns(*cycle)) {
+    report.refuse("HEI-017", {},
+                  "whether cycle 220 or 221 has left other parameters (Q200, Q203, Q204) for this cycle depends on the "
+                  "way to this block",
                   "define the cycle again behind the pattern");
     return out;
   }
+  // What both have, the later one has set.
+  const CycleDefinition* over = overlay;
+  if (over == nullptr && a.overlay >= 0) over = &flat_.cycles[static_cast<std::size_t>(a.overlay)];
   CycleContext context;
   context.shift = shift;
   context.inch = lowering_.inch();
@@ -180,10 +185,10 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   if (item.tool_radius) context.tool_radius = *item.tool_radius * (lowering_.inch() ? inch : 1);
   context.speed_after = &out.speed_after;
   context.value = [&](std::int16_t q) {
-    const bool height = q == 200 || q == 203 || q == 204;
-    if (overlay == nullptr || !height) return parameter(*cycle, q, any);
-    if (q == 204 && overlay->values.at(301).value.is(0)) return ir::Value(0);  // from point to point on the clearance
-    return overlay->values.at(q).value;
+    const bool shared = over != nullptr && over->values.count(q) != 0 && lowering_.own_writes().count(q) == 0;
+    if (!shared) return parameter(*cycle, q, any);
+    const bool low = overlay != nullptr && q == 204 && over->values.at(301).value.is(0);
+    return low ? ir::Value(0) : over->values.at(q).value;  // from point to point on the clearance
   };
   out.cycle = build_cycle(*cycle, context, report);
   for (context.area = 1; out.cycle != nullptr && context.area < cycle->areas.size(); ++context.area)
@@ -192,12 +197,12 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   return out;
 }
 
-bool CycleCalls::heights_differ(const CycleDefinition& cycle) const {
+bool CycleCalls::differs_from_patterns(const CycleDefinition& cycle) const {
   for (const auto& c : flat_.cycles) {
     if (c.row == nullptr || c.row->kind != facts::CycleKind::pattern) continue;
-    for (const auto q : std::initializer_list<std::int16_t>{200, 203, 204}) {
+    for (const auto& [q, v] : c.values) {
       const auto mine = cycle.values.find(q);
-      if (mine == cycle.values.end() || !ir::equal(mine->second.value, c.values.at(q).value)) return true;
+      if (mine != cycle.values.end() && !ir::equal(mine->second.value, v.value)) return true;
     }
   }
   return false;
@@ -212,6 +217,20 @@ ir::Block CycleCalls::step_block(const CycleMove& step, const ir::PlaneAxes& pla
     b.actions.emplace_back().data = ir::SpindleRun{1, step.code == 3   ? SpindleState::cw
                                                       : step.code == 4 ? SpindleState::ccw
                                                                        : SpindleState::off};
+    return b;
+  }
+  if (step.kind == Kind::spindle_stop) {
+    b.actions.emplace_back().data = ir::SpindleRun{1, ir::SpindleState::off};
+    return b;
+  }
+  if (step.kind == Kind::thread) {
+    b = move(ir::MotionKind::tap_rigid, {coordinate(plane.w, *step.w)});
+    b.motion.coords.back().mode = ir::WordMode::incremental;
+    auto extra = std::make_shared<ir::MotionExtra>();
+    extra->has_lead = true;
+    extra->lead = step.lead;
+    extra->lead_axis = plane.w;
+    b.motion.extra = std::move(extra);
     return b;
   }
   if (step.kind == Kind::function) {

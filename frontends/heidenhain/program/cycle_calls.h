@@ -43,7 +43,7 @@ class CycleCalls {
   void find_stored();
   [[nodiscard]] ir::Value parameter(const CycleDefinition& cycle, std::int16_t q, bool any) const;
   const CycleDefinition* in_force(const Item& item, const Arrival& a);
-  [[nodiscard]] bool heights_differ(const CycleDefinition& cycle) const;
+  [[nodiscard]] bool differs_from_patterns(const CycleDefinition& cycle) const;
   Machining machining(const Item& item, const Arrival& a, const std::optional<ir::Value>& shift,
                       const CycleDefinition* overlay);
   static void raise(Machining& m, const std::optional<ir::Value>& height);

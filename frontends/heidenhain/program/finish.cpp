@@ -112,6 +112,24 @@ class Finisher {
     return true;
   }
 
+  /// CALL SELECTED PGM: the program of the SEL PGM that the ways bring.
+  void selected(Item& item, const Arrival& a) {
+    Report& report = lowering_.report();
+    report.start(item.statement.line.span);
+    if (a.selected >= 0) {
+      std::get<ir::CallRoutine>(item.statement.node).routine.text =
+          flat_.programs[static_cast<std::size_t>(a.selected)];
+      if (a.selected_outside)
+        report.warn("HEI-011", {},
+                    "a program of another file runs between SEL PGM and this call: it is taken to select "
+                    "no other one");
+    } else if (a.reached) {
+      report.refuse("HEI-011", {},
+                    a.selected == Arrival::none ? "CALL SELECTED PGM has no SEL PGM before it in this file"
+                                                : "which SEL PGM is in force here depends on the way to this block");
+      keep_text(item, "language.statement", "CALL SELECTED PGM");
+    }
+  }
   void one(std::size_t i, std::vector<ir::Statement>& out) {
     Item& item = flat_.items[i];
     const Arrival& a = arrival(i);
@@ -134,6 +152,7 @@ class Finisher {
         return;
       default: break;
     }
+    if (item.calls_selected) selected(item, a);
     if (item.kind != ItemKind::plain) {
       out.push_back(std::move(item.statement));
       return;

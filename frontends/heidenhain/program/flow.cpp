@@ -26,8 +26,10 @@ bool narrow(Arrival& a, const Arrival& b) {
   same(a.pattern, b.pattern);
   a.moved = a.moved || b.moved;
   a.written = a.written || b.written;
-  a.overlaid = a.overlaid || b.overlaid;
+  same(a.overlay, b.overlay);
+  same(a.selected, b.selected);
   a.outside = a.outside || b.outside;
+  a.selected_outside = a.selected_outside || b.selected_outside;
   return !(a == before);
 }
 
@@ -105,18 +107,23 @@ Arrival Flow::after(int item, Arrival a) const {
     case ItemKind::cycle:
       a.cycle = i.index;
       a.modal = 0;
-      a.overlaid = a.outside = false;
+      a.overlay = Arrival::none;
+      a.outside = false;
       return a;
     case ItemKind::pole:
       a.pole = i.index;
       a.moved = a.written = false;
       return a;
-    case ItemKind::program: a.outside = a.moved = a.written = true; return a;
+    case ItemKind::program: a.outside = a.selected_outside = a.moved = a.written = true; return a;
     default: break;
   }
   if (i.pattern != Arrival::none) a.pattern = i.pattern;
   if (i.moves || i.index >= 0 || i.at_pattern) a.moved = true;
-  if (i.index >= 0) a.overlaid = true;  // 220 and 221 have heights of their own
+  if (i.index >= 0) a.overlay = i.index;  // 220 and 221 have heights of their own
+  if (i.selects >= 0) {
+    a.selected = i.selects;
+    a.selected_outside = false;
+  }
   if (!i.writes.empty()) a.written = true;
   if (i.call == CycleCall::modal) {
     a.modal = 1;

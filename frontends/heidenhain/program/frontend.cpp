@@ -12,6 +12,7 @@
 #include "frontends/heidenhain/program/cycle_feeds.h"
 #include "frontends/heidenhain/program/finish.h"
 #include "frontends/heidenhain/program/leads.h"
+#include "frontends/heidenhain/program/plunge.h"
 #include "frontends/heidenhain/program/structure.h"
 #include "frontends/heidenhain/syntax/reader.h"
 #include "ir/analysis/dataflow.h"
@@ -72,6 +73,7 @@ class HeidenhainReader {
     for (const SourceLine& l : lines) line(l);
     lowering_.flush();
     write_leads(lowering_);
+    limit_plunges(lowering_);
     copy_for_cycles(lowering_);
     read_areas(lowering_, *options_.profile);
     const Flow flow(lowering_.flat());

@@ -35,6 +35,9 @@ class Structure {
       for (int i = sub.first; i <= sub.last; ++i) owner_[static_cast<std::size_t>(i)] = static_cast<int>(r);
     }
     link();
+    for (const auto& [r, sub] : subs_) {
+      for (const int i : sub.returns) put_return(static_cast<std::size_t>(i));
+    }
     fill(main, 0, 0, static_cast<int>(flat_.items.size()) - 1);
     program.routines.push_back(std::move(main));
     for (const auto& [r, sub] : subs_) {
@@ -61,8 +64,9 @@ class Structure {
 
  private:
   struct Sub {
-    int first = 0, last = 0;  ///< items, the label and LBL 0 included
-    int falls_into = 0;       ///< root of the subprogram whose text goes on behind it
+    int first = 0, last = 0;   ///< items, the label and LBL 0 included
+    int falls_into = 0;        ///< root of the subprogram whose text goes on behind it
+    std::vector<int> returns;  ///< LBL 0 before its last one
   };
   Report& at(const Item& item) {
     lowering_.report().start(item.statement.line.span);
@@ -82,23 +86,27 @@ class Structure {
       return;
     }
     const int last = root.ends.back();
-    bool whole = root.ends.size() == 1;
+    bool whole = true;
     for (int i = 0; i < static_cast<int>(flat_.items.size()); ++i) {
       const bool inside = i >= root.start && i <= last;
       if (root.reached[static_cast<std::size_t>(i)] && !inside) whole = false;
     }
     if (!whole) {
-      at(label).keep("HEI-025", {}, "the subprogram is left by a jump, or has several ends: that is not carried",
-                     "language.statement");
+      at(label).keep("HEI-025", {}, "the subprogram is left by a jump: that is not carried", "language.statement");
       return;
     }
     bool shared = false;
     for (int i = root.start; i <= last; ++i) shared = shared || roots[0].reached[static_cast<std::size_t>(i)];
+    if (shared && root.ends.size() > 1) {
+      at(label).keep("HEI-025", {}, "a subprogram with several ends that the main program runs through is not carried",
+                     "language.statement");
+      return;
+    }
     if (shared) {
       ranges_[root.start] = last;
       return;
     }
-    Sub sub{root.start, last, 0};
+    Sub sub{root.start, last, 0, {root.ends.begin(), root.ends.end() - 1}};
     for (std::size_t other = 1; other < roots.size(); ++other) {
       const int start = roots[other].start;
       if (start > root.start && start <= last &&
@@ -170,6 +178,12 @@ class Structure {
     if (std::find(labels.begin(), labels.end(), kept) == labels.end()) labels.push_back(kept);
     list.front().node = ir::Label{};
     return name;
+  }
+  /// LBL 0 before the end of a subprogram.
+  void put_return(std::size_t item) {
+    auto& list = statements_[item];
+    if (list.empty()) list.push_back(flat_.items[item].statement);
+    list.front().node = ir::Return{};
   }
   [[nodiscard]] bool is_target(const Item& label) const {
     return std::any_of(flat_.items.begin(), flat_.items.end(), [&](const Item& i) {

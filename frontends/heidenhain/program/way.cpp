@@ -52,6 +52,7 @@ void Way::note_call(const Item& item) {
     calls.at = at_;
     calls.side = side_;
     calls.rapid = rapid_;
+    calls.feed = feed_;
     return;
   }
   for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -61,6 +62,7 @@ void Way::note_call(const Item& item) {
   }
   if (calls.side != side_) calls.side.reset();
   if (calls.rapid != rapid_) calls.rapid.reset();
+  if (calls.feed != feed_) calls.feed.reset();
 }
 
 /// At the label of a subprogram whose calls all stand before it. False: other ways lead here.
@@ -72,6 +74,7 @@ bool Way::enter(const Item& label) {
   at_ = calls.at;
   side_ = calls.side;
   rapid_ = calls.rapid;
+  feed_ = calls.feed;
   return true;
 }
 
@@ -90,6 +93,7 @@ void Way::step(const Item& item) {
       forget();
       side_.reset();
       rapid_.reset();
+      feed_.reset();
       return;
     case ItemKind::pole: return set_pole(flat_.poles[static_cast<std::size_t>(item.index)]);
     case ItemKind::cycle: cycle_ = item.index; return;
@@ -105,6 +109,7 @@ void Way::step(const Item& item) {
       forget();
       side_.reset();
       rapid_.reset();
+      feed_.reset();
       return;
     case ItemKind::plain: break;
   }
@@ -134,6 +139,8 @@ void Way::step(const Item& item) {
                              std::holds_alternative<ir::WorkOffset>(a.data) ||
                              std::holds_alternative<ir::SurfaceSet>(a.data);
     if (moves_frame) forget();
+    const auto* f = std::get_if<ir::SetFeed>(&a.data);
+    if (f != nullptr && !f->block_only) feed_ = f->value.literal() ? std::optional(f->value.number) : std::nullopt;
   }
   if (b->has_motion) move(item);
   if (item.call != CycleCall::none) call(item);

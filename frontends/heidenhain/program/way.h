@@ -34,6 +34,8 @@ class Way {
   [[nodiscard]] std::optional<int> side() const { return side_; }
   /// The last positioning block was FMAX; nullopt: not known here.
   [[nodiscard]] std::optional<bool> rapid() const { return rapid_; }
+  /// F in force; nullopt: not known here by a number.
+  [[nodiscard]] std::optional<double> feed() const { return feed_; }
 
  private:
   void forget();
@@ -55,6 +57,7 @@ class Way {
     bool jumped = false;  ///< a jump or a repeat leads here, too
     bool some = false;
     std::optional<bool> rapid;
+    std::optional<double> feed;
     Place at;
     std::optional<int> side;
   };
@@ -65,6 +68,7 @@ class Way {
   ir::Plane plane_ = ir::Plane::xy;
   std::optional<int> side_ = 0;
   std::optional<bool> rapid_ = false;
+  std::optional<double> feed_;
   int cycle_ = -1;  ///< the definition of the text above
 };
 

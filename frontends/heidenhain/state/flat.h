@@ -121,11 +121,14 @@ struct Item {
   int lead = -1;                      ///< of the APPR or DEP, before it is written out
   int pattern = -1;                   ///< PATTERN DEF, or (Arrival::several) a table of points
   bool at_pattern = false;            ///< CYCL CALL PAT
+  int selects = -1;                   ///< SEL PGM: index of the name
+  bool calls_selected = false;        ///< CALL SELECTED PGM
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
   std::optional<ir::Value> height;                       ///< CYCL CALL PAT and POS: of the tool, where it is known
   CycleCall call = CycleCall::none;
-  std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
-  std::vector<ir::VarRef> writes;  ///< variables
+  std::optional<ir::Value> shift;   ///< CYCL CALL POS: along the tool axis
+  std::optional<ir::Value> plunge;  ///< M103: percent of F for what goes into the material
+  std::vector<ir::VarRef> writes;   ///< variables
 };
 
 struct Flat {
@@ -135,21 +138,24 @@ struct Flat {
   std::vector<Lead> leads;
   std::vector<FreeElement> elements;
   std::vector<Pattern> patterns;
+  std::vector<std::string> programs;  ///< names in SEL PGM, each once
 };
 
 /// What the ways of the program bring to an item.
 struct Arrival {
   static constexpr int none = -1, several = -2;
   bool reached = false;
-  int cycle = none;       ///< index of the definition in force
-  int pole = none;        ///< of the CC in force
-  bool moved = false;     ///< since that CC
-  bool written = false;   ///< a variable, since that CC
-  int modal = 0;          ///< M89: 0 off, 1 on, several
-  int plane = 0;          ///< ir::Plane, or several
-  int pattern = none;     ///< index of the PATTERN DEF in force
-  bool overlaid = false;  ///< 220 or 221 ran since the definition
-  bool outside = false;   ///< a program of another file ran since the definition
+  int cycle = none;               ///< index of the definition in force
+  int pole = none;                ///< of the CC in force
+  bool moved = false;             ///< since that CC
+  bool written = false;           ///< a variable, since that CC
+  int modal = 0;                  ///< M89: 0 off, 1 on, several
+  int plane = 0;                  ///< ir::Plane, or several
+  int pattern = none;             ///< index of the PATTERN DEF in force
+  int overlay = none;             ///< index of the 220 or 221 that ran since the definition
+  int selected = none;            ///< index of the name of SEL PGM
+  bool selected_outside = false;  ///< a program of another file ran since
+  bool outside = false;           ///< a program of another file ran since the definition
   bool operator==(const Arrival&) const = default;
 };
 

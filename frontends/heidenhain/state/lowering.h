@@ -60,6 +60,8 @@ class Lowering {
   bool label(const syntax::Statement& s);
   bool call_label(const syntax::Statement& s);
   bool call_program(const syntax::Statement& s);
+  bool select_program(const syntax::Statement& s);
+  Item& call_routine(const std::string& name);
   bool stop();
   bool assignment(const syntax::Statement& s);
   bool function(const syntax::Statement& s);
@@ -106,7 +108,7 @@ class Lowering {
   void effect(const CycleDefinition& cycle);
   bool pattern_cycle(const CycleDefinition& cycle);
   bool plane(const syntax::Statement& s);
-  bool tilt(std::array<ir::Value, 3> angles);
+  bool tilt(std::array<ir::Value, 3> angles, bool named = true);
   bool turn_axes(const std::array<ir::Value, 3>& angles, bool rapid, const Word* own_feed);
   bool in_tilt(ir::FrameChange c);
   void put_tilt();
@@ -155,6 +157,7 @@ class Lowering {
   std::optional<double> radius_;          ///< of the tool of the last TOOL CALL, as TOOL DEF says it
   bool scaled_about_ = false;             ///< cycle 26 has a centre
   bool shortest_ = false;                 ///< M126
+  std::optional<ir::Value> plunge_;       ///< M103: percent of F for what goes into the material
   bool feed_by_fu_ = false;               ///< the last F was FU
   bool per_rev_ = false;                  ///< M136
   int waiting_ = -1;                      ///< the cycle definition that further lines complete
@@ -175,9 +178,11 @@ class Lowering {
   bool rapid_ = false;
   std::optional<ir::Value> angle_;  ///< PA or IPA
   bool angle_incremental_ = false;
-  int sense_ = 0;                ///< DR: 1 or -1
-  std::optional<Word> retract_;  ///< M140
-  bool retract_far_ = false;     ///< MB MAX
+  int sense_ = 0;                  ///< DR: 1 or -1
+  std::optional<Word> retract_;    ///< M140
+  bool retract_far_ = false;       ///< MB MAX
+  bool untilted_ = false;          ///< M130
+  bool from_maker_point_ = false;  ///< M92
 };
 
 /// X 0 ... C of the axis letters; none: no axis.

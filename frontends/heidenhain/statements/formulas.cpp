@@ -241,8 +241,9 @@ bool Lowering::sysread(const syntax::Statement& rest) {
   const auto id = number_behind("ID"), nr = number_behind("NR");
   const auto equals = text.find('=');
   auto target_text = variable_behind(0);
+  const bool axis_of_tool = id && nr && *id == 20 && *nr == 3;  // what Q109 says
   const auto* row = id && nr ? facts::find_system_read(*id, *nr) : nullptr;
-  if (row == nullptr || equals == std::string::npos || !target_text) {
+  if ((row == nullptr && !axis_of_tool) || equals == std::string::npos || !target_text) {
     report_.keep("HEI-027", rest.pos, "FN 18: this datum of the control has no neutral meaning",
                  "language.system_variable");
     return false;
@@ -250,7 +251,7 @@ bool Lowering::sysread(const syntax::Statement& rest) {
   target_text->pos = rest.pos;
   const auto idx = number_behind("IDX");
   ir::AxisId axis = ir::axis::none;
-  if (row->axis_index) {
+  if (row != nullptr && row->axis_index) {
     constexpr std::array<ir::AxisId, 10> order{ir::axis::none, 0, 1, 2, ir::axis::a, ir::axis::b, ir::axis::c, 3, 4, 5};
     if (!idx || *idx < 1 || *idx > 9) {
       report_.keep("HEI-027", rest.pos, "FN 18: IDX must name an axis, 1 for X", "language.system_variable");
@@ -259,7 +260,8 @@ bool Lowering::sysread(const syntax::Statement& rest) {
     axis = order[static_cast<std::size_t>(*idx)];
   }
   const bool of_tool = *id == 50;
-  auto value = datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
+  auto value = axis_of_tool ? ir::number(tool_called_ ? tool_axis_ : -1)
+                            : datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
   if (of_tool) {  // of a tool that a number or a parameter names
     const auto at = text.find("IDX");
     const auto named = at == std::string::npos ? std::nullopt : variable_behind(at);

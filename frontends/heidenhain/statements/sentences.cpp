@@ -1,4 +1,5 @@
 // Lines -> items: which sentence a line is, program frame, labels, calls.
+#include <algorithm>
 #include <utility>
 
 #include "base/saturate.h"
@@ -120,7 +121,7 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
   angle_incremental_ = false;
   sense_ = 0;
   retract_.reset();
-  retract_far_ = false;
+  retract_far_ = untilted_ = from_maker_point_ = false;
   const std::size_t before = flat_.items.size();
   bool good = true;
   if (s != nullptr) {
@@ -187,8 +188,8 @@ bool Lowering::sentence(const syntax::Statement& s) {
       carried(s, true, "beside.data", "the table of points is in a file of the control: CYCL CALL PAT can't be told");
       flat_.items.back().pattern = Arrival::several;
       return true;
-    case Sentence::call_selected:
-    case Sentence::select_program:
+    case Sentence::select_program: return select_program(s);
+    case Sentence::call_selected: return call_routine("").calls_selected = true;
     case Sentence::carried:
     case Sentence::none: break;
   }
@@ -327,15 +328,38 @@ bool Lowering::call_program(const syntax::Statement& s) {
                  "language.other_mode");
     return false;
   }
+  call_routine(name);
+  return true;
+}
+
+/// The called program may have another unit.
+Item& Lowering::call_routine(const std::string& name) {
   ir::CallRoutine call;
   call.routine.text = name;
   call.level = ir::CallLevel::new_level;
+  const std::size_t at = flat_.items.size();
   put(ItemKind::program, std::move(call));
-  if (!inch_) return true;
-  ir::Block units;
-  units.actions.emplace_back().data =
-      ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(ir::Units::inch), true};
-  put(std::move(units));
+  if (inch_) {
+    ir::Block units;
+    units.actions.emplace_back().data =
+        ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(ir::Units::inch), true};
+    put(std::move(units));
+  }
+  return flat_.items[at];
+}
+
+/// SEL PGM "NAME": the program that CALL SELECTED PGM calls.
+bool Lowering::select_program(const syntax::Statement& s) {
+  const std::string name = program_name(s.args.empty() ? without_quotes(s.text) : std::string_view(s.args[0].text));
+  if (name.empty() || name.substr(0, 2) == "QS") {
+    report_.keep("HEI-011", s.pos, "SEL PGM is followed by the name of a program; a text in QS is not carried",
+                 "language.statement");
+    return false;
+  }
+  auto& all = flat_.programs;
+  auto it = std::find(all.begin(), all.end(), name);
+  if (it == all.end()) it = all.insert(it, name);
+  put(ir::Block{}).selects = static_cast<int>(it - all.begin());
   return true;
 }
 

@@ -314,9 +314,9 @@ bool LineBuilder::function(HeidenhainParser::FnContext& tree) {
 }
 
 bool LineBuilder::block(HeidenhainParser::BlockContext& tree) {
-  if (tree.SLASH() != nullptr) {
+  if (const auto slashes = tree.SLASH(); !slashes.empty()) {  // before the number or behind it
     out_.skip_mask = 1;
-    out_.skip_pos = pos(tree.SLASH()->getSymbol(), tree.SLASH()->getSymbol());
+    out_.skip_pos = pos(slashes.front()->getSymbol(), slashes.front()->getSymbol());
   }
   if (auto* n = tree.blockNumber()) {
     out_.number_pos = pos(*n);

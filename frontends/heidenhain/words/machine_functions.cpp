@@ -63,6 +63,7 @@ void Lowering::machine_function(const Word& w) {
   switch (row.use) {
     case MUse::plain:
     case MUse::coolant_too: break;
+    case MUse::maker_position: from_maker_point_ = true; [[fallthrough]];
     case MUse::machine_position:
       out_.motion.frame = ir::FrameUse::machine;
       out_.motion.frame_pos = w.pos;
@@ -78,10 +79,13 @@ void Lowering::machine_function(const Word& w) {
                                                                                   : ir::FeedPoint::centre)});
       return;
     case MUse::retract: return;
+    case MUse::untilted: untilted_ = true; return;
+    case MUse::plunge_feed: plunge_.reset(); return;  // the share stands behind it
+    case MUse::shortest: shortest_ = true; return;
     case MUse::kept:
       if (code == 127) shortest_ = false;
-      if (code == 129) act(w, ir::SurfaceSet{ir::Surface::none, {}});
-      if (code != 127 && code != 129) {
+      if (code == 129 || code == 115) act(w, ir::SurfaceSet{ir::Surface::none, {}});
+      if (code != 127 && code != 129 && code != 115) {
         report_.note("HEI-021", w.pos, name + " does not change the programmed path; it is left out");
       }
       return;
@@ -100,22 +104,13 @@ void Lowering::machine_function(const Word& w) {
         put_action(ir::FrameOp{std::make_shared<const ir::FrameChange>(std::move(c))});
       }
       return;
-    case MUse::maker_position:
-    case MUse::untilted:
-      return report_.keep("HEI-009", w.pos, name + ": what the coordinates refer to is known to the machine only",
-                          "block.word");
+    case MUse::tip:
+      report_.warn("HEI-009", w.pos,
+                   name + ": positions are those of the tool's tip; the machine moves the other axes along");
+      act(w, ir::OpaqueWord{slice(w)});
+      act(w, ir::SurfaceSet{ir::Surface::tool, {}});
+      return;
     case MUse::path:
-      if (code == 126) {
-        shortest_ = true;
-        return;
-      }
-      if (code == 128) {
-        report_.warn("HEI-009", w.pos,
-                     name + ": positions are those of the tool's tip; the machine moves the other axes along");
-        act(w, ir::OpaqueWord{slice(w)});
-        act(w, ir::SurfaceSet{ir::Surface::tool, {}});
-        return;
-      }
       return report_.keep("HEI-009", w.pos, name + " changes the path in a way that is not carried", "block.word");
   }
   switch (row.meaning) {

@@ -6,6 +6,8 @@
 #include "base/saturate.h"
 #include "base/text.h"
 #include "dialects/heidenhain/limits.h"
+#include "dialects/heidenhain/patterns.h"
+#include "dialects/heidenhain/sentences.h"
 #include "frontends/heidenhain/state/datum.h"
 #include "frontends/heidenhain/state/lowering.h"
 
@@ -176,15 +178,29 @@ bool Lowering::path() {
     return false;
   }
   using ir::MotionKind;
-  enum class Form : std::uint8_t { none, line, arc, by_radius, tangent, polar_line, polar_arc, polar_tangent };
+  enum class Form : std::uint8_t {
+    none,
+    line,
+    normal_line,
+    arc,
+    by_radius,
+    tangent,
+    polar_line,
+    polar_arc,
+    polar_tangent
+  };
   struct FormRow {
     std::string_view word;
     Form form;
   };
-  static constexpr std::array forms{FormRow{"L", Form::line},           FormRow{"C", Form::arc},
-                                    FormRow{"CR", Form::by_radius},     FormRow{"CT", Form::tangent},
-                                    FormRow{"LP", Form::polar_line},    FormRow{"CP", Form::polar_arc},
-                                    FormRow{"CTP", Form::polar_tangent}};
+  static constexpr std::array forms{FormRow{"L", Form::line},
+                                    FormRow{"C", Form::arc},
+                                    FormRow{"CR", Form::by_radius},
+                                    FormRow{"CT", Form::tangent},
+                                    FormRow{"LP", Form::polar_line},
+                                    FormRow{"CP", Form::polar_arc},
+                                    FormRow{"CTP", Form::polar_tangent},
+                                    FormRow{"LN", Form::normal_line}};
   Form form = Form::none;
   for (const auto& f : forms) {
     if (is(first, f.word) && bare(first)) form = f.form;
@@ -237,6 +253,7 @@ bool Lowering::path() {
       const bool own = own_feed || (code == 120 && is(next, "LA")) || (code == 124 && is(next, "T")) ||
                        (code == 118 && axis_of(next.address) != ir::axis::none);
       if (own) ++i;
+      if (code == 103 && own) plunge_ = value(next);
       if (code != 140) continue;
       if (is(next, "MBMAX") || (is(next, "MB") && bare(next))) {
         retract_far_ = true;
@@ -249,10 +266,17 @@ bool Lowering::path() {
     }
     if (remark(w)) break;
     if (is(w, "R") && !w.has_value && !w.number_text.empty()) {  // R+ and R- of a move of one axis
-      report_.keep("HEI-006", w.pos,
-                   "`" + std::string(slice(w)) + "`: a move lengthened by the tool radius is not carried", "block.word",
+      report_.warn("HEI-006", w.pos,
+                   "`" + std::string(slice(w)) +
+                       "`: positions are the programmed ones; the control lengthens or shortens the move by the tool "
+                       "radius",
                    "write L with RL or RR");
-      break;
+      act(w, ir::OpaqueWord{slice(w)});
+      continue;
+    }
+    if (form == Form::normal_line && w.has_value && facts::in_words(facts::vector_words, w.address)) {
+      act(w, ir::OpaqueWord{slice(w)});
+      continue;
     }
     if ((retract_ || retract_far_) && is(w, "F") && w.has_value) {
       retract_feed = &words[i];
@@ -279,7 +303,11 @@ bool Lowering::path() {
     report_.refuse("HEI-006", first.pos, "DR belongs to an arc");
     return false;
   }
-  if (rapid_ && form != Form::line && form != Form::polar_line) {
+  if (form == Form::normal_line)
+    report_.warn("HEI-006", first.pos,
+                 "LN: positions are those of the tool's tip; the control turns the tool and shifts it by the vectors");
+  const bool straight = form == Form::line || form == Form::normal_line || form == Form::polar_line;
+  if (rapid_ && !straight) {
     report_.refuse("HEI-006", first.pos, "an arc is not run in rapid traverse: its feed is unknown", "write F");
     return false;
   }
@@ -301,6 +329,7 @@ bool Lowering::path() {
   switch (form) {
     case Form::none:
     case Form::line:
+    case Form::normal_line:
     case Form::polar_line: m.kind = rapid_ ? MotionKind::rapid : MotionKind::linear; break;
     case Form::arc:
     case Form::by_radius:
@@ -324,7 +353,15 @@ bool Lowering::path() {
     report_.warn("HEI-006", first.pos, "axis words without a path function are read as L", "write L before them");
   const bool by_pole = form == Form::arc || form == Form::polar_arc;
   if (retract_ || retract_far_) retract(retract_feed);
+  if (from_maker_point_) {
+    for (auto& c : m.coords) {
+      const ir::ExprPtr point = datum(ir::Datum::other, "M92_" + std::string(ir::fixed_axis_name(c.axis)));
+      c.value = ir::add(c.value, ir::Value(point));
+    }
+  }
   const bool moves = out_.has_motion;
+  const auto tilted = untilted_ ? std::exchange(tilt_, std::nullopt) : std::nullopt;
+  if (tilted) put_tilt();
   const bool only_ends = !end_text_.empty() && out_.empty() && call_ == CycleCall::none;
   if (!only_ends) {
     Item& item = put(ItemKind::plain, std::move(out_));
@@ -332,6 +369,11 @@ bool Lowering::path() {
     item.by_pole = by_pole;
     item.polar = polar && form != Form::polar_arc;
     item.call = call_;
+    item.plunge = plunge_;
+  }
+  if (tilted) {
+    tilt_ = tilted;
+    put_tilt();
   }
   if (!end_text_.empty()) {
     ir::End end;
@@ -400,11 +442,15 @@ bool Lowering::corner(const Word& first, ir::CornerKind kind) {
     report_.refuse("HEI-007", first.pos, "the corner has no size");
     return false;
   }
-  Item* before = flat_.items.empty() ? nullptr : &flat_.items.back();
-  auto* block = before == nullptr ? nullptr : std::get_if<ir::Block>(&before->statement.node);
+  Item* before = nullptr;
+  ir::Block* block = nullptr;
+  for (std::size_t i = flat_.items.size(); i-- > 0;) {  // remarks may stand between
+    before = &flat_.items[i];
+    block = std::get_if<ir::Block>(&before->statement.node);
+    if (block == nullptr || before->kind != ItemKind::plain || !block->empty()) break;
+  }
   const bool follows = block != nullptr && before->kind == ItemKind::plain && before->moves && before->lead < 0 &&
-                       before->free < 0 && before->call == CycleCall::none &&
-                       block->motion.kind != ir::MotionKind::rapid;
+                       before->call == CycleCall::none && block->motion.kind != ir::MotionKind::rapid;
   if (!follows) {
     report_.refuse("HEI-007", first.pos, "no path element stands right before the corner", {}, "motion.geometry");
     return false;
