@@ -1,5 +1,6 @@
 // CYCL DEF and CYCL CALL (reference 14): the definition with its parameters, what takes effect at once, calls.
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/saturate.h"
@@ -45,30 +46,35 @@ bool Lowering::cycle_def(const syntax::Statement& s) {
   waiting_line_ = line_;
   // Comments of a definition are the editor's texts.
   std::erase_if(waiting_line_.comments, [](const auto&) { return true; });
-  return row == nullptr || words_of_the_line(cycle);
+  if (row == nullptr) return true;
+  each_parameter([&](std::int16_t q, const Word& name, const Word& amount, bool bare) {
+    if (facts::find_parameter(*row, q) == nullptr) return;
+    QValue v;
+    v.where = word_span(report_.line(), name.pos);
+    if (!bare) v.value = value(amount);
+    const bool named = !amount.address.empty();
+    if (named && !feed_name(to_upper_ascii(amount.address), bare ? nullptr : &v.value, amount.pos, v)) return;
+    cycle.values[q] = std::move(v);
+  });
+  return !report_.refused();
 }
 
-/// `CYCL DEF 200 Q200=2 Q201=-5`: parameters in the line of the number.
-bool Lowering::words_of_the_line(CycleDefinition& cycle) {
+/// `CYCL DEF 200 Q200=2 Q206=FAUTO Q201=-5`: parameters in the line of the number. `bare`: a name without a number.
+void Lowering::each_parameter(
+    const std::function<void(std::int16_t q, const Word& name, const Word& number, bool bare)>& take) {
   const auto& words = block_->words;
   for (std::size_t i = 1; i + 2 < words.size(); ++i) {
     const Word &name = words[i], &number = words[i + 2];
-    const bool feed = !number.address.empty() && number.address != "=";
+    const bool named = !number.address.empty() && number.address != "=";
     const bool pair = name.is_expression &&  // the number of the cycle or a word of its name may stand before it
-                      words[i + 1].address == "=" && (feed || number.has_value);
+                      words[i + 1].address == "=" && (named || number.has_value);
     const Expr* variable = pair ? &block_->exprs[static_cast<std::size_t>(name.expr)] : nullptr;
     if (variable == nullptr || variable->kind != ExprKind::variable || variable->text != "Q") continue;
-    const auto q = saturate<std::int16_t>(variable->args.at(0).number);
-    if (facts::find_parameter(*cycle.row, q) == nullptr) continue;
-    QValue v;
-    v.where = word_span(report_.line(), name.pos);
-    v.value = value(number);
-    if (feed && !feed_name(to_upper_ascii(number.address), number.has_value ? &v.value : nullptr, number.pos, v))
-      continue;
-    cycle.values[q] = std::move(v);
-    i += 2;
+    // `FAUTO Q201=-5`: the next parameter is read as the value of the name.
+    const bool next = named && number.is_expression && i + 3 < words.size() && words[i + 3].address == "=";
+    take(saturate<std::int16_t>(variable->args.at(0).number), name, number, next || !number.has_value);
+    i += next ? 1 : 2;
   }
-  return !report_.refused();
 }
 
 /// `Q201=-15` behind a definition. False: it is no parameter of the cycle.

@@ -108,10 +108,12 @@ void CycleCalls::definition(const Item& item, Statements& out) const {
   s.node = std::move(assign);
   out.push_back(std::move(s));
 }
-ir::Value CycleCalls::parameter(const CycleDefinition& cycle, std::int16_t q, bool any) const {
+ir::Value CycleCalls::parameter(const CycleDefinition& cycle, std::int16_t q, const Arrival& a) const {
   const auto it = cycle.values.find(q);
   if (it == cycle.values.end()) return ir::Value(0);
-  const bool variable = lowering_.own_writes().count(q) != 0 || !it->second.value.literal() || (any && differs(q));
+  const bool any = a.cycle == Arrival::several;
+  const bool written = (a.rewritten || a.outside || any) && lowering_.own_writes().count(q) != 0;
+  const bool variable = written || !it->second.value.literal() || (any && differs(q));
   return variable ? ir::Value(ir::numbered(facts::space_q, q)) : it->second.value;
 }
 /// The definition in force; null and a fault: which one that is can't be told.
@@ -154,7 +156,6 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   const CycleDefinition* cycle = in_force(item, a);
   if (cycle == nullptr) return out;
   Report& report = lowering_.report();
-  const bool any = a.cycle == Arrival::several;
   if (cycle->old != nullptr && cycle->old->kind == facts::OldKind::program) {
     const auto part = cycle->parts.find(1);
     std::string_view text = part == cycle->parts.end() ? std::string_view{} : std::string_view(part->second.text);
@@ -186,7 +187,7 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   context.speed_after = &out.speed_after;
   context.value = [&](std::int16_t q) {
     const bool shared = over != nullptr && over->values.count(q) != 0 && lowering_.own_writes().count(q) == 0;
-    if (!shared) return parameter(*cycle, q, any);
+    if (!shared) return parameter(*cycle, q, a);
     const bool low = overlay != nullptr && q == 204 && over->values.at(301).value.is(0);
     return low ? ir::Value(0) : over->values.at(q).value;  // from point to point on the clearance
   };

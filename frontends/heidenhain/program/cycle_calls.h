@@ -41,7 +41,7 @@ class CycleCalls {
   [[nodiscard]] bool differs(std::int16_t q) const;
   void link_globals();
   void find_stored();
-  [[nodiscard]] ir::Value parameter(const CycleDefinition& cycle, std::int16_t q, bool any) const;
+  [[nodiscard]] ir::Value parameter(const CycleDefinition& cycle, std::int16_t q, const Arrival& a) const;
   const CycleDefinition* in_force(const Item& item, const Arrival& a);
   [[nodiscard]] bool differs_from_patterns(const CycleDefinition& cycle) const;
   Machining machining(const Item& item, const Arrival& a, const std::optional<ir::Value>& shift,

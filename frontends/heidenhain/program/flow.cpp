@@ -29,6 +29,7 @@ bool narrow(Arrival& a, const Arrival& b) {
   same(a.overlay, b.overlay);
   same(a.selected, b.selected);
   a.outside = a.outside || b.outside;
+  a.rewritten = a.rewritten || b.rewritten;
   a.selected_outside = a.selected_outside || b.selected_outside;
   return !(a == before);
 }
@@ -108,7 +109,7 @@ Arrival Flow::after(int item, Arrival a) const {
       a.cycle = i.index;
       a.modal = 0;
       a.overlay = Arrival::none;
-      a.outside = false;
+      a.outside = a.rewritten = false;
       return a;
     case ItemKind::pole:
       a.pole = i.index;
@@ -124,7 +125,7 @@ Arrival Flow::after(int item, Arrival a) const {
     a.selected = i.selects;
     a.selected_outside = false;
   }
-  if (!i.writes.empty()) a.written = true;
+  if (!i.writes.empty()) a.written = a.rewritten = true;
   if (i.call == CycleCall::modal) {
     a.modal = 1;
   } else if (i.call == CycleCall::ends || i.at_pattern || (i.call == CycleCall::once && i.moves)) {

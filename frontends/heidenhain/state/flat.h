@@ -156,6 +156,7 @@ struct Arrival {
   int selected = none;            ///< index of the name of SEL PGM
   bool selected_outside = false;  ///< a program of another file ran since
   bool outside = false;           ///< a program of another file ran since the definition
+  bool rewritten = false;         ///< a parameter of the cycle was assigned since its definition
   bool operator==(const Arrival&) const = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -98,7 +99,7 @@ class Lowering {
   bool cycle_def(const syntax::Statement& s);
   bool cycle_word(const syntax::Statement& s);
   void global_word(const syntax::Statement& s);
-  bool words_of_the_line(CycleDefinition& cycle);
+  void each_parameter(const std::function<void(std::int16_t q, const Word& name, const Word& number, bool bare)>& take);
   bool feed_name(std::string_view name, const ir::Value* amount, WordPos pos, QValue& v);
   bool old_part(const syntax::Statement& s, std::int64_t number, int part);
   bool cycle_call(const syntax::Statement& s);

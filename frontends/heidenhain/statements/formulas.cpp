@@ -98,11 +98,17 @@ ir::ExprPtr Lowering::text_function(const Expr& e) {
       value = std::move(typed);
     }
     if (row->function == ir::Function::index_of) {  // not found: the length of the text
-      const ir::ExprPtr none = ir::binary(ir::BinaryOp::lt, value, ir::number(0));
       const ir::ExprPtr length = ir::call(ir::Function::string_length, {args[0]});
-      value =
-          ir::binary(ir::BinaryOp::add, value,
-                     ir::binary(ir::BinaryOp::multiply, none, ir::binary(ir::BinaryOp::add, length, ir::number(1))));
+      auto rest_of = std::make_shared<ir::Expr>(*ir::call(ir::Function::substring, {args[0], args[2], length}));
+      rest_of->type = ir::Type::string;
+      const Term begin{ir::Value(args[2])};
+      const auto first = ir::constant_value(args[2]);
+      const bool whole = first && *first == 0;
+      const ir::ExprPtr place = ir::call(ir::Function::index_of, {whole ? args[0] : rest_of, args[1]});
+      const ir::ExprPtr none = ir::binary(ir::BinaryOp::lt, place, ir::number(0));
+      const Term from = whole ? Term(0) : begin;
+      const Term missing = Term(ir::Value(none)) * (Term(ir::Value(length)) - from + Term(1));
+      value = ir::as_expr((Term(ir::Value(place)) + from + missing).value());
     }
     return ir::at(value, e.pos);
   }
@@ -402,8 +408,12 @@ bool Lowering::function(const syntax::Statement& s) {
     }
     case FnUse::circle: return circle(s, row->number == 24);
     case FnUse::kept: {
-      const bool reads = row->number == 28;
-      if (!reads)
+      if (row->number == 25) {
+        report_.keep("HEI-013", s.pos, "FN 25 sets the datum: preset tables are known to the machine only",
+                     "motion.transformation");
+        return false;
+      }
+      if (row->number != 28)
         return carried(s, true, "beside.data", "FN " + s.text + " does not change the path; it is kept as text");
       report_.keep("HEI-013", s.pos, "FN " + s.text + " reads tables that the control keeps", "language.statement");
       return false;

@@ -182,6 +182,9 @@ bool Lowering::sentence(const syntax::Statement& s) {
     case Sentence::free_contour: return free_element(s);
     case Sentence::global_def:
       global_ = true;
+      each_parameter([this](std::int16_t q, const Word&, const Word& number, bool) {
+        if (number.address.empty() && !number.is_expression) globals_[q].push_back(value(number));
+      });
       return carried(s, true, "beside.data", "values for the cycles that say PREDEF; the sentence is kept as text");
     case Sentence::pattern: return pattern_def(s);
     case Sentence::select_pattern:
