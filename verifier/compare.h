@@ -39,6 +39,8 @@ struct Options {
   /// The target's language has an exact stop as a mode, and in one block; where it lacks one, the source's is left
   /// aside.
   bool stops_by_mode = false, stops_in_block = false;
+  /// No machine of the two is a turret, which makes no tool ready.
+  bool makes_ready = true;
   /// The target's language shows texts; where it can't, the source's are left aside.
   bool shows_messages = true;
   /// Power-on selects none on the source's machine, and the target's begins otherwise.

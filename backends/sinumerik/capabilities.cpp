@@ -89,6 +89,7 @@ void words(ir::Capabilities& c) {  // reference-language 14
            std::holds_alternative<ir::PreparationStop>(a.data) || std::holds_alternative<ir::SurfaceSet>(a.data);
   };
   c.surfaces = ir::SurfaceForm::y_words;
+  c.machine_move_ends_offset = true;
   c.surface_needs_radius = c.surface_clears_frames = true;
   c.corner_modal = c.corner_feed = true;
   c.corners = {ir::CornerKind::round, ir::CornerKind::chamfer_leg, ir::CornerKind::chamfer_chord};

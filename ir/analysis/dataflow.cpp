@@ -257,11 +257,8 @@ class Analysis {
   void enter(std::size_t routine, const Facts& f) {
     RoutineState& r = routines_[routine];
     r.entered = true;
-    if (r.entry != 0) {
-      if (join(facts_[r.entry], f)) mark(r.entry), mark_all(r.callers);
-    } else {
-      leave(routine, f);
-    }
+    if (r.entry == 0) return leave(routine, f);
+    if (join(facts_[r.entry], f)) mark(r.entry), mark_all(r.callers);
   }
 
   void leave(std::size_t routine, const Facts& f) {
@@ -318,13 +315,15 @@ class Analysis {
       apply(s, f, framed_);
       return true;
     }
-    if (moves(s) && !inside_modal_[routine_of_[s.id]]) return block_with_modal_call(s, f);
+    const auto* b = std::get_if<Block>(&s.node);
+    const bool counted = b != nullptr && b->repeat_given != 0;  // no time, or more than once
+    if (!counted && moves(s) && !inside_modal_[routine_of_[s.id]]) return block_with_modal_call(s, f);
     Facts without = f;
+    without.modal_call = Facts::in_modal_run;
     apply(s, without, framed_);
-    if (block_with_modal_call(s, f))
-      join(f, without);
-    else
-      f = without;
+    without.modal_call = f.modal_call;
+    f.reachable = block_with_modal_call(s, f);
+    join(f, without);
     return true;
   }
 

@@ -175,7 +175,7 @@ bool rows_change(const Program& program) {
 
 FrameReach frame_reach(const Program& program, const ModalState& power_on) {
   constexpr std::uint32_t all = ~0U;
-  std::uint32_t axes = 0, planes = 0;
+  std::uint32_t axes = 0, planes = 0, turned = 0;
   bool turns = false;
   const auto in_plane = [](Plane p) {
     const auto a = plane_axes(p);
@@ -187,8 +187,10 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
     if (c.kind == FrameKind::rotate && c.rotation_axis == axis::none && c.has_angle) {
       turns = true;
     } else if (const auto across = turned_by(c)) {
-      axes |= *across;
-    } else if (c.kind == FrameKind::rotate || (c.kind == FrameKind::scale && c.uniform_scale)) {
+      turned |= *across;
+    } else if (c.kind == FrameKind::rotate) {
+      turned = all;
+    } else if (c.kind == FrameKind::scale && c.uniform_scale) {
       axes = all;
     } else {
       for (const auto& w : c.words) axes |= w.axis < axis::count_max ? 1U << w.axis : 0U;
@@ -199,7 +201,7 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
     for_each_statement(r.body, [&](const Statement& s) {
       if (const auto* assign = std::get_if<Assign>(&s.node)) {
         for (const auto& item : assign->items) {
-          if (item.to_system && item.value && item.value->type == Type::frame) axes = all;
+          if (item.to_system && item.value && item.value->type == Type::frame) turned = all;
         }
       }
       const auto* b = std::get_if<Block>(&s.node);
@@ -211,7 +213,8 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
       }
     });
   }
-  return {turns ? axes | planes : axes, power_on.work_offset != 0, rows_change(program)};
+  if (turns) turned |= planes;
+  return {axes | turned, power_on.work_offset != 0, rows_change(program), turned};
 }
 
 }  // namespace cnctrans::ir::detail

@@ -34,6 +34,7 @@ struct FrameReach {
   /// A row of the work offset table, or what is added to it, may change while the program runs: selecting the row that
   /// is in force already moves the coordinates.
   bool rows_change = true;
+  std::uint32_t turned = ~0U;  ///< bit n: a rotation mixes axis n with another one
 };
 FrameReach frame_reach(const Program& program, const ModalState& power_on);
 /// ir::apply() in a program where frame statements reach these axes only.

@@ -103,9 +103,7 @@ class Transfer {
   /// Presetting says where the tool is; any other frame change moves the coordinates under it.
   void operator()(const FrameOp& x) {
     if (!x.change || x.change->combine != FrameCombine::preset) {
-      for (std::size_t i = 0; i < f_.position.size(); ++i) {
-        if ((framed_.axes >> i & 1U) != 0) f_.position[i].reset();
-      }
+      forget(framed_.axes);
       return;
     }
     if (framed_.presets_by_offset && f_.work_offset == 0) return;
@@ -178,6 +176,11 @@ class Transfer {
     }
   }
   void forget_positions() { f_.position.fill(std::nullopt); }
+  void forget(std::uint32_t axes) {
+    for (std::size_t i = 0; i < f_.position.size(); ++i) {
+      if ((axes >> i & 1U) != 0) f_.position[i].reset();
+    }
+  }
 
  private:
   void set_position(AxisId id, std::optional<double> x) {
@@ -229,6 +232,7 @@ class Transfer {
     const bool plain = ends_at_words(kind) && m.frame == FrameUse::normal;
     if (!plain && m.coords.empty() && kind != std::nullopt && !ends_at_words(kind)) return forget_positions();
     const auto before = f_.position;
+    if (!plain) forget(framed_.turned);  // an axis of the machine moves more than one coordinate of theirs
     for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);
     if (m.extra && !m.extra->computed.empty()) forget_positions();  // the axis is known to the run only
     if (m.extra) extra(*m.extra, m);

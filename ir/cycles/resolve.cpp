@@ -95,6 +95,10 @@ bool sensible(const HoleCycle& c, HoleNumbers& n, std::string* error) {
     *error = "the first peck of the cycle is zero";
     return false;
   }
+  if (tap && !c.pitch.literal() && n.pitch == 0) {
+    *error = "the pitch of the tap is zero";
+    return false;
+  }
   if (pecks && !n.reapproach_automatic && n.reapproach < 0) {
     *error =
         "the distance above the last depth, where feeding starts again, is negative: that would be a rapid into the "

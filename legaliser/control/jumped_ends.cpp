@@ -32,15 +32,15 @@ class JumpedEnds {
       if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty()) return;
       const auto range = labels_.range(*r, labels_.order(s.id));
       if (!range) return;
-      bool round = false;
-      const auto ends = ends_of(*r, range->first, s.id, round);
-      if (round && inside_.at(range->first.statement) != inside_.at(range->second.statement)) {
-        refuse(s, program_, editor_.context, "TRN-524",
-               "the repeated part ends inside of a branch that is not always carried out: on the other way it does not "
-               "end there",
-               "put the end of the part behind the branch");
+      if (inside_.at(range->first.statement) != inside_.at(range->second.statement)) {
+        refuse(
+            s, program_, editor_.context, "TRN-524",
+            "the repeated part ends inside of a branch that is not always carried out: where it ends on the other way "
+            "is stated nowhere",
+            "put the end of the part behind the branch");
         return;
       }
+      const auto ends = ends_of(*r, range->first);
       if (r->search == Search::whole_first || labels_.all(r->last.text, r->last.is_number).size() < 2) return;
       if (ends.size() == 1 && *ends.begin() != range->second.statement) r->last = name_of(*ends.begin());
       if (ends.size() < 2) return;
@@ -51,9 +51,8 @@ class JumpedEnds {
   }
 
  private:
-  /// The marks at which the part may end, ids. `round`: control may also come to the repetition without any of them.
-  std::set<std::uint32_t> ends_of(const Repeat& r, const LabelSite& first, std::uint32_t repetition,
-                                  bool& round) const {
+  /// The marks at which the part may end, ids.
+  std::set<std::uint32_t> ends_of(const Repeat& r, const LabelSite& first) const {
     std::set<std::uint32_t> marks, ends, seen;
     for (const auto& site : labels_.all(r.last.text, r.last.is_number)) {
       if (site.order >= first.order) marks.insert(site.statement);
@@ -64,7 +63,6 @@ class JumpedEnds {
       open.pop_back();
       if (id == 0 || id >= flow_.statements.size() || flow_.statements[id] == nullptr || !seen.insert(id).second)
         continue;
-      round = round || id == repetition;
       if (marks.count(id) != 0) {
         ends.insert(id);
       } else if (std::holds_alternative<Repeat>(flow_.statements[id]->node)) {  // another part has an end of its own

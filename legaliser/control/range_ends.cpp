@@ -15,6 +15,11 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
+/// A move in machine coordinates behind which the target selects the offset again.
+bool ends_offset(const Block& b, const Capabilities& target) {
+  return target.machine_move_ends_offset && b.has_motion && b.motion.frame == FrameUse::machine;
+}
+
 class RangeEnds {
  public:
   RangeEnds(Program& program, Routine& routine, const LegaliseContext& context)
@@ -153,7 +158,8 @@ class RangeEnds {
   /// A statement that the target may say with several.
   [[nodiscard]] bool may_grow(const Statement& s) const {
     if (const auto* b = std::get_if<Block>(&s.node))
-      return modal_calls_ || action_in<CycleDefine>(*b) != nullptr || (branches_turns_ && turns_by_a_sign(*b));
+      return modal_calls_ || action_in<CycleDefine>(*b) != nullptr || (branches_turns_ && turns_by_a_sign(*b)) ||
+             ends_offset(*b, editor_.context.target);
     if (const auto* i = std::get_if<If>(&s.node)) {
       const bool jump = i->then_body.size() == 1 && std::holds_alternative<Jump>(i->then_body[0].node);
       return !jump || !i->else_body.empty();
@@ -287,7 +293,8 @@ class EndMarks {
   /// The line before takes the mark's place; false: it is no single line.
   bool take(Statement& s, const LabelRef& mark) {
     const auto* branch = std::get_if<If>(&s.node);
-    const bool one = std::holds_alternative<Block>(s.node) || std::holds_alternative<Assign>(s.node) ||
+    const auto* block = std::get_if<Block>(&s.node);
+    const bool one = (block != nullptr && !ends_offset(*block, target_)) || std::holds_alternative<Assign>(s.node) ||
                      std::holds_alternative<CallRoutine>(s.node) || (branch != nullptr && branch->one_line);
     if (!one || s.line.joined || s.line.skip_mask != 0 || ends_a_hole(s)) return false;
     const auto have = labels_on(s.line);

@@ -30,7 +30,8 @@ void CyclePass::look_for_definitions() {
       calls_anywhere_ = calls_anywhere_ || (m != nullptr && m->cycle);
     });
   }
-  enters_unsure_ = first != nullptr && facts_.before(*first).cycle_from == Facts::several_cycles;
+  enters_unsure_ = first != nullptr && editor_.routine.kind != RoutineKind::main &&
+                   facts_.before(*first).cycle_from == Facts::several_cycles;
 }
 
 bool CyclePass::old_may_run(const Facts& facts) const {
@@ -61,7 +62,9 @@ void CyclePass::leave_while_on(Statement& s) {
 }
 void CyclePass::end_elsewhere(const Statement& s) {
   const Facts& facts = facts_.before(s);
-  if (active_ && !surely_active_ && facts.reachable && facts.cycle_active_known && !facts.cycle_active) active_.reset();
+  if (!active_ || surely_active_ || !facts.reachable || !facts.cycle_active_known || facts.cycle_active) return;
+  leave_off();  // a jump may have taken it to the end of the routine
+  active_.reset();
 }
 void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
   if (!active_ || active_->on_target) return;
@@ -236,8 +239,7 @@ static void refuse_given_back(const Span& where, const LegaliseContext& context)
 }
 
 void CyclePass::leave_off() const {
-  if (active_ && !active_->on_target && !active_->maybe_on_target && definitions_.count(active_->from) != 0)
-    callees_.left_off.insert(active_->from);
+  if (active_ && !active_->on_target && !active_->maybe_on_target) callees_.left_off.insert(active_->from);
 }
 
 void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& context) {

@@ -240,7 +240,10 @@ void FrameState::preset(const FrameChange& c, const Facts& facts, const Block& b
     }
     f.shift_scale[w.axis] = w.scale;
     const Value by{*point / *factor - w.value.number};
-    if (f.shift[w.axis]) f.shift[w.axis] = add(*f.shift[w.axis], by);
+    if (preset_off_)
+      f.shift[w.axis] = by;  // the point was not counted from what it was preset to before
+    else if (f.shift[w.axis])
+      f.shift[w.axis] = add(*f.shift[w.axis], by);
   }
 }
 

@@ -73,7 +73,6 @@ class PolePass {
     values_ = &values;
     uses_ = label_uses(program_, r);
     states_ = &states;
-    modal_ = has_modal_calls(program_);  // any move may run a subprogram
     forget_way();
     walk(r.body);
   }
@@ -115,7 +114,8 @@ class PolePass {
       if (before != nullptr && !pole_) pole_ = way_;
       if (auto* b = std::get_if<Block>(&s.node)) {
         block(s, *b);
-        way_ = s.line.skip_mask == 0 && !modal_ ? pole_ : std::nullopt;
+        way_ = s.line.skip_mask == 0 ? pole_ : std::nullopt;
+        if (facts_.before(s).modal_call_runs()) forget_way();  // a subprogram goes on from there
         continue;
       }
       bool nested = false;
@@ -476,7 +476,7 @@ class PolePass {
   bool set_ = false, stale_ = false;  ///< of State
   bool other_pole_ = false;           ///< since the last polar words of a line
   bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
-  bool polar_arc_done_ = false, modal_ = false, quiet_ = false;  ///< quiet: only following
+  bool polar_arc_done_ = false, quiet_ = false;  ///< quiet: only following
   std::optional<Plane> plane_;
   bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false, target_stays_ = false,
        radius_stays_ = false, target_radius_stays_ = false, lines_only_ = false;

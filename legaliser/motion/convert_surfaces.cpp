@@ -43,6 +43,7 @@ class SurfacePass {
     if (b != nullptr) resume(s, *b);
     if (set == nullptr) {
       if (b != nullptr && target().surfaces == SurfaceForm::c_with_plane) under_plane(s, *b);
+      if (b != nullptr && target().surface_needs_radius) keep_radius(s, *b);
       out.push_back(std::move(s));
       return;
     }
@@ -114,6 +115,16 @@ class SurfacePass {
       const auto now = surface == Surface::face ? DiameterMode::radius : *mode;
       behind.push_back(make_block(s.line, action(ModalSet{Setting::diameter, static_cast<std::uint8_t>(now)})));
     }
+  }
+
+  /// X of the face stays a radius: a diameter mode that is chosen there is said where the face ends.
+  void keep_radius(Statement& s, Block& b) const {
+    if (setting<Surface>(facts_.before(s), Setting::surface) != Surface::face) return;
+    const auto mode = [](const Action& a) {
+      const auto* m = std::get_if<ModalSet>(&a.data);
+      return m != nullptr && m->setting == Setting::diameter;
+    };
+    if (std::erase_if(b.actions, mode) != 0) settle(s);
   }
 
   /// The target chooses the surface with its plane.

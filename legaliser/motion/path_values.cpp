@@ -344,14 +344,17 @@ void PathValues::block(const Statement& s, const Block& b, State& state) const {
   const auto polar = plain ? end(b, facts, middle) : std::nullopt;
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
   // The block is carried out from two places that are not in any program: where it leaves them alone, it does not move.
-  constexpr std::array<double, 2> places_tried{70001.25, 90007.75};
+  // The axes are not as far apart in both, or the end of a line by its angle would be the same.
+  const auto place_tried = [](std::size_t t, std::size_t i) {
+    return t == 0 ? 70001.25 + static_cast<double>(i) : 90007.75 + 3.5 * static_cast<double>(i);
+  };
   std::array<Facts, 2> tried{facts, facts};
   Statement moves = s;
   if (moved_zero) std::erase_if(std::get<Block>(moves.node).actions, moves_coordinates);
   const auto numbered = [&](std::size_t i) { return !moved_zero && facts.position[i]; };
   for (std::size_t t = 0; t < tried.size(); ++t) {
     for (std::size_t i = 0; i < from.size(); ++i) {
-      if (!numbered(i)) tried[t].position[i] = places_tried[t] + static_cast<double>(i);
+      if (!numbered(i)) tried[t].position[i] = place_tried(t, i);
     }
     apply(moves, tried[t]);
   }
@@ -359,8 +362,7 @@ void PathValues::block(const Statement& s, const Block& b, State& state) const {
     const auto axis = static_cast<AxisId>(i);
     auto& at = behind.at[i];
     const auto &a = tried[0].position[i], &c = tried[1].position[i];
-    const bool stays =
-        !numbered(i) && a == places_tried[0] + static_cast<double>(i) && c == places_tried[1] + static_cast<double>(i);
+    const bool stays = !numbered(i) && a == place_tried(0, i) && c == place_tried(1, i);
     if (stays) continue;
     if (polar && plane && (axis == plane_axes(*plane).u || axis == plane_axes(*plane).v))
       at = axis == plane_axes(*plane).u ? polar->to.u : polar->to.v;

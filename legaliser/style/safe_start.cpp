@@ -141,7 +141,8 @@ class SafeStart {
       if (b == nullptr || !b->has_motion) continue;
       if (s.line.skip_mask != 0) return false;  // the move behind it may be the first one
       if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
-      if (b->motion.kind != MotionKind::modal || !b->motion.moves() || !b->motion.centers.empty()) continue;
+      if (b->motion.kind != MotionKind::modal || !b->motion.moves()) continue;
+      if (!b->motion.centers.empty()) return false;  // a straight line beside its centre: no code fits it
       // A hole that is reached in rapid whatever function is in force says nothing of it.
       if (hole && context_.target_machine.option("cycle.positioning") == "rapid") return false;
       b->motion.kind = context_.source_machine.power_on.motion;

@@ -1,6 +1,7 @@
 // Last looks: marks without a block join the next block, empty blocks that passes left over disappear.
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "legaliser/edit/editor.h"
 #include "legaliser/passes.h"
@@ -221,7 +222,9 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
   const LabelUses uses = label_uses(program, routine);
   Body out;
   out.reserve(body.size());
+  bool begins_line = false;  // the statement that the line began with has gone
   for (auto& s : body) {
+    s.line.joined = s.line.joined && !std::exchange(begins_line, false);
     each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
     if (program.dialect != context.target.dialect && !out.empty() && join_assignments(out.back(), s, context.target))
       continue;
@@ -246,6 +249,7 @@ void tidy_body(Body& body, const Program& program, const Routine& routine, const
     const bool left_over = b != nullptr && b->empty() && b->repeat_given == 0 && shows_nothing(s.line) &&
                            s.line.blank_lines_before == 0 && s.id == 0;
     const bool bare_mark = std::holds_alternative<Label>(s.node) && shows_nothing(s.line);
+    begins_line = (left_over || bare_mark) && !s.line.joined;
     if (!left_over && !bare_mark) out.push_back(std::move(s));
   }
   body = std::move(out);

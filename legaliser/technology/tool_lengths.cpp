@@ -14,10 +14,11 @@ bool BareTool::follow(const Block& block, const Span& where) {
   for (const auto& a : block.actions) {
     if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
       given_ = false;
+      chosen_ = true;
       changes = changes || t->changes;
     } else if (std::holds_alternative<ToolChange>(a.data)) {
       changes = true;
-      if (keeps_) given_ = false;
+      if (keeps_ || !chosen_) given_ = false;
     }
   }
   for (const auto& a : block.actions) given_ = given_ || std::holds_alternative<ToolOffset>(a.data);
@@ -40,7 +41,7 @@ std::string bare_offset(const machine::Profile& machine) {
 void check_bare_tools(const Program& program, const LegaliseContext& context) {
   bool said = false;
   for (const auto& r : program.routines) {
-    BareTool tool(context.source_machine);
+    BareTool tool(context.source_machine, r.kind != RoutineKind::main);
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();

@@ -22,16 +22,22 @@ class BareTool {
  public:
   BareTool() = default;
   /// `kept` of the source's option: a D that stands before the change stays there; elsewhere the change takes its own.
-  explicit BareTool(const machine::Profile& source) : keeps_(source.option("tool.bare_offset") == "kept") {}
+  /// `chosen`: a tool has been chosen before, or may have been.
+  explicit BareTool(const machine::Profile& source, bool chosen = true)
+      : keeps_(source.option("tool.bare_offset") == "kept"), chosen_(chosen) {}
   /// \return a move uses such a tool, for the first time
   bool follow(const Block& block, const Span& where);
   /// The D may have been given where it can't be seen.
-  void forget() { waiting_ = false; }
+  void forget() {
+    waiting_ = false;
+    chosen_ = true;
+  }
   /// Where such a tool has come that a move uses: TRN-522.
   void tell(const LegaliseContext& context) const;
 
  private:
   bool keeps_ = false;
+  bool chosen_ = true;    ///< some T stands before: without one a change brings what the machine has ready
   bool given_ = false;    ///< a D since the last T
   bool waiting_ = false;  ///< changed without one
   bool used_ = false;     ///< by a move: the rest does not matter any more

@@ -184,6 +184,12 @@ TEST(Positions, MachineCoordinatesAreNotInTheWorkFrame) {
   EXPECT_EQ(k.y("1"), "2");
 }
 
+TEST(Positions, AxesOfTheMachineUnderARotation) {
+  const std::string turned = "block frame chain rotate compose angle 90\n";
+  const Known k = known(turned + "block rapid X 1 Y 2\nblock rapid in_frame machine X 0\nN1 block\n");
+  EXPECT_EQ(k.y("1"), "unknown") << "X of the machine is Y of the turned frame";
+}
+
 TEST(Positions, MotionsThatEndElsewhere) {
   EXPECT_EQ(known("block rapid X 1 Y 2\nblock probe_toward once X 9\nN1 block\n").x("1"), "unknown");
   EXPECT_EQ(known("block rapid X 1 Y 2\nblock probe_toward once X 9\nN1 block\n").y("1"), "2");
@@ -325,6 +331,12 @@ TEST(Calls, ModalCallsRunAfterMotions) {
   EXPECT_EQ(k.plane("3"), "zx");
   EXPECT_EQ(k.x("3"), "5");
   EXPECT_EQ(k.plane("4"), "xy");
+}
+
+TEST(Calls, ModalCallsOfACountedBlock) {
+  const Known k = with_subs("modal_call call 20\nblock distance incremental, rapid Y 10, times R[3]\nN1 block\n",
+                            "routine sub 20 {\nblock distance absolute\n}\n");
+  EXPECT_EQ(k.distance("1"), "unknown") << "no run with the count 0";
 }
 
 TEST(Calls, SubsOfALibraryStartWithNothingKnown) {

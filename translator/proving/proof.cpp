@@ -8,8 +8,10 @@
 #include "legaliser/data/given_data.h"
 #include "legaliser/data/missing_offsets.h"
 #include "machine/data_at_rest.h"
+#include "machine/tool_data.h"
 #include "translator/proving/coverage.h"
 #include "translator/proving/explore.h"
+#include "translator/proving/zero_data.h"
 
 namespace cnctrans::translator {
 
@@ -124,6 +126,7 @@ class Prover {
     compared_.stops_in_block = options.target.exact_stop_block;
     compared_.offset_of_start = !options.leaves_offset_of_start;
     compared_.shows_messages = options.target.messages;
+    compared_.makes_ready = !machine::changes_on_select(source.profile) && !machine::changes_on_select(target.profile);
     const Settings offset = options.target_settings({{std::string(ir::passes::offset_name), "1"}});
     if (!offset.empty())
       only_offset_ = saturate<std::int32_t>(parse_decimal(offset.front().first).value_or(only_offset_));
@@ -177,7 +180,9 @@ class Prover {
     }
     v.read_first = proof.source.result.read_first;
     const auto of_source = options_.target_settings(as_settings(v.read_first));
+    const auto zeros = zero_data(target_.program);
     for (const auto& name : proof.target.result.read_first) {
+      if (zeros.count(plain_name(name)) != 0) continue;
       const auto same = [&name](const auto& s) { return plain_name(s.first) == plain_name(name); };
       if (std::none_of(of_source.begin(), of_source.end(), same)) v.target_read_first.push_back(name);
     }

@@ -75,7 +75,7 @@ Datum known_datum(const facts::VariableInfo& info, const Expr& e) {
 /// TOX, TOZ, TOL and their wear speak of an axis that is not written as the variable's axis letter.
 ir::AxisId tool_axis(std::string_view name) {
   if (name == "TOX" || name == "TOI") return ir::axis::x;
-  return name == "TOZ" || name == "TOL" || name == "TOK" ? ir::axis::z : ir::axis::none;
+  return name == "TOZ" || name == "TOK" ? ir::axis::z : ir::axis::none;
 }
 
 /// GS of a G function that is a setting, the motion or an offset: its own number, the setting, the value. Else false.
