@@ -36,7 +36,8 @@ enum class Sentence : std::uint8_t {
   departure,  ///< DEP
   free_contour,
   declare_string,
-  carried  ///< read, and kept as text
+  select_table,  ///< SEL TABLE: of the rows that cycle 7 names, which are not carried
+  carried        ///< read, and kept as text
 };
 struct SentenceRow {
   std::string_view words;  ///< one blank between two
@@ -76,7 +77,7 @@ inline constexpr std::array sentences{
     SentenceRow{"CONTOUR DEF", Sentence::carried},
     SentenceRow{"SEL CONTOUR", Sentence::carried},
     SentenceRow{"SEL PATTERN", Sentence::select_pattern},
-    SentenceRow{"SEL TABLE", Sentence::carried},
+    SentenceRow{"SEL TABLE", Sentence::select_table},
     SentenceRow{"FUNCTION", Sentence::carried},
     SentenceRow{"SPL", Sentence::carried},
 };

@@ -62,6 +62,8 @@ void Lowering::frame_cycle(const CycleDefinition& cycle) {
     if (slot && c.combine != ir::FrameCombine::clear) outer_.insert(c.kind);
     b.actions.emplace_back().data = frame_op(std::move(c));
   };
+  if (cycle.old->kind == OldKind::rotation)  // takes the compensation away
+    b.actions.emplace_back().data = ir::ModalSet{ir::Setting::comp, static_cast<std::uint8_t>(ir::CompSide::off)};
   const auto wrong = [&](std::string message) { report_.refuse("HEI-020", {}, std::move(message)); };
   using ir::FrameCombine;
   using ir::FrameKind;

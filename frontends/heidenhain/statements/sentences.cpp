@@ -177,6 +177,9 @@ bool Lowering::sentence(const syntax::Statement& s) {
     case Sentence::declare_string:
       report_.refuse("HEI-013", s.pos, "DECLARE STRING is followed by a parameter QS, `=` and a text");
       return false;
+    case Sentence::select_table:
+      return carried(s, true, "beside.data",
+                     "the table of datum shifts: the rows that are taken from it are not carried");
     case Sentence::approach: return lead(s, false);
     case Sentence::departure: return lead(s, true);
     case Sentence::free_contour: return free_element(s);
