@@ -358,7 +358,8 @@ class Comparison {
         (~a.offset.known & b.offset.known & ~b.offset.unsaid) | (a.offset.of_start & b.offset.selected);
     const std::uint32_t open = !options_.offset_of_start || a.in_machine || b.in_machine ? 0 : said;
     const std::uint32_t here = (a.offset.with ^ b.offset.with) & known & b.offset.known;
-    const std::uint32_t other = (here | open | (a.offset.with & known & b.offset.elsewhere)) & common(a.to, b.to);
+    const std::uint32_t other =
+        (here | open | (a.offset.with & known & ~a.offset.elsewhere & b.offset.elsewhere)) & common(a.to, b.to);
     if (other == 0) return {};
     const auto axis = static_cast<std::size_t>(std::countr_zero(other));
     const auto text = [axis](const Event& e) {

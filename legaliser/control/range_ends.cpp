@@ -158,8 +158,8 @@ class RangeEnds {
   /// A statement that the target may say with several.
   [[nodiscard]] bool may_grow(const Statement& s) const {
     if (const auto* b = std::get_if<Block>(&s.node))
-      return modal_calls_ || action_in<CycleDefine>(*b) != nullptr || (branches_turns_ && turns_by_a_sign(*b)) ||
-             ends_offset(*b, editor_.context.target);
+      return modal_calls_ || action_in<CycleDefine>(*b) != nullptr || action_in<SurfaceSet>(*b) != nullptr ||
+             (branches_turns_ && turns_by_a_sign(*b)) || ends_offset(*b, editor_.context.target);
     if (const auto* i = std::get_if<If>(&s.node)) {
       const bool jump = i->then_body.size() == 1 && std::holds_alternative<Jump>(i->then_body[0].node);
       return !jump || !i->else_body.empty();

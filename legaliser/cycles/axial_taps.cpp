@@ -96,7 +96,8 @@ void say_axial_taps(Program& program, const LegaliseContext& context) {
         std::find_if(b.actions.begin(), b.actions.end(), [](const Action& a) { return axial_drill(a) != nullptr; });
     const auto tap = at != b.actions.end() ? axial_tap(*axial_drill(*at)) : std::nullopt;
     const auto spindle = facts.before(s).master;
-    if (!tap || b.has_motion || !spindle) return out.push_back(std::move(s));
+    // A subprogram that runs behind each move would run behind the way to the hole.
+    if (!tap || b.has_motion || !spindle || facts.before(s).modal_call_runs()) return out.push_back(std::move(s));
     CycleDefine define;
     define.modal = false;
     define.cycle = std::make_shared<const Cycle>(Cycle{tap->hole});

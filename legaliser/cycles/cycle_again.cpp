@@ -130,7 +130,6 @@ void CyclePass::note_write(const VarRef& v) {
 
 /// What is changed further down in the text counts where control comes back up.
 void CyclePass::note_writes_of_loop(std::uint32_t first, std::uint32_t last) {
-  if (!active_ || !active_->native || !active_->on_target) return;
   for (const auto& [id, v] : writes_) {
     if (id >= first && id <= last) note_write(v);
   }

@@ -106,6 +106,31 @@ bool CyclePass::moves_coordinates(const Statement& s) const {
          });
 }
 
+void CyclePass::lose_height(const Statement& s) {
+  active_->height = active_->defined_at = std::nullopt;
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || action_in<WorkOffset>(*b) != nullptr) {
+    active_->left_height = true;
+    return;
+  }
+  const auto w = tool_axis(active_->source, *b, facts_.before(s));
+  const auto along = [&w](const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    const FrameChange* c = f != nullptr ? f->change.get() : nullptr;
+    if (c == nullptr || c->combine == FrameCombine::clear) return false;
+    if (c->kind == FrameKind::rotate) return c->rotation_axis != axis::none && c->rotation_axis != w;
+    return !w || c->uniform_scale ||
+           std::any_of(c->words.begin(), c->words.end(), [&w](const FrameWord& x) { return x.axis == w; });
+  };
+  const auto takes_back = [](const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    return f != nullptr && (!f->change || f->change->combine == FrameCombine::clear);
+  };
+  const auto& here = b->actions;
+  active_->left_height = active_->left_height || std::any_of(here.begin(), here.end(), along) ||
+                         (std::any_of(here.begin(), here.end(), takes_back) && any_action(program_, along));
+}
+
 void CyclePass::leave_height(const Statement& s) {
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr || !active_) return;

@@ -184,7 +184,7 @@ class CyclePass {
     for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
     const auto* b = std::get_if<Block>(&seen.node);
     if (!ran_ && active_ && b != nullptr && !position_only(*b) && triggers(*b, facts_.before(seen))) ran_ = active_;
-    if (moved && active_) active_->height = active_->defined_at = std::nullopt;
+    if (moved && active_) lose_height(seen);
     std::optional<double> initial;
     if (ran_ && b != nullptr) initial = in_units(ran_->defined_at, *b, facts_.before(seen));
     height_.follow(seen, facts_.before(seen), ran_ ? ran_->source : nullptr, harmless, initial);
@@ -423,6 +423,7 @@ class CyclePass {
   [[nodiscard]] bool refuse_other_levels(Statement& s, Body& out) const;
   /// Heights from before count in other coordinates behind it.
   [[nodiscard]] bool moves_coordinates(const Statement& s) const;
+  void lose_height(const Statement& s);   ///< which moves the coordinates
   void leave_height(const Statement& s);  ///< one that a loop or a called routine carries out
 
   // --- written out ----------------------------------------------------------------------------------------------

@@ -196,8 +196,11 @@ bool CyclePass::sure(const Facts& facts) const {
 bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
   const bool moves = b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
   if (!facts.reachable || (!moves && !((by_call_ || has_modal_calls_) && disturbs_call(b)))) return false;
-  if (facts.cycle_from == Facts::several_cycles)
-    return (!enters_unsure_ && (!definitions_.empty() || may_end_)) || (!by_call_ && refuses_axis_word(b, facts));
+  if (facts.cycle_from == Facts::several_cycles) {
+    const bool left = by_call_ && editor_.routine.kind == RoutineKind::main;  // by a called routine, on some way
+    return (!enters_unsure_ && (!definitions_.empty() || may_end_ || left)) ||
+           (!by_call_ && refuses_axis_word(b, facts));
+  }
   // One that a called routine has left in force: a modal call would run at words and moves that are no points.
   const bool left = by_call_ && definitions_.count(facts.cycle_from) == 0;
   return facts.cycle_active && (left || definitions_.count(facts.cycle_from) != 0);

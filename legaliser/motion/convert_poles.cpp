@@ -353,7 +353,7 @@ class PolePass {
     MotionExtra x = *b.motion.extra;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
     const auto [radius_modal, angle_modal, adds_r, adds_q] = polar_modes(x, distance);
-    if (!pole_ || !plane_ || (!distance && (radius_modal || angle_modal))) return false;
+    if (!pole_ || !plane_ || (!distance && (radius_modal || angle_modal))) return forget_point(), false;
     const auto start = here(facts);
     std::optional<Value> from_r = radius_, from_q = angle_;
     if (start) {
