@@ -9,6 +9,7 @@ every few thousand lines, other numbers and spacing. Each is translated into eve
 `sed 's/G1 /G01 /'` on the same file; the ratio is that of the two times of one turn.
 """
 import argparse
+import itertools
 import os
 import pathlib
 import random
@@ -45,21 +46,43 @@ HEADS = {
         ("a message", "G17 G40 G90 G94\nG54\nMSG(\"ROUGH\")\nT1 D1\nM6\nS5000 M3\nG0 X0 Y0 Z15\n"),
         ("a definition", "DEF REAL SAFE=15.\nG17 G40 G90 G94\nG54\nT1 D1\nM6\nS5000 M3\nG0 X0 Y0 Z=SAFE\n"),
     ],
+    "heidenhain": [
+        ("a tool", "BEGIN PGM CAM MM\nBLK FORM 0.1 Z X-100 Y-100 Z-20\nBLK FORM 0.2 X+100 Y+100 Z+0\n"
+                   "TOOL CALL 1 Z S5000\nM3\nL X+0 Y+0 R0 FMAX\nL Z+15 R0 FMAX\n"),
+        ("a call", "BEGIN PGM CAM MM\nTOOL CALL 1 Z S5000\nCALL LBL 7\nM3\nL X+0 Y+0 R0 FMAX\nL Z+15 R0 FMAX\n"),
+        ("a condition", "BEGIN PGM CAM MM\nFN 9: IF +Q7 EQU +1 GOTO LBL 9\nTOOL CALL 1 Z S5000\nLBL 9\nM3\n"
+                        "L X+0 Y+0 R0 FMAX\nL Z+15 R0 FMAX\n"),
+        ("a datum shift", "BEGIN PGM CAM MM\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nCYCL DEF 7.2 Y+5\n"
+                          "TOOL CALL 1 Z S5000\nM3\nL X+0 Y+0 R0 FMAX\nL Z+15 R0 FMAX\n"),
+        ("variables", "BEGIN PGM CAM MM\nQ1 = 3\nQ2 = Q1 * 5\nTOOL CALL 1 Z S5000\nM3\nL X+0 Y+0 R0 FMAX\nL Z+Q2 R0 FMAX\n"),
+    ],
 }
-TOOLS = {"fagor": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n", "num": "G0 Z50\nT{} D{} M6\nS4000 M3 M41\nG0 X1 Y1 Z15\n",
+TOOLS = {"heidenhain": "L Z+50 R0 FMAX\nTOOL CALL {} Z S4000\nM3\nL X+1 Y+1 R0 FMAX\nL Z+15 R0 FMAX\n",
+         "fagor": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n", "num": "G0 Z50\nT{} D{} M6\nS4000 M3 M41\nG0 X1 Y1 Z15\n",
          "sinumerik": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n"}
-TAILS = {"fagor": "G0 Z50\nM5\nM30\n{}", "num": "G0 Z50\nM5\nM02\n{}", "sinumerik": "G0 Z50\nM5\nM30\n{}"}
-SUBS = {"fagor": "(SUB 7)\nM8\n(RET)\n", "num": "%7\nM8\n", "sinumerik": ""}
-COMMENTS = {"fagor": ";{}", "num": "({})", "sinumerik": "; {}"}
+TAILS = {"fagor": "G0 Z50\nM5\nM30\n{}", "num": "G0 Z50\nM5\nM02\n{}", "sinumerik": "G0 Z50\nM5\nM30\n{}",
+         "heidenhain": "L Z+50 R0 FMAX\nM5\nM30\n{}END PGM CAM MM\n"}
+SUBS = {"fagor": "(SUB 7)\nM8\n(RET)\n", "num": "%7\nM8\n", "sinumerik": "", "heidenhain": "LBL 7\nM8\nLBL 0\n"}
+COMMENTS = {"fagor": ";{}", "num": "({})", "sinumerik": "; {}", "heidenhain": "; {}"}
+SIGNED = re.compile(r"([XYZ])(?=[0-9.])")
+
+
+def plain_text(words):
+    """The same block as a Heidenhain says it: L or CC and C, with signs."""
+    places = [SIGNED.sub(r"\1+", w) for w in words[1:] if w[0] in "XYZF"]
+    if words[0] != "G3":
+        return " ".join(["L", *places])
+    centre = [SIGNED.sub(r"\1+", w.replace("I", "X").replace("J", "Y")) for w in words[1:] if w[0] in "IJ"]
+    return f"CC {' '.join(centre)}\nC {' '.join(places)} DR+"
 
 
 def body(language, size, seed):
     """Lines of a path of one or more tools, about `size` bytes."""
     r = random.Random(seed)
     numbers, arcs, every, tools = r.random() < 0.5, r.random() < 0.6, r.choice([0, 0, 500]), r.choice([0, 4000])
-    space = r.choice([" ", " ", "" if language != "sinumerik" else " "])
+    space = r.choice([" ", " ", "" if language in ("fagor", "num") else " "])
     out, length, n, x, y, count = [], 0, 100, 0.0, 0.0, 0
-    tool = 1
+    tool, blocks = 1, itertools.count(9)
     while length < size:
         words, lines = [], []
         z = -round(r.random() * 5, 3)
@@ -69,7 +92,7 @@ def body(language, size, seed):
             rad = round(r.uniform(0.5, 9), 2)
             side = 1 if x < 0 else -1  # towards the middle
             nx, ny = round(x + 2 * side * rad, 3), y
-            if language == "num":  # centres are places
+            if language in ("num", "heidenhain"):  # centres are places
                 centre = [f"I{x + side * rad:.3f}", f"J{y:.3f}"]
             else:
                 centre = [f"I{side * rad:g}", "J0"]
@@ -81,7 +104,11 @@ def body(language, size, seed):
             words = ["G1", f"X{nx:.3f}", f"Y{ny:.3f}"]
         else:
             words = ["G1", f"X{nx:.3f}", f"Y{ny:.3f}", f"Z{z:.3f}"]
-        if numbers:
+        if language == "heidenhain":
+            words = [plain_text(words)]
+            if numbers:
+                words = [re.sub(r"(?m)^", lambda _: f"{next(blocks)} ", words[0])]
+        elif numbers:
             words.insert(0, f"N{n}")
             n = n + 5 if n < (30000 if language == "num" else 9999000) else 100
         lines.append(space.join(words))

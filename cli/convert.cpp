@@ -166,10 +166,10 @@ class Outputs {
       : result_(result), unfolding_(unfolding) {}
 
   [[nodiscard]] const translator::TranslateResult& result() const { return result_; }
-  [[nodiscard]] bool folded(std::size_t i) const { return unfolding_ != nullptr && unfolding_->folded(i); }
+  [[nodiscard]] bool folded() const { return unfolding_ != nullptr; }
   /// The whole text of one. False: the sink, or the source has changed meanwhile.
   [[nodiscard]] bool write(std::size_t i, const translator::TextSink& sink) const {
-    return folded(i) ? unfolding_->write(i, result_.outputs[i].bytes, sink) : sink(result_.outputs[i].bytes);
+    return folded() ? unfolding_->write(i, result_.outputs[i].bytes, sink) : sink(result_.outputs[i].bytes);
   }
 
  private:
@@ -214,7 +214,7 @@ bool write_files(const Arguments& a, const Outputs& outputs, const Job& job) {
     file.bytes = out.bytes;
     file.program = out.program;
     file.named = out.main && !is_folder(a.output);
-    if (!outputs.folded(i) || !why.empty()) continue;
+    if (!outputs.folded() || !why.empty()) continue;
     const auto beside = write_beside(place / file.name, outputs, i, file.sum, &error);
     if (!beside) {
       not_written(a, error);

@@ -64,6 +64,14 @@ struct OutputFile {
   std::vector<Span> left_out;  ///< places of the source in whose stead a remark stands
 };
 
+/// The numbers of the blocks of a finished text, given from its first line to its last.
+class BlockNumbers {
+ public:
+  virtual ~BlockNumbers() = default;
+  /// Appends the line, without its end; a line that begins a block gets its number.
+  virtual void write(std::string_view line, std::string& out) = 0;
+};
+
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -73,9 +81,16 @@ class Backend {
   [[nodiscard]] virtual const ir::Capabilities& capabilities_for(const machine::Profile& /*target*/) const {
     return capabilities();
   }
-  /// Writes a legal program (one that passed legalisation for `capabilities()`).
+  /// Of a language that numbers all blocks of a file, one behind the other: what does it. Default: null.
+  [[nodiscard]] virtual std::unique_ptr<BlockNumbers> block_numbers(const WriteOptions& /*options*/) const {
+    return nullptr;
+  }
+  /// Writes a legal program (one that passed legalisation for `capabilities()`), without `block_numbers`.
   virtual std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                         Diagnostics& diagnostics) const = 0;
 };
+
+/// The text with its block numbers, where the language has them so (`block_numbers`).
+std::string numbered(const Backend& backend, const WriteOptions& options, std::string text);
 
 }  // namespace cnctrans::backends

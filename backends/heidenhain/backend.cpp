@@ -14,11 +14,11 @@ class HeidenhainBackend final : public Backend {
   [[nodiscard]] const ir::Capabilities& capabilities() const override { return heidenhain::capabilities(); }
   std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                 Diagnostics& diagnostics) const override {
-    auto files = Writer(program, options, diagnostics).write();
-    if (options.numbering == Numbering::none) return files;
-    const std::int64_t step = options.numbering == Numbering::renumber ? options.number_step : 1;
-    for (OutputFile& f : files) f.text = numbered_blocks(f.text, step);
-    return files;
+    return Writer(program, options, diagnostics).write();
+  }
+  [[nodiscard]] std::unique_ptr<BlockNumbers> block_numbers(const WriteOptions& options) const override {
+    if (options.numbering == Numbering::none) return nullptr;
+    return std::make_unique<NumberedBlocks>(options.numbering == Numbering::renumber ? options.number_step : 1);
   }
 };
 

@@ -1,31 +1,26 @@
 #include "backends/heidenhain/block_numbers.h"
 
+#include <array>
+#include <charconv>
+
 namespace cnctrans::backends::heidenhain {
 
-std::string numbered_blocks(std::string_view text, std::int64_t step) {
-  std::string out;
-  out.reserve(text.size() + text.size() / 4);
-  std::int64_t number = 0;
-  bool goes_on = false;
-  while (!text.empty()) {
-    const auto end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    const bool begins = !goes_on;
-    goes_on = line.ends_with('~');
-    if (begins) {
-      if (line.starts_with('/')) {
-        out += '/';
-        line.remove_prefix(1);
-        while (line.starts_with(' ')) line.remove_prefix(1);
-      }
-      out += std::to_string(number) + ' ';
-      number += step;
+void NumberedBlocks::write(std::string_view line, std::string& out) {
+  const bool begins = !goes_on_;
+  goes_on_ = line.ends_with('~');
+  if (begins) {
+    if (line.starts_with('/')) {
+      out += '/';
+      line.remove_prefix(1);
+      while (line.starts_with(' ')) line.remove_prefix(1);
     }
-    out += line;
-    out += '\n';
+    std::array<char, 20> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), next_).ptr;
+    out.append(digits.data(), end);
+    out += ' ';
+    next_ += step_;
   }
-  return out;
+  out += line;
 }
 
 }  // namespace cnctrans::backends::heidenhain

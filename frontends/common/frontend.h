@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,7 @@ struct FreeNumber {
   bool free = false;
   bool minus = false;       ///< also negative ones
   bool zero = false;        ///< also 0
+  bool plus = false;        ///< a plus sign may stand before it
   std::uint8_t whole = 0;   ///< at most so many digits before the point
   std::uint8_t places = 0;  ///< and behind it
   std::uint32_t most = 0;   ///< of a whole number: the largest; 0: what its digits allow
@@ -75,10 +77,20 @@ struct CommentLine {
   char first = 0, last = 0;
 };
 
-/// The words of lines that say nothing but where to go: motion codes G0 to G3, and addresses whose numbers are alike.
+/// A word of such lines that has no number: `L`, `FMAX`, `DR-`.
+struct PlainCode {
+  std::string_view text;
+  std::int8_t motion = -1;  ///< the motion that it says, 0 to 3 as of G0 to G3; -1: none
+  char group = 0;           ///< it replaces what a word with this letter said before; 0: it holds for its line
+};
+
+/// The words of lines that say nothing but where to go: motion codes, and addresses whose numbers are alike.
 struct PlainWords {
   FreeNumbers numbers{};
-  bool radius_word = false;  ///< CR=5: the radius of an arc, alike as long as it is positive
+  std::span<const PlainCode> codes;  ///< of a language without G codes; empty: G0 to G3
+  bool bare_block_number = false;    ///< digits at the begin of a line are its N
+  std::string_view lead;     ///< a line of this word says the centre of the arc in the line behind it; empty: none
+  bool assignments = false;  ///< X=5 is X5, and CR=5 the radius of an arc, alike as long as it is positive
   CommentLine comments{};
   std::uint32_t other_blocks = 0;  ///< block numbers above it are something else to the target; 0: none is
 };

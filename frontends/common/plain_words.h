@@ -10,9 +10,10 @@ namespace cnctrans::frontends {
 inline PlainWords usual_plain_words(std::uint8_t places, std::uint32_t last_block = 99'999'999) {
   PlainWords words;
   const auto rule = [&words](char c) -> FreeNumber& { return words.numbers[static_cast<std::size_t>(c - 'A')]; };
-  for (const char c : {'X', 'Y', 'Z', 'I', 'J', 'K'}) rule(c) = {true, true, true, 5, places};
-  rule('F') = {true, false, false, 5, places};
-  rule('N') = {true, false, true, 8, 0, last_block};
+  for (const char c : {'X', 'Y', 'Z', 'I', 'J', 'K'})
+    rule(c) = {.free = true, .minus = true, .zero = true, .whole = 5, .places = places};
+  rule('F') = {.free = true, .whole = 5, .places = places};
+  rule('N') = {.free = true, .zero = true, .whole = 8, .most = last_block};
   return words;
 }
 

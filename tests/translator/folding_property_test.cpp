@@ -17,7 +17,7 @@
 namespace cnctrans::test {
 namespace {
 
-constexpr std::array<std::string_view, 3> languages{"fagor", "num", "sinumerik"};
+constexpr std::array<std::string_view, 4> languages{"fagor", "num", "sinumerik", "heidenhain"};
 constexpr std::uint32_t programs = 60;  ///< of each pair and kind of machine
 
 struct Pair {
@@ -42,7 +42,7 @@ class Path {
  public:
   Path(std::string_view language, bool lathe, std::uint32_t seed) : language_(language), lathe_(lathe), random_(seed) {
     numbers_ = chance(60);
-    tight_ = language != "sinumerik" && chance(30);
+    tight_ = (language == "fagor" || language == "num") && chance(30);
     arcs_ = !lathe && chance(60);
     every_ = chance(50) ? between(40, 200) : 0;
     places_ = between(1, 3);
@@ -57,6 +57,7 @@ class Path {
     }
     put({"G0", "Z50"});
     put({language_ == "num" ? "M02" : "M30"});
+    if (plain_text()) put({"END PGM PART12 MM"});
     return out_;
   }
 
@@ -78,9 +79,24 @@ class Path {
     return between(-90000, 90000) / unit * unit;
   }
 
+  [[nodiscard]] bool plain_text() const { return language_ == "heidenhain"; }
+  /// Words of a line with G codes, in plain text: L for G0 and G1, signs before the numbers.
+  static void as_plain_text(std::vector<std::string>& words) {
+    const bool rapid = words.front() == "G0";
+    if (!rapid && words.front() != "G1") return;
+    words.front() = "L";
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      if (words[i][0] != 'F' && words[i][1] != '-') words[i].insert(1, "+");
+    }
+    if (rapid) words.insert(words.end(), {"R0", "FMAX"});
+  }
+
   void put(std::vector<std::string> words) {
     std::string text;
-    if (numbers_) {
+    if (plain_text()) {
+      as_plain_text(words);
+      if (numbers_) text = std::to_string(block_++) + ' ';
+    } else if (numbers_) {
       text = "N" + std::to_string(block_);
       block_ += 10;
       if (!tight_) text += ' ';
@@ -90,6 +106,16 @@ class Path {
   }
 
   void head() {
+    if (plain_text()) {
+      put({"BEGIN PGM PART12 MM"});
+      if (chance(30)) put({"Q1 = 3"});
+      tool(1);
+      put({"M3"});
+      put({"G0", "X10", "Y20"});
+      put({"G0", "Z5"});
+      at_ = {10000, 20000};
+      return;
+    }
     if (language_ == "fagor") out_ += "%PART,MX,\n";
     if (language_ == "num") out_ += "%12\n";
     put({lathe_ ? "G18" : "G17"});
@@ -107,23 +133,34 @@ class Path {
     at_ = {10000, 20000};
   }
 
+  void tool(int number) {
+    if (plain_text()) {
+      put({"TOOL CALL " + std::to_string(number) + " Z S3000"});
+    } else {
+      put({"T" + std::to_string(number), "D1"});
+    }
+  }
+
   void between_runs() {
     const int kind = between(0, 6);
     if (kind == 0) out_ += language_ == "num" ? "(LEVEL)\n" : language_ == "fagor" ? ";LEVEL\n" : "; LEVEL\n";
     if (kind == 1) put({"M8"});
     if (kind == 2) {
       put({"G0", "Z50"});
-      put({"T" + std::to_string(between(2, 9)), "D1"});
+      tool(between(2, 9));
     }
     if (kind == 3 && !lathe_) {
-      put({"G91"});
-      for (int i = 0; i < 30; ++i) put({"G1", "X" + number(between(1, 90)), "Y" + number(between(1, 90))});
-      put({"G90"});
+      const std::string x = plain_text() ? "IX" : "X", y = plain_text() ? "IY" : "Y";
+      if (!plain_text()) put({"G91"});
+      for (int i = 0; i < 30; ++i)
+        put({plain_text() ? "L" : "G1", x + number(between(1, 90)), y + number(between(1, 90))});
+      if (!plain_text()) put({"G90"});
       put({"G1", "X10", "Y20"});
       at_ = {10000, 20000};
     }
-    if (kind == 4) put({"G4", language_ == "fagor" ? "K50" : "F1"});
-    if (kind == 5) put({"S" + std::to_string(between(5, 40) * 100)});
+    if (kind == 4 && !plain_text()) put({"G4", language_ == "fagor" ? "K50" : "F1"});
+    if (kind == 4 && plain_text()) put({"LBL " + std::to_string(label_++)});
+    if (kind == 5) put({(plain_text() ? "TOOL CALL Z S" : "S") + std::to_string(between(5, 40) * 100)});
     if (kind == 6) put({chance(50) ? "M9" : "M1"});
   }
 
@@ -132,6 +169,16 @@ class Path {
     if (arcs_ && i > 3 && chance(15)) {
       const int r = between(2, 40) * 500, side = at_[0] < 0 ? 1 : -1;
       const int x = at_[0] + 2 * side * r;
+      if (plain_text()) {
+        const bool by_radius = chance(50);
+        if (!by_radius) put({"CC", "X" + number(at_[0] + side * r), "Y" + number(at_[1])});
+        std::vector<std::string> arc{by_radius ? "CR" : "C", "X" + number(x), "Y" + number(at_[1])};
+        if (by_radius) arc.push_back("R+" + number(r));
+        arc.emplace_back(chance(50) ? "DR+" : "DR-");
+        put(arc);
+        at_[0] = x;
+        return;
+      }
       const bool place = language_ == "num";
       put({chance(50) ? "G2" : "G3", "X" + number(x), "Y" + number(at_[1]),
            "I" + number(place ? at_[0] + side * r : side * r), "J" + number(place ? at_[1] : 0)});
@@ -150,7 +197,7 @@ class Path {
   std::string_view language_;
   bool lathe_, numbers_ = false, tight_ = false, arcs_ = false;
   std::mt19937 random_;
-  int every_ = 0, places_ = 3, block_ = 10;
+  int every_ = 0, places_ = 3, block_ = 10, label_ = 1;
   std::array<int, 2> at_{};
   std::string out_;
 };
@@ -216,7 +263,11 @@ std::vector<Pair> pairs() {
   std::vector<Pair> all;
   for (const auto from : languages) {
     for (const auto to : languages) {
-      for (const bool lathe : {false, true}) all.push_back({std::string(from), std::string(to), lathe});
+      const bool mill_only = from == "heidenhain" || to == "heidenhain";
+      for (const bool lathe : {false, true}) {
+        if (lathe && mill_only) continue;
+        all.push_back({std::string(from), std::string(to), lathe});
+      }
     }
   }
   return all;

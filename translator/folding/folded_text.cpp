@@ -91,12 +91,13 @@ class TextFolder {
     std::string error;
     if (!reader.open(path, &error) || !again_.open(path)) return false;
     SourceLine line;
+    PlainUnit unit;
     for (std::string_view window = reader.next(); !window.empty(); window = reader.next()) {
       window_ = window;
-      while (take_line(window, line)) {
-        const auto from = base_ + static_cast<std::uint64_t>(line.text.data() - window_.data());
+      while (line_.take(window, line, unit)) {
+        const auto from = base_ + static_cast<std::uint64_t>(unit.text.data() - window_.data());
         const auto to = base_ + (window_.size() - window.size());
-        take({line.number, from, to}, line.text);
+        take({unit.first, unit.last, from, to}, unit.text);
       }
       base_ += window_.size();
       if (lost_ || (text_.size() > base_ / 2 && base_ > 4 * window_size)) return false;
@@ -111,15 +112,21 @@ class TextFolder {
   }
 
  private:
-  /// A line with its line end.
+  /// A unit with its line end.
   struct Raw {
-    std::uint32_t number = 0;
+    std::uint32_t first = 0, last = 0;  ///< line numbers
     std::uint64_t from = 0, to = 0;
+  };
+  /// The last line that says a motion.
+  struct Said {
+    Raw raw;
+    std::int8_t motion = motion_unknown;  ///< before it
   };
   /// A line that is left out for now; where it needs them, with the lines that tell where it begins.
   struct Last {
     Raw raw, begin;
     std::int8_t motion = motion_unknown;  ///< before `begin`
+    Said said;                            ///< the motion in force at `begin`
   };
 
   void take(const Raw& raw, std::string_view text) {
@@ -133,20 +140,22 @@ class TextFolder {
       motion_ = motion_unknown;
       place_ = {};
       known_ = 0;
-      anchor_ = {};
+      forget_start();
       return;
     }
-    if (!in_run_) run_begin_ = raw.number;
+    if (!in_run_) run_begin_ = raw.first;
     in_run_ = true;
     motion_ = line_.motion_after();
     if (kind == PlainLine::Kind::odd) {
       keep(raw);
       place_ = {};
       known_ = 0;
-      anchor_ = {};
+      forget_start();
       return;
     }
-    if (!needs_start() && (line_.letters() & plane_axes) == plane_axes) anchor_ = {raw, before, line_.letters()};
+    if ((line_.letters() & bit('G')) != 0) motion_said_ = {raw, before};
+    if (!is_arc(motion_) && (line_.letters() & plane_axes) == plane_axes)
+      anchor_ = {raw, before, line_.letters(), motion_said_};
     Shape* const shape = shape_of();
     const auto index = static_cast<std::uint32_t>(shape - result_.shapes_.data());
     const bool first = shape->run != run_ + 1;
@@ -159,11 +168,12 @@ class TextFolder {
     if (whole) {
       keep(raw);
       place_.follow(line_);
-    } else if (first || stays(*shape, raw.number - run_begin_)) {
+    } else if (first || stays(*shape, raw.first - run_begin_) ||
+               (!stays_.shapes.empty() && stays_.shapes.contains({run_, index}))) {
       const bool tells = !needs_start() || knows_start();  // else its centre may be written from an unknown place
       if (!first && tells) count_spellings(*shape);
       keep(raw);  // before its own: the lines that the place before it comes from
-      if (tells) result_.kept_.push_back({raw.number, run_, index, first, before, place_});
+      if (tells) result_.kept_.push_back({raw.first, raw.last, run_, index, first, before, place_});
       place_.follow(line_);
     } else {
       leave_out(raw, before);
@@ -187,12 +197,20 @@ class TextFolder {
     return false;
   }
 
-  /// An arc by its centre: what it means, or how it is written, may go by where it begins.
-  [[nodiscard]] bool needs_start() const { return is_arc(motion_) && (line_.letters() & centres) != 0; }
+  /// An arc by its centre: what it means, or how it is written, may go by where it begins. One that does not say its
+  /// sense has it from the arc before it.
+  [[nodiscard]] bool needs_start() const {
+    return is_arc(motion_) && ((line_.letters() & centres) != 0 || (line_.letters() & bit('G')) == 0);
+  }
 
   [[nodiscard]] bool knows_start() const {
     const bool third = (line_.letters() & bit('K')) != 0;
-    return anchor_.raw.number != 0 && (!third || (anchor_.letters & bit('Z')) != 0);
+    return anchor_.raw.first != 0 && (!third || (anchor_.letters & bit('Z')) != 0);
+  }
+
+  void forget_start() {
+    anchor_ = {};
+    motion_said_ = {};
   }
 
   void count_spellings(Shape& shape) {
@@ -218,12 +236,13 @@ class TextFolder {
   void leave_out(const Raw& raw, std::int8_t before) {
     if (!open_) {
       open_ = true;
-      gap_ = {raw.number, 0, run_, raw.from, 0, before, place_};
+      gap_ = {raw.first, 0, 0, run_, raw.from, 0, before, place_};
       used_ = 0;
     }
-    gap_.last = raw.number;
+    gap_.last = raw.last;
     gap_.to = raw.to;
-    const Last now = needs_start() ? Last{raw, anchor_.raw, anchor_.motion} : Last{raw, raw, before};
+    const Last now =
+        needs_start() ? Last{raw, anchor_.raw, anchor_.motion, anchor_.said} : Last{raw, raw, before, motion_said_};
     const std::uint32_t letters = line_.letters() | bit('N');
     for (std::uint32_t left = letters; left != 0; left &= left - 1)
       last_[static_cast<std::size_t>(std::countr_zero(left))] = now;
@@ -233,7 +252,11 @@ class TextFolder {
   void keep(const Raw& raw) {
     close_gap();
     text_ += bytes(raw.from, raw.to);
-    numbers_.push_back(raw.number);
+    take_numbers(raw.first, raw.last);
+  }
+
+  void take_numbers(std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t n = first; n <= last; ++n) numbers_.push_back(n);
   }
 
   std::string_view bytes(std::uint64_t from, std::uint64_t to) {
@@ -251,24 +274,27 @@ class TextFolder {
     std::vector<Last> lines;
     for (std::uint32_t left = used_; left != 0; left &= left - 1) {
       Last last = last_[static_cast<std::size_t>(std::countr_zero(left))];
-      if (last.begin.number < gap_.first) {  // from the lines before the gap on
-        last.begin = {gap_.first, gap_.from, 0};
+      if (last.begin.first < gap_.first) {  // from the lines before the gap on
+        last.begin = {gap_.first, gap_.first, gap_.from, 0};
         last.motion = gap_.motion;
       }
+      const Said& said = last.said;
+      if (said.raw.first >= gap_.first && said.raw.first < last.begin.first)
+        lines.push_back({said.raw, said.raw, said.motion, {}});
       lines.push_back(last);
     }
-    std::sort(lines.begin(), lines.end(), [](const Last& a, const Last& b) { return a.begin.number < b.begin.number; });
+    std::sort(lines.begin(), lines.end(), [](const Last& a, const Last& b) { return a.begin.first < b.begin.first; });
     Gap rest = gap_;
     const std::size_t gaps_before = result_.gaps_.size();
     PlainLine line = line_;
     for (const Last& l : lines) {
-      if (l.raw.number < rest.first) continue;  // stays already
-      if (l.begin.number > rest.first) {
-        add_gap(rest, l.begin.number - 1, l.begin.from);
+      if (l.raw.first < rest.first) continue;  // stays already
+      if (l.begin.first > rest.first) {
+        add_gap(rest, l.begin);
         for (std::size_t axis = 0; axis < 3; ++axis) {
           if ((used_ & bit(static_cast<char>('X' + axis))) != 0) place_.known[axis] = false;
         }
-        rest = {l.begin.number, 0, run_, l.begin.from, 0, l.motion, {}, true};
+        rest = {l.begin.first, 0, 0, run_, l.begin.from, 0, l.motion, {}, true};
       }
       keep_part(rest, l.raw, line);
       rest.goes_on = result_.gaps_.size() != gaps_before;
@@ -280,24 +306,26 @@ class TextFolder {
     std::string_view text = bytes(rest.from, last.to);
     text_ += text;
     SourceLine l;
+    PlainUnit unit;
     l.number = rest.first - 1;
     std::int8_t motion = rest.motion;
-    while (take_line(text, l)) {
-      numbers_.push_back(l.number);
-      if (line.scan(l.text, motion) != PlainLine::Kind::plain) lost_ = true;
+    while (line.take(text, l, unit)) {
+      take_numbers(unit.first, unit.last);
+      if (line.scan(unit.text, motion) != PlainLine::Kind::plain) lost_ = true;
       const std::int32_t shape = index_.find(line, result_.shapes_);
       lost_ = lost_ || shape < 0;
-      result_.kept_.push_back({l.number, run_, static_cast<std::uint32_t>(shape), false, motion, place_});
+      result_.kept_.push_back({unit.first, unit.last, run_, static_cast<std::uint32_t>(shape), false, motion, place_});
       place_.follow(line);
       motion = line.motion_after();
     }
-    rest = {last.number + 1, 0, run_, last.to, 0, motion, place_, true};
+    rest = {last.last + 1, 0, 0, run_, last.to, 0, motion, place_, true};
   }
-  void add_gap(Gap gap, std::uint32_t last, std::uint64_t to) {
-    if (last < gap.first) return;
-    gap.last = last;
-    gap.to = to;
-    result_.left_out_ += last - gap.first + 1;
+  /// The lines up to the unit behind them are left out.
+  void add_gap(Gap gap, const Raw& next) {
+    gap.last = next.first - 1;
+    gap.next = next.last;
+    gap.to = next.from;
+    result_.left_out_ += gap.last - gap.first + 1;
     result_.gaps_.push_back(gap);
   }
 
@@ -316,10 +344,12 @@ class TextFolder {
   Gap gap_;
   std::array<Last, 26> last_{};
   std::uint32_t used_ = 0;  ///< letters with a line in last_
+  Said motion_said_;
   struct Anchor {
     Raw raw;
     std::int8_t motion = motion_unknown;  ///< before it
     std::uint32_t letters = 0;
+    Said said;
   };
   Anchor anchor_;  ///< the last line that says by itself where it ends in the plane
   std::string_view window_;

@@ -27,6 +27,7 @@ std::int64_t scaled(std::string_view number);
 /// Lines that were left out, one behind the other; the lines before and behind them are there.
 struct Gap {
   std::uint32_t first = 0, last = 0;  ///< line numbers
+  std::uint32_t next = 0;             ///< last line of the unit behind it
   std::uint32_t run = 0;
   std::uint64_t from = 0, to = 0;  ///< bytes of the file
   std::int8_t motion = motion_unknown;
@@ -45,9 +46,10 @@ struct Shape {
   std::vector<std::array<std::uint8_t, number_forms>> spellings;
 };
 
-/// A plain line that stayed.
+/// A plain unit that stayed.
 struct KeptLine {
-  std::uint32_t line = 0, run = 0, shape = 0;
+  std::uint32_t begin = 0, line = 0;  ///< its first and its last line
+  std::uint32_t run = 0, shape = 0;
   bool first = false;  ///< of its shape in its run
   std::int8_t motion = motion_unknown;
   PlainPlace place;  ///< before it
@@ -57,9 +59,10 @@ class FoldedText {
  public:
   /// Lines that must stay besides.
   struct Stays {
-    std::set<std::uint64_t> numbers;  ///< by their block number
-    std::set<std::uint32_t> runs;     ///< all lines of these runs
-    std::set<std::uint32_t> more;     ///< runs whose first lines of a shape are special: the second stays as well
+    std::set<std::uint64_t> numbers;                           ///< by their block number
+    std::set<std::uint32_t> runs;                              ///< all lines of these runs
+    std::set<std::pair<std::uint32_t, std::uint32_t>> shapes;  ///< all lines of a shape in a run
+    std::set<std::uint32_t> more;  ///< runs whose first lines of a shape are special: the second stays as well
   };
   /// nullopt: the file can't be read, or too little can be left out to be worth it.
   static std::optional<FoldedText> of(const std::string& path, const frontends::PlainWords& words, const Stays& stays);

@@ -23,16 +23,24 @@ std::string shortest(std::int64_t value) {
   return minus ? '-' + digits : digits;
 }
 
+/// A place of an axis in a line that says nothing but the centre of the arc behind it: `CC X+5 Y+3`.
+bool of_centre(std::string_view written, std::size_t at, char letter) {
+  if (letter < 'X' || letter > 'Z') return false;
+  const auto end = written.rfind('\n', at);
+  return written.substr(end == std::string_view::npos ? 0 : end + 1).starts_with("CC ");
+}
+
 }  // namespace
 
 std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const PlainPlace& before, char letter,
-                                              std::string_view token) {
+                                              bool of_centre, std::string_view token) {
   Piece piece;
   std::string_view bare = token;
   if (!bare.empty() && bare.front() == '+') {
     piece.plus = true;
     bare.remove_prefix(1);
   }
+  if (of_centre) letter = static_cast<char>(letter - 'X' + 'I');
   for (std::size_t i = 0; i < line.count(); ++i) {
     piece.number = i;
     if (line.number(i).letter == letter && line.number(i).text == bare) return piece;
@@ -40,7 +48,7 @@ std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const Plain
   for (std::size_t i = 0; i < line.count(); ++i) {  // a centre as a place
     const PlainNumber& n = line.number(i);
     if (n.letter != letter || letter < 'I' || letter > 'K') continue;
-    const auto axis = static_cast<std::size_t>(letter - 'I');
+    const auto axis = static_cast<std::size_t>(n.letter - 'I');
     if (!before.known[axis] || shortest(scaled(n.text) + before.at[axis]) != bare) continue;
     piece.number = i;
     piece.axis = static_cast<std::int8_t>(axis);
@@ -79,12 +87,13 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
       if (equals != std::string_view::npos && equals > 0) letter = written[equals - 1];
     }
     if (letter == '=') letter = at > 1 ? written[at - 2] : 'R';
+    const bool centre = of_centre(written, at, letter);
     at = end;
-    if (is_code(letter)) {
+    if (is_code(letter) || (letter == 'R' && token == "0")) {  // R0: no radius compensation
       fixed += token;
       continue;
     }
-    auto piece = find(line, before, letter, token);
+    auto piece = find(line, before, letter, centre, token);
     if (!piece) return std::nullopt;
     piece->before = std::move(fixed);
     fixed.clear();
@@ -101,18 +110,24 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
   return form;
 }
 
+void LineForm::take_plus_signs(const LineForm& other) {
+  for (std::size_t i = 0; i < std::min(pieces_.size(), other.pieces_.size()); ++i)
+    pieces_[i].plus = pieces_[i].plus || other.pieces_[i].plus;
+}
+
 void LineForm::write(const PlainLine& line, const PlainPlace& before, std::string& out) const {
   const std::size_t old = out.size();
   std::size_t size = fixed_size_;
   for (const Piece& p : pieces_) size += line.number(p.number).text.size() + 12;
   out.resize(old + size);
   char* to = out.data() + old;
+  std::string sum;
   for (const Piece& p : pieces_) {
     to = copy_short(to, p.before);
-    const std::string_view number = line.number(p.number).text;
+    std::string_view number = line.number(p.number).text;
     if (p.axis >= 0) {
-      to = copy_short(to, shortest(scaled(number) + before.at[static_cast<std::size_t>(p.axis)]));
-      continue;
+      sum = shortest(scaled(number) + before.at[static_cast<std::size_t>(p.axis)]);
+      number = sum;
     }
     if (p.plus && number.front() != '-') *to++ = '+';
     to = copy_short(to, number);

@@ -1,6 +1,8 @@
 #include "translator/folding/plain_line.h"
 
+#include <algorithm>
 #include <charconv>
+#include <utility>
 
 namespace cnctrans::translator {
 
@@ -8,6 +10,11 @@ namespace {
 
 constexpr bool is_capital(char c) {
   return c >= 'A' && c <= 'Z';
+}
+
+/// Between words; in a unit of two lines also their ends.
+constexpr bool is_space(char c) {
+  return c == ' ' || c == '\n' || c == '\r';
 }
 
 constexpr std::uint32_t hash_seed = 0x811C9DC5U;
@@ -23,13 +30,18 @@ std::uint32_t whole_number(std::string_view digits) {
 
 /// Parts of a NumberForm.
 constexpr NumberForm form_minus = 1, form_no_whole = 2, form_leading_zero = 4, form_point = 8, form_fraction = 16,
-                     form_zero_last = 32;
+                     form_zero_last = 32, form_plus = 64;
 
 }  // namespace
 
 PlainLine::PlainLine(const frontends::PlainWords& words)
-    : rules_(words.numbers), other_blocks_(words.other_blocks), comments_(words.comments) {
-  if (words.radius_word) radius_ = {true, false, false, 5, 4};
+    : rules_(words.numbers),
+      codes_(words.codes),
+      bare_block_number_(words.bare_block_number),
+      lead_(words.lead),
+      other_blocks_(words.other_blocks),
+      comments_(words.comments) {
+  if (words.assignments) radius_ = {.free = true, .whole = 5, .places = 4};
 }
 
 /// False: no number stands here. `odd`: one that is not like others.
@@ -40,6 +52,9 @@ inline bool PlainLine::take_number(const char*& p, const char* end, const fronte
   if (at != end && *at == '-') {
     form |= form_minus;
     ++at;
+  } else if (at != end && *at == '+' && rule.plus) {
+    form |= form_plus;
+    p = ++at;
   }
   const char* const whole = at;
   char any = '0';
@@ -73,9 +88,56 @@ std::uint32_t PlainLine::hash_of(std::string_view key) {
   return hash ^ hash >> 15U;
 }
 
+/// The code that begins at `at`, whole.
+const frontends::PlainCode* PlainLine::code_at(const char* at, const char* end) const {
+  const std::string_view rest(at, static_cast<std::size_t>(end - at));
+  for (const auto& code : codes_) {
+    if (rest.starts_with(code.text) && (rest.size() == code.text.size() || is_space(rest[code.text.size()])))
+      return &code;
+  }
+  return nullptr;
+}
+
+std::string_view PlainLine::without_number(std::string_view line) const {
+  if (bare_block_number_) line.remove_prefix(std::min(line.find_first_not_of("0123456789 "), line.size()));
+  return line;
+}
+
+bool PlainLine::is_lead(std::string_view line) const {
+  line = without_number(line);
+  return line.starts_with(lead_) && line.size() > lead_.size() && line[lead_.size()] == ' ';
+}
+
+bool PlainLine::take(std::string_view& text, SourceLine& line, PlainUnit& unit) const {
+  if (!take_line(text, line)) return false;
+  unit = {line.text, line.number, line.number};
+  if (lead_.empty() || text.empty() || !is_lead(line.text)) return true;
+  take_line(text, line);
+  unit.text = {unit.text.data(), static_cast<std::size_t>(line.text.data() + line.text.size() - unit.text.data())};
+  unit.last = line.number;
+  return true;
+}
+
+std::string_view PlainLine::whole_units(std::string_view text) const {
+  for (;;) {
+    const auto end = text.rfind('\n');
+    if (end == std::string_view::npos) return {};
+    text = text.substr(0, end + 1);
+    const auto before = end == 0 ? std::string_view::npos : text.rfind('\n', end - 1);
+    const std::string_view last = text.substr(before == std::string_view::npos ? 0 : before + 1);
+    if (lead_.empty() || !is_lead(last)) return text;
+    text = text.substr(0, text.size() - last.size());
+  }
+}
+
+bool PlainLine::is_comment(std::string_view line) const {
+  line = without_number(line);
+  return !line.empty() && comments_.first != 0 && line.front() == comments_.first &&
+         (comments_.last == 0 || line.find(comments_.last) == line.size() - 1);
+}
+
 PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before) {
-  comment_ = !line.empty() && comments_.first != 0 && line.front() == comments_.first &&
-             (comments_.last == 0 || line.find(comments_.last) == line.size() - 1);
+  comment_ = is_comment(line);
   const char* p = line.data();
   const char* const end = p + line.size();
   std::size_t n = 0;
@@ -87,36 +149,55 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
   add(static_cast<char>('0' + motion_before));
   count_ = 0;
   motion_ = motion_before;
-  bool odd = false;
+  bool odd = false, begins = bare_block_number_, in_lead = false;
   while (p != end) {
-    const char c = *p++;
-    if (c == ' ') continue;
-    if (!is_capital(c) || n + 3 > max_key) return Kind::other;
+    char c = *p++;
+    if (is_space(c)) {
+      begins = begins || (c == '\n' && bare_block_number_);
+      in_lead = in_lead && c != '\n';
+      continue;
+    }
+    if (std::exchange(begins, false) && is_digit(c)) {
+      c = 'N';
+      --p;
+    }
+    if (!is_capital(c) || n + max_code > max_key) return Kind::other;
+    if (const frontends::PlainCode* code = codes_.empty() ? nullptr : code_at(p - 1, end)) {
+      for (const char k : code->text) add(k);
+      p += code->text.size() - 1;
+      in_lead = code->text == lead_;
+      if (code->motion != motion_unknown) motion_ = code->motion;
+      if (code->group != 0) letters |= 1U << static_cast<unsigned>(code->group - 'A');
+      continue;
+    }
     add(c);
-    letters |= 1U << static_cast<unsigned>(c - 'A');
-    if (c == 'G') {
+    const bool place = in_lead && c >= 'X';  // of the centre
+    const auto meant = static_cast<char>(place ? c - 'X' + 'I' : c);
+    letters |= 1U << static_cast<unsigned>(meant - 'A');
+    if (c == 'G' && codes_.empty()) {
       const char* const from = p;
       while (p != end && is_digit(*p)) ++p;
       const auto size = p - from;
       if (size == 0 || size > 2 || (size == 2 && *from != '0') || p[-1] > '3') return Kind::other;
-      if (p != end && *p != ' ' && !is_capital(*p)) return Kind::other;
+      if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
       motion_ = static_cast<std::int8_t>(p[-1] - '0');
       for (const char* d = from; d != p; ++d) add(*d);
       continue;
     }
     const bool radius = c == 'C' && radius_.free && end - p > 2 && p[0] == 'R' && p[1] == '=';
     const frontends::FreeNumber& rule = radius ? radius_ : rules_[static_cast<std::size_t>(c - 'A')];
-    if (radius) {
+    if (radius) ++p;
+    if (radius || (radius_.free && p != end && *p == '=' && c != 'N')) {
       add('=');
-      p += 2;
+      ++p;
     }
     if (!rule.free) return Kind::other;
     if (count_ == max_numbers) return Kind::other;
     PlainNumber& number = numbers_[count_++];
-    number.letter = radius ? 'R' : c;
+    number.letter = radius ? 'R' : meant;
     if (!take_number(p, end, rule, number, odd)) return Kind::other;
     if (c == 'N' && other_blocks_ != 0 && whole_number(number.text) > other_blocks_) add('!');
-    if (p != end && *p != ' ' && !is_capital(*p)) return Kind::other;
+    if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
   }
   if (n == 1) return Kind::other;
   key_size_ = n;

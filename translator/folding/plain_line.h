@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
+#include "base/source.h"
 #include "frontends/common/frontend.h"
 
 namespace cnctrans::translator {
@@ -16,7 +18,7 @@ constexpr bool is_digit(char c) {
 
 /// How a number is spelt, as far as a writer may care: sign, digits before the point, point, zeros at the end.
 using NumberForm = std::uint8_t;
-inline constexpr std::size_t number_forms = 64;
+inline constexpr std::size_t number_forms = 128;
 
 struct PlainNumber {
   std::string_view text;  ///< without a plus sign
@@ -28,9 +30,15 @@ struct PlainNumber {
 /// The code of motion in force, as far as plain lines tell: 0 to 3, or this.
 inline constexpr std::int8_t motion_unknown = -1;
 
+/// A line, or two of which the first one says the centre of the arc in the second.
+struct PlainUnit {
+  std::string_view text;  ///< without the last line end
+  std::uint32_t first = 0, last = 0;
+};
+
 class PlainLine {
  public:
-  static constexpr std::size_t max_key = 40, max_numbers = 10;
+  static constexpr std::size_t max_key = 40, max_numbers = 10, max_code = 4;
   enum class Kind : std::uint8_t {
     plain,
     odd,   ///< nothing but such words, with a number that has to be looked at
@@ -39,7 +47,13 @@ class PlainLine {
 
   explicit PlainLine(const frontends::PlainWords& words);
 
-  /// Looks at a line. What follows is about it, where it is plain.
+  /// Cuts the next unit off. `line`: what take_line found last.
+  bool take(std::string_view& text, SourceLine& line, PlainUnit& unit) const;
+
+  /// Of a piece of text, what ends with a whole unit.
+  [[nodiscard]] std::string_view whole_units(std::string_view text) const;
+
+  /// Looks at the text of a unit. What follows is about it, where it is plain.
   Kind scan(std::string_view line, std::int8_t motion_before);
 
   [[nodiscard]] std::string_view key() const { return {key_.data(), key_size_}; }
@@ -56,7 +70,15 @@ class PlainLine {
  private:
   bool take_number(const char*& p, const char* end, const frontends::FreeNumber& rule, PlainNumber& number, bool& odd);
 
+  [[nodiscard]] const frontends::PlainCode* code_at(const char* at, const char* end) const;
+  [[nodiscard]] bool is_comment(std::string_view line) const;
+  [[nodiscard]] bool is_lead(std::string_view line) const;
+  [[nodiscard]] std::string_view without_number(std::string_view line) const;
+
   std::array<frontends::FreeNumber, 26> rules_;
+  std::span<const frontends::PlainCode> codes_;
+  bool bare_block_number_;
+  std::string_view lead_;
   frontends::FreeNumber radius_;
   std::uint32_t other_blocks_;
   frontends::CommentLine comments_;

@@ -23,11 +23,14 @@ bool may_fold(const std::string& path, const TranslateOptions& options, std::uin
 std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, const TranslateOptions& options,
                                                     std::uintmax_t least_size) {
   const Dialect* from = find_dialect(options.from);
-  if (from == nullptr || from->frontend == nullptr || !may_fold(path, options, least_size)) return nullptr;
-  frontends::PlainWords words = from->frontend->plain_words();
   const Dialect* to = find_dialect(options.to);
-  if (to != nullptr && to->frontend != nullptr)
-    words.other_blocks = to->frontend->plain_words().numbers['N' - 'A'].most;
+  if (from == nullptr || from->frontend == nullptr || to == nullptr || !may_fold(path, options, least_size))
+    return nullptr;
+  frontends::PlainWords words = from->frontend->plain_words();
+  if (to->frontend != nullptr) words.other_blocks = to->frontend->plain_words().numbers['N' - 'A'].most;
+  backends::WriteOptions write;
+  write.numbering = options.numbering;
+  const auto numbers = [to, write] { return to->backend->block_numbers(write); };
   FoldedText::Stays stays;
   for (int tries = 0; tries < most_tries; ++tries) {
     auto text = FoldedText::of(path, words, stays);
@@ -43,7 +46,7 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
       stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
       continue;
     }
-    done->unfolding = std::make_unique<Unfolding>(path, words, done->text);
+    done->unfolding = std::make_unique<Unfolding>(path, words, done->text, numbers);
     if (result.refused || !result.error.empty()) return done;
     constexpr FileId main_file = 1;
     if (done->unfolding->learn(result.outputs, main_file, stays)) return done;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backends/common/backend.h"
 #include "translator/folding/folded_text.h"
 #include "translator/pipeline.h"
 
@@ -24,6 +25,8 @@ class LineForm {
   static std::optional<LineForm> of(const PlainLine& line, const PlainPlace& before, std::string_view written);
   /// Appends the line. `before`: where it begins, for centres that are written as places.
   void write(const PlainLine& line, const PlainPlace& before, std::string& out) const;
+  /// A negative number does not show whether others get a plus; a form of the same words may know.
+  void take_plus_signs(const LineForm& other);
   [[nodiscard]] bool uses_place() const { return uses_place_; }
 
  private:
@@ -33,7 +36,7 @@ class LineForm {
     bool plus = false;       ///< a number without a minus gets a plus
     std::int8_t axis = -1;   ///< the place of this axis is added
   };
-  static std::optional<Piece> find(const PlainLine& line, const PlainPlace& before, char letter,
+  static std::optional<Piece> find(const PlainLine& line, const PlainPlace& before, char letter, bool of_centre,
                                    std::string_view token);
   std::vector<Piece> pieces_;
   std::string after_;
@@ -41,15 +44,16 @@ class LineForm {
   bool uses_place_ = false;
 };
 
+/// Makes what numbers the blocks of one output; null where nothing does.
+using MakeBlockNumbers = std::function<std::unique_ptr<backends::BlockNumbers>()>;
+
 class Unfolding {
  public:
-  Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded);
+  Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded, MakeBlockNumbers numbers);
 
   /// Holds every line that stayed against what was written for it, in all outputs. False: `stays` says which lines
   /// have to stay besides; when it is as before, no folding helps.
   bool learn(const std::vector<OutputText>& outputs, FileId file, FoldedText::Stays& stays);
-  /// Lines were left out of this output.
-  [[nodiscard]] bool folded(std::size_t output) const { return !places_[output].empty(); }
   /// The output with all its lines. False: the sink, or the file is not what it was.
   bool write(std::size_t output, std::string_view bytes, const TextSink& sink) const;
 
@@ -63,6 +67,7 @@ class Unfolding {
   std::string path_;
   frontends::PlainWords words_;
   const FoldedText& folded_;
+  MakeBlockNumbers numbers_;
   PlainLine line_;
   /// A line that stayed, and what was written for it.
   struct Sample {

@@ -175,7 +175,9 @@ RewriteResult rewrite(const SourcePtr& source, const std::string& dialect, const
   write.profile = &reading.profile();
   write.main_stem = source->stem();
   write.single_output = true;
-  result.files = reading.dialect().backend->write(result.program, write, result.diagnostics);
+  const backends::Backend& backend = *reading.dialect().backend;
+  result.files = backend.write(result.program, write, result.diagnostics);
+  for (auto& f : result.files) f.text = backends::numbered(backend, write, std::move(f.text));
   return result;
 }
 

@@ -296,6 +296,7 @@ bool Translation::write() {
   if (result_.draft)  // what stands for data in a draft is no name that stays
     std::erase_if(result_.names.variables, [](const auto& v) { return v.first.starts_with(placeholder_mark); });
   for (auto& f : written.files) {
+    if (options_.folded == nullptr) f.text = backends::numbered(*to_->backend, write, std::move(f.text));
     if (f.main) result_.names.programs[source.stem()] = f.program.empty() ? f.name : f.program;
     OutputText out{result_.draft ? draft_name(f.name) : f.name, f.program, {}, std::move(f.map), f.main};
     out.bytes =

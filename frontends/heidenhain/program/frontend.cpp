@@ -163,6 +163,18 @@ class NoStream : public StreamReader {
   ir::Program frame_;
 };
 
+/// Words of plain lines; longer ones stand before those that they begin with.
+constexpr std::array<PlainCode, 10> plain_codes{{{"L", 1, 'G'},
+                                                 {"CC", -1, 0},
+                                                 {"CR", -1, 0},
+                                                 {"C", -1, 0},
+                                                 {"FMAX", 0, 'G'},
+                                                 {"R0", -1, 'R'},
+                                                 {"RL", -1, 'R'},
+                                                 {"RR", -1, 'R'},
+                                                 {"DR+", 3, 'G'},
+                                                 {"DR-", 2, 'G'}}};
+
 class HeidenhainFrontend : public Frontend {
  public:
   [[nodiscard]] std::string_view dialect() const override { return "heidenhain"; }
@@ -170,6 +182,21 @@ class HeidenhainFrontend : public Frontend {
                    ReadStats* stats) const override {
     ReadStats own;
     return HeidenhainReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
+  }
+  /// Straight lines, and arcs by their radius or by a CC before them, in X, Y and Z, with or without block numbers.
+  [[nodiscard]] PlainWords plain_words() const override {
+    PlainWords words;
+    for (const char c : {'X', 'Y', 'Z'})
+      words.numbers[static_cast<std::size_t>(c - 'A')] = {
+          .free = true, .minus = true, .zero = true, .plus = true, .whole = 5, .places = 4};
+    words.numbers['F' - 'A'] = {.free = true, .whole = 5, .places = 3};
+    words.numbers['R' - 'A'] = {.free = true, .plus = true, .whole = 5, .places = 4};
+    words.numbers['N' - 'A'] = {.free = true, .zero = true, .whole = 8, .most = 99'999'999};
+    words.codes = plain_codes;
+    words.bare_block_number = true;
+    words.lead = "CC";
+    words.comments = {';', 0};
+    return words;
   }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId, const ReadOptions&, std::string_view) const override {
     return std::make_unique<NoStream>();

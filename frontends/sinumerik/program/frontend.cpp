@@ -470,7 +470,7 @@ class SinumerikFrontend final : public Frontend {
   }
   [[nodiscard]] PlainWords plain_words() const override {
     PlainWords words = usual_plain_words(4);
-    words.radius_word = true;
+    words.assignments = true;
     words.comments = {';', 0};
     return words;
   }
