@@ -71,26 +71,27 @@ constexpr bool is_control_q(std::int64_t n) {
   return (n >= 100 && n <= 107) || (n >= 109 && n <= 113);
 }
 
-/// FN 18: SYSREAD ID NR (IDX). `axis_index`: IDX names an axis, 1 = X.
+/// FN 18: SYSREAD ID NR (IDX), always in mm. `axis_index`: IDX names an axis, 1 = X.
 struct SystemRead {
   std::int16_t id, nr;
   ir::Datum datum;
   bool axis_index = false;
   bool axis_number = false;  ///< NR names an axis
   std::string_view title;
+  bool by_unit = false;  ///< the neutral datum is in the unit of the program
 };
 inline constexpr std::array system_reads{
     SystemRead{20, 1, ir::Datum::tool_number, false, false, "tool in use"},
     SystemRead{20, 2, ir::Datum::next_tool, false, false, "tool made ready"},
     SystemRead{20, 4, ir::Datum::rpm, false, false, "programmed speed"},
-    SystemRead{20, 9, ir::Datum::feed, false, false, "feed in force"},
+    SystemRead{20, 9, ir::Datum::feed, false, false, "feed in force", true},
     SystemRead{50, 1, ir::Datum::tool_length, false, false, "length in the tool table"},
     SystemRead{50, 2, ir::Datum::tool_radius, false, false, "radius in the tool table"},
     SystemRead{200, 1, ir::Datum::tool_radius, false, false, "radius in force"},
     SystemRead{200, 2, ir::Datum::tool_length, false, false, "length in force"},
     SystemRead{210, 2, ir::Datum::rotation_angle, false, false, "programmed rotation"},
     SystemRead{240, 1, ir::Datum::machine_position, true, false, "position from the machine datum"},
-    SystemRead{270, 1, ir::Datum::work_position, true, false, "position in the coordinates in force"},
+    SystemRead{270, 1, ir::Datum::work_position, true, false, "position in the coordinates in force", true},
 };
 constexpr const SystemRead* find_system_read(std::int64_t id, std::int64_t nr) {
   for (const auto& s : system_reads) {

@@ -70,6 +70,7 @@ class HeidenhainReader {
     const auto& lines = source_->lines();
     look.final_eol = lines.empty() || lines.back().has_eol;
     program_.files.push_back(std::move(look));
+    look_at_callers();
     for (const SourceLine& l : lines) line(l);
     lowering_.flush();
     write_leads(lowering_);
@@ -95,6 +96,13 @@ class HeidenhainReader {
   }
 
  private:
+  /// Each file has its own unit.
+  void look_at_callers() {
+    const auto* all = options_.callers;
+    if (all == nullptr || all->empty()) return;
+    const auto differs = [all](const ir::Program* p) { return p->unit_hint != all->front()->unit_hint; };
+    lowering_.outer_unit(all->front()->unit_hint, std::any_of(all->begin(), all->end(), differs));
+  }
   void declare_texts() {
     if (lowering_.texts().empty()) return;
     ir::Declare d;
@@ -198,6 +206,7 @@ class HeidenhainFrontend : public Frontend {
     words.comments = {';', 0};
     return words;
   }
+  [[nodiscard]] bool reads_by_callers() const override { return true; }
   [[nodiscard]] std::unique_ptr<StreamReader> stream(FileId, const ReadOptions&, std::string_view) const override {
     return std::make_unique<NoStream>();
   }

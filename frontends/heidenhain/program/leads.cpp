@@ -53,6 +53,7 @@ class LeadWriter {
             items[i].moves ? way_.end_of(std::get<ir::Block>(items[i].statement.node).motion) : way_.point();
         if (at) items[i].place = std::pair(at->u.value(), at->v.value());
       }
+      if (items[i].kind == ItemKind::pole) absolute(flat_.poles[static_cast<std::size_t>(items[i].index)]);
       if (items[i].at_pattern || items[i].shift) {
         const auto height = way_.coordinate(way_.plane().w);
         if (height) items[i].height = height->value();
@@ -62,6 +63,17 @@ class LeadWriter {
   }
 
  private:
+  /// CC with an absolute and an incremental word becomes absolute, where the tool's place is known.
+  void absolute(Pole& pole) const {
+    const auto some = std::count(pole.incremental.begin(), pole.incremental.end(), true);
+    if (some == 0 || some == static_cast<std::ptrdiff_t>(pole.words.size())) return;
+    for (std::size_t k = 0; k < pole.words.size(); ++k) {
+      const auto from = way_.coordinate(pole.words[k].axis);
+      if (!pole.incremental[k] || !from) continue;
+      pole.words[k].value = (*from + Term(pole.words[k].value)).value();
+      pole.incremental[k] = false;
+    }
+  }
   /// The elements from item `i` on, solved together. The last item that belongs to them.
   std::size_t free_contour(std::vector<Item>& items, std::size_t i) {
     std::vector<FreeElement> elements;
@@ -387,7 +399,9 @@ void write_leads(Lowering& lowering) {
   const bool needed =
       !flat.leads.empty() || !flat.elements.empty() ||
       std::any_of(flat.items.begin(), flat.items.end(), [](const Item& i) { return i.at_pattern || i.shift; }) ||
-      std::any_of(flat.cycles.begin(), flat.cycles.end(), [](const auto& c) { return !c.labels.empty(); });
+      std::any_of(flat.cycles.begin(), flat.cycles.end(), [](const auto& c) { return !c.labels.empty(); }) ||
+      std::any_of(flat.poles.begin(), flat.poles.end(),
+                  [](const Pole& p) { return p.words.size() > 1 && p.incremental[0] != p.incremental[1]; });
   if (needed) LeadWriter(lowering).run();
 }
 

@@ -76,20 +76,29 @@ class Structure {
     for (const int i : flow_.doubled())
       at(flat_.items[static_cast<std::size_t>(i)]).refuse("HEI-010", {}, "the label stands twice in the file");
   }
+  /// M2 or M30, not the end of the text.
+  [[nodiscard]] bool ends_program(int i) const {
+    const Item& item = flat_.items[static_cast<std::size_t>(i)];
+    const auto* end = std::get_if<ir::End>(&item.statement.node);
+    return item.kind == ItemKind::end && end != nullptr && end->text != "END PGM";
+  }
   /// How the subprogram of a root stands in the text.
   void judge(std::size_t r) {
     const auto& roots = flow_.roots();
     const auto& root = roots[r];
     const Item& label = flat_.items[static_cast<std::size_t>(root.start)];
-    if (root.ends.empty()) {
-      at(label).refuse("HEI-025", {}, "the subprogram has no LBL 0", "end it with LBL 0");
-      return;
-    }
-    const int last = root.ends.back();
+    int last = root.ends.empty() ? -1 : root.ends.back();
     bool whole = true;
     for (int i = 0; i < static_cast<int>(flat_.items.size()); ++i) {
-      const bool inside = i >= root.start && i <= last;
-      if (root.reached[static_cast<std::size_t>(i)] && !inside) whole = false;
+      if (!root.reached[static_cast<std::size_t>(i)]) continue;
+      if (i < root.start) whole = false;
+      if (ends_program(i)) last = std::max(last, i);  // a way may end the program
+    }
+    for (int i = last + 1; i < static_cast<int>(flat_.items.size()); ++i)
+      whole = whole && !root.reached[static_cast<std::size_t>(i)];
+    if (last < 0) {
+      at(label).refuse("HEI-025", {}, "the subprogram has no LBL 0", "end it with LBL 0");
+      return;
     }
     if (!whole) {
       at(label).keep("HEI-025", {}, "the subprogram is left by a jump: that is not carried", "language.statement");
@@ -97,7 +106,9 @@ class Structure {
     }
     bool shared = false;
     for (int i = root.start; i <= last; ++i) shared = shared || roots[0].reached[static_cast<std::size_t>(i)];
-    if (shared && root.ends.size() > 1) {
+    std::vector<int> returns = root.ends;
+    if (!returns.empty() && returns.back() == last) returns.pop_back();
+    if (shared && (!returns.empty() || root.ends.empty())) {
       at(label).keep("HEI-025", {}, "a subprogram with several ends that the main program runs through is not carried",
                      "language.statement");
       return;
@@ -106,7 +117,7 @@ class Structure {
       ranges_[root.start] = last;
       return;
     }
-    Sub sub{root.start, last, 0, {root.ends.begin(), root.ends.end() - 1}};
+    Sub sub{root.start, last, 0, std::move(returns)};
     for (std::size_t other = 1; other < roots.size(); ++other) {
       const int start = roots[other].start;
       if (start > root.start && start <= last &&

@@ -27,6 +27,11 @@ class Lowering {
   Lowering(const machine::Profile& profile, ir::Program& program, Diagnostics& diagnostics)
       : profile_(profile), program_(program), report_(diagnostics) {}
 
+  /// Of the program that runs first and reaches this file. `mixed`: some of those between have another one.
+  void outer_unit(ir::Units unit, bool mixed) {
+    outer_unit_ = unit;
+    mixed_units_ = mixed;
+  }
   /// One line that is a block, or a comment. `line`: its place and comments. True: it was understood.
   bool line(const syntax::Block& block, const Span& where, std::string_view text, ir::LineInfo line);
   /// A block that can't be read.
@@ -63,6 +68,7 @@ class Lowering {
   bool call_program(const syntax::Statement& s);
   bool select_program(const syntax::Statement& s);
   Item& call_routine(const std::string& name);
+  void put_unit(ir::Units unit);
   bool stop();
   bool assignment(const syntax::Statement& s);
   bool function(const syntax::Statement& s);
@@ -134,6 +140,8 @@ class Lowering {
   bool global_ = false;  ///< lines of a GLOBAL DEF are being read
   std::string name_;
   bool inch_ = false, began_ = false, ended_ = false;
+  std::optional<ir::Units> outer_unit_;  ///< where the unit changes with the file
+  bool mixed_units_ = false;
 
   // Along the text
   bool tool_called_ = false;

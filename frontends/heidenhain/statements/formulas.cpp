@@ -268,6 +268,9 @@ bool Lowering::sysread(const syntax::Statement& rest) {
   const bool of_tool = *id == 50;
   auto value = axis_of_tool ? ir::number(tool_called_ ? tool_axis_ : -1)
                             : datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
+  constexpr double inch = 25.4;
+  const bool by_unit = row != nullptr && row->by_unit && !ir::is_rotary_letter(axis);
+  if (by_unit && inch_) value = ir::binary(ir::BinaryOp::multiply, std::move(value), ir::number(inch));
   if (of_tool) {  // of a tool that a number or a parameter names
     const auto at = text.find("IDX");
     const auto named = at == std::string::npos ? std::nullopt : variable_behind(at);

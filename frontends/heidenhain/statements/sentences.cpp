@@ -223,18 +223,24 @@ bool Lowering::begin(const syntax::Statement& s) {
   }
   began_ = true;
   name_ = to_upper_ascii(rest);
-  if (!inch_) {
-    if (!line_.comments.empty()) put(ir::Block{});
-    return true;
+  const auto own = inch_ ? ir::Units::inch : ir::Units::metric;
+  if (outer_unit_ == own && !mixed_units_) outer_unit_.reset();
+  if (inch_ || outer_unit_) {
+    put_unit(own);
+  } else if (!line_.comments.empty()) {
+    put(ir::Block{});
   }
-  ir::Block units;
-  ir::Action& a = units.actions.emplace_back();
-  a.data = ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(ir::Units::inch), true};
-  put(std::move(units));
   return true;
 }
 
+void Lowering::put_unit(ir::Units unit) {
+  ir::Block b;
+  b.actions.emplace_back().data = ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(unit), true};
+  put(std::move(b));
+}
+
 bool Lowering::finish_program(const syntax::Statement&) {
+  if (outer_unit_) put_unit(*outer_unit_);
   ir::End end;
   end.text = "END PGM";
   end.returns_from_sub = true;
@@ -345,12 +351,7 @@ Item& Lowering::call_routine(const std::string& name) {
   call.level = ir::CallLevel::new_level;
   const std::size_t at = flat_.items.size();
   put(ItemKind::program, std::move(call));
-  if (inch_) {
-    ir::Block units;
-    units.actions.emplace_back().data =
-        ir::ModalSet{ir::Setting::units, static_cast<std::uint8_t>(ir::Units::inch), true};
-    put(std::move(units));
-  }
+  if (inch_) put_unit(ir::Units::inch);
   return flat_.items[at];
 }
 
