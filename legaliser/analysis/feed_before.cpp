@@ -45,7 +45,8 @@ class GivenDomain {
     const auto* b = std::get_if<Block>(&s.node);
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
              const auto* d = std::get_if<CycleDefine>(&a.data);
-             return std::holds_alternative<SetFeed>(a.data) || (d != nullptr && leaves_feed(d->cycle));
+             const auto* f = std::get_if<SetFeed>(&a.data);
+             return (f != nullptr && !f->block_only) || (d != nullptr && leaves_feed(d->cycle));
            });
   }
   static void transfer(const Statement& s, State& state) { state.maybe = state.maybe || gives(s); }

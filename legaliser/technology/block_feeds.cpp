@@ -1,7 +1,9 @@
-// A feed of one block for a target whose F stays in force: the feed of before is written behind the block.
+// A feed of one block for a target whose F stays in force: the feed of before is written behind the block, where there
+// is one.
 #include <algorithm>
 
 #include "legaliser/analysis/facts.h"
+#include "legaliser/analysis/feed_before.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/edit/blocks.h"
@@ -63,6 +65,7 @@ Block at_its_end(const Block& b, const Facts& facts) {
 void write_block_feeds(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !has_block_feed(program)) return;
   const FactsOf facts(program, context);
+  const FeedsBefore feeds(program, context);
   edit_blocks(program, context, [&](Editor& editor, Statement&& s, Body& out) {
     auto& b = std::get<Block>(s.node);
     const auto own = std::find_if(b.actions.begin(), b.actions.end(), is_block_feed);
@@ -71,13 +74,13 @@ void write_block_feeds(Program& program, const LegaliseContext& context) {
       b.actions.erase(own);
       return out.push_back(std::move(s));
     }
-    std::optional<Value> before;
-    if (const auto known = facts.before(s).feed) before = Value{*known};
+    const FeedBefore known = feeds.at(s, b, facts.before(s));
+    std::optional<Value> before = known.word();
     for (const auto& a : b.actions) {  // F beside FB= is the one that stays
       const auto* f = std::get_if<SetFeed>(&a.data);
       if (f != nullptr && !f->block_only) before = f->value;
     }
-    if (!before) return out.push_back(std::move(s));
+    if (!before && !known.none) return out.push_back(std::move(s));
     std::get<SetFeed>(own->data).block_only = false;
     own->text = {};
     std::erase_if(b.actions,
@@ -90,10 +93,10 @@ void write_block_feeds(Program& program, const LegaliseContext& context) {
       b.repeat_given = 1;  // the way alone
       b.repeat = Value(0);
     }
-    behind.actions.insert(behind.actions.begin(), action(SetFeed{*before, false, false}));
+    if (before) behind.actions.insert(behind.actions.begin(), action(SetFeed{*before, false, false}));
     Body pieces;
     pieces.push_back(std::move(s));
-    pieces.push_back(made(like, std::move(behind)));
+    if (!behind.empty()) pieces.push_back(made(like, std::move(behind)));
     editor.put_group(out, std::move(pieces), 0);
   });
 }
