@@ -218,7 +218,8 @@ void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
 void Writer::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
   if (same_dialect() && a.text.empty()) return;  // selected by the tool change
   std::string text = word("D", t.number, a.pos);
-  if (!t.number.is(0)) {
+  const ir::Facts* f = facts();
+  if (!t.number.is(0) && (f == nullptr || f->reachable)) {
     offset_word_ = text;
     offset_certain_ = true;
     offset_by_branch_ = false;

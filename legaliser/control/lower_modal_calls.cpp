@@ -31,6 +31,7 @@ class ModalCalls {
         calls_(calls),
         facts_(facts),
         in_force_(program, ModalCallInForce{}),
+        by_main_(called_by_main(program, calls)),
         reads_first_(program, calls, false),
         writes_(program) {
     for (const auto& r : program.routines) {
@@ -87,9 +88,14 @@ class ModalCalls {
   /// The modal call that the text has in force here is not the one that every path brings, and that matters.
   bool by_another_way(const Statement& s, const Block& b) const {
     const auto* state = in_force_.before(s);
-    if (state == nullptr || *state == from_ || (from_ == 0 && *state == brought_)) return false;
-    if (runs_modal_call(b, facts_.before(s), words_run(context_.source_machine)) || pattern_in(b))
-      return some_written_out_;
+    if (state == nullptr || *state == from_) return false;
+    const bool runs = runs_modal_call(b, facts_.before(s), words_run(context_.source_machine));
+    // What acts behind the run of a subprogram that the text does not show would come before it.
+    const bool outside = by_main_.count(routine_) != 0;
+    const bool behind = runs && outside && !on_target_ && context_.target.modal_call &&
+                        program_.dialect != context_.target.dialect && acts_behind_motion(b);
+    if (from_ == 0 && *state == brought_ && (!outside || defined_.count(brought_) != 0)) return behind;
+    if (runs || pattern_in(b)) return some_written_out_ || behind;
     return runs_modal_call(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
   }
   /// A routine that begins or ends modal calls itself may be called while another one is in force on the target.
@@ -157,10 +163,7 @@ class ModalCalls {
         runs_modal_call(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
     if (in_source && acts_behind_motion(*b) && program_.dialect != context_.target.dialect)
       return by_itself_with_call(std::move(s), out);
-    if (in_source || !in_target) {
-      out.push_back(std::move(s));
-      return;
-    }
+    if (in_source || !in_target) return out.push_back(std::move(s));
     // The target would run the subprogram here.
     if (!fixed_arguments(on_target_->call)) {
       context_.diagnostics.error("TRN-188", s.line.span,
@@ -456,6 +459,7 @@ class ModalCalls {
   const CallGraph& calls_;
   const FactsOf& facts_;
   const FlowStates<ModalCallInForce> in_force_;
+  const std::set<std::size_t> by_main_;
   ReadFirst reads_first_;
   const Writes writes_;
   std::map<std::uint32_t, ModalCall> defined_;    ///< modal calls of subprograms, by ids
@@ -474,17 +478,6 @@ class ModalCalls {
   std::uint32_t from_ = 0;         ///< id of the definition that the text has in force; 0: none
   int loops_ = 0;
 };
-
-bool starts_modal_calls(const Program& program) {
-  bool found = false;
-  for (const auto& r : program.routines) {
-    for_each_statement(r.body, [&found](const Statement& s) {
-      const auto* m = std::get_if<ModalCall>(&s.node);
-      found = found || (m != nullptr && !m->off && !m->cycle);
-    });
-  }
-  return found;
-}
 
 }  // namespace
 

@@ -36,6 +36,17 @@ bool any_action_of(const Statement& s, const Test& test) {
 
 }  // namespace
 
+bool starts_modal_calls(const Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&found](const Statement& s) {
+      const auto* m = std::get_if<ModalCall>(&s.node);
+      found = found || (m != nullptr && !m->off && !m->cycle);
+    });
+  }
+  return found;
+}
+
 bool has_modal_call(const Routine& r) {
   bool found = false;
   for_each_statement(r.body,
@@ -141,6 +152,21 @@ bool leaves_feed(const Program& program, const CallGraph& calls, const CallRouti
              return f != nullptr && !f->block_only && !f->value.is(feed);
            });
          });
+}
+
+std::set<std::size_t> called_by_main(const Program& program, const CallGraph& calls) {
+  std::set<std::size_t> found;
+  for (std::size_t i = 0; i < program.routines.size(); ++i) {
+    if (program.routines[i].kind == RoutineKind::main) found.insert(i);
+  }
+  for (std::size_t before = 0; before != found.size();) {
+    before = found.size();
+    for (const auto& site : calls.sites()) {
+      if (site.callee && found.count(site.caller) != 0 && !std::holds_alternative<ModalCall>(site.statement->node))
+        found.insert(*site.callee);
+    }
+  }
+  return found;
 }
 
 bool acts_behind_motion(const Block& b) {

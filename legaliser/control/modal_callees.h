@@ -1,12 +1,15 @@
 // What the subprogram of a modal call does, with those that it calls.
 #pragma once
 
+#include <set>
 #include "ir/analysis/call_graph.h"
 #include "legaliser/analysis/facts.h"
 #include "legaliser/legalise.h"
 
 namespace cnctrans::ir::passes {
 
+/// Some modal call of a subprogram begins.
+bool starts_modal_calls(const Program& program);
 /// The routine begins or ends a modal call.
 bool has_modal_call(const Routine& r);
 /// The called routine, or one below it, does so.
@@ -30,6 +33,8 @@ bool runs_modal_call(const Block& b, const Facts& facts, bool by_words);
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed);
 /// What the block does behind its motion, or in blocks of their own on another control, a modal call would come before.
 bool acts_behind_motion(const Block& b);
+/// Routines that run outside of modal subprograms: the main program and what it calls.
+std::set<std::size_t> called_by_main(const Program& program, const CallGraph& calls);
 /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each call.
 bool shares_level_too(const CallGraph& calls, const CallRoutine& call);
 

@@ -15,6 +15,13 @@ bool back_is_known(const HoleCycle& hole, std::optional<double> defined_at, cons
   return setting_in<RetractPlane>(b, facts, Setting::retract_plane) == RetractPlane::reference;
 }
 
+std::optional<double> retract_mm(const HoleCycle* hole, std::optional<Units> units) {
+  if (hole == nullptr || !units || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
+      !hole->retract.value.literal())
+    return std::nullopt;
+  return hole->retract.value.number * (*units == Units::inch ? 25.4 : 1);
+}
+
 bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto* hole = std::get_if<HoleCycle>(&active_->native->node);
   const auto w = tool_axis(active_->source, b, facts);

@@ -80,6 +80,7 @@ class CyclePass {
     std::optional<Units> units;            ///< of its words
     std::vector<VarRef> stale;             ///< read by its words and changed since its definition
     std::vector<std::uint32_t> said_by{};  ///< the statements that gave it its words
+    bool told = true;                      ///< what is to be said of its reference plane, at its first point
   };
 
   void walk(Body& body, Body& out) {

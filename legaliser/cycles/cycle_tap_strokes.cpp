@@ -18,7 +18,7 @@ void CyclePass::modal_call(Statement&& s, Body& out) {
   active_->deferred = true;
   lacking_ = lacking_ || !active_->native;
   tell_tap(*active_, s.line);
-  tell_reference(*active_, s.line);
+  active_->told = false;
   if (by_call_ && active_->native) {
     std::get<ModalCall>(s.node).cycle = active_->native;
     active_->on_target = true;

@@ -25,6 +25,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool was_on = active_->on_target;
   const bool new_plane = follow_retract_plane(b, facts), changed = follow_height(b, facts) || new_plane;
   const bool hole_here = triggers(b, facts);
+  if (hole_here && !std::exchange(active_->told, true)) tell_reference(*active_, s.line);
   if (hole_here && tap_feed_ && !active_->needs.feed) feed_comes_back(s, b, facts);  // a tap stood before this cycle
   if (hole_here && (refuse_unknown_plane(s, active_->source, out) || refuse_two_ways(s, out))) return;
   const LineInfo like = s.line;
@@ -73,10 +74,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   const auto units = setting_in<Units>(b, facts, Setting::units);
   native_point(std::move(s), std::move(pieces), out);
-  if (!active_ || hole == nullptr || !units || !hole->retract.given || hole->retract.base != LevelBase::absolute ||
-      !hole->retract.value.literal())
-    return;
-  active_->height = hole->retract.value.number * (*units == Units::inch ? 25.4 : 1);
+  if (const auto left = retract_mm(hole, units); left && active_) active_->height = left;
 }
 
 static Action distance_set(Distance d) {
@@ -242,11 +240,16 @@ void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& piec
   // The modal cycle goes on behind one that is called by itself; the target defines it again at its next point.
   std::optional<Active> goes_on;
   if (change != nullptr && !d.modal && d.here) goes_on = active_;
+  const auto units = setting_in<Units>(std::get<Block>(s.node), facts_.before(s), Setting::units);
+  const auto left = retract_mm(change, units);
   define_here(std::move(s), d, std::move(pieces), out);
   if (!goes_on) return;
   active_ = std::move(goes_on);
-  active_->on_target = active_->maybe_on_target = false;
-  active_->height.reset();
+  const bool same = left && left == retract_mm(std::get_if<HoleCycle>(&active_->source->node), units);
+  active_->maybe_on_target = !same && (active_->maybe_on_target || active_->on_target);
+  active_->on_target = false;
+  active_->height = left;
+  active_->left_height = active_->left_height || !same;
 }
 
 void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {

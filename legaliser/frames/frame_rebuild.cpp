@@ -67,13 +67,18 @@ bool FrameTarget::can(FrameSlot slot, FrameCombine combine) const {
 
 /// The slots that hold something apply in the same order on both machines.
 bool FrameTarget::same_order(const FrameState& before, const FrameState& after, FrameSlot changed) const {
-  const auto used = [&](const std::vector<FrameSlot>& order) {
-    std::vector<FrameSlot> list;
-    std::copy_if(order.begin(), order.end(), std::back_inserter(list),
-                 [&](FrameSlot s) { return s == changed || !before.slot(s).neutral() || !after.slot(s).neutral(); });
-    return list;
-  };
-  return used(context_.source_machine.frame_order) == used(context_.target_machine.frame_order);
+  const auto uses = [&](FrameSlot s) { return s == changed || !before.slot(s).neutral() || !after.slot(s).neutral(); };
+  const bool as_shift = !keeps_preset() && uses(FrameSlot::preset);
+  std::vector<FrameSlot> source, target;
+  for (const auto s : context_.source_machine.frame_order) {
+    if (uses(s)) source.push_back(as_shift && s == FrameSlot::preset ? FrameSlot::shift : s);
+  }
+  source.erase(std::unique(source.begin(), source.end()), source.end());
+  for (const auto s : context_.target_machine.frame_order) {
+    if (s == FrameSlot::preset ? !as_shift && uses(s) : uses(s) || (as_shift && s == FrameSlot::shift))
+      target.push_back(s);
+  }
+  return source == target;
 }
 
 /// A mirror image that ends on some axes: those that stay mirrored are named.

@@ -147,6 +147,8 @@ bool take_cancel(Block& b);
 bool disturbs_call(const Block& b);
 /// The cycle with its levels absolute or incremental by the mode at its definition, whatever holds at later points.
 CyclePtr with_fixed_bases(const CyclePtr& cycle, std::optional<Distance> distance);
+/// The retract plane that the words of the cycle say as a number.
+std::optional<double> retract_mm(const HoleCycle* hole, std::optional<Units> units);
 /// A height in the program's unit at the block.
 std::optional<double> in_units(std::optional<double> mm, const Block& b, const Facts& facts);
 /// The plane to which the cycle goes back: that of its definition at `defined_at` counts where it goes back to the
