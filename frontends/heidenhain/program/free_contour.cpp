@@ -345,7 +345,7 @@ class Solver {
     one.c = k.c;
     one.ccw = k.r > 0;
     if (!k.arc && dot(to - p, k.d) < near) return false;
-    if (k.arc && length(to - p) < near && !e_[i].closes) return false;
+    if (k.arc && length(to - p) < near && !e_[i].closes && !end_point(i)) return false;
     if (const auto len = get(i, "LEN"); len && !k.arc && std::abs(length(to - p) - std::abs(*len)) > fits) return false;
     path.push_back(one);
     return true;

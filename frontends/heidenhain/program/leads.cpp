@@ -74,10 +74,10 @@ class LeadWriter {
       pole.incremental[k] = false;
     }
   }
-  /// The elements from item `i` on, solved together. The last item that belongs to them.
-  std::size_t free_contour(std::vector<Item>& items, std::size_t i) {
+  /// The elements of the free contour that begins with item `i`; `last`: the last item that belongs to them.
+  std::vector<FreeElement> elements_from(const std::vector<Item>& items, std::size_t i, std::size_t& last) const {
     std::vector<FreeElement> elements;
-    std::size_t last = i;
+    last = i;
     for (std::size_t k = i; k < items.size(); ++k) {
       const auto* b = std::get_if<ir::Block>(&items[k].statement.node);
       const auto* o = std::get_if<ir::Opaque>(&items[k].statement.node);
@@ -89,16 +89,25 @@ class LeadWriter {
       last = k;
       if (elements.back().closes) break;
     }
+    return elements;
+  }
+  static FreeResult solve(const std::vector<FreeElement>& elements, const Way& from) {
+    const auto start = from.point();
+    const auto& d = from.direction();
     FreeResult solved;
-    const auto start = way_.point();
-    const auto& d = way_.direction();
     if (!start || !start->literal()) {
       solved.error = "where the tool stands before the free contour is not known here";
-    } else {
-      std::optional<ir::geometry::Vec> direction;
-      if (d && d->literal()) direction = ir::geometry::Vec{d->u.number(), d->v.number()};
-      solved = solve_free_contour(elements, {start->u.number(), start->v.number()}, direction);
+      return solved;
     }
+    std::optional<ir::geometry::Vec> direction;
+    if (d && d->literal()) direction = ir::geometry::Vec{d->u.number(), d->v.number()};
+    return solve_free_contour(elements, {start->u.number(), start->v.number()}, direction);
+  }
+  /// The last item that belongs to the free contour, which becomes lines and arcs.
+  std::size_t free_contour(std::vector<Item>& items, std::size_t i) {
+    std::size_t last = i;
+    const auto elements = elements_from(items, i, last);
+    const FreeResult solved = solve(elements, way_);
     if (!solved.error.empty()) {
       lowering_.report().start(elements[solved.at].where);
       lowering_.report().keep("HEI-030", {}, solved.error, "motion.geometry", "write it as L and C");
@@ -199,6 +208,14 @@ class LeadWriter {
       const Item& next = items[k];
       const auto* b = std::get_if<ir::Block>(&next.statement.node);
       if (next.lead >= 0) break;
+      if (next.free >= 0) {
+        std::size_t last = k;
+        const FreeResult solved = solve(elements_from(items, k, last), there);
+        if (!solved.error.empty()) return solved.error;
+        const auto d = solved.elements.front().start_direction();
+        t = Pair{Term(d.u), Term(d.v)};
+        break;
+      }
       const bool element = next.kind == ItemKind::plain && b != nullptr && b->has_motion && next.index < 0;
       if (element) t = there.start_direction(next);
       const bool passes = next.kind == ItemKind::pole || next.kind == ItemKind::label || next.kind == ItemKind::plain;
