@@ -45,6 +45,17 @@ void leave_out_what_is_in_force(ir::Program& program, const ir::ModalState& powe
   }
 }
 
+/// `PLANE SPATIAL SPA+0 SPB+90 SPC+0` and the way of positioning in a line of its own below, as manuals print it.
+bool goes_on(std::string_view line, std::string_view below) {
+  const auto begins = [](std::string_view text, std::string_view word) {
+    return iequals_ascii(text.substr(0, word.size()), word);
+  };
+  const std::string_view first = trim(line.substr(std::min(line.find_first_not_of(" \t0123456789"), line.size())));
+  if (!begins(first, "PLANE")) return false;
+  const std::string_view next = trim(below);
+  return begins(next, "TURN") || begins(next, "MOVE") || begins(next, "STAY");
+}
+
 class HeidenhainReader {
  public:
   HeidenhainReader(const SourcePtr& source, FileId file, const ReadOptions& options, Diagnostics& diagnostics,
@@ -71,7 +82,12 @@ class HeidenhainReader {
     look.final_eol = lines.empty() || lines.back().has_eol;
     program_.files.push_back(std::move(look));
     look_at_callers();
-    for (const SourceLine& l : lines) line(l);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      SourceLine l = lines[k];
+      if (k + 1 < lines.size() && goes_on(l.text, lines[k + 1].text))
+        l.text = program_.keep(std::string(l.text) + ' ' + std::string(trim(lines[++k].text)));
+      line(l);
+    }
     lowering_.flush();
     write_leads(lowering_);
     limit_plunges(lowering_);
@@ -86,7 +102,7 @@ class HeidenhainReader {
     program_.unit_hint = lowering_.inch() ? ir::Units::inch : ir::Units::metric;
     build_routines(lowering_, flow, std::move(statements), std::move(main), program_);
     declare_texts();
-    if (!lowering_.began() && !lines.empty()) {
+    if (!lowering_.began() && !lines.empty() && !din_iso_) {
       diagnostics_.warning("HEI-014", Span{file_, 1, 1, 1, 1}, "the file does not begin with BEGIN PGM: millimetres",
                            "write BEGIN PGM NAME MM");
     }
@@ -124,6 +140,17 @@ class HeidenhainReader {
       if (blank_ < std::numeric_limits<std::uint16_t>::max()) ++blank_;
       return;
     }
+    if (std::exchange(first_line_, false) && trim(text).front() == '%') {
+      din_iso_ = true;
+      diagnostics_.error("HEI-014", span, "a program in DIN/ISO (`%NAME G71`), which is another language",
+                         "give the conversational program (.H)");
+    }
+    if (din_iso_) {
+      ir::LineInfo info;
+      info.span = span;
+      ++stats_.blocks;
+      return lowering_.unread(std::move(info), text);
+    }
     ParseError error;
     const bool ok = reader_.read(text, syntax_, error);
     if (!reader_.difference().empty()) diagnostics_.error("CNC-READERS", span, reader_.difference());
@@ -156,6 +183,7 @@ class HeidenhainReader {
   Lowering lowering_;
   syntax::Block syntax_;
   std::uint16_t blank_ = 0;
+  bool first_line_ = true, din_iso_ = false;
 };
 
 /// Labels, CC and cycles need the whole program.
