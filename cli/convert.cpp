@@ -282,13 +282,11 @@ class Proofs {
   explicit Proofs(const Arguments& a) : a_(a) {}
 
   void add(const std::string& input, const translator::TranslateOptions& options,
-           const translator::TranslateResult& result, std::uint64_t left_out) {
+           const translator::TranslateResult& result) {
     if (!result.verified) return;
     const FileTable targets = targets_as_written(a_, result);
     a_.messages->add(result.target_diagnostics, targets);
-    std::string text = input + ": " + translator::proof_text(result, targets);
-    if (left_out != 0 && result.verdict.good())
-      text += fmt::format("; {} more plain lines are written as those of their form that were replayed", left_out);
+    const std::string text = input + ": " + translator::proof_text(result, targets);
     if (result.verdict.good()) {
       if (!a_.quiet || options.strict) lines_.push_back({Severity::note, text});
     } else {
@@ -337,7 +335,7 @@ int convert_one(const Arguments& a, const translator::TranslateOptions& options,
     return status;
   job.take_names(result);
   if (!result.held_back) translator::add_names(names, result.names);
-  proofs.add(input, options, result, folded ? folded->text.lines_left_out() : 0);
+  proofs.add(input, options, result);
   if (result.draft) {
     tell_draft(a, input, result);
     return draft;

@@ -124,8 +124,9 @@ struct TranslateResult {
   std::string source_machine, target_machine;                  ///< names of the profiles
   bool lathe = false;                                          ///< the source's machine is one
   std::uint64_t lines = 0;
-  ir::NameMap names;  ///< those that the translation has, given or chosen
-  std::string error;  ///< could not even start (file missing, unknown dialect): usage
+  std::uint64_t lines_by_form = 0;  ///< plain lines of a long file that are written as those of their form
+  ir::NameMap names;                ///< those that the translation has, given or chosen
+  std::string error;                ///< could not even start (file missing, unknown dialect): usage
 };
 
 /// What the proof came to, in words; `targets`: the files of the verification under the names to tell. "not asked"

@@ -15,6 +15,7 @@
 #include "translator/batch/batch_record.h"
 #include "translator/files/names_file.h"
 #include "translator/files/readable.h"
+#include "translator/folding/unfolding.h"
 #include "translator/version.h"
 
 namespace cnctrans::translator {
@@ -243,7 +244,7 @@ class Batch {
     t.strict = t.strict && readable_;
     TranslateResult result;
     try {
-      result = translate((in / program).string(), t);
+      result = translate_file((in / program).string(), t);
     } catch (const std::bad_alloc&) {
       return folder_.write(failed(program, "crashed", "not enough memory for this program"), {});
     }
@@ -257,7 +258,7 @@ class Batch {
       r.detail = result.error;
     } else if (result.refused) {
       r.detail = first_error(result);
-    } else if (!result.verified || !result.verdict.good()) {
+    } else if (!result.verified || !result.verdict.good() || result.lines_by_form != 0) {
       r.detail = proof_text(result, result.target_files);
     }
     r.detail = one_line(std::move(r.detail));

@@ -49,9 +49,28 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
     done->unfolding = std::make_unique<Unfolding>(path, words, done->text, numbers);
     if (result.refused || !result.error.empty()) return done;
     constexpr FileId main_file = 1;
+    result.lines_by_form = done->text.lines_left_out();
     if (done->unfolding->learn(result.outputs, main_file, stays)) return done;
   }
   return nullptr;
+}
+
+TranslateResult translate_file(const std::string& path, const TranslateOptions& options) {
+  auto folded = translate_folded(path, options);
+  if (!folded) return translate(path, options);
+  TranslateResult result = std::move(folded->result);
+  for (std::size_t i = 0; i < result.outputs.size(); ++i) {
+    OutputText& out = result.outputs[i];
+    std::string whole;
+    const auto add = [&whole](std::string_view piece) {
+      whole += piece;
+      return true;
+    };
+    if (!folded->unfolding->write(i, out.bytes, add)) result.error = path + " was changed while it was translated";
+    out.bytes = std::move(whole);
+    out.map = {};
+  }
+  return result;
 }
 
 }  // namespace cnctrans::translator

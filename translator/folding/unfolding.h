@@ -98,4 +98,8 @@ inline constexpr std::uintmax_t least_folded = 64 * 1024;
 std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, const TranslateOptions& options,
                                                     std::uintmax_t least_size = least_folded);
 
+/// Translates a file, a long one by its folded text where that can be. The outputs are whole; those of a folded text
+/// have no map of lines.
+TranslateResult translate_file(const std::string& path, const TranslateOptions& options);
+
 }  // namespace cnctrans::translator

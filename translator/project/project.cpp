@@ -14,6 +14,7 @@
 #include "translator/files/names_file.h"
 #include "translator/files/readable.h"
 #include "translator/files/written_files.h"
+#include "translator/folding/unfolding.h"
 
 namespace cnctrans::translator {
 
@@ -261,7 +262,7 @@ class Project {
       const fs::path source = fs::path(group.batch.in) / program;
       const fs::path to = group.to / fs::path(program).parent_path();
       t.taken = WrittenFiles(to, WrittenFiles::Use::look).taken(origin_of(group, program));
-      const TranslateResult result = translate(source.string(), t);
+      const TranslateResult result = translate_file(source.string(), t);
       Names found;
       if (!result.refused) found.map = result.names;
       const std::string text = names_text(found, config_.from, config_.to);

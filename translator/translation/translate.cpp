@@ -1,4 +1,6 @@
 // One program, in memory, with what it calls: read, joined, legalised, written, read back, proved.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -411,7 +413,12 @@ void prove_as_usual(TranslateOptions& options) {
 std::string proof_text(const TranslateResult& result, const FileTable& targets) {
   if (!result.verified) return "not asked";
   const bool told = result.verdict.good() || result.held_back;
-  return told ? verifier::describe(result.verdict, result.files, targets) : verifier::not_proved(result.verdict);
+  if (!told) return verifier::not_proved(result.verdict);
+  std::string text = verifier::describe(result.verdict, result.files, targets);
+  if (result.lines_by_form != 0 && result.verdict.good())
+    text += fmt::format("; {} more plain lines are written as those of their form that were replayed",
+                        result.lines_by_form);
+  return text;
 }
 
 TranslateResult translate(const Input& input, const TranslateOptions& options) {
