@@ -19,6 +19,20 @@ bool read_standard_input(Arguments& a) {
   return text != nullptr;
 }
 
+namespace {
+
+/// What a language is told by: the first lines of a program, however long it is.
+SourcePtr head_of(const Arguments& a, const std::string& name, std::string* error) {
+  const translator::Input input = input_of(a, name);
+  if (input.in_memory()) return input.open(error);
+  constexpr std::size_t enough = 1U << 18U;
+  LineWindowReader reader(enough);
+  if (!reader.open(name, error)) return nullptr;
+  return SourceText::from_string(name, std::string(reader.next()));
+}
+
+}  // namespace
+
 bool find_language(const Arguments& a, std::string& wanted, const char* option, std::size_t first, std::size_t last) {
   if (!wanted.empty()) return true;
   const translator::Dialect* found = nullptr;
@@ -33,7 +47,7 @@ bool find_language(const Arguments& a, std::string& wanted, const char* option, 
       return false;
     }
     std::string error;
-    const SourcePtr source = input_of(a, name).open(&error);
+    const SourcePtr source = head_of(a, name, &error);
     if (!source) {
       usage_error(a, error);
       return false;

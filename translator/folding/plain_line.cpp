@@ -41,6 +41,7 @@ PlainLine::PlainLine(const frontends::PlainWords& words)
       lead_(words.lead),
       other_blocks_(words.other_blocks),
       comments_(words.comments) {
+  for (const auto& code : codes_) code_letters_ |= 1U << static_cast<unsigned>(code.text.front() - 'A');
   if (words.assignments) radius_ = {.free = true, .whole = 5, .places = 4};
 }
 
@@ -162,7 +163,8 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
       --p;
     }
     if (!is_capital(c) || n + max_code > max_key) return Kind::other;
-    if (const frontends::PlainCode* code = codes_.empty() ? nullptr : code_at(p - 1, end)) {
+    const bool may_be_code = (code_letters_ >> static_cast<unsigned>(c - 'A') & 1U) != 0;
+    if (const frontends::PlainCode* code = may_be_code ? code_at(p - 1, end) : nullptr) {
       for (const char k : code->text) add(k);
       p += code->text.size() - 1;
       in_lead = code->text == lead_;

@@ -77,6 +77,7 @@ class PlainLine {
 
   std::array<frontends::FreeNumber, 26> rules_;
   std::span<const frontends::PlainCode> codes_;
+  std::uint32_t code_letters_ = 0;  ///< bit 0 is A: letters that codes begin with
   bool bare_block_number_;
   std::string_view lead_;
   frontends::FreeNumber radius_;
