@@ -100,7 +100,9 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
 /// F stands in a move; until one comes it waits. A rapid move takes none.
 void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
   if (f.zero_is_maximum && f.value.is(0)) return ProgramWriter::set_feed(a, f);
-  feed_ = amount(f.value, a.pos);
+  // F that stands before the word for inches is in millimetres.
+  const bool metric = unit_ == "INCH" && setting(ir::Setting::units) == code_value(ir::Units::metric);
+  feed_ = amount(metric ? ir::scale(f.value, 1 / 25.4) : f.value, a.pos);
 }
 
 void Writer::set_spindle(const ir::Action& a, const ir::SetSpindle& s) {

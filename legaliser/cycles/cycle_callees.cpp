@@ -150,6 +150,8 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     }
     CyclePass inner(program_, copy->routine, context_, facts_, feeds_, callees_, stale_);
     inner.active_ = active_;
+    inner.sense_ = sense_;  // this routine is taken apart just now: what holds throughout is not to be seen any more
+    inner.sense_.forget();
     inner.surely_active_ = !touches_cycle(copy->routine.body);
     inner.may_end_ = !inner.surely_active_;
     inner.run();

@@ -87,11 +87,16 @@ bool CyclePass::refuse_other_levels(Statement& s, Body& out) const {
     return c != nullptr && c->combine != FrameCombine::preset && c->kind != FrameKind::rotate &&
            (c->uniform_scale || std::any_of(c->words.begin(), c->words.end(), along));
   });
-  if (!other) return false;
+  const auto* offset = action_in<WorkOffset>(b);
+  const bool on = active_ && (active_->on_target || active_->maybe_on_target);
+  const bool ends = on && offset != nullptr && offset->off;
+  if (!other && !ends) return false;
   refuse(
       s, program_, context_, "TRN-331",
-      "the scale, the shift or the mirror along the tool changes while a cycle is active: whether its levels go along "
-      "is not the same on every control",
+      ends
+          ? "the work offset ends while a cycle is active: whether its levels go along is not the same on every control"
+          : "the scale, the shift or the mirror along the tool changes while a cycle is active: whether its levels go "
+            "along is not the same on every control",
       "cancel the cycle before this block and define it again behind it");
   out.push_back(std::move(s));
   return true;

@@ -36,7 +36,7 @@ bool CyclePass::follow_units(Statement& s, const Block& b, const Facts& facts, B
   const auto now = setting_in<Units>(b, facts, Setting::units);
   if (now == active_->units || !facts.reachable) return false;
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-  if (!now || !active_->units || hole == nullptr || !sure(facts)) {
+  if (!now || !active_->units || hole == nullptr || !sure(facts) || !surely_on(facts)) {
     refuse(s, program_, context_, "TRN-331",
            "the unit of lengths changes while a cycle is in force, and in which unit its words are meant here is not "
            "known",

@@ -174,7 +174,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
-  auto sense = sense_.surely() == SpindleState::off ? SpindleState::off : sense_.or_off();
+  auto sense = sense_.surely() ? sense_.surely() : sense_.or_off();
   if (callees_.spindle && callees_.spindle->turns_on_some_way(s)) sense.reset();
   std::string error, differs;
   std::optional<Explosion> moves;

@@ -343,7 +343,7 @@ class FrameVariables {
       after.apply(*c, facts_.before(s), std::get<Block>(s.node), machine_);
       Body first;
       assign(editor, s, before, after, first);
-      if (lost_.count(s.id) != 0) {
+      if (lost_.count(s.id) != 0 && after.slot(c->slot).known()) {  // of a part of a shift nobody knows the whole
         set_frame(s, *c, states_.before(s), after, first);
         if (!where_) where_ = s.line.span;
       }

@@ -144,10 +144,19 @@ class HeldOffsets {
     for (auto& s : list) each_body(s, [&](Body& inner) { body(editor, inner); });
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (held_.erase(list[i].id) == 0) continue;
-      const auto to = selection(list, i);
+      auto to = selection(list, i);
+      if (to) to = before_later_writing(list, i, *to);
       if (to && hold(editor, list, i, *to)) --i;  // the next one stands here now
       if (!to) refused(list[i]);
     }
+  }
+
+  /// What is written behind it and stays in its place, moving nothing from there on, stays behind it.
+  [[nodiscard]] std::size_t before_later_writing(const Body& list, std::size_t from, std::size_t to) const {
+    for (std::size_t i = from + 1; i < to; ++i) {
+      if (list[i].id != 0 && writes_offset(list[i]) && held_.count(list[i].id) == 0) return i;
+    }
+    return to;
   }
 
   /// The selection behind the writing, or the end of the program, that every way from it passes, none other leading

@@ -114,8 +114,8 @@ class PolePass {
       if (before != nullptr && !pole_) pole_ = way_;
       if (auto* b = std::get_if<Block>(&s.node)) {
         block(s, *b);
-        way_ = s.line.skip_mask == 0 ? pole_ : std::nullopt;
-        if (facts_.before(s).modal_call_runs()) forget_way();  // a subprogram goes on from there
+        way_ = pole_;  // but where a subprogram goes on from there, or the block may be skipped
+        if (s.line.skip_mask != 0 || facts_.before(s).modal_call_runs()) forget_way();
         continue;
       }
       bool nested = false;
