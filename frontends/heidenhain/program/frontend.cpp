@@ -1,6 +1,8 @@
 #include "frontends/heidenhain/program/frontend.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <limits>
 #include <utility>
 
@@ -45,15 +47,29 @@ void leave_out_what_is_in_force(ir::Program& program, const ir::ModalState& powe
   }
 }
 
-/// `PLANE SPATIAL SPA+0 SPB+90 SPC+0` and the way of positioning in a line of its own below, as manuals print it.
+/// Sentences that manuals print in several lines without `~` (reference 1.3), and what the further lines begin with.
+struct Wrapped {
+  std::string_view sentence;
+  std::array<std::string_view, 7> further;
+};
+constexpr std::array wrapped{
+    Wrapped{"PLANE", {"TURN", "MOVE", "STAY"}},
+    Wrapped{"PATTERN DEF", {"(", "POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC"}},
+};
+
 bool goes_on(std::string_view line, std::string_view below) {
   const auto begins = [](std::string_view text, std::string_view word) {
-    return iequals_ascii(text.substr(0, word.size()), word);
+    if (word.empty() || !iequals_ascii(text.substr(0, word.size()), word)) return false;
+    const char next = text.size() > word.size() ? text[word.size()] : ' ';
+    return word == "(" || std::isalpha(static_cast<unsigned char>(next)) == 0;
   };
   const std::string_view first = trim(line.substr(std::min(line.find_first_not_of(" \t0123456789"), line.size())));
-  if (!begins(first, "PLANE")) return false;
   const std::string_view next = trim(below);
-  return begins(next, "TURN") || begins(next, "MOVE") || begins(next, "STAY");
+  if (first.find(';') != std::string_view::npos || first.empty() || first.back() == '~') return false;
+  return std::any_of(wrapped.begin(), wrapped.end(), [&](const Wrapped& w) {
+    return begins(first, w.sentence) &&
+           std::any_of(w.further.begin(), w.further.end(), [&](std::string_view word) { return begins(next, word); });
+  });
 }
 
 class HeidenhainReader {
@@ -84,7 +100,7 @@ class HeidenhainReader {
     look_at_callers();
     for (std::size_t k = 0; k < lines.size(); ++k) {
       SourceLine l = lines[k];
-      if (k + 1 < lines.size() && goes_on(l.text, lines[k + 1].text))
+      while (k + 1 < lines.size() && goes_on(l.text, lines[k + 1].text))
         l.text = program_.keep(std::string(l.text) + ' ' + std::string(trim(lines[++k].text)));
       line(l);
     }
