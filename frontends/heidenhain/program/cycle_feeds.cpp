@@ -55,7 +55,8 @@ bool rapid_only(const ir::Statement& s) {
 
 }  // namespace
 
-void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
+bool feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on, bool alone) {
+  bool left_to_a_caller = false;
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, power_on);
   for (auto& r : program.routines) {
@@ -65,8 +66,8 @@ void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
       const auto* end = std::get_if<ir::End>(&s.node);
       return end != nullptr && end->returns_from_sub;
     });
-    bool none =
-        r.kind == ir::RoutineKind::main && ends && (straight || std::none_of(r.body.begin(), r.body.end(), gives_feed));
+    bool none = r.kind == ir::RoutineKind::main && (ends || alone) &&
+                (straight || std::none_of(r.body.begin(), r.body.end(), gives_feed));
     ir::Body out;
     bool left = false;  // a cycle has left its own F in force
     double in_force = 0;
@@ -91,6 +92,7 @@ void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
         const double own = hole->feed.number;
         if (left ? in_force != own : known.value_or(own + 1) != own) feed(s, own);
         if (known) back = known;
+        left_to_a_caller = left_to_a_caller || (!known && !ends);
         left = true;
         in_force = own;
         without_feed(*b);
@@ -107,6 +109,7 @@ void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on) {
     if (left && back.value_or(in_force) != in_force) feed(out.back(), *back);
     r.body = std::move(out);
   }
+  return left_to_a_caller;
 }
 
 }  // namespace cnctrans::frontends::heidenhain

@@ -7,7 +7,8 @@
 
 namespace cnctrans::frontends::heidenhain {
 
-/// Numbers the statements.
-void feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on);
+/// Numbers the statements. `alone`: no program calls this one. True: if one did, it would find the F of a cycle in
+/// force.
+bool feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on, bool alone);
 
 }  // namespace cnctrans::frontends::heidenhain

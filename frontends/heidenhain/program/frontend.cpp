@@ -123,7 +123,11 @@ class HeidenhainReader {
                            "write BEGIN PGM NAME MM");
     }
     leave_out_what_is_in_force(program_, options_.profile->power_on);
-    feeds_before_cycles(program_, options_.profile->power_on);
+    const bool alone = options_.callers == nullptr || options_.callers->empty();
+    if (feeds_before_cycles(program_, options_.profile->power_on, alone))
+      diagnostics_.note("HEI-019", Span{file_, 1, 1, 1, 1},
+                        "the program has no M2 or M30: for one that calls it, the F of its last cycle is in force on "
+                        "other controls");
     return std::move(program_);
   }
 
