@@ -41,6 +41,23 @@ bool gives_feed(const ir::Statement& s) {
   const auto* b = std::get_if<ir::Block>(&s.node);
   return (b != nullptr && action_of<ir::SetFeed>(*b) != nullptr) || std::holds_alternative<ir::CallRoutine>(s.node);
 }
+/// No F stands in the file, and it calls no other one.
+bool has_no_feed(const ir::Program& program) {
+  bool none = true;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const auto* call = std::get_if<ir::CallRoutine>(&s.node);
+      none = none && (call != nullptr ? program.find(call->routine) != nullptr : !gives_feed(s));
+    });
+  }
+  return none;
+}
+bool returns(const ir::Routine& r) {
+  return std::any_of(r.body.begin(), r.body.end(), [](const ir::Statement& s) {
+    const auto* end = std::get_if<ir::End>(&s.node);
+    return end != nullptr && end->returns_from_sub;
+  });
+}
 bool leads_back(const ir::Statement& s) {
   return std::holds_alternative<ir::Repeat>(s.node) || std::holds_alternative<ir::Jump>(s.node);
 }
@@ -59,15 +76,14 @@ bool feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on, b
   bool left_to_a_caller = false;
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, power_on);
+  const bool nowhere = (alone || !returns(program.routines[0])) && has_no_feed(program);
   for (auto& r : program.routines) {
     // No F so far on any way to a block of a program that nobody calls: none has to come back.
     const bool straight = std::none_of(r.body.begin(), r.body.end(), leads_back);
-    const bool ends = std::none_of(r.body.begin(), r.body.end(), [](const ir::Statement& s) {
-      const auto* end = std::get_if<ir::End>(&s.node);
-      return end != nullptr && end->returns_from_sub;
-    });
-    bool none = r.kind == ir::RoutineKind::main && (ends || alone) &&
-                (straight || std::none_of(r.body.begin(), r.body.end(), gives_feed));
+    const bool ends = !returns(r);
+    const bool first = r.kind == ir::RoutineKind::main && (ends || alone) &&
+                       (straight || std::none_of(r.body.begin(), r.body.end(), gives_feed));
+    bool none = nowhere || first;
     ir::Body out;
     bool left = false;  // a cycle has left its own F in force
     double in_force = 0;
@@ -81,7 +97,7 @@ bool feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on, b
       out.push_back(std::move(s));
     };
     for (auto& s : r.body) {
-      none = none && !gives_feed(s);
+      none = nowhere || (none && !gives_feed(s));
       auto* b = std::get_if<ir::Block>(&s.node);
       const auto* hole = b == nullptr ? nullptr : cycle_with_feed(*b);
       const auto known = back ? back : table.before(s.id).feed;
