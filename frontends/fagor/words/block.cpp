@@ -86,6 +86,12 @@ void BlockLowerer::gather_g(const Word& w) {
         "there is no function " + word_name(w) + (state_.lathe() ? " on the lathe model" : " on the mill model"));
     return;
   }
+  const auto same = [row](const GWord& g) { return g.row == row; };
+  if ((row->use == Use::motion || row->use == Use::setting) &&
+      std::any_of(g_.begin(), g_.begin() + static_cast<std::ptrdiff_t>(g_count_), same)) {
+    state_.note("FAG-006", w.pos, word_name(w) + " is said already in this block: it counts once");
+    return;
+  }
   if (g_count_ == max_g) {
     state_.error("FAG-006", w.pos, "too many G functions in one block");
     return;
