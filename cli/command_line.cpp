@@ -51,6 +51,11 @@ void add_running(CLI::App& app, Arguments& a) {
   app.add_option("--max-steps", a.max_steps, "stop the run after so many statements")->check(count);
 }
 
+void add_structure(CLI::App& app, Arguments& a) {
+  app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
+      ->check(one_of({"keep", "raise"}));
+}
+
 /// What convert and batch have in common.
 void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--from", a.from, "dialect of the input: see 'cnctrans dialects'; else by extension and content");
@@ -66,8 +71,7 @@ void add_writing(CLI::App& app, Arguments& a) {
   app.add_option("--cycles", a.cycles,
                  "the target's own cycle where it leaves the same part, only where each move is the same, or the moves")
       ->check(one_of({"native", "exact", "explode"}));
-  app.add_option("--structure", a.structure, "jumps stay jumps, or become IF, WHILE, REPEAT where that is the same")
-      ->check(one_of({"keep", "raise"}));
+  add_structure(app, a);
   app.add_flag("--annotate", a.annotate, "the source line as a comment beside its translation");
   app.add_flag("--force", a.force, "replace files that cnctrans did not write, or that were changed since");
   app.add_flag("--no-origin", a.no_origin, "no remark at the head that names the source");
@@ -248,6 +252,7 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
   ir->add_option("--after", a.after_pass,
                  "with --to: behind this pass (docs/passes.md); each: behind every one that changes it");
   ir->add_option("--pass", a.only_pass, "with --to: this pass alone");
+  add_structure(*ir, a);
   ir->add_flag("--passes", a.list_passes, "list the passes in their order");
   CLI::App* list = app.add_subcommand("dialects", "list the dialects and built-in machines");
   list->add_flag("-q,--quiet", a.quiet, "dialects only");
