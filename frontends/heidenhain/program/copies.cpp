@@ -142,6 +142,7 @@ class Copies {
 }  // namespace
 
 void copy_for_cycles(Lowering& lowering) {
+  if (lowering.flat().cycles.size() < 2) return;
   Copies copies(lowering);
   for (int n = 0; n < most_copies && copies.once(); ++n) {
   }

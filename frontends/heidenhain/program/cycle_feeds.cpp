@@ -37,6 +37,17 @@ void without_feed(ir::Block& b) {
   }
 }
 
+bool has_cycle_with_feed(const ir::Program& program) {
+  bool found = false;
+  for (const auto& r : program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      found = found || (b != nullptr && cycle_with_feed(*b) != nullptr);
+    });
+  }
+  return found;
+}
+
 bool gives_feed(const ir::Statement& s) {
   const auto* b = std::get_if<ir::Block>(&s.node);
   return (b != nullptr && action_of<ir::SetFeed>(*b) != nullptr) || std::holds_alternative<ir::CallRoutine>(s.node);
@@ -73,6 +84,7 @@ bool rapid_only(const ir::Statement& s) {
 }  // namespace
 
 bool feeds_before_cycles(ir::Program& program, const ir::ModalState& power_on, bool alone) {
+  if (!has_cycle_with_feed(program)) return false;
   bool left_to_a_caller = false;
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, power_on);
