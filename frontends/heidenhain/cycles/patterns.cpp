@@ -154,10 +154,9 @@ std::vector<PatternPoint> pattern_points(const CycleDefinition& cycle, Report& r
       report.refuse("HEI-018", {}, "cycle 220: Q241 is the number of machinings, 1 or more");
       return {};
     }
-    if (n[365] != 0) {
-      report.keep("HEI-018", {}, "cycle 220: the way along the circle (Q365=1) is not carried yet", "cycle.pattern");
-      return {};
-    }
+    if (n[365] != 0)
+      report.warn("HEI-019", {}, "cycle 220: from point to point the tool goes straight, not along the circle (Q365=1)",
+                  "see that nothing stands inside of the circle at this height");
     double step = n[247];
     const double span = n[246] - n[245];
     if (step == 0) {
