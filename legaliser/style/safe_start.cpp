@@ -113,13 +113,13 @@ class SafeStart {
       const bool moves = b->has_motion && b->motion.moves();
       bool uses = moves;
       for (const auto& a : b->actions) {
+        const auto* f = std::get_if<FrameOp>(&a.data);
+        uses = uses || std::holds_alternative<CycleDefine>(a.data) ||
+               (f != nullptr && f->change && f->change->combine != FrameCombine::clear && !f->change->words.empty());
         if (s.line.skip_mask != 0 || (moves && a.order == Order::after)) continue;
         if (const auto* m = std::get_if<ModalSet>(&a.data)) said_[static_cast<std::size_t>(m->setting)] = true;
         if (std::holds_alternative<WorkOffset>(a.data)) offset_said_ = true;
-        const auto* f = std::get_if<FrameOp>(&a.data);
         if (f != nullptr && f->change && f->change->combine == FrameCombine::clear) shift_cleared_ = true;
-        uses = uses || std::holds_alternative<CycleDefine>(a.data) ||
-               (f != nullptr && f->change && f->change->combine != FrameCombine::clear && !f->change->words.empty());
       }
       if (uses) return;
     }

@@ -40,6 +40,7 @@ class LeadWriter {
     std::vector<Item> items = std::move(flat_.items);
     flat_.items.clear();
     for (std::size_t i = 0; i < items.size(); ++i) {
+      way_.comes_to(items[i]);
       if (items[i].lead >= 0) {
         write(items, i);
         continue;

@@ -36,6 +36,7 @@ class PlungeLimit {
     std::vector<Item> items = std::move(flat_.items);
     flat_.items.clear();
     for (Item& item : items) {
+      way_.comes_to(item);
       const auto plane = way_.plane();
       const Place from{way_.coordinate(plane.u), way_.coordinate(plane.v), way_.coordinate(plane.w)};
       way_.step(item);

@@ -84,7 +84,13 @@ std::optional<Pair> Way::point() const {
   return Pair{*at_[p.u], *at_[p.v]};
 }
 
+void Way::comes_to(const Item& item) {
+  const std::uint16_t mask = item.statement.line.skip_mask;
+  if (const auto before = std::exchange(skip_mask_, mask); before != 0 && before != mask) forget();
+}
+
 void Way::step(const Item& item) {
+  comes_to(item);
   switch (item.kind) {
     case ItemKind::label:
       if (targets_.count(label_key(item)) == 0) return;

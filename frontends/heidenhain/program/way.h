@@ -16,6 +16,8 @@ class Way {
  public:
   explicit Way(const Flat& flat);
 
+  /// Before the next item: where lines before it that may be skipped lead is not known.
+  void comes_to(const Item& item);
   /// Over the next item.
   void step(const Item& item);
 
@@ -62,8 +64,9 @@ class Way {
     std::optional<int> side;
   };
   std::map<std::string, Calls> calls_;
-  bool dead_ = false;      ///< behind a program end: nothing comes here but to a label
-  bool sub_dead_ = false;  ///< the same at the label of the subprogram at hand
+  std::uint16_t skip_mask_ = 0;  ///< of the line before: what it may leave out is not known behind it
+  bool dead_ = false;            ///< behind a program end: nothing comes here but to a label
+  bool sub_dead_ = false;        ///< the same at the label of the subprogram at hand
   std::optional<Pair> pole_, direction_;
   ir::Plane plane_ = ir::Plane::xy;
   std::optional<int> side_ = 0;

@@ -120,7 +120,11 @@ class CornerPass {
     if (along_one_axis(s, *next)) return std::nullopt;
     if (stays(s, false)) return std::nullopt;
     const auto angle = angle_at(body, at);
-    if (angle && (*angle < no_turn || straight_on(*angle))) return std::nullopt;  // the path turns back, or goes on
+    const auto line = [this](const Statement& x) {
+      return motion_in(std::get<Block>(x.node), facts_.before(x)) == MotionKind::linear;
+    };
+    const bool back = angle && *angle < no_turn && line(s) && line(*next);  // from an arc a corner may fit
+    if (back || (angle && straight_on(*angle))) return std::nullopt;
     Action a;
     Corner c = *lasting_;
     c.modal = false;
