@@ -176,6 +176,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   const auto* hole = std::get_if<HoleCycle>(&active_->source->node);
   auto sense = sense_.surely() ? sense_.surely() : sense_.or_off();
   if (callees_.spindle && callees_.spindle->turns_on_some_way(s)) sense.reset();
+  if (callees_.spindle && callees_.spindle->stands(s)) sense = SpindleState::off;
   std::string error, differs;
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;

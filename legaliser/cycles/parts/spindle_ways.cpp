@@ -46,15 +46,24 @@ bool SpindleDomain::touches(const Routine& r) {
   return found;
 }
 
-bool SpindleWays::turns_on_some_way(const Statement& s) const {
+SpindleDomain::State SpindleWays::where_it_moves(const Statement& s) const {
   const auto* before = states_.before(s);
-  if (before == nullptr) return false;
+  if (before == nullptr) return SpindleDomain::unknown_way;
   SpindleDomain::State state = *before;
   if (const auto* b = std::get_if<Block>(&s.node)) {
     for (const auto& a : b->actions) {
       if (a.order != Order::after && !std::holds_alternative<CycleDefine>(a.data)) carry_out(a, state);
     }
   }
+  return state;
+}
+
+bool SpindleWays::stands(const Statement& s) const {
+  return where_it_moves(s) == SpindleDomain::off;
+}
+
+bool SpindleWays::turns_on_some_way(const Statement& s) const {
+  const SpindleDomain::State state = where_it_moves(s);
   const bool turns = (state & (SpindleDomain::cw | SpindleDomain::ccw)) != 0;
   return (state & SpindleDomain::unknown_way) == 0 && (state & SpindleDomain::off) != 0 && turns;
 }

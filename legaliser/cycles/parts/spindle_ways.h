@@ -29,8 +29,11 @@ class SpindleWays {
   explicit SpindleWays(const Program& program) : states_(program, domain_) {}
   /// Where the block moves: on one way there it turns, on another one it stands.
   [[nodiscard]] bool turns_on_some_way(const Statement& s) const;
+  /// It stands on every way.
+  [[nodiscard]] bool stands(const Statement& s) const;
 
  private:
+  [[nodiscard]] SpindleDomain::State where_it_moves(const Statement& s) const;
   SpindleDomain domain_;
   FlowStates<SpindleDomain> states_;
 };
