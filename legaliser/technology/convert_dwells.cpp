@@ -83,7 +83,8 @@ class DwellPass {
     if (context_.target.exact_stop_block) return false;
     const bool wanted =
         std::erase_if(b.actions, [](const Action& a) { return std::holds_alternative<ExactStopBlock>(a.data); }) != 0;
-    if (!wanted) return false;
+    const bool moves = b.has_motion && b.motion.moves();
+    if (!wanted || !moves) return false;  // of a block that goes nowhere
     if (!context_.target.exact_stop_modal) {
       context_.diagnostics.note("TRN-152", s.line.span, "the target has no exact stop: left out; the path is the same");
       return false;
