@@ -162,7 +162,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   }
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
-  if (context_.target.cycle_each_call) position_rapid(b, context_);
+  position_rapid(b, context_);
   const std::size_t main = pieces.size();
   pieces.push_back(std::move(s));
   pieces.push_back(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native));
