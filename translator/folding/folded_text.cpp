@@ -130,27 +130,36 @@ class TextFolder {
   };
 
   void take(const Raw& raw, std::string_view text) {
-    const std::int8_t before = motion_;
+    std::int8_t before = motion_;
     const auto kind = line_.scan(text, before);
     if (kind == PlainLine::Kind::other) {
+      if (line_.comment()) {  // changes nothing: the lines around it may stay away
+        if (open_)
+          comments_.push_back({raw, raw, before, {}});
+        else
+          keep(raw);
+        return;
+      }
       keep(raw);
-      if (line_.comment()) return;  // changes nothing
       if (in_run_) ++run_;
       in_run_ = false;
       motion_ = motion_unknown;
-      place_ = {};
-      known_ = 0;
-      forget_start();
+      forget_place();
       return;
     }
     if (!in_run_) run_begin_ = raw.first;
     in_run_ = true;
+    const bool asked_for = kind == PlainLine::Kind::plain && is_asked_for();
+    if (asked_for) {
+      close_gap();
+      forget_place();
+      before = motion_unknown;
+      line_.scan(text, before);
+    }
     motion_ = line_.motion_after();
     if (kind == PlainLine::Kind::odd) {
       keep(raw);
-      place_ = {};
-      known_ = 0;
-      forget_start();
+      forget_place();
       return;
     }
     if ((line_.letters() & bit('G')) != 0) motion_said_ = {raw, before};
@@ -164,12 +173,12 @@ class TextFolder {
       shape->seen = 0;
     }
     ++shape->seen;
-    const bool whole = !stays_.runs.empty() && stays_.runs.contains(run_);
+    const bool whole = asked_for || (!stays_.runs.empty() && stays_.runs.contains(run_)) ||
+                       (!stays_.shapes.empty() && stays_.shapes.contains({run_, index}));
     if (whole) {
       keep(raw);
       place_.follow(line_);
-    } else if (first || stays(*shape, raw.first - run_begin_) ||
-               (!stays_.shapes.empty() && stays_.shapes.contains({run_, index}))) {
+    } else if (first || stays(*shape, raw.first - run_begin_)) {
       const bool tells = !needs_start() || knows_start();  // else its centre may be written from an unknown place
       if (!first && tells) count_spellings(*shape);
       keep(raw);  // before its own: the lines that the place before it comes from
@@ -190,9 +199,6 @@ class TextFolder {
     for (std::size_t i = 0; i < line_.count(); ++i) {
       const PlainNumber& n = line_.number(i);
       if (shape.spellings[i][n.form] <= n.places) return true;
-      if (n.letter == 'N' && !stays_.numbers.empty() &&
-          stays_.numbers.contains(static_cast<std::uint64_t>(scaled(n.text) / place_scale)))
-        return true;
     }
     return false;
   }
@@ -208,7 +214,20 @@ class TextFolder {
     return anchor_.raw.first != 0 && (!third || (anchor_.letters & bit('Z')) != 0);
   }
 
-  void forget_start() {
+  /// A jump leads here, by the number of the block: the place and the motion of the lines before need not hold.
+  [[nodiscard]] bool is_asked_for() const {
+    if (stays_.numbers.empty()) return false;
+    for (std::size_t i = 0; i < line_.count(); ++i) {
+      const PlainNumber& n = line_.number(i);
+      if (n.letter == 'N' && stays_.numbers.contains(static_cast<std::uint64_t>(scaled(n.text) / place_scale)))
+        return true;
+    }
+    return false;
+  }
+
+  void forget_place() {
+    place_ = {};
+    known_ = 0;
     anchor_ = {};
     motion_said_ = {};
   }
@@ -283,6 +302,8 @@ class TextFolder {
         lines.push_back({said.raw, said.raw, said.motion, {}});
       lines.push_back(last);
     }
+    lines.insert(lines.end(), comments_.begin(), comments_.end());
+    comments_.clear();
     std::sort(lines.begin(), lines.end(), [](const Last& a, const Last& b) { return a.begin.first < b.begin.first; });
     Gap rest = gap_;
     const std::size_t gaps_before = result_.gaps_.size();
@@ -311,7 +332,9 @@ class TextFolder {
     std::int8_t motion = rest.motion;
     while (line.take(text, l, unit)) {
       take_numbers(unit.first, unit.last);
-      if (line.scan(unit.text, motion) != PlainLine::Kind::plain) lost_ = true;
+      const auto kind = line.scan(unit.text, motion);
+      if (kind == PlainLine::Kind::other && line.comment()) continue;
+      lost_ = lost_ || kind != PlainLine::Kind::plain;
       const std::int32_t shape = index_.find(line, result_.shapes_);
       lost_ = lost_ || shape < 0;
       result_.kept_.push_back({unit.first, unit.last, run_, static_cast<std::uint32_t>(shape), false, motion, place_});
@@ -343,7 +366,8 @@ class TextFolder {
   bool open_ = false;        ///< lines are being left out
   Gap gap_;
   std::array<Last, 26> last_{};
-  std::uint32_t used_ = 0;  ///< letters with a line in last_
+  std::uint32_t used_ = 0;      ///< letters with a line in last_
+  std::vector<Last> comments_;  ///< between the lines that are being left out
   Said motion_said_;
   struct Anchor {
     Raw raw;

@@ -28,6 +28,8 @@ std::uint32_t whole_number(std::string_view digits) {
   return value;
 }
 
+constexpr std::uint32_t feed_word = 1U << static_cast<unsigned>('F' - 'A');
+
 /// Parts of a NumberForm.
 constexpr NumberForm form_minus = 1, form_no_whole = 2, form_leading_zero = 4, form_point = 8, form_fraction = 16,
                      form_zero_last = 32, form_plus = 64;
@@ -202,6 +204,7 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
   }
   if (n == 1) return Kind::other;
+  if (motion_ == 0 && (motion_before == rapid_with_feed || (letters & feed_word) != 0)) motion_ = rapid_with_feed;
   key_size_ = n;
   hash_ = hash ^ hash >> 15U;
   letters_ = letters;

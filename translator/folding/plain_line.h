@@ -27,8 +27,9 @@ struct PlainNumber {
   std::uint8_t places = 0;  ///< digits behind the point
 };
 
-/// The code of motion in force, as far as plain lines tell: 0 to 3, or this.
-inline constexpr std::int8_t motion_unknown = -1;
+/// The motion in force, as far as plain lines tell: 0 to 3 as of G0 to G3, or one of these. An F beside a rapid move
+/// waits in some languages for the first move that has it.
+inline constexpr std::int8_t motion_unknown = -1, rapid_with_feed = 4;
 
 /// A line, or two of which the first one says the centre of the arc in the second.
 struct PlainUnit {

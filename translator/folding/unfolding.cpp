@@ -158,7 +158,7 @@ bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, Folde
   const SourceText& source = *folded_.text();
   for (const bool first : {false, true}) {
     for (const KeptLine& k : folded_.kept()) {
-      if (k.first != first || stays.shapes.contains({k.run, k.shape})) continue;
+      if (k.first != first) continue;
       const auto b = lines_of(k.begin, k.line);
       const bool good =
           b && take(forms_[k.shape], {std::string(unit_text(source, k.begin, k.line)),
@@ -234,7 +234,9 @@ bool Unfolding::write(std::size_t output, std::string_view bytes, const TextSink
       SourceLine l;
       PlainUnit unit;
       while (line.take(text, l, unit)) {
-        if (line.scan(unit.text, motion) != PlainLine::Kind::plain) return false;
+        const auto kind = line.scan(unit.text, motion);
+        if (!own && kind == PlainLine::Kind::other && line.comment()) continue;
+        if (kind != PlainLine::Kind::plain) return false;
         if (own) {
           const std::int32_t shape = index_.find(line, folded_.shapes());
           if (shape < 0 || !forms_[static_cast<std::size_t>(shape)].form) return false;
