@@ -44,6 +44,7 @@ class Path {
     numbers_ = chance(60);
     tight_ = (language == "fagor" || language == "num") && chance(30);
     arcs_ = !lathe && chance(60);
+    modal_ = !plain_text() && chance(50);
     every_ = chance(50) ? between(40, 200) : 0;
     places_ = between(1, 3);
   }
@@ -93,6 +94,11 @@ class Path {
 
   void put(std::vector<std::string> words) {
     std::string text;
+    if (words.front().size() == 2 && words.front()[0] == 'G' && words.front()[1] < '4') {
+      const std::string motion = words.front();
+      if (modal_ && motion == motion_ && words.size() > 1) words.erase(words.begin());
+      motion_ = motion;
+    }
     if (plain_text()) {
       as_plain_text(words);
       if (numbers_) text = std::to_string(block_++) + ' ';
@@ -195,10 +201,11 @@ class Path {
   }
 
   std::string_view language_;
-  bool lathe_, numbers_ = false, tight_ = false, arcs_ = false;
+  bool lathe_, numbers_ = false, tight_ = false, arcs_ = false, modal_ = false;
   std::mt19937 random_;
   int every_ = 0, places_ = 3, block_ = 10, label_ = 1;
   std::array<int, 2> at_{};
+  std::string motion_;  ///< that was said last
   std::string out_;
 };
 
