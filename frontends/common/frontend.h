@@ -70,6 +70,7 @@ struct FreeNumber {
   std::uint8_t places = 0;  ///< and behind it
   std::uint32_t most = 0;   ///< of a whole number: the largest; 0: what its digits allow
 };
+/// R is the radius of an arc; where none is in force it makes the line another one.
 using FreeNumbers = std::array<FreeNumber, 26>;  ///< by letter, capitals
 
 /// A line that is nothing but a comment begins with `first`; where `last` is given, it ends with the first of these.

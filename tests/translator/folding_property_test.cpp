@@ -185,6 +185,12 @@ class Path {
         at_[0] = x;
         return;
       }
+      if (chance(40)) {
+        put({chance(50) ? "G2" : "G3", "X" + number(x), "Y" + number(at_[1]),
+             (language_ == "sinumerik" ? "CR=" : "R") + number(r)});
+        at_[0] = x;
+        return;
+      }
       const bool place = language_ == "num";
       put({chance(50) ? "G2" : "G3", "X" + number(x), "Y" + number(at_[1]),
            "I" + number(place ? at_[0] + side * r : side * r), "J" + number(place ? at_[1] : 0)});

@@ -44,7 +44,7 @@ PlainLine::PlainLine(const frontends::PlainWords& words)
       other_blocks_(words.other_blocks),
       comments_(words.comments) {
   for (const auto& code : codes_) code_letters_ |= 1U << static_cast<unsigned>(code.text.front() - 'A');
-  if (words.assignments) radius_ = {.free = true, .whole = 5, .places = 4};
+  if (words.assignments) radius_ = std::exchange(rules_['R' - 'A'], {});
 }
 
 /// False: no number stands here. `odd`: one that is not like others.
@@ -152,7 +152,7 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
   add(static_cast<char>('0' + motion_before));
   count_ = 0;
   motion_ = motion_before;
-  bool odd = false, begins = bare_block_number_, in_lead = false;
+  bool odd = false, begins = bare_block_number_, in_lead = false, has_radius = false;
   while (p != end) {
     char c = *p++;
     if (is_space(c)) {
@@ -199,11 +199,12 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     if (count_ == max_numbers) return Kind::other;
     PlainNumber& number = numbers_[count_++];
     number.letter = radius ? 'R' : meant;
+    has_radius = has_radius || number.letter == 'R';
     if (!take_number(p, end, rule, number, odd)) return Kind::other;
     if (c == 'N' && other_blocks_ != 0 && whole_number(number.text) > other_blocks_) add('!');
     if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
   }
-  if (n == 1) return Kind::other;
+  if (n == 1 || (has_radius && motion_ != 2 && motion_ != 3)) return Kind::other;
   if (motion_ == 0 && (motion_before == rapid_with_feed || (letters & feed_word) != 0)) motion_ = rapid_with_feed;
   key_size_ = n;
   hash_ = hash ^ hash >> 15U;
