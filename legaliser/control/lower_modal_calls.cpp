@@ -91,7 +91,9 @@ class ModalCalls {
     if (state == nullptr || *state == from_) return false;
     const bool runs = runs_modal_call(b, facts_.before(s), words_run(context_.source_machine));
     // What acts behind the run of a subprogram that the text does not show would come before it.
-    const bool outside = by_main_.count(routine_) != 0;
+    const bool own =
+        std::all_of(defined_.begin(), defined_.end(), [this](const auto& d) { return is_own(d.second.call); });
+    const bool outside = by_main_.count(routine_) != 0 && !own;
     const bool behind = runs && outside && !on_target_ && context_.target.modal_call &&
                         program_.dialect != context_.target.dialect && acts_behind_motion(b);
     if (from_ == 0 && *state == brought_ && (!outside || defined_.count(brought_) != 0)) return behind;
@@ -104,8 +106,12 @@ class ModalCalls {
     if (!context_.target.modal_call || state == nullptr || *state == 0 || from_ != 0) return false;
     const auto begun = defined_.find(*state);
     if (begun == defined_.end() || never_modal(begun->second.call)) return false;
-    const auto callee = calls_.index_of(begun->second.call.routine);
-    return !callee || reached_from(calls_, *callee).count(routine_) == 0;  // its own subprogram runs without it
+    return !is_own(begun->second.call);
+  }
+  /// This routine is the subprogram of the modal call, or is called by it: it runs without it.
+  bool is_own(const CallRoutine& call) const {
+    const auto callee = calls_.index_of(call.routine);
+    return callee && reached_from(calls_, *callee).count(routine_) != 0;
   }
   /// The target's own modal call takes its place.
   bool stays_modal(const ModalCall& m) const {
