@@ -76,8 +76,7 @@ class ModalCalls {
     const auto found = defined_.find(brought_);
     if (found == defined_.end() || !stays_modal(found->second)) return std::nullopt;
     ModalCall m = found->second;
-    const auto callee = calls_.index_of(m.call.routine);
-    if (m.call.computed || !callee || reached_from(calls_, *callee).count(routine_) != 0) return std::nullopt;
+    if (m.call.computed || !calls_.index_of(m.call.routine) || is_own(m.call)) return std::nullopt;
     m.here = context_.target.modal_call_here;
     return m;
   }
@@ -91,12 +90,14 @@ class ModalCalls {
     if (state == nullptr || *state == from_) return false;
     const bool runs = runs_modal_call(b, facts_.before(s), words_run(context_.source_machine));
     // What acts behind the run of a subprogram that the text does not show would come before it.
-    const bool own =
-        std::all_of(defined_.begin(), defined_.end(), [this](const auto& d) { return is_own(d.second.call); });
-    const bool outside = by_main_.count(routine_) != 0 && !own;
+    const bool outside = by_main_.count(routine_) != 0;
     const bool behind = runs && outside && !on_target_ && context_.target.modal_call &&
                         program_.dialect != context_.target.dialect && acts_behind_motion(b);
-    if (from_ == 0 && *state == brought_ && (!outside || defined_.count(brought_) != 0)) return behind;
+    const auto known = [this] {
+      return defined_.count(brought_) != 0 ||
+             std::all_of(defined_.begin(), defined_.end(), [this](const auto& d) { return is_own(d.second.call); });
+    };
+    if (from_ == 0 && *state == brought_ && (!outside || known())) return behind;
     if (runs || pattern_in(b)) return some_written_out_ || behind;
     return runs_modal_call(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
   }
