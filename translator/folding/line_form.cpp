@@ -24,10 +24,16 @@ std::string shortest(std::int64_t value) {
 }
 
 /// A place of an axis in a line that says nothing but the centre of the arc behind it: `CC X+5 Y+3`.
-bool of_centre(std::string_view written, std::size_t at, char letter) {
-  if (letter < 'X' || letter > 'Z') return false;
+bool of_centre(std::string_view written, std::size_t at, char letter, std::string_view lead) {
+  if (letter < 'X' || letter > 'Z' || lead.empty()) return false;
   const auto end = written.rfind('\n', at);
-  return written.substr(end == std::string_view::npos ? 0 : end + 1).starts_with("CC ");
+  const std::string_view line = written.substr(end == std::string_view::npos ? 0 : end + 1);
+  return line.starts_with(lead) && line.substr(lead.size()).starts_with(' ');
+}
+
+/// A word of the target that has no number of its own: R0.
+bool is_word(std::string_view text, const frontends::PlainWords& target) {
+  return std::any_of(target.codes.begin(), target.codes.end(), [text](const auto& code) { return code.text == text; });
 }
 
 }  // namespace
@@ -64,7 +70,8 @@ std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const Plain
   return std::nullopt;
 }
 
-std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& before, std::string_view written) {
+std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& before, std::string_view written,
+                                     const frontends::PlainWords& target) {
   LineForm form;
   std::vector<bool> used(line.count());
   std::string fixed;
@@ -87,9 +94,10 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
       if (equals != std::string_view::npos && equals > 0) letter = written[equals - 1];
     }
     if (letter == '=') letter = at > 1 ? written[at - 2] : 'R';
-    const bool centre = of_centre(written, at, letter);
+    const bool centre = of_centre(written, at, letter, target.lead);
+    const bool word = at > 0 && is_word(written.substr(at - 1, token.size() + 1), target);
     at = end;
-    if (is_code(letter) || (letter == 'R' && token == "0")) {  // R0: no radius compensation
+    if (is_code(letter) || word) {
       fixed += token;
       continue;
     }

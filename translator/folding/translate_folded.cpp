@@ -27,7 +27,8 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
   if (from == nullptr || from->frontend == nullptr || to == nullptr || !may_fold(path, options, least_size))
     return nullptr;
   frontends::PlainWords words = from->frontend->plain_words();
-  if (to->frontend != nullptr) words.other_blocks = to->frontend->plain_words().numbers['N' - 'A'].most;
+  const frontends::PlainWords target = to->frontend != nullptr ? to->frontend->plain_words() : frontends::PlainWords{};
+  words.other_blocks = target.numbers['N' - 'A'].most;
   backends::WriteOptions write;
   write.numbering = options.numbering;
   const auto numbers = [to, write] { return to->backend->block_numbers(write); };
@@ -46,7 +47,7 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
       stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
       continue;
     }
-    done->unfolding = std::make_unique<Unfolding>(path, words, done->text, numbers);
+    done->unfolding = std::make_unique<Unfolding>(path, words, done->text, target, numbers);
     if (result.refused || !result.error.empty()) return done;
     constexpr FileId main_file = 1;
     result.lines_by_form = done->text.lines_left_out();

@@ -87,9 +87,10 @@ class Lines {
 }  // namespace
 
 Unfolding::Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded,
-                     MakeBlockNumbers numbers)
+                     const frontends::PlainWords& target, MakeBlockNumbers numbers)
     : path_(std::move(path)),
       words_(words),
+      target_(target),
       folded_(folded),
       numbers_(std::move(numbers)),
       line_(words),
@@ -114,7 +115,7 @@ bool Unfolding::take(Form& form, Sample sample) {
     return true;
   }
   if (line_.scan(sample.text, sample.motion) != PlainLine::Kind::plain) return false;
-  auto other = LineForm::of(line_, sample.place, sample.written);
+  auto other = LineForm::of(line_, sample.place, sample.written, target_);
   if (other && form.form) other->take_plus_signs(*form.form);
   const auto good = [&](const Sample& s) { return explains(*other, s); };
   if (!other || !good(sample) || !std::all_of(form.samples.begin(), form.samples.end(), good)) return false;

@@ -21,8 +21,9 @@ using TextSink = std::function<bool(std::string_view)>;
 /// How the lines of one shape are written: fixed text with numbers between.
 class LineForm {
  public:
-  /// From a line and what was written for it. nullopt: its numbers do not explain it.
-  static std::optional<LineForm> of(const PlainLine& line, const PlainPlace& before, std::string_view written);
+  /// From a line and what was written for it, in words of the target. nullopt: its numbers do not explain it.
+  static std::optional<LineForm> of(const PlainLine& line, const PlainPlace& before, std::string_view written,
+                                    const frontends::PlainWords& target);
   /// Appends the line. `before`: where it begins, for centres that are written as places.
   void write(const PlainLine& line, const PlainPlace& before, std::string& out) const;
   /// A negative number does not show whether others get a plus; a form of the same words may know.
@@ -49,7 +50,9 @@ using MakeBlockNumbers = std::function<std::unique_ptr<backends::BlockNumbers>()
 
 class Unfolding {
  public:
-  Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded, MakeBlockNumbers numbers);
+  /// `words` of the source, `target` of the outputs.
+  Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded,
+            const frontends::PlainWords& target, MakeBlockNumbers numbers);
 
   /// Holds every line that stayed against what was written for it, in all outputs. False: `stays` says which lines
   /// have to stay besides; when it is as before, no folding helps.
@@ -65,7 +68,7 @@ class Unfolding {
   };
 
   std::string path_;
-  frontends::PlainWords words_;
+  frontends::PlainWords words_, target_;
   const FoldedText& folded_;
   MakeBlockNumbers numbers_;
   PlainLine line_;
