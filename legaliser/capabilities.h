@@ -161,7 +161,7 @@ struct Capabilities {
   bool diameter_absolute_only = false;
   DiameterMode fixed_diameter = DiameterMode::radius;  ///< lathe mode of a control without a switch
   SurfaceForm surfaces = SurfaceForm::none;
-  bool machine_move_ends_offset = false;  ///< a move in machine coordinates ends the tool offset: the next line selects it
+  bool machine_move_ends_offset = false;  ///< the line behind a move of the machine selects the tool offset
   bool surface_x_radius = false;          ///< X of the face is a radius whatever the diameter mode
   bool surface_needs_radius = false;      ///< the diameter mode must be off on the face
   bool surface_clears_frames = false;     ///< SurfaceSet deselects work offset and programmable frame
