@@ -1,5 +1,6 @@
 // Repetitions (equivalences 20.4): ranges in place, blocks with a count, counts of calls.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -118,7 +119,8 @@ class RepeatPass {
     return named(out.back()) && std::none_of(out.begin(), out.end() - 1, named);  // the first one counts
   }
 
-  /// A repetition or a call with its count; several where the count is beyond the target's.
+  /// A repetition or a call with its count; several, or a repetition of it, where the count is beyond
+  /// the target's.
   template <class Node>
   void put_counted(Statement&& s, Body& out) {
     auto& node = std::get<Node>(s.node);
@@ -137,21 +139,35 @@ class RepeatPass {
       if (!known || *known < 1) return put_guarded<Node>(std::move(s), out);
       if (*known > most) n = known;
     }
-    if (!node.count || !n || *n <= most || *n > most_statements * most || s.line.joined) {
+    const bool nested = n && *n > most_statements * most;
+    if (!node.count || !n || *n <= most || s.line.joined || (nested && !repeats_repeats())) {
       check_count(s, node.count);
       return out.push_back(std::move(s));
     }
     const LineInfo like = s.line;
     const Node whole = node;
-    node.count = number(most);
+    const auto further = [&](double passes) {
+      Node piece = whole;
+      piece.count = number(passes);
+      return made(like, std::move(piece));
+    };
+    const double first = nested ? std::fmod(*n - 1, most) + 1 : most;
+    node.count = number(first);
     Body pieces{std::move(s)};
-    for (double left = *n - most; left > 0; left -= most) {
-      Node further = whole;
-      further.count = number(std::min(left, most));
-      pieces.push_back(made(like, std::move(further)));
+    if (nested) {
+      pieces.push_back(further(most));
+      Repeat of_it;
+      of_it.first = of_it.last = label_on(pieces.back());
+      of_it.count = number((*n - first) / most - 1);
+      put_counted<Repeat>(made(like, std::move(of_it)), pieces);
+    } else {
+      for (double left = *n - most; left > 0; left -= most) pieces.push_back(further(std::min(left, most)));
     }
     editor_.put_group(out, std::move(pieces), 0);
   }
+
+  /// A repetition can be repeated, wherever it stands.
+  [[nodiscard]] bool repeats_repeats() const { return target_.repeat_range && !target_.repeat_ends_here; }
 
   /// A computed count that follows from what the head of the program sets.
   std::optional<double> known_count(const ExprPtr& count, const Statement& s) const {

@@ -9,6 +9,7 @@
 #include "legaliser/edit/blocks.h"
 #include "legaliser/edit/editor.h"
 #include "legaliser/motion/path_values.h"
+#include "legaliser/motion/polar_counters.h"
 #include "legaliser/motion/polar_radius.h"
 #include "legaliser/motion/polar_words.h"
 #include "legaliser/passes.h"
@@ -70,9 +71,8 @@ class PolePass {
   void routine(Routine& r, const FlowStates<PolePass>& states, const FlowStates<RadiusDomain>& radii,
                const FlowStates<PathValues>& values) {
     radii_ = &radii;
-    values_ = &values;
+    values_ = &values, states_ = &states;
     uses_ = label_uses(program_, r);
-    states_ = &states;
     forget_way();
     walk(r.body);
   }
@@ -266,7 +266,6 @@ class PolePass {
     return plane_ ? led_.at(plane_axes(*plane_), facts) : std::nullopt;
   }
   void led_to(Point2 to) { led_.set(plane_axes(*plane_), to); }
-
   /// The value of a word of each axis of the plane times this is its radius.
   std::optional<Point2> factors(const Block& b, const Facts& facts, std::optional<Distance> d) const {
     if (!plane_) return std::nullopt;
@@ -486,6 +485,7 @@ class PolePass {
 
 void convert_poles(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !uses_polar(program)) return;
+  if (!context.target.polar) count_polar_steps(program, context);
   const FactsOf facts(program, context);
   const FrameSteps frames(program, facts, context.target_machine, context);
   const PathValues path(facts, context.source_machine, frames);

@@ -74,6 +74,10 @@ class PathStates {
     const auto* state = states_.before(s);
     return state != nullptr ? values_.place(s, *state, axis) : std::nullopt;
   }
+  [[nodiscard]] std::optional<ValuePoint> pole(const Statement& s) const {
+    const auto* state = states_.before(s);
+    return state != nullptr ? state->pole : std::nullopt;
+  }
   [[nodiscard]] std::optional<double> number(const Statement& s, AxisId axis) const {
     const auto found = place(s, axis);
     return found && found->literal() ? std::optional(found->number) : std::nullopt;

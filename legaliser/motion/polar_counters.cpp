@@ -1,0 +1,210 @@
+#include "legaliser/motion/polar_counters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "legaliser/edit/editor.h"
+#include "legaliser/motion/path_values.h"
+#include "legaliser/motion/polar_words.h"
+
+namespace cnctrans::ir::passes {
+
+namespace {
+
+/// A straight move by polar words that count from the point before.
+bool is_step(const Statement& s, const Facts& facts) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !is_polar_line(*b, facts) || s.line.skip_mask != 0 || b->repeat_given != 0 || loses_point(*b))
+    return false;
+  const auto modes = polar_modes(*b->motion.extra, setting_in<Distance>(*b, facts, Setting::distance));
+  return modes.adds_radius || modes.adds_angle;
+}
+
+/// The place in the plane may be another one behind it, or what it is counted from.
+bool leaves_place(const Statement& s, const Facts& facts) {
+  if (const auto* o = std::get_if<Opaque>(&s.node)) return !o->harmless;
+  if (std::holds_alternative<ModalCall>(s.node)) return true;
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr) return false;
+  const bool other_words = std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return std::holds_alternative<PoleSet>(a.data) || std::holds_alternative<CycleDefine>(a.data) ||
+           (m != nullptr && (m->setting == Setting::plane || m->setting == Setting::units));
+  });
+  if (other_words || loses_point(*b)) return true;
+  if (!b->has_motion || !b->motion.moves()) return false;
+  const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
+  return !plane || b->motion.extra || b->motion.kind == MotionKind::reference_point ||
+         touches_plane(*b, plane_axes(*plane));
+}
+
+bool is_loop(const Statement& s) {
+  return std::holds_alternative<While>(s.node) || std::holds_alternative<For>(s.node) ||
+         std::holds_alternative<Until>(s.node) || std::holds_alternative<Loop>(s.node);
+}
+
+/// Stands where the variables may begin until that is decided.
+bool is_mark(const Statement& s) {
+  const auto* a = std::get_if<Assign>(&s.node);
+  return a != nullptr && a->items.empty();
+}
+
+class PolarCounters {
+ public:
+  PolarCounters(Program& program, const LegaliseContext& context) : program_(program), context_(context) {}
+
+  void run() {
+    if (!find_starts()) return;
+    for (auto& r : program_.routines) mark(r.body);
+    const FactsOf facts(program_, context_);
+    const PathStates places(program_, facts, context_.source_machine, context_);
+    facts_ = &facts;
+    places_ = &places;
+    const FlowStates<PolarCounters> states(program_, *this);
+    bool counts = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) { counts = counts || counted(s, states); });
+    }
+    for (auto& r : program_.routines) write(r, states, counts);
+  }
+
+  // A domain of FlowStates: the variables hold the place before each statement.
+  struct State {
+    bool holds = false;
+  };
+  static State start(const Routine& /*r*/, bool /*called*/) { return {}; }
+  static bool touches(const Routine& r) { return !r.body.empty(); }
+  static void unknown(State& state) { state.holds = false; }
+  static bool join(State& a, const State& b) {
+    const bool changed = a.holds && !b.holds;
+    a.holds = a.holds && b.holds;
+    return changed;
+  }
+  void transfer(const Statement& s, State& state) const {
+    if (is_mark(s))
+      state.holds = place(s).has_value();
+    else if (!counts_on(s, facts_->before(s)) && leaves_place(s, facts_->before(s)))
+      state.holds = false;
+  }
+
+ private:
+  struct Polar {
+    double radius = 0, angle = 0;
+  };
+
+  /// A step whose point before is no number.
+  static bool counts_on(const Statement& s, const Facts& facts) {
+    const auto plane = setting<Plane>(facts, Setting::plane);
+    return plane && is_step(s, facts) &&
+           !(facts.position[plane_axes(*plane).u] && facts.position[plane_axes(*plane).v]);
+  }
+
+  /// The statements behind which the variables may begin: the last one that leaves its place before a loop with such a
+  /// step.
+  bool find_starts() {
+    const FactsOf facts(program_, context_);
+    for (auto& r : program_.routines) {
+      const LabelUses uses = label_uses(program_, r);
+      std::uint32_t last = 0;
+      bool loop = false;
+      for_each_statement(r.body, [&](const Statement& s) {
+        const auto labels = labels_on(s.line);
+        loop = loop || uses.computed || is_loop(s) ||
+               std::any_of(labels.begin(), labels.end(), [&](const LabelRef& l) { return uses.is_target(l); });
+        if (counts_on(s, facts.before(s))) {
+          if (loop) starts_.insert(last);
+        } else if (leaves_place(s, facts.before(s))) {
+          last = s.id;
+          loop = false;
+        }
+      });
+    }
+    starts_.erase(0);
+    return !starts_.empty();
+  }
+
+  void mark(Body& body) {
+    bool due = false;
+    LineInfo place;
+    Body out;
+    for (auto& s : body) {
+      if (due && !s.line.joined) out.push_back(made(place, Assign{})), due = false;
+      each_body(s, [this](Body& inner) { mark(inner); });
+      if (starts_.count(s.id) != 0) place = s.line, due = s.line.skip_mask == 0;
+      out.push_back(std::move(s));
+    }
+    if (due) out.push_back(made(place, Assign{}));
+    body = std::move(out);
+  }
+
+  [[nodiscard]] std::optional<Polar> place(const Statement& s) const {
+    const auto plane = setting<Plane>(facts_->before(s), Setting::plane);
+    const auto pole = places_->pole(s);
+    if (!plane || !pole || !pole->u.literal() || !pole->v.literal()) return std::nullopt;
+    const auto u = places_->number(s, plane_axes(*plane).u), v = places_->number(s, plane_axes(*plane).v);
+    if (!u || !v) return std::nullopt;
+    const double du = *u - pole->u.number, dv = *v - pole->v.number;
+    return Polar{clean(std::hypot(du, dv)), clean(std::atan2(dv, du) * 180 / std::numbers::pi)};
+  }
+
+  [[nodiscard]] bool counted(const Statement& s, const FlowStates<PolarCounters>& states) const {
+    const State* state = states.before(s);
+    return state != nullptr && state->holds && counts_on(s, facts_->before(s));
+  }
+
+  void write(Routine& r, const FlowStates<PolarCounters>& states, bool counts) {
+    Editor editor(program_, r, context_);
+    if (counts && !angle_) {  // both stay taken
+      radius_ = editor.take(r.body.front().line);
+      angle_ = editor.take(r.body.front().line);
+    }
+    rewrite_body(r.body, [&](Statement&& s, Body& out) {
+      if (is_mark(s)) {
+        const auto from = angle_ && states.before(s) != nullptr ? place(s) : std::nullopt;
+        if (!from) return;
+        out.push_back(make_assign(s.line, *radius_, number(from->radius)));
+        out.push_back(make_assign(s.line, *angle_, number(from->angle)));
+      } else if (angle_ && counted(s, states)) {
+        step(std::move(s), editor, out);
+      } else {
+        out.push_back(std::move(s));
+      }
+    });
+  }
+
+  /// r = r + step; q = q + step; polar words R r Q q
+  void step(Statement&& s, Editor& editor, Body& out) {
+    auto& b = std::get<Block>(s.node);
+    MotionExtra x = *b.motion.extra;
+    const auto modes = polar_modes(x, setting_in<Distance>(b, facts_->before(s), Setting::distance));
+    Body pieces;
+    const auto count = [&](const VarRef& v, bool said, bool adds, Value& word) {
+      const ExprPtr to = adds ? binary(BinaryOp::add, variable(v), as_expr(word)) : as_expr(word);
+      if (said) pieces.push_back(make_assign(s.line, v, to));
+      word = Value{variable(v)};
+    };
+    count(*radius_, x.has_polar_radius, modes.adds_radius, x.polar_radius);
+    count(*angle_, x.has_polar_angle, modes.adds_angle, x.polar_angle);
+    x.has_polar_radius = x.has_polar_angle = true;
+    x.polar_mode = x.polar_angle_mode = WordMode::absolute;
+    b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
+    editor.put(out, std::move(pieces), std::move(s));
+  }
+
+  Program& program_;
+  const LegaliseContext& context_;
+  std::set<std::uint32_t> starts_;
+  const FactsOf* facts_ = nullptr;
+  const PathStates* places_ = nullptr;
+  std::optional<VarRef> radius_, angle_;
+};
+
+}  // namespace
+
+void count_polar_steps(Program& program, const LegaliseContext& context) {
+  PolarCounters(program, context).run();
+}
+
+}  // namespace cnctrans::ir::passes
