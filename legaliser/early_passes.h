@@ -7,6 +7,8 @@ namespace cnctrans::ir::passes {
 
 /// More calls in each other than the target takes.
 void check_call_limits(Program& program, const LegaliseContext& context);
+/// Positions in the coordinates of a transformation that the target is not given.
+void refuse_transformations(Program& program, const LegaliseContext& context);
 /// Statements that read machine data which the target lacks, where the translation goes on without them.
 void leave_out_refused_data(Program& program, const LegaliseContext& context);
 /// M functions that are too many for one block of the target, and two commands to one spindle.

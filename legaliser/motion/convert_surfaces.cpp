@@ -221,20 +221,6 @@ class SurfacePass {
   bool straightened_ = false;
 };
 
-/// The word that switches such a transformation is refused at its place; nothing else is to be said of it.
-void drop_tool_coordinates(Program& program) {
-  const auto of_tool = [](const Action& a) {
-    const auto* set = std::get_if<SurfaceSet>(&a.data);
-    return set != nullptr && set->surface == Surface::tool;
-  };
-  if (!any_action(program, of_tool)) return;
-  for (auto& r : program.routines) {
-    for_each_statement(r.body, [&of_tool](Statement& s) {
-      if (auto* b = std::get_if<Block>(&s.node)) std::erase_if(b->actions, of_tool);
-    });
-  }
-}
-
 }  // namespace
 
 /// A move in the block that chooses the surface counts on it already: it goes into a block behind the choice.
@@ -263,9 +249,7 @@ static void separate_moves(Program& program) {
 }
 
 void convert_surfaces(Program& program, const LegaliseContext& context) {
-  if (program.dialect == context.target.dialect) return;
-  drop_tool_coordinates(program);
-  if (context.target.surfaces == SurfaceForm::none) return;
+  if (program.dialect == context.target.dialect || context.target.surfaces == SurfaceForm::none) return;
   if (!any_action(program, [](const Action& a) { return std::holds_alternative<SurfaceSet>(a.data); })) return;
   separate_moves(program);
   SurfacePass pass(program, context);

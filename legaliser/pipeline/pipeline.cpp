@@ -28,6 +28,8 @@ namespace {
 constexpr std::array table{
     Pass{"move_headings", passes::move_headings, PassScope::program,
          "Comments above the header of a routine go below it, where the target has no place for them above."},
+    Pass{"refuse_transformations", passes::refuse_transformations, PassScope::program,
+         "Positions in the coordinates of a transformation of the machine are refused where they begin."},
     Pass{"check_spindle_limits", passes::check_spindle_limits, PassScope::program,
          "Limits of the spindle speed that one control keeps and the other forgets."},
     Pass{"check_mixed_feeds", passes::check_mixed_feeds, PassScope::program,
