@@ -19,6 +19,15 @@ enum class CycleKind : std::uint8_t {
   data,     ///< data for later cycles (20, 270): no motion
   carried   ///< read, not carried: refused where it is called
 };
+/// What the labels of cycle 14 are to a cycle.
+enum class Contours : std::uint8_t {
+  none,
+  areas,          ///< pockets and islands, with the data of cycle 20
+  line,           ///< one line that is followed
+  line_in_space,  ///< ... at the heights of its points
+  middle_line,    ///< the middle of a slot; the way onto it, APPR, is none of it
+  developed       ///< a line on a cylinder
+};
 struct CycleParameter {
   std::int16_t number;  ///< of the Q parameter; 0: none
   bool needed = true;   ///< false: older programs may leave it out
@@ -32,7 +41,7 @@ struct CycleRow {
   std::string_view title;  ///< behind the number in the editor
   bool called;             ///< CYCL CALL, M99 and M89 run it; false: the definition acts
   std::array<CycleParameter, 25> parameters;
-  bool on_contours = false;  ///< works on the labels of cycle 14 with the data of cycle 20
+  Contours contours = Contours::none;  ///< of the labels of cycle 14
 };
 
 // clang-format off
@@ -127,16 +136,27 @@ inline constexpr std::array cycle_rows{
     CycleRow{20, CycleKind::data, ir::HoleKind::mill, "", "CONTOUR DATA", false,
              {{{1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}}}},
     CycleRow{21, CycleKind::mill, ir::HoleKind::mill, "pocket.entries", "PILOT DRILLING", true,
-             {{{10}, {11}, {13}}}, true},
+             {{{10}, {11}, {13}}}, Contours::areas},
     CycleRow{22, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "ROUGH-OUT", true,
-             {{{10}, {11}, {12}, {18, false}, {19, false}, {208, false}, {401, false, 100}, {404, false}}}, true},
+             {{{10}, {11}, {12}, {18, false}, {19, false}, {208, false}, {401, false, 100}, {404, false}}},
+             Contours::areas},
     CycleRow{23, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "FLOOR FINISHING", true,
-             {{{11}, {12}, {208, false}}}, true},
+             {{{11}, {12}, {208, false}}}, Contours::areas},
     CycleRow{24, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "SIDE FINISHING", true,
-             {{{9}, {10}, {11}, {12}, {14}, {438, false, -1}}}, true},
+             {{{9}, {10}, {11}, {12}, {14}, {438, false, -1}}}, Contours::areas},
     CycleRow{25, CycleKind::mill, ir::HoleKind::mill, "path", "CONTOUR TRAIN", true,
              {{{1}, {3}, {5}, {7}, {10}, {11}, {12}, {15}, {18, false}, {446, false, 0.01}, {447, false, 10},
-               {448, false, 2}}}, true},
+               {448, false, 2}}}, Contours::line},
+    CycleRow{275, CycleKind::mill, ir::HoleKind::mill, "pocket.contour", "TROCHOIDAL SLOT", true,
+             {{{215}, {219}, {368}, {436}, {207}, {351}, {201}, {202}, {206}, {338}, {385}, {200}, {203}, {204},
+               {366, false}}}, Contours::middle_line},
+    CycleRow{276, CycleKind::mill, ir::HoleKind::mill, "path", "THREE-D CONT. TRAIN", true,
+             {{{1}, {3}, {7}, {10}, {11}, {12}, {15}, {18, false}, {446, false, 0.01}, {447, false, 10},
+               {448, false, 2}}}, Contours::line_in_space},
+    CycleRow{27, CycleKind::mill, ir::HoleKind::mill, "", "CYLINDER SURFACE", true,
+             {{{1}, {3}, {6}, {10}, {11}, {12}, {16}, {17}}}, Contours::developed},
+    CycleRow{28, CycleKind::mill, ir::HoleKind::mill, "", "CYLINDRICAL SURFACE", true,
+             {{{1}, {3}, {6}, {10}, {11}, {12}, {16}, {17}, {20}, {21, false}}}, Contours::developed},
     CycleRow{270, CycleKind::data, ir::HoleKind::mill, "", "CONTOUR TRAIN DATA", false,
              {{{390}, {391}, {392}, {393}, {394}}}},
 };

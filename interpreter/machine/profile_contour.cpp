@@ -39,7 +39,7 @@ class ElementSink final : public TraceSink {
 /// The same in any plane; the way to the first point belongs to no contour.
 class MillSink final : public TraceSink {
  public:
-  MillSink(ir::Plane plane, bool several) : plane_(plane), several_(several) {}
+  MillSink(ir::Plane plane, bool several, bool in_space) : plane_(plane), several_(several), in_space_(in_space) {}
   void on_event(const Event& e) override {
     const bool rapid = e.kind == EventKind::rapid;
     if (!rapid && e.kind != EventKind::linear && e.kind != EventKind::arc) {
@@ -54,9 +54,14 @@ class MillSink final : public TraceSink {
       open = open || u > no_place / 2 || v > no_place / 2;
       out.emplace_back();
       if (several_ && w < no_place / 2) out.back().surface = w;
+      open = open || (in_space_ && w > no_place / 2);
+      if (in_space_) out.back().heights.push_back(w);
     } else if (arc || std::hypot(u - u_, v - v_) > 1e-9) {
       strange = strange || rapid || (arc && (e.plane != plane_ || e.turns != 0));
       out.back().elements.push_back({u_, v_, u, v, arc, !e.cw, e.center_u, e.center_v});
+      if (in_space_) out.back().heights.push_back(w);
+    } else if (in_space_) {
+      strange = strange || std::abs(w - out.back().heights.back()) > 1e-9;  // straight down
     }
     u_ = u;
     v_ = v;
@@ -68,7 +73,7 @@ class MillSink final : public TraceSink {
 
  private:
   ir::Plane plane_;
-  bool several_;
+  bool several_, in_space_;
   double u_ = 0, v_ = 0;
 };
 
@@ -136,12 +141,12 @@ std::optional<std::vector<ir::cycles::MillContour>> mill_contours_of(const machi
                                                                      const ir::ModalState& modal,
                                                                      const std::vector<const ir::Statement*>& blocks,
                                                                      bool several, ValueSource* values,
-                                                                     std::string* error) {
-  MillSink sink(modal.plane, several);
+                                                                     std::string* error, bool in_space) {
+  MillSink sink(modal.plane, several, in_space);
   Emitter emitter(sink, most_elements);
   Failure failure;
   BlockMachine reader(machine, emitter, failure, values);
-  reader.stand_for_mill_contour(modal, several);
+  reader.stand_for_mill_contour(modal, several || in_space);
   for (const auto* s : blocks) {
     const auto& whole = std::get<ir::Block>(s->node);
     if (several && !fits_pocket(whole, s == blocks.front() && modal.distance == ir::Distance::incremental, error))
@@ -153,7 +158,10 @@ std::optional<std::vector<ir::cycles::MillContour>> mill_contours_of(const machi
   }
   if (!failure.set) reader.finish();
   if (failure.set) return *error = "its contour can't be read: " + failure.text, std::nullopt;
-  if (sink.open) return *error = "the first block of the contour names both axes of the plane", std::nullopt;
+  if (sink.open)
+    return *error = in_space ? "the first block of the contour names all three axes"
+                             : "the first block of the contour names both axes of the plane",
+           std::nullopt;
   if (sink.strange) return *error = "its contour holds a motion that is no line or arc in the plane", std::nullopt;
   if (emitter.limit_reached()) return *error = "its contour is too long", std::nullopt;
   if (several && !sink.out.empty() && !sink.out.front().surface)

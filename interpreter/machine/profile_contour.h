@@ -22,10 +22,11 @@ std::optional<ir::cycles::TurnProfile> contour_of(const machine::Profile& machin
 
 /// The same for a milling cycle, in the plane that `modal` names; the first block says where the contour begins.
 /// `several`: each block in rapid begins another contour, and the first one may name the height of the surface.
+/// `in_space`: with the heights of its points, which the first block begins.
 std::optional<std::vector<ir::cycles::MillContour>> mill_contours_of(const machine::Profile& machine,
                                                                      const ir::ModalState& modal,
                                                                      const std::vector<const ir::Statement*>& blocks,
                                                                      bool several, ValueSource* values,
-                                                                     std::string* error);
+                                                                     std::string* error, bool in_space = false);
 
 }  // namespace cnctrans::interpreter

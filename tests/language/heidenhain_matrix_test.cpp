@@ -57,11 +57,11 @@ std::string cycle_table() {
   for (const auto& c : facts::cycle_rows) {
     using enum facts::CycleKind;
     row(c.number, c.title, c.called,
-        c.kind == facts::CycleKind::carried ? std::string(kept_there)
-        : c.on_contours                     ? "carried: works on the contours of cycle 14"
-        : c.kind == mill                    ? "carried: `" + std::string(c.name) + "`"
-        : c.kind == pattern                 ? "carried: `" + std::string(c.name) + "`"
-                                            : "carried");
+        c.kind == facts::CycleKind::carried                  ? std::string(kept_there)
+        : c.contours != dialects::heidenhain::Contours::none ? "carried: works on the contours of cycle 14"
+        : c.kind == mill                                     ? "carried: `" + std::string(c.name) + "`"
+        : c.kind == pattern                                  ? "carried: `" + std::string(c.name) + "`"
+                                                             : "carried");
   }
   return s;
 }

@@ -13,9 +13,10 @@ namespace cnctrans::frontends::heidenhain {
 
 /// Of a move in the plane.
 struct PlaneMove {
-  ir::Value u, v;         ///< from where the tool stands
-  bool absolute = false;  ///< ... or from the datum
-  ir::Value cu, cv;       ///< of an arc: its centre from its start
+  ir::Value u, v;                                      ///< from where the tool stands
+  bool absolute = false;                               ///< ... or from the datum
+  ir::Value cu, cv;                                    ///< of an arc: its centre from its start
+  std::optional<ir::AxisId> u_axis = {}, v_axis = {};  ///< other ones than those of the plane
 };
 /// A step of a cycle that is told by what it does.
 struct CycleMove {
@@ -47,6 +48,7 @@ struct CycleContext {
   /// The speed that is in force again behind the cycle, where it leaves another.
   std::optional<ir::Value>* speed_after = nullptr;
   std::optional<double> tool_radius;  ///< mm
+  std::optional<ir::Value> height;    ///< of the tool at the call, where it is known
   std::size_t area = 0;               ///< which of the pockets of cycle 14
   bool inch = false;                  ///< the unit of the program; lengths of the control itself are mm
 };

@@ -67,10 +67,15 @@ class CycleBuilder {
   bool helix_thread();
   /// 230: one level in lines to and fro; 232: in levels, Q389 2 in lines one way.
   bool face();
-  /// 21 to 24 in one pocket of cycle 14.
+
+  // contours.cpp
+
+  bool on_contours();
   bool area();
-  /// 25 along the one contour of cycle 14.
   bool train();
+  bool slot_along();
+  bool on_cylinder();
+
   /// Q367: the tool stands at an end or in a corner of the shape; the way from there to its middle.
   bool place();
 

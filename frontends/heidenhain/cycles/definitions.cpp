@@ -210,13 +210,14 @@ void Lowering::flush() {
       item.index = index;
     }
   } else if (called) {
-    if (cycle.row != nullptr && cycle.row->on_contours) {
+    if (cycle.row != nullptr && cycle.row->contours != facts::Contours::none) {
       cycle.labels = contour_labels_;
-      const int data = cycle.number == 25 ? train_data_ : contour_data_;
+      const bool train = cycle.row->name == "path";
+      const int data = train ? train_data_ : cycle.row->contours == facts::Contours::areas ? contour_data_ : -1;
       if (data >= 0) {
         for (const auto& [q, v] : flat_.cycles[static_cast<std::size_t>(data)].values) cycle.values.emplace(q, v);
       }
-      if (cycle.number != 25) train_data_ = -1;
+      if (!train) train_data_ = -1;
     }
     put(ItemKind::cycle, ir::Block{}).index = index;
   } else {

@@ -19,7 +19,7 @@ using ir::Value;
 bool CycleBuilder::mill() {
   hole_.kind = HoleKind::mill;
   hole_.mill.shape = std::string(cycle_.row->name);
-  if (cycle_.row->on_contours) return area();
+  if (cycle_.row->contours != facts::Contours::none) return on_contours();
   if (cycle_.number == 208) return helix_bore();
   if (cycle_.number == 262 || cycle_.number == 267) return helix_thread();
   if (cycle_.number >= 263 && cycle_.number <= 265) return thread_with_countersink();
@@ -163,82 +163,6 @@ bool CycleBuilder::face() {
     steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{std::move(*h)}));
   }
   return told(steps);
-}
-
-/// 25: the contour of one label, approached along a line or a quadrant.
-bool CycleBuilder::train() {
-  if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
-  if (!numbers()) return false;
-  const double top = n(5), depth = n(1);
-  if (depth >= 0) return refuse("a depth of 0 or above is not carried");
-  if (n(18) != 0) return refuse("Q18 (a coarser tool was there) is not carried");
-  if (n(15) == 0) return refuse("to and fro over the infeeds (Q15=0) is not carried");
-  const bool data = cycle_.values.count(390) != 0;
-  if (data && cycle_.side != 0) return refuse("beside cycle 270 the label has no compensation of its own");
-  const double own = data ? n(391) : 0;
-  const int side = own == 1 ? 1 : own == 2 ? -1 : cycle_.side;
-  if (side == 0 && n(3) != 0) return refuse("an allowance (Q3) needs the side of the contour: RL or RR");
-  const bool arc = data ? n(390) == 1 && side != 0 : false;
-  const double length = !data ? n(448) : arc ? n(392) : n(394);
-  if (length <= 0) return refuse("the way onto the contour has no length");
-  hole_.surface = level_of(Value(top), LevelBase::absolute);
-  hole_.bottom = level_of(Value(top + depth), LevelBase::absolute);
-  hole_.reference = hole_.retract = level_of(q(7), LevelBase::absolute);
-  word("infeed", magnitude(q(10)));
-  word("plunge_feed", q(11));
-  word("mill_feed", q(12));
-  word("variant", Value(1));
-  word("side", Value(side == 0 ? 40 : side > 0 ? 41 : 42));
-  if (n(3) != 0) word("wall_stock", q(3));
-  for (const char* way : {"approach", "leave"}) word(way, Value(arc ? 2 : 1));
-  for (const char* way : {"approach_length", "leave_length"}) word(way, Value(length));
-  ir::cycles::put_contours(hole_, cycle_.areas.front());
-  warn("the ways onto the contour and off it are those of this program");
-  return true;
-}
-
-/// 21: where the roughing goes down, drilled; 22, 23 and 24 in one pocket of cycle 14.
-bool CycleBuilder::area() {
-  if (cycle_.number == 25) return train();
-  const bool drills = cycle_.number == 21, rough = cycle_.number == 22, floor = cycle_.number == 23;
-  if (!drills && !rough && !floor && cycle_.number != 24) return not_carried();
-  if (cycle_.labels.empty() || cycle_.values.count(1) == 0) return refuse("cycles 14 and 20 stand before it");
-  if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
-  for (const std::int16_t n : {1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12}) {
-    if (cycle_.values.count(n) != 0 && !q(n).literal()) return refuse("its parameters must be numbers");
-  }
-  const double top = q(5).number, bottom = top + q(1).number;
-  if (q(1).number >= 0) return refuse("a depth of 0 or above is not carried");
-  const double skin = std::abs(q(4).number);
-  hole_.surface = level_of(Value(floor && skin > 0 ? bottom + skin : top), LevelBase::absolute);
-  hole_.reference = level_of(Value(top + q(6).number), LevelBase::absolute);
-  hole_.bottom = level_of(Value(bottom), LevelBase::absolute);
-  hole_.retract = level_of(q(7), LevelBase::absolute);
-  if (drills) {
-    hole_.kind = HoleKind::peck_full;
-    hole_.bottom = level_of(Value(bottom + skin), LevelBase::absolute);
-    pecks(magnitude(q(10)));
-    hole_.pecks.reapproach_automatic = true;
-    hole_.feed = q(11);
-    hole_.has_feed = true;
-    if (!q(13).literal()) return refuse("Q13 must be the number of a tool");
-    word("tool", q(13));
-  }
-  word("operation", Value(rough || floor || drills ? 1 : 2));
-  if (!floor) word("infeed", magnitude(q(10)));
-  word("plunge_feed", q(11));
-  if (!drills) word("mill_feed", q(12));
-  word("step_factor", half(q(2)));
-  if (rough || floor || drills) word("wall_stock", q(3));
-  if (rough || drills) word("floor_stock", q(4));
-  word("sense", Value(q(9).is(-1) ? 1 : 0));
-  word("outside", Value(1));
-  const auto coarse = cycle_.values.find(18);
-  if (coarse != cycle_.values.end() && !q(18).is(0)) return refuse("Q18 (a coarser tool was there) is not carried");
-  if (cycle_.values.count(14) != 0 && !q(14).is(0)) return refuse("Q14 (an allowance that stays) is not carried");
-  ir::cycles::put_contours(hole_, cycle_.areas[context_.area]);
-  warn("the way of the passes is that of this program, the part is the same");
-  return true;
 }
 
 bool CycleBuilder::mill_word(std::int16_t number) {

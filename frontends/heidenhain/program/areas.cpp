@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "frontends/heidenhain/program/way.h"
 #include "interpreter/machine/profile_contour.h"
@@ -10,6 +11,7 @@ namespace cnctrans::frontends::heidenhain {
 
 namespace {
 
+using dialects::heidenhain::Contours;
 using ir::cycles::MillContour;
 
 struct Box {
@@ -72,10 +74,10 @@ class AreaReader {
 
   std::string areas(CycleDefinition& cycle) {
     std::vector<Contour> all;
-    if (cycle.number == 25) {
+    if (cycle.row->contours != Contours::areas) {
       Contour c;
-      if (cycle.labels.size() != 1) return "cycle 25 takes one contour";
-      if (std::string fault = contour(cycle.labels[0], c, true); !fault.empty())
+      if (cycle.labels.size() != 1) return "it takes one contour";
+      if (std::string fault = contour(cycle, cycle.labels[0], c); !fault.empty())
         return "LBL " + cycle.labels[0] + ": " + fault;
       cycle.side = c.side;
       cycle.areas.push_back({std::move(c.line)});
@@ -83,7 +85,7 @@ class AreaReader {
     }
     for (const auto& label : cycle.labels) {
       Contour c;
-      if (std::string fault = contour(label, c); !fault.empty()) return "LBL " + label + ": " + fault;
+      if (std::string fault = contour(cycle, label, c); !fault.empty()) return "LBL " + label + ": " + fault;
       all.push_back(std::move(c));
     }
     for (const Contour& c : all) {
@@ -108,8 +110,8 @@ class AreaReader {
     return {};
   }
 
-  /// `open`: a contour that is followed, not one that bounds an area.
-  std::string contour(const std::string& label, Contour& out, bool open = false) {
+  std::string contour(CycleDefinition& cycle, const std::string& label, Contour& out) {
+    const Contours kind = cycle.row->contours;
     std::size_t first = 0;
     while (first < flat_.items.size() && !(flat_.items[first].kind == ItemKind::label && flat_.items[first].number &&
                                            flat_.items[first].label == label))
@@ -132,10 +134,18 @@ class AreaReader {
       if (side == 0) side = way.side().value_or(0);
       ir::Statement s;
       s.line.span = item.statement.line.span;
+      if (kind == Contours::middle_line && item.leads_on) continue;
       ir::Block block = *b;
       if (item.by_pole || item.polar) {
         if (!way.pole() || !way.pole()->literal()) return "its pole is no point by numbers";
         if (std::string fault = resolve(item, way, block); !fault.empty()) return fault;
+      }
+      if (kind == Contours::middle_line && statements.empty()) {  // the way onto its first point may be an arc
+        block.motion.kind = ir::MotionKind::linear;
+        block.motion.centers.clear();
+      }
+      if (kind == Contours::developed) {
+        if (std::string fault = develop(cycle, block.motion); !fault.empty()) return fault;
       }
       s.node = std::move(block);
       statements.push_back(std::move(s));
@@ -146,13 +156,15 @@ class AreaReader {
     ir::ModalState modal = profile_.power_on;
     modal.units = lowering_.inch() ? ir::Units::inch : ir::Units::metric;
     std::string error;
-    auto read = interpreter::mill_contours_of(profile_, modal, blocks, false, nullptr, &error);
+    auto read =
+        interpreter::mill_contours_of(profile_, modal, blocks, false, nullptr, &error, kind == Contours::line_in_space);
     if (!read) return error;
     out.line = std::move(read->front());
     out.side = side;
-    if (!open) close(out.line);
-    if (!open && side == 0) return "RL or RR says whether it is a pocket or an island";
-    out.pocket = !open && (signed_area(out.line) > 0) == (side > 0);
+    const bool bounds = kind == Contours::areas;
+    if (bounds) close(out.line);
+    if (bounds && side == 0) return "RL or RR says whether it is a pocket or an island";
+    out.pocket = bounds && (signed_area(out.line) > 0) == (side > 0);
     for (std::size_t k = first; k <= i; ++k) flat_.items[k].contour = true;
     return {};
   }
@@ -179,6 +191,22 @@ class AreaReader {
       c.axis = first ? p.u : p.v;
       c.mode = ir::CenterMode::absolute;
       c.value = (first ? pole.u : pole.v).value();
+    }
+    return {};
+  }
+  /// The words of a rotary and a linear axis become those of a plane: lengths around the cylinder and along it.
+  static std::string develop(CycleDefinition& cycle, ir::Motion& m) {
+    if (!m.centers.empty()) return "an arc on the cylinder is CR";
+    for (auto& c : m.coords) {
+      const bool rotary = c.axis == ir::axis::a || c.axis == ir::axis::b || c.axis == ir::axis::c;
+      ir::AxisId& own = rotary ? cycle.around : cycle.along;
+      if (own == ir::axis::none) own = c.axis;
+      if (own != c.axis || (!rotary && c.axis != ir::axis::x && c.axis != ir::axis::y))
+        return "it has a rotary axis and X or Y, always the same";
+      c.axis = rotary ? ir::axis::x : ir::axis::y;
+      const auto &radius = cycle.values.at(16).value, &lengths = cycle.values.at(17).value;
+      if (!radius.literal() || !lengths.literal() || !c.value.literal()) return "its points and Q16 must be numbers";
+      if (rotary && lengths.is(0)) c.value = ir::Value(c.value.number * std::numbers::pi / 180 * radius.number);
     }
     return {};
   }

@@ -181,6 +181,7 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   CycleContext context;
   context.shift = shift;
   context.inch = lowering_.inch();
+  context.height = item.height;
   context.moves = &out.moves;
   constexpr double inch = 25.4;
   if (item.tool_radius) context.tool_radius = *item.tool_radius * (lowering_.inch() ? inch : 1);
@@ -194,7 +195,7 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   out.cycle = build_cycle(*cycle, context, report);
   for (context.area = 1; out.cycle != nullptr && context.area < cycle->areas.size(); ++context.area)
     out.more.push_back(build_cycle(*cycle, context, report));
-  out.goes_back = !cycle->areas.empty() && cycle->number != 25;
+  out.goes_back = cycle->row != nullptr && cycle->row->contours == facts::Contours::areas;
   return out;
 }
 
@@ -262,7 +263,8 @@ ir::Block CycleCalls::step_block(const CycleMove& step, const ir::PlaneAxes& pla
     for (const bool first : {true, false}) {
       const ir::Value& v = first ? step.plane->u : step.plane->v;
       if (!step.plane->absolute && v.is(0) && !arc) continue;
-      words.push_back(coordinate(first ? plane.u : plane.v, v));
+      const auto& other = first ? step.plane->u_axis : step.plane->v_axis;
+      words.push_back(coordinate(other.value_or(first ? plane.u : plane.v), v));
       if (!step.plane->absolute) words.back().mode = ir::WordMode::incremental;
     }
     for (const bool first : {true, false}) {

@@ -55,15 +55,18 @@ class LeadWriter {
         if (at) items[i].place = std::pair(at->u.value(), at->v.value());
       }
       if (items[i].kind == ItemKind::pole) absolute(flat_.poles[static_cast<std::size_t>(items[i].index)]);
-      if (items[i].at_pattern || items[i].shift) {
-        const auto height = way_.coordinate(way_.plane().w);
-        if (height) items[i].height = height->value();
-      }
+      if (items[i].call != CycleCall::none) items[i].height = height_at_call(items[i]);
       put(std::move(items[i]));
     }
   }
 
  private:
+  [[nodiscard]] std::optional<ir::Value> height_at_call(const Item& item) const {
+    const auto* own = height_word(std::get<ir::Block>(item.statement.node).motion, way_.plane().w);
+    if (own != nullptr) return own->mode == ir::WordMode::incremental ? std::nullopt : std::optional(own->value);
+    const auto height = way_.coordinate(way_.plane().w);
+    return height ? std::optional(height->value()) : std::nullopt;
+  }
   /// CC with an absolute and an incremental word becomes absolute, where the tool's place is known.
   void absolute(Pole& pole) const {
     const auto some = std::count(pole.incremental.begin(), pole.incremental.end(), true);
@@ -344,6 +347,7 @@ class LeadWriter {
         one.statement.line.skip_mask = item.statement.line.skip_mask;
       }
       one.moves = true;
+      one.leads_on = !lead.departure && k + 1 < legs.size();
       ir::Block b;
       for (const auto& a : source.actions) {
         const bool last = a.order == ir::Order::after;

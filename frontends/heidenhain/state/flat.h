@@ -66,8 +66,9 @@ struct CycleDefinition {
   /// A pocket, and its islands behind it; mm.
   std::vector<std::vector<ir::cycles::MillContour>> areas;
   std::string area_fault;
-  bool refused = false;  ///< said at the definition; its calls say nothing more
-  int side = 0;          ///< cycle 25: of the contour, RL 1, RR -1
+  bool refused = false;                                        ///< said at the definition; its calls say nothing more
+  int side = 0;                                                ///< of a contour that is followed: RL 1, RR -1
+  ir::AxisId around = ir::axis::none, along = ir::axis::none;  ///< the axes of a developed contour: rotary and linear
 };
 
 struct Pole {
@@ -119,12 +120,13 @@ struct Item {
   bool contour = false;               ///< stands in a label of cycle 14
   int free = -1;                      ///< of the element of a free contour, before it is solved
   int lead = -1;                      ///< of the APPR or DEP, before it is written out
+  bool leads_on = false;              ///< a move of an APPR that does not end on the contour
   int pattern = -1;                   ///< PATTERN DEF, or (Arrival::several) a table of points
   bool at_pattern = false;            ///< CYCL CALL PAT
   int selects = -1;                   ///< SEL PGM: index of the name
   bool calls_selected = false;        ///< CALL SELECTED PGM
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
-  std::optional<ir::Value> height;                       ///< CYCL CALL PAT and POS: of the tool, where it is known
+  std::optional<ir::Value> height;                       ///< of a cycle call: of the tool, where it is known
   CycleCall call = CycleCall::none;
   std::optional<ir::Value> shift;   ///< CYCL CALL POS: along the tool axis
   std::optional<ir::Value> plunge;  ///< M103: percent of F for what goes into the material

@@ -13,7 +13,7 @@ namespace cnctrans::ir::cycles {
 namespace {
 
 constexpr std::string_view data_word = "contour", fault_word = "contour_fault", role_word = "contour_role",
-                           surface_word = "contour_surface";
+                           surface_word = "contour_surface", height_word = "contour_height";
 
 bool whole_circle(const MillElement& e) {
   return e.arc && std::abs(e.u1 - e.u0) < 1e-9 && std::abs(e.v1 - e.v0) < 1e-9;
@@ -30,7 +30,9 @@ bool is_contour_word(std::string_view word) {
 std::vector<NamedCycle> contours_named(const HoleCycle& cycle) {
   std::vector<NamedCycle> out;
   for (const auto& [word, v] : cycle.mill.words) {
-    if (!is_contour_word(word) || word == data_word || word == fault_word || word == surface_word) continue;
+    if (!is_contour_word(word) || word == data_word || word == fault_word || word == surface_word ||
+        word == height_word)
+      continue;
     if (out.empty() || word == role_word) out.push_back({cycle.mill.shape, {}});
     out.back().words.emplace_back(word, v);
   }
@@ -57,6 +59,9 @@ std::vector<RoutineName> contour_routines(const Cycle& cycle) {
 void put_contours(HoleCycle& cycle, const std::vector<MillContour>& contours) {
   if (!contours.empty() && contours.front().surface)
     cycle.mill.words.emplace_back(std::string(surface_word), Value(*contours.front().surface));
+  if (!contours.empty()) {
+    for (const double h : contours.front().heights) cycle.mill.words.emplace_back(std::string(height_word), Value(h));
+  }
   for (std::size_t i = 0; i < contours.size(); ++i) {
     for (const auto& e : contours[i].elements) {
       const double kind = e.arc ? (e.ccw ? 2 : 1) : 0;
@@ -71,11 +76,12 @@ void put_contour_fault(HoleCycle& cycle, const std::string& why) {
 }
 
 std::optional<std::vector<MillContour>> contours_in(const HoleCycle& cycle, std::string* error) {
-  std::vector<double> n;
+  std::vector<double> n, heights;
   std::optional<double> surface;
   for (const auto& [name, v] : cycle.mill.words) {
     if (name == data_word && v.literal()) n.push_back(v.number);
     if (name == surface_word && v.literal()) surface = v.number;
+    if (name == height_word && v.literal()) heights.push_back(v.number);
     if (const auto* why = text_in(v); why != nullptr && name == fault_word) return *error = *why, std::nullopt;
   }
   if (n.empty()) return *error = "its contour has not been read", std::nullopt;
@@ -87,6 +93,7 @@ std::optional<std::vector<MillContour>> contours_in(const HoleCycle& cycle, std:
         {n[i + 2], n[i + 3], n[i + 4], n[i + 5], n[i + 1] != 0, n[i + 1] == 2, n[i + 6], n[i + 7]});
   }
   out.front().surface = surface;
+  out.front().heights = std::move(heights);
   return out;
 }
 

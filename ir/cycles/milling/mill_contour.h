@@ -22,6 +22,7 @@ struct MillElement {
 struct MillContour {
   std::vector<MillElement> elements;
   std::optional<double> surface;  ///< coordinate along the normal of the plane that its first block names, mm
+  std::vector<double> heights;    ///< along that normal, of the first point and of each end, mm; empty: none of its own
 };
 
 /// The word of a milling cycle belongs to its contours, and is no number of the cycle.

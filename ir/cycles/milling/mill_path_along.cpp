@@ -49,13 +49,14 @@ Lead lead_of(const MillElement& e, bool out, int way, double length, double tool
 
 struct ContourPlan {
   std::vector<MillElement> way;
+  std::vector<double> heights;  ///< of the contour itself
   Lead in, out;
   int side = 0;  ///< 1 left, -1 right
   bool rough = true, feed_links = false, spatial_in = false, spatial_out = false;
   int lift = 0;
 };
 
-/// From and to `w`: the height of the contour.
+/// From and to `w`: the height of the contour, where it has none of its own.
 void once_along(MillPath& path, const ContourPlan& plan, double w, double clear) {
   path.plunge(plan.spatial_in ? clear : w);
   if (plan.side != 0) path.compensate(plan.side);
@@ -65,13 +66,15 @@ void once_along(MillPath& path, const ContourPlan& plan, double w, double clear)
     path.mill_arc_to(first.u0, first.v0, w, plan.in.cu, plan.in.cv, plan.in.ccw);
   else
     path.mill_to(first.u0, first.v0, w);
-  for (const auto& e : plan.way) {
+  for (std::size_t i = 0; i < plan.way.size(); ++i) {
+    const auto& e = plan.way[i];
+    const double end = plan.heights.empty() ? w : plan.heights[i + 1];
     if (e.arc)
-      path.mill_arc(e.u1, e.v1, e.cu, e.cv, e.ccw);
+      path.mill_arc_to(e.u1, e.v1, end, e.cu, e.cv, e.ccw);
     else
-      path.mill(e.u1, e.v1);
+      path.mill_to(e.u1, e.v1, end);
   }
-  const double up = plan.spatial_out ? clear : w;
+  const double up = plan.spatial_out ? clear : plan.heights.empty() ? w : plan.heights.back();
   if (plan.out.arc)
     path.mill_arc_to(plan.out.outer_u, plan.out.outer_v, up, plan.out.cu, plan.out.cv, plan.out.ccw);
   else
@@ -100,9 +103,12 @@ bool read_plan(MillPath& path, const MillContour& contour, ContourPlan& plan, st
     *error = "the way onto or off the contour has no length (alarm 61116)";
   if (!error->empty()) return false;
   if (contour.elements.empty()) return *error = "the contour has no elements", false;
+  if (!contour.heights.empty() && stock > 0)
+    return *error = "an allowance at the wall of a contour with heights of its own is not carried out", false;
   auto way = parallel(contour.elements, stock, plan.side > 0, error);
   if (!way) return false;
   plan.way = *std::move(way);
+  plan.heights = contour.heights;
   const double r = path.tool_radius();
   plan.in = lead_of(plan.way.front(), false, in, in_length, r, plan.side);
   plan.out = lead_of(plan.way.back(), true, out, out_length, r, plan.side);
@@ -120,7 +126,10 @@ bool contour_path(MillPath& path, const std::vector<MillContour>* contours, std:
   const double link = path.get("link_feed", path.get("mill_feed"));
   path.frame(0, 0, 0);
   path.approach(plan.in.tool_u, plan.in.tool_v);
-  const auto depths = path.depths(n.surface, n.bottom + n.up * (plan.rough ? std::abs(path.get("floor_stock")) : 0));
+  const auto depths =
+      plan.heights.empty()
+          ? path.depths(n.surface, n.bottom + n.up * (plan.rough ? std::abs(path.get("floor_stock")) : 0))
+          : std::vector<double>{plan.heights.front()};
   const auto rise = [&](double w) {
     if (plan.feed_links)
       path.link(plan.out.tool_u, plan.out.tool_v, w, link);
