@@ -11,4 +11,10 @@ constexpr bool is_any_arc(MotionKind k) {
          k == MotionKind::arc_tangent;
 }
 
+/// The function behind a block of this one: probing moves and moves to a stop leave the straight line in force.
+constexpr MotionKind left_in_force(MotionKind k) {
+  const bool once = k == MotionKind::probe_toward || k == MotionKind::probe_away || k == MotionKind::to_stop;
+  return once ? MotionKind::linear : k;
+}
+
 }  // namespace cnctrans::ir

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ir/block.h"
+#include "ir/motion_kinds.h"
 
 namespace cnctrans::backends {
 
@@ -24,8 +24,9 @@ class MotionTracker {
     in_step_ = true;
     return kind;
   }
-  /// `kind` was written (or, with `silent`, is known to be in force already).
-  void wrote(ir::MotionKind kind, bool keeps_modal) {
+  /// A motion was written with its code, or the code is known to be in force already.
+  void wrote(ir::MotionKind written, bool keeps_modal) {
+    const ir::MotionKind kind = ir::left_in_force(written);
     text_ = kind;
     if (keeps_modal) {
       ir_ = kind;

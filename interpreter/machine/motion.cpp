@@ -13,13 +13,6 @@ namespace cnctrans::interpreter {
 
 namespace {
 
-/// Probing moves and moves to a stop leave the straight line in force.
-ir::MotionKind left_in_force(ir::MotionKind k) {
-  const bool once =
-      k == ir::MotionKind::probe_toward || k == ir::MotionKind::probe_away || k == ir::MotionKind::to_stop;
-  return once ? ir::MotionKind::linear : k;
-}
-
 constexpr std::string_view no_machine_point =
     "a point of the machine in X, Y or C while they are coordinates of the face or the cylinder";
 
@@ -40,7 +33,7 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   if (kind == ir::MotionKind::modal || point) {
     kind = modal_.motion;
   } else if (m.keeps_modal) {
-    modal_.motion = left_in_force(kind);
+    modal_.motion = ir::left_in_force(kind);
   }
   if (curve_ && !leave_curve(kind)) return false;
   if (m.explicit_code && ir::is_spline(kind)) curve_broken_ = false;

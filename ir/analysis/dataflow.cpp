@@ -386,25 +386,10 @@ class Analysis {
     return both;
   }
 
-  /// The changes of the callee that stay; with modals saved, the others are as before, and positions are forgotten.
+  /// The changes of the callee that stay.
   FactSet kept_changes(std::size_t routine, const Facts& before, Facts& f) const {
-    FactSet set = routines_[routine].changes;
-    if (!program_.routines[routine].saves_modals) return set;
-    for (std::size_t i = 0; i < f.position.size(); ++i) {
-      if (set[position_bit + i]) f.position[i].reset();
-      set[position_bit + i] = false;
-    }
-    // The kind of feed, of speed or the unit comes back, and another F or S may stand with it.
-    const auto changed = [&](Setting x) { return set[static_cast<std::size_t>(x)]; };
-    if (changed(Setting::feed_mode) || changed(Setting::units)) f.feed.reset(), set[feed_bit] = false;
-    if (changed(Setting::spindle_mode)) f.spindle.reset(), set[spindle_bit] = false;
-    for (std::size_t i = 0; i < setting_count; ++i) {
-      if (i == static_cast<std::size_t>(Setting::surface)) continue;  // stays as the routine leaves it
-      if (set[i]) f.settings[i] = before.settings[i];
-      set[i] = false;
-    }
-    set[motion_bit] = set[work_offset_bit] = false;
-    return set;
+    const FactSet& set = routines_[routine].changes;
+    return program_.routines[routine].saves_modals ? given_back(set, before, f) : set;
   }
 
   void enter_anywhere(std::size_t routine, const Facts& f) {
@@ -444,12 +429,16 @@ class Analysis {
     const std::int32_t active = std::exchange(f.modal_call, Facts::in_modal_run);
     apply(s, f, framed_);  // it runs at each point of a pattern
     f.modal_call = std::max(active, 0);
-    if (active < 0) {
-      for (const auto target : modal_targets_) enter(target, f);
-      f.forget();
-      return true;
+    if (active >= 0) return run_modal(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, f);
+    Facts behind = f;  // none runs, or one of them
+    for (const auto target : modal_targets_) {
+      Facts one = f;
+      if (run_modal(s.id, {target, 0, 0, true}, one)) join(behind, one);
     }
-    return run_modal(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, f);
+    f = behind;
+    if (modal_unknown_) f.forget();
+    f.modal_call = -1;
+    return true;
   }
 
   struct RangeEnd {

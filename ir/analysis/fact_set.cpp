@@ -74,6 +74,24 @@ void displace(Facts& behind, const Facts& before, const Routine& routine, const 
   }
 }
 
+FactSet given_back(FactSet set, const Facts& before, Facts& f) {
+  for (std::size_t i = 0; i < f.position.size(); ++i) {
+    if (set[position_bit + i]) f.position[i].reset();
+    set[position_bit + i] = false;
+  }
+  // The kind of feed, of speed or the unit comes back, and another F or S may stand with it.
+  const auto changed = [&](Setting x) { return set[static_cast<std::size_t>(x)]; };
+  if (changed(Setting::feed_mode) || changed(Setting::units)) f.feed.reset(), set[feed_bit] = false;
+  if (changed(Setting::spindle_mode)) f.spindle.reset(), set[spindle_bit] = false;
+  for (std::size_t i = 0; i < setting_count; ++i) {
+    if (i == static_cast<std::size_t>(Setting::surface)) continue;  // stays as the routine leaves it
+    if (set[i]) f.settings[i] = before.settings[i];
+    set[i] = false;
+  }
+  set[motion_bit] = set[work_offset_bit] = false;
+  return set;
+}
+
 FactSet differing(const Facts& a, const Facts& b) {
   FactSet set;
   for (std::size_t i = 0; i < setting_count; ++i) set[i] = a.settings[i] != b.settings[i];

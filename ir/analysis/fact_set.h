@@ -55,6 +55,10 @@ void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now);
 /// by its increments, though its callers stand at different ones. `entry`: what all its callers agree on.
 void displace(Facts& behind, const Facts& before, const Routine& routine, const Facts& entry, const FrameReach& framed);
 
+/// Of the changes of a routine that gives the modal state back, those that stay. `f`, behind the call, gets the others
+/// from `before` it; where the tool is remains open.
+FactSet given_back(FactSet set, const Facts& before, Facts& f);
+
 /// Which facts differ.
 FactSet differing(const Facts& a, const Facts& b);
 /// The facts of `from` that are in `set` replace those of `facts`.

@@ -12,16 +12,11 @@
 #include "ir/geometry/contour.h"
 #include "ir/geometry/geometry.h"
 #include "ir/known_number.h"
+#include "ir/motion_kinds.h"
 #include "ir/opaque_words.h"
 
 namespace cnctrans::ir {
 namespace {
-
-/// Probing moves and moves to a stop leave the straight line in force.
-MotionKind left_in_force(MotionKind k) {
-  const bool once = k == MotionKind::probe_toward || k == MotionKind::probe_away || k == MotionKind::to_stop;
-  return once ? MotionKind::linear : k;
-}
 
 class Transfer {
  public:

@@ -215,7 +215,19 @@ void FeedDomain::after_point(const Block& b, const Facts& facts, FeedState& stat
   if (*mode != static_cast<std::uint8_t>(FeedMode::inverse_time) && slot.value) slot.same = true;
 }
 
-bool cuts_with_power_on_feed(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
+bool reads_feed(const Statement& s) {
+  bool found = false;
+  each_expression(s, [&found](const ExprPtr& e) {
+    walk(e, [&found](const ExprPtr& x) {
+      const auto* ref = x ? std::get_if<SystemRef>(&x->node) : nullptr;
+      found = found || (ref != nullptr && (ref->datum == Datum::feed || ref->datum == Datum::feed_per_minute ||
+                                           ref->datum == Datum::feed_per_rev));
+    });
+  });
+  return found;
+}
+
+bool uses_power_on_feed(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
   if (context.source_machine.power_on_feed <= 0) return false;
   const FeedDomain domain(program, context, facts, false);
   const FlowStates<FeedDomain> states(program, domain);
@@ -223,15 +235,19 @@ bool cuts_with_power_on_feed(const Program& program, const LegaliseContext& cont
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
-      const auto* before = b != nullptr ? states.before(s) : nullptr;
+      const bool reads = reads_feed(s);
+      const auto* before = b != nullptr || reads ? states.before(s) : nullptr;
       if (before == nullptr) return;
       const Facts& f = facts.before(s);
-      const auto point = domain.point(*b, f);  // behind a call every move may be one of a modal subprogram
-      const bool runs = point == FeedPoint::point || (point == FeedPoint::perhaps && f.modal_call == 0);
-      if (!FeedDomain::cuts(*b, f) && !runs) return;
       FeedState now = *before;
-      domain.settle(*b, f, now);
-      const auto mode = setting_in<std::uint8_t>(*b, f, Setting::feed_mode);
+      auto mode = setting<std::uint8_t>(f, Setting::feed_mode);
+      if (!reads) {
+        const auto point = domain.point(*b, f);  // behind a call every move may be one of a modal subprogram
+        const bool runs = point == FeedPoint::point || (point == FeedPoint::perhaps && f.modal_call == 0);
+        if (!FeedDomain::cuts(*b, f) && !runs) return;
+        domain.settle(*b, f, now);
+        mode = setting_in<std::uint8_t>(*b, f, Setting::feed_mode);
+      }
       for (std::size_t i = 0; i < now.slots.size(); ++i) {
         if (!mode || *mode == i) found = found || now.slots[i].maybe_power_on;
       }

@@ -59,7 +59,9 @@ class FeedDomain {
   std::map<std::uint32_t, bool> cycles_;  ///< statement of a modal cycle: it runs at the feed in force
 };
 
-/// A cut with the power-on feed of the source may come before any F.
-bool cuts_with_power_on_feed(const Program& program, const LegaliseContext& context, const FactsOf& facts);
+/// The program asks for the feed in force.
+bool reads_feed(const Statement& s);
+/// A cut with the power-on feed of the source may come before any F, or a question for the feed.
+bool uses_power_on_feed(const Program& program, const LegaliseContext& context, const FactsOf& facts);
 
 }  // namespace cnctrans::ir::passes

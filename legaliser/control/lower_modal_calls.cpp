@@ -147,10 +147,7 @@ class ModalCalls {
       return refused(std::move(s), out, "TRN-561",
                      "a canned cycle beside a modal subprogram: the target has one of them at a time",
                      "end the modal subprogram before the cycle");
-    if (b != nullptr && called_under && b->repeat_given != 0) {
-      const auto begun = defined_.find(*in_force_.before(s));
-      if (begun != defined_.end()) goes_on_with_locals(s, begun->second.call);
-    }
+    if (b != nullptr && b->repeat_given != 0) goes_on_with_locals(s, *b);
     if (b == nullptr || (!active_ && !on_target_)) return out.push_back(std::move(s));
     if (const auto* pattern = pattern_in(*b)) return points(std::move(s), *pattern, out);
     const bool only_moves = b->repeat_given != 0 && b->repeat.is(0);
@@ -164,7 +161,6 @@ class ModalCalls {
       b->repeat = Value{};
     }
     const bool in_source = !only_moves && runs_modal_call(*b, facts_.before(s), words_run(context_.source_machine));
-    if (b->repeat_given != 0 && in_source) goes_on_with_locals(s, active_ ? *active_ : on_target_->call);
     if (active_) return in_source ? written_out(std::move(s), out) : out.push_back(std::move(s));
     const bool in_target =
         runs_modal_call(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
@@ -323,25 +319,20 @@ class ModalCalls {
 
   /// The runs of a repeated block go on with the local parameters as the last run left them: that can't be said by
   /// calls that each start from the arguments.
-  void goes_on_with_locals(const Statement& s, const CallRoutine& call) {
-    const auto& b = std::get<Block>(s.node);
-    if (call.level != CallLevel::new_level || (b.repeat.literal() && b.repeat.number < 2)) return;
-    const auto callee = call.computed ? std::nullopt : calls_.index_of(call.routine);
-    if (!callee) return;
-    bool found = false;
-    const auto look = [&](const VarRef& v) {
-      const auto* segment = segment_of(program_, v);
-      found = found || (segment != nullptr && segment->scope == Scope::level && reads_first_(*callee, v));
-    };
-    for (const auto r : calls_.sharing_level(*callee))
-      for_each_statement(program_.routines[r].body, [&](const Statement& inner) { each_target(inner, look); });
-    if (!found) return;
+  void goes_on_with_locals(const Statement& s, const Block& b) {
+    const auto* state = in_force_.before(s);
+    if (state == nullptr || (b.repeat.literal() && b.repeat.number < 2) ||
+        !runs_modal_call(b, facts_.before(s), words_run(context_.source_machine)) ||
+        std::none_of(defined_.begin(), defined_.end(), [&](const auto& d) {
+          return (d.first == *state || *state == ModalCallInForce::several) &&
+                 reads_own_locals(program_, calls_, reads_first_, d.second.call);
+        }))
+      return;
     context_.diagnostics.error("TRN-187", s.line.span,
                                "the repetitions of this block run the modal subprogram with the local parameters that "
                                "the run before left; in the target each run starts from the arguments",
                                "write the repetitions as calls with their own arguments");
   }
-
   void definition(Statement&& s, Body& out) {
     ModalCall m = std::get<ModalCall>(s.node);
     from_ = m.off ? 0 : s.id;

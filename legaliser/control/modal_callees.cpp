@@ -178,6 +178,19 @@ bool acts_behind_motion(const Block& b) {
          });
 }
 
+bool reads_own_locals(const Program& program, const CallGraph& calls, ReadFirst& reads_first, const CallRoutine& call) {
+  const auto callee = callee_of(calls, call);
+  if (!callee || call.level != CallLevel::new_level) return false;
+  bool found = false;
+  const auto look = [&](const VarRef& v) {
+    const auto* segment = segment_of(program, v);
+    found = found || (segment != nullptr && segment->scope == Scope::level && reads_first(*callee, v));
+  };
+  for (const auto r : calls.sharing_level(*callee))
+    for_each_statement(program.routines[r].body, [&](const Statement& s) { each_target(s, look); });
+  return found;
+}
+
 bool shares_level_too(const CallGraph& calls, const CallRoutine& call) {
   const auto callee = callee_of(calls, call);
   return callee && !call.arguments.empty() && calls.called_with(*callee, CallLevel::shared) &&

@@ -38,6 +38,10 @@ std::set<std::size_t> called_by_main(const Program& program, const CallGraph& ca
 /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each call.
 bool shares_level_too(const CallGraph& calls, const CallRoutine& call);
 
+/// It changes parameters of its own level that it reads first: a further run without the arguments would go on with
+/// them.
+bool reads_own_locals(const Program& program, const CallGraph& calls, ReadFirst& reads_first, const CallRoutine& call);
+
 /// A domain of FlowStates: the statement that switched the modal call in force on.
 struct ModalCallInForce {
   using State = std::uint32_t;                                 ///< its id; 0: none is in force

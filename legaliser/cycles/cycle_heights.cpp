@@ -29,7 +29,7 @@ bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
   const auto height = in_units(moves_tool ? height_after(b, facts, *w) : active_->height, b, facts);
   // The plane was where the tool stood at the definition: a run of its own begins where it stands now.
   const auto* source = std::get_if<HoleCycle>(&active_->source->node);
-  const bool own_run = moves_tool || (!active_->on_target && !active_->maybe_on_target);
+  const bool own_run = moves_tool || !active_->on_target;
   if (own_run && active_->left_height && source != nullptr && source->reference.given &&
       source->reference.base == LevelBase::from_initial)
     return true;

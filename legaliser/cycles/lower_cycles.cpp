@@ -95,7 +95,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
   const bool moves_tool = w && moves_along(b, *w);
   const bool may_be_on = active_->on_target || active_->maybe_on_target;
   // The target would go up first, the source goes straight down.
-  if ((moves_tool || !may_be_on) && sure(facts) && below_retract_plane(b, facts)) {
+  if ((moves_tool || !active_->on_target) && sure(facts) && below_retract_plane(b, facts)) {
     if (facts.reachable && !surely_on(facts)) return refuse_other_ways(std::move(s), out);
     if (refuse_stale(s, out)) return;
     if (may_be_on) pieces.push_back(off_statement(s.line, false));

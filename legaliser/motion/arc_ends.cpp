@@ -46,6 +46,11 @@ ArcPass::Ends ArcPass::on_target(const Arc& arc) const {
   return {{u.first, v.first}, {u.second, v.second}};
 }
 
+bool ArcPass::stays_closed(const Arc& arc) const {
+  const Ends ends = on_target(arc);
+  return length(ends.end - ends.start) <= 1e-9;
+}
+
 bool ArcPass::keep_closed(Arc& arc) {
   Motion& m = arc.b.motion;
   const auto center = center_point(arc);
@@ -53,8 +58,8 @@ bool ArcPass::keep_closed(Arc& arc) {
   const Ends ends = on_target(arc);
   const double source = swept_angle(point(arc.start), point(arc.end), *center, *arc.ccw);
   const bool lost = source > 180 && swept_angle(ends.start, ends.end, *center, *arc.ccw) <= 180;
-  const bool full = source >= 360, apart = length(ends.end - ends.start) > 1e-9;  // then the next one begins elsewhere
-  if (!lost && !(full && apart)) return false;
+  const bool full = source >= 360;
+  if (!lost && (!full || stays_closed(arc))) return false;  // not closed: the next one begins elsewhere
   if (!full)
     context_.diagnostics.warning("TRN-315", word_span(arc.s.line.span, m.code_pos),
                                  "an arc that ends less than two of the target's last places before its start is "

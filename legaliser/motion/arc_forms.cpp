@@ -308,7 +308,8 @@ void ArcPass::both_ends(Arc& arc, bool needed) {
   const bool u = missing(arc.axis[0]), v = missing(arc.axis[1]);
   if ((!u && !v) || (!needed && u && v)) return;
   const auto unknown = [&](AxisId axis) { return missing(axis) && !start_of(arc, axis); };
-  if ((unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
+  const bool rounded = u && v && known(arc.start) && known(arc.end) && !stays_closed(arc);
+  if ((rounded || unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
   std::vector<CoordWord> more;
   for (const AxisId axis : {arc.axis[0], arc.axis[1]}) {
     if (!missing(axis)) continue;

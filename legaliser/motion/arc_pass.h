@@ -172,6 +172,7 @@ class ArcPass {
     geometry::Vec start, end;
   };
   [[nodiscard]] Ends on_target(const Arc& arc) const;
+  [[nodiscard]] bool stays_closed(const Arc& arc) const;  ///< of a full circle: both are one point
   /// A full circle, or nearly one, that the target's own start and rounded end would make short: its end is said as
   /// its start, whatever that is. False: it is none.
   bool keep_closed(Arc& arc);

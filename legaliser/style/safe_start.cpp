@@ -18,7 +18,7 @@ class SafeStart {
  public:
   SafeStart(Program& program, Routine& main, const LegaliseContext& context)
       : program_(program), main_(main), context_(context), facts_(program, context) {
-    head_feed_ = cuts_with_power_on_feed(program, context, facts_);
+    head_feed_ = uses_power_on_feed(program, context, facts_);
   }
 
   void run() {

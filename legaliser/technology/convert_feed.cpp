@@ -19,9 +19,15 @@ class FeedPass {
 
   void statement(Statement& s) {
     auto* b = std::get_if<Block>(&s.node);
-    const auto* before = b != nullptr ? states_.before(s) : nullptr;
+    const auto* before = states_.before(s);
     if (before == nullptr) return;
     const Facts& facts = facts_.before(s);
+    if (reads_feed(s) && !same_for_reader(*before, setting<std::uint8_t>(facts, Setting::feed_mode)))
+      return context_.diagnostics.error("TRN-158", s.line.span,
+                                        "the feed that is asked for here may be another one on the target: no F holds, "
+                                        "or the feed mode changed without one",
+                                        "write F before this block");
+    if (b == nullptr) return;
     const auto point = FeedDomain::cuts(*b, facts) ? FeedPoint::none : domain_.point(*b, facts);
     const bool cuts = point == FeedPoint::none;
     if (cuts && !FeedDomain::cuts(*b, facts)) return;
@@ -60,6 +66,11 @@ class FeedPass {
   }
 
  private:
+  static bool same_for_reader(const FeedState& now, std::optional<std::uint8_t> mode) {
+    bool same = true;
+    for (std::size_t i = 0; i < now.slots.size(); ++i) same = same && ((mode && *mode != i) || now.slots[i].same);
+    return same;
+  }
   static bool gives_feed(const Block& b) {
     return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
       const auto* f = std::get_if<SetFeed>(&a.data);
