@@ -76,7 +76,7 @@ void Writer::offset_again(const ir::Block& b) {
   if (b.has_motion && b.motion.frame == ir::FrameUse::machine) return;
   if (!b.has_motion && !has<ir::CycleDefine>(b) && !block_has_offset_) return;
   offset_pending_ = false;
-  if (block_has_offset_ || !offset_in_force()) return;
+  if (block_has_offset_ || !offset_in_force(current().line.span)) return;
   add(offset_word_, Rank::offset);
 }
 
@@ -104,13 +104,13 @@ void Writer::before_statement(const ir::Statement& next) {
 
 void Writer::offset_line(const Span& span) {
   offset_pending_ = false;
-  if (offset_in_force()) raw_line_in_branch(offset_word_, span);
+  if (offset_in_force(span)) raw_line_in_branch(offset_word_, span);
 }
 
 /// No offset is selected since the start: D0 stays. False: as offset_in_force.
-bool Writer::stays_without_offset() {
+bool Writer::stays_without_offset(const Span& where) {
   if (!std::exchange(told_without_offset_, true)) {
-    diagnostics().warning("TRN-218", current().line.span,
+    diagnostics().warning("TRN-218", where,
                           "behind the move in machine coordinates (D0) the target goes on without tool offset, the "
                           "source with the one that its machine has at the start: the program selects none before "
                           "(told once)",
@@ -120,9 +120,9 @@ bool Writer::stays_without_offset() {
 }
 
 /// The offset before the move in machine coordinates as `offset_word_`. False: none was in force, or refused.
-bool Writer::offset_in_force() {
+bool Writer::offset_in_force(const Span& where) {
   const bool in_main = program().main() == &program().routines[routine_index()];
-  if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return stays_without_offset();
+  if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return stays_without_offset(where);
   const char* select = "select the offset in the source after such a move";
   bool guess = offset_by_branch_ || (several_offsets_ && !offset_certain_);
   if (offset_word_.empty() && several_offsets_) {
@@ -134,12 +134,12 @@ bool Writer::offset_in_force() {
     offset_word_ = word("D", *only_offset_, {});
   }
   if (offset_word_.empty()) {
-    if (!selects_tools_) return stays_without_offset();
+    if (!selects_tools_) return stays_without_offset(where);
     offset_word_ = "D1";  // what the control selects with the tool; that of the source perhaps does not
     guess = guess || !same_dialect();
   }
   if (guess) {
-    diagnostics().warning("TRN-218", current().line.span,
+    diagnostics().warning("TRN-218", where,
                           "the tool offset in force before the move in machine coordinates is not known for sure; " +
                               offset_word_ + " is selected again here",
                           select);

@@ -114,8 +114,8 @@ class Writer final : public ProgramWriter {
   void feed_and_spindle_mode(const ir::Block& b);
   void offset_again(const ir::Block& b);
   void offset_line(const Span& span);
-  bool offset_in_force();
-  bool stays_without_offset();
+  bool offset_in_force(const Span& where);
+  bool stays_without_offset(const Span& where);
   void offset_uncertain() { offset_certain_ = false; }
   void nested(const ir::Body& statements);
   std::string rotary_attribute(const ir::CoordWord& w);

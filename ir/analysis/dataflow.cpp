@@ -311,6 +311,7 @@ class Analysis {
       return call(s.id, range_of(find_routine(r->program), *r), r->count, f);
     }
     if (const auto* m = std::get_if<ModalCall>(&s.node)) return modal_call(s, *m, f);
+    if (const auto* r = std::get_if<Return>(&s.node); r != nullptr && !r->values.empty()) return goes_back_elsewhere(f);
     if (!f.modal_call_runs() || !(moves(s) || may_run_modal_call(s))) {
       apply(s, f, framed_);
       return true;
@@ -399,6 +400,13 @@ class Analysis {
     }
   }
 
+  /// A return to a label of one of the callers.
+  bool goes_back_elsewhere(Facts& f) {
+    f.forget();
+    for (std::size_t i = 0; i < routines_.size(); ++i) enter_anywhere(i, f);
+    return true;
+  }
+
   void enter_all(const Facts& f) {
     Facts entry = f;
     if (entry.modal_call_runs()) entry.modal_call = -1;
@@ -429,11 +437,22 @@ class Analysis {
     const std::int32_t active = std::exchange(f.modal_call, Facts::in_modal_run);
     apply(s, f, framed_);  // it runs at each point of a pattern
     f.modal_call = std::max(active, 0);
-    if (active >= 0) return run_modal(s.id, {static_cast<std::size_t>(active) - 1, 0, 0, true}, f);
+    const auto* b = std::get_if<Block>(&s.node);
+    const bool once = b != nullptr && b->repeat_given == 0 && !has_pattern(*b);
+    const auto run = [&](std::size_t target, Facts& facts) {
+      if (!run_modal(s.id, {target, 0, 0, true}, facts)) return false;
+      if (once) return true;
+      Facts again = facts;  // to the next point, and once more
+      again.modal_call = Facts::in_modal_run;
+      apply(s, again, framed_);
+      enter(target, again);
+      return true;
+    };
+    if (active >= 0) return run(static_cast<std::size_t>(active) - 1, f);
     Facts behind = f;  // none runs, or one of them
     for (const auto target : modal_targets_) {
       Facts one = f;
-      if (run_modal(s.id, {target, 0, 0, true}, one)) join(behind, one);
+      if (run(target, one)) join(behind, one);
     }
     f = behind;
     if (modal_unknown_) f.forget();
@@ -471,15 +490,6 @@ class Analysis {
 };
 
 }  // namespace
-
-const Facts& FactTable::before(std::uint32_t id) const {
-  static const Facts nothing = [] {
-    Facts f;
-    f.forget();
-    return f;
-  }();
-  return id < facts.size() && facts[id].reachable ? facts[id] : nothing;
-}
 
 FactTable analyse(const Program& program, const ModalState& power_on, Uncalled uncalled) {
   return Analysis(program, power_on, uncalled).run();

@@ -236,3 +236,16 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
 }
 
 }  // namespace cnctrans::ir::detail
+
+namespace cnctrans::ir {
+
+const Facts& FactTable::before(std::uint32_t id) const {
+  static const Facts nothing = [] {
+    Facts f;
+    f.forget();
+    return f;
+  }();
+  return id < facts.size() && facts[id].reachable ? facts[id] : nothing;
+}
+
+}  // namespace cnctrans::ir

@@ -268,8 +268,7 @@ class Restore {
     }
     if (changes.motion && now.motion != entry.motion) {
       b.has_motion = true;
-      b.motion.kind = *entry.motion;
-      b.motion.explicit_code = true;
+      b.motion.kind = *entry.motion;  // no code of the source, which would run what is called at each block
     }
     if (!b.empty()) out.push_back(made(like, std::move(b)));
   }

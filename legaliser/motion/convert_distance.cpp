@@ -1,6 +1,8 @@
 // Absolute and incremental words (equivalences 7): a word with its own mode where the target knows block modes only.
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
 
 #include "ir/analysis/flow_states.h"
 #include "legaliser/analysis/words.h"
@@ -82,6 +84,10 @@ class DistancePass {
     out.push_back(std::move(s));
   }
 
+  void end_routine() {
+    for (const auto& [axis, where] : displaced_) tell_displaced(where);
+    displaced_.clear();
+  }
   void new_routine(Editor& editor) {
     dirty_ = turned_ = 0;
     shifted_.clear_all();
@@ -182,10 +188,13 @@ class DistancePass {
     return true;
   }
 
-  /// Under the other mode the centre would be another one.
+  /// Under the other mode the centre, or the point on the arc, would be another one.
   static bool centres_follow(const Block& b) {
-    return std::any_of(b.motion.centers.begin(), b.motion.centers.end(),
-                       [](const CenterWord& c) { return c.mode == CenterMode::follows_distance; });
+    const auto follow = [](const std::vector<CenterWord>& words) {
+      return std::any_of(words.begin(), words.end(),
+                         [](const CenterWord& c) { return c.mode == CenterMode::follows_distance; });
+    };
+    return follow(b.motion.centers) || (b.motion.extra && follow(b.motion.extra->through));
   }
 
   /// A block of increments with absolute words beside them: all of them absolute. False: nothing is changed.
@@ -309,6 +318,7 @@ class DistancePass {
   /// An increment right after a frame change: controls differ in what it is added to. True: its words are absolute now.
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
+    stay_displaced(s, b);
     leave_straight(s);
     if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) {
       dirty_ = static_cast<std::uint32_t>(*waiting);
@@ -351,21 +361,43 @@ class DistancePass {
       dirty_ &= ~bit;
       if (settled || distance_of(c, b, facts) == Distance::absolute) continue;
       const Span at = word_span(s.line.span, c.pos);
-      const char* const what =
-          "an incremental move of this axis right after a change of the offsets: the source and "
-          "the target control differ in the point that it starts from";
-      const char* const hint = "make the first move of the axis after the change absolute";
       // By how much is not known; behind a rotation, scale or mirror it is another direction as well.
       if (turned)
-        context_.diagnostics.error("TRN-182", at, what, hint);
+        context_.diagnostics.error("TRN-182", at, other_start, other_start_hint);
       else
-        context_.diagnostics.warning("TRN-182", at, what, hint);
+        displaced_.insert_or_assign(c.axis, at);
     }
     return settled;
   }
 
+  /// The axis stands elsewhere than in the source from that increment on, up to its next move to a place.
+  void stay_displaced(const Statement& s, const Block& b) {
+    if (!b.has_motion || !b.motion.moves()) return;
+    const Facts& facts = facts_.before(s);
+    for (auto it = displaced_.begin(); it != displaced_.end();) {
+      auto& [axis, where] = *it;
+      const bool placed = std::any_of(
+          b.motion.coords.begin(), b.motion.coords.end(),
+          [&, a = axis](const CoordWord& c) { return c.axis == a && distance_of(c, b, facts) == Distance::absolute; });
+      if (!placed && s.line.span.file == where.file && s.line.span.line > std::max(where.line, where.end_line)) {
+        where.end_line = s.line.span.line;
+        where.end_column = s.line.span.end_column;
+      }
+      if (placed) tell_displaced(where);
+      it = placed ? displaced_.erase(it) : std::next(it);
+    }
+  }
+  void tell_displaced(const Span& where) const {
+    context_.diagnostics.warning("TRN-182", where, other_start, other_start_hint);
+  }
+  static constexpr const char* other_start =
+      "an incremental move of this axis right after a change of the offsets: the source and the target control differ "
+      "in the point that it starts from";
+  static constexpr const char* other_start_hint = "make the first move of the axis after the change absolute";
+
   const LegaliseContext& context_;
   const FactsOf& facts_;
+  std::map<AxisId, Span> displaced_;  ///< from the increment on, as far as it is not told
   std::optional<FlowStates<UnmovedAxes>> unmoved_;
   std::optional<PathStates> path_;
   bool keeps_differ_ = false;
@@ -435,6 +467,7 @@ void convert_distance(Program& program, const LegaliseContext& context) {
         out.push_back(std::move(s));
       }
     });
+    pass.end_routine();
   }
 }
 

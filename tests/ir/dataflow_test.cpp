@@ -339,6 +339,18 @@ TEST(Calls, ModalCallsOfACountedBlock) {
   EXPECT_EQ(k.distance("1"), "unknown") << "no run with the count 0";
 }
 
+TEST(Calls, ModalSubprogramRunsAgainBehindItsOwnRun) {
+  const Known k = with_subs("block rapid X 1\nmodal_call call 20\nblock modal Y 10, times 2\n",
+                            "routine sub 20 {\nN1 block linear Z 1\n}\n");
+  EXPECT_EQ(k.at("1").motion, std::nullopt) << "the second point is reached on a line";
+}
+
+TEST(Calls, ReturnToALabelOfTheCaller) {
+  const Known k =
+      with_subs("block rapid X 1\ncall 20\nblock linear\nN1 block\n", "routine sub 20 {\nreturn (\"N1\")\n}\n");
+  EXPECT_EQ(k.at("1").motion, std::nullopt) << "the linear block may be left out";
+}
+
 TEST(Calls, SubsOfALibraryStartWithNothingKnown) {
   const Known k(read_ir("routine sub 20 {\nN10 block plane zx\nN11 block\n}\n"));
   EXPECT_TRUE(k.at("10").reachable);

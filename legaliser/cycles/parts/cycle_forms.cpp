@@ -196,7 +196,7 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
 }
 
 bool disturbs_call(const Block& b) {
-  if (b.has_motion) return true;
+  if (b.has_motion && (b.motion.moves() || b.motion.explicit_code)) return true;
   return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
     return std::holds_alternative<SetFeed>(a.data) || std::holds_alternative<SetSpindle>(a.data);
   });

@@ -5,6 +5,7 @@
 
 #include "ir/analysis/flow_states.h"
 #include "ir/geometry/geometry.h"
+#include "ir/motion_kinds.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/blocks.h"
 
@@ -110,7 +111,10 @@ std::map<std::uint32_t, CornerEnds> corner_ends(const Program& program, const Le
       const bool ends = end != nullptr && (!end->returns_from_sub || r.kind == RoutineKind::main);
       if (step == Going::apart || ends) alone(*waiting, s.line.span);
       if (step != Going::along && step != Going::perhaps && !std::holds_alternative<Opaque>(s.node)) return;
+      const auto* b = std::get_if<Block>(&s.node);
+      const auto kind = b != nullptr ? motion_in(*b, facts.before(s)) : std::nullopt;
       for (const auto id : *waiting) {
+        all[id].at_arc = all[id].at_arc || !kind || is_any_arc(*kind);
         all[id].followed = true;
         all[id].behind.push_back(s.line.span);
       }

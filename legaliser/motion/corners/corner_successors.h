@@ -19,6 +19,7 @@ Going going_of(const Statement& s, const LegaliseContext& context, const FactsOf
 
 struct CornerEnds {
   std::vector<Span> behind;  ///< moves that may be the second element
+  bool at_arc = false;       ///< one of them is an arc, or may be one
   bool followed = false;     ///< on some way a move in the plane, or something that may make one
   std::vector<Span> alone;   ///< where another move or the end of the program comes first
 };

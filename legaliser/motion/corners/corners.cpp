@@ -304,7 +304,8 @@ class CornerPass {
       const auto kind = motion_in(std::get<Block>(s.node), facts_.before(s));
       return !kind || *kind == MotionKind::arc_cw || *kind == MotionKind::arc_ccw;
     };
-    return arc(body[at]) || (next != nullptr && arc(*next));
+    const auto ends = ends_.find(body[at].id);  // a caller, or the way behind a jump, may go on
+    return arc(body[at]) || (next != nullptr ? arc(*next) : ends != ends_.end() && ends->second.at_arc);
   }
 
   /// Degrees inside of the corner behind the block.
