@@ -42,6 +42,7 @@ constexpr std::array specs{
                "a stop (M00, M01) or a move in machine coordinates while radius compensation is on"},
     OptionSpec{"comp.rapid", "kept|suspended", "kept",
                "a rapid move while radius compensation is on: compensated, or carried out without it"},
+    OptionSpec{"comp.rotation", "kept|ended", "kept", "radius compensation where the coordinates are rotated"},
     OptionSpec{"corner.straight_on", "left_out|refused", "left_out",
                "a corner function of a block between two elements that meet without a corner: nothing is inserted, or "
                "an error"},

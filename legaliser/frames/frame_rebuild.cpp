@@ -24,13 +24,16 @@ Action turn(FrameSlot slot, FrameCombine combine, const PlanarFrame& f, std::opt
   if (plane != f.plane) change->rotation_axis = plane_axes(f.plane).w;
   return action(FrameOp{std::move(change)});
 }
-Action stretch(FrameSlot slot, FrameCombine combine, const Value& factor) {
+Action stretch(FrameSlot slot, FrameCombine combine, const PlanarFrame& f) {
   auto change = std::make_shared<FrameChange>();
   change->slot = slot;
   change->kind = FrameKind::scale;
   change->combine = combine;
-  change->uniform_scale = true;
-  change->words.push_back({axis::x, factor, WordScale::radius, {}});
+  change->uniform_scale = f.scaled == PlanarFrame::linear;
+  for (AxisId a = axis::x; a <= axis::z; ++a) {
+    const bool said = change->uniform_scale ? a == axis::x : (f.scaled >> a & 1U) != 0;
+    if (said) change->words.push_back({a, *f.factor, WordScale::radius, {}});
+  }
   return action(FrameOp{std::move(change)});
 }
 std::vector<FrameWord> mirror_words(std::uint32_t axes, std::uint32_t on) {
@@ -81,6 +84,14 @@ bool FrameTarget::same_order(const FrameState& before, const FrameState& after, 
   return source == target;
 }
 
+/// No other slot of the source holds anything.
+bool FrameTarget::only_chain(const FrameState& state) const {
+  const auto& order = context_.source_machine.frame_order;
+  return std::all_of(order.begin(), order.end(), [&](FrameSlot s) {
+    return s == FrameSlot::chain || (s == FrameSlot::preset && keeps_preset()) || state.slot(s).neutral();
+  });
+}
+
 /// A mirror image that ends on some axes: those that stay mirrored are named.
 void FrameTarget::name_all_mirrored(FrameChange& change, const std::optional<std::uint32_t>& mirrored) const {
   const bool ends = std::any_of(change.words.begin(), change.words.end(),
@@ -112,9 +123,16 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
   }
   if (!can(c.slot, change.combine) || (c.slot == FrameSlot::preset && preset_as_shift_)) return std::nullopt;
   if (same_dialect) return change;
-  if (c.combine != FrameCombine::preset && !same_order(before, after, c.slot)) return std::nullopt;
-  const bool about_point = before.slot(c.slot).has_shift() || after.slot(c.slot).has_shift();  // held by other slots
-  if (c.kind == FrameKind::rotate && (!c.words.empty() || about_point)) return std::nullopt;
+  const bool innermost = c.slot == FrameSlot::chain && context_.source_machine.frame_order.back() == FrameSlot::chain;
+  if (c.combine != FrameCombine::preset && !innermost && !same_order(before, after, c.slot)) return std::nullopt;
+  const bool about_point = c.slot != FrameSlot::chain &&  // held by other slots
+                           (before.slot(c.slot).has_shift() || after.slot(c.slot).has_shift());
+  if (c.kind == FrameKind::rotate && ((c.has_angle && !c.words.empty()) || about_point)) return std::nullopt;
+  if (c.slot == FrameSlot::chain && after.slot(c.slot).neutral()) return std::nullopt;
+  if (c.slot == FrameSlot::chain && c.combine == FrameCombine::replace && !only_chain(before)) {
+    if (!before.slot(FrameSlot::chain).neutral() || !can(FrameSlot::chain, FrameCombine::compose)) return std::nullopt;
+    change.combine = FrameCombine::compose;  // what the other slots hold stands in the target's chain
+  }
   const bool turned_about = before.slot(FrameSlot::rotation).has_shift() || after.slot(FrameSlot::rotation).has_shift();
   const bool holds_preset =
       !keeps_preset() && !(before.slot(FrameSlot::preset).neutral() && after.slot(FrameSlot::preset).neutral());
@@ -152,8 +170,9 @@ FrameTarget::Parts FrameTarget::kept_by(const FrameChange& c, const FrameState& 
 FrameTarget::Result FrameTarget::rebuild(const FrameChange& c, const std::optional<PlanarFrame>& before,
                                          const PlanarFrame& after, const Parts& kept, std::optional<Plane> plane,
                                          std::vector<Action>& out) const {
-  if (after.foreign) return Result::foreign;
-  if (!after.known()) {
+  const PlanarFrame next = chains() ? after.with_axes() : after;
+  if (next.foreign) return Result::foreign;
+  if (!next.known()) {
     const bool done = before && !before->foreign &&
                       (chains() ? inside(*before, after, kept, plane, out)
                                 : added(c, *before, plane, out) || beside(*before, after, kept, plane, out));
@@ -161,7 +180,8 @@ FrameTarget::Result FrameTarget::rebuild(const FrameChange& c, const std::option
   }
   const std::size_t first = out.size();
   const bool shift = c.kind == FrameKind::translate || c.combine == FrameCombine::clear;
-  const bool done = chains() ? to_chain(before, after, shift, plane, out) : to_slots(before, after, shift, plane, out);
+  const auto here = before ? std::optional(before->with_axes()) : std::nullopt;
+  const bool done = chains() ? to_chain(here, next, shift, plane, out) : to_slots(before, next, shift, plane, out);
   if (!done) return Result::impossible;
   for (std::size_t i = first; i < out.size(); ++i) out[i].pos = {};
   return Result::done;
@@ -191,7 +211,7 @@ bool FrameTarget::inside(const PlanarFrame& before, const PlanarFrame& after, co
   if (!kept.shift || before.scales() || before.mirrors() || (!kept.turn && before.turns())) return false;
   if (!after.angle || !after.factor || !after.mirror || !can(FrameSlot::chain, FrameCombine::compose)) return false;
   if (!kept.turn && after.turns()) out.push_back(turn(FrameSlot::chain, FrameCombine::compose, after, plane));
-  if (after.scales()) out.push_back(stretch(FrameSlot::chain, FrameCombine::compose, *after.factor));
+  if (after.scales()) out.push_back(stretch(FrameSlot::chain, FrameCombine::compose, after));
   if (after.mirrors())
     out.push_back(
         make(FrameSlot::chain, FrameKind::mirror, FrameCombine::compose, mirror_words(*after.mirror, *after.mirror)));
@@ -267,7 +287,7 @@ bool FrameTarget::to_chain(const std::optional<PlanarFrame>& before, const Plana
   if (kept < 3 && f.scales()) {
     const auto c = combine();
     if (!c) return false;
-    out.push_back(stretch(slot, *c, *f.factor));
+    out.push_back(stretch(slot, *c, f));
   }
   if (f.mirrors()) {
     const auto c = combine();
@@ -352,7 +372,7 @@ bool FrameTarget::scale_slot(const PlanarFrame* before, const PlanarFrame& f, st
   if (!f.scales() && can(slot, FrameCombine::clear)) {
     out.push_back(make(slot, FrameKind::scale, FrameCombine::clear));
   } else if (can(slot, FrameCombine::replace)) {
-    out.push_back(stretch(slot, FrameCombine::replace, *f.factor));
+    out.push_back(stretch(slot, FrameCombine::replace, f));
   } else {
     return !f.scales() && context_.target.frames.count(slot) == 0;
   }

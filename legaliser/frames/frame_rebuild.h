@@ -50,6 +50,7 @@ class FrameTarget {
   }
 
  private:
+  [[nodiscard]] bool only_chain(const FrameState& state) const;
   void name_all_mirrored(FrameChange& change, const std::optional<std::uint32_t>& mirrored) const;
   bool to_chain(const std::optional<PlanarFrame>& before, const PlanarFrame& f, bool shift, std::optional<Plane> plane,
                 std::vector<Action>& out) const;

@@ -149,11 +149,18 @@ void FrameState::rotate(const FrameChange& c, const Facts& facts, const Block& b
   Value angle = c.angle;
   PlanarFrame centre;
   if (!c.has_angle) {  // words are angles about the axes
-    if (c.words.size() == 1) {
-      plane = plane_of_normal(c.words[0].axis);
-      angle = c.words[0].value;
-    } else {
-      plane.reset();
+    const FrameWord* about = nullptr;
+    bool several = false;
+    for (const auto& w : c.words) {
+      if (w.value.is(0)) continue;
+      several = several || about != nullptr;
+      about = &w;
+    }
+    if (several) plane.reset();
+    if (about == nullptr) angle = Value{0.0};
+    if (about != nullptr && !several) {
+      plane = plane_of_normal(about->axis);
+      angle = without_text(about->value);
     }
   } else {
     if (c.rotation_axis != axis::none) plane = plane_of_normal(c.rotation_axis);
@@ -208,10 +215,11 @@ void FrameState::stretch(const FrameChange& c, const machine::Profile& machine) 
     const bool all_axes = std::all_of(machine.axes.begin(), machine.axes.end(), [named](const auto& a) {
       return a.rotary || (a.id < axes && (named >> a.id & 1U) != 0);
     });
-    if (equal_words && (c.uniform_scale || all_axes || c.words[0].value.is(1)))
-      g.factor = without_text(c.words[0].value);
-    else
-      g.foreign = true;
+    const bool one = equal_words && (c.uniform_scale || all_axes || c.words[0].value.is(1));
+    if (equal_words) g.factor = without_text(c.words[0].value);
+    if (equal_words && !one) g.scaled = named;
+    g.foreign = !one;
+    g.by_axes = equal_words && !one && named <= PlanarFrame::linear;
     if (keeps) {
       if (!c.uniform_scale && !all_axes)
         f.foreign = true;

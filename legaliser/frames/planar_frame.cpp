@@ -65,6 +65,12 @@ bool PlanarFrame::known() const {
          std::all_of(shift.begin(), shift.end(), [](const auto& v) { return v.has_value(); });
 }
 
+PlanarFrame PlanarFrame::with_axes() const {
+  PlanarFrame f = *this;
+  f.foreign = foreign && !by_axes;
+  return f;
+}
+
 bool PlanarFrame::has_shift() const {
   return std::any_of(shift.begin(), shift.end(), [](const auto& v) { return !v || !v->is(0); });
 }
@@ -96,6 +102,7 @@ void PlanarFrame::each_value(const std::function<void(std::optional<Value>&)>& v
 }
 
 void PlanarFrame::join(const PlanarFrame& other) {
+  by_axes = by_axes && other.by_axes && scaled == other.scaled;
   foreign = foreign || other.foreign || (turns() && other.turns() && plane != other.plane);
   if (!turns()) plane = other.plane;
   for (std::size_t a = 0; a < axes; ++a) {
@@ -112,8 +119,8 @@ void PlanarFrame::join(const PlanarFrame& other) {
 }
 
 bool PlanarFrame::operator==(const PlanarFrame& o) const {
-  return foreign == o.foreign && same_shift(*this, o) && same_turn(*this, o) && same_factor(*this, o) &&
-         same_mirror(*this, o);
+  return foreign == o.foreign && by_axes == o.by_axes && same_shift(*this, o) && same_turn(*this, o) &&
+         same_factor(*this, o) && same_mirror(*this, o);
 }
 
 bool same_shift(const PlanarFrame& a, const PlanarFrame& b) {
@@ -127,7 +134,7 @@ bool same_turn(const PlanarFrame& a, const PlanarFrame& b) {
   return same(a.angle, b.angle) && (!a.turns() || a.plane == b.plane);
 }
 bool same_factor(const PlanarFrame& a, const PlanarFrame& b) {
-  return same(a.factor, b.factor);
+  return same(a.factor, b.factor) && (!a.scales() || a.scaled == b.scaled);
 }
 bool same_mirror(const PlanarFrame& a, const PlanarFrame& b) {
   return a.mirror == b.mirror;
@@ -137,7 +144,8 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
   if (a.neutral()) return b;
   if (b.neutral()) return a;
   PlanarFrame r = a;
-  r.foreign = a.foreign || b.foreign;
+  bool foreign = a.with_axes().foreign || b.with_axes().foreign || (a.scales() && b.scales() && a.scaled != b.scaled);
+  if (!a.scales()) r.scaled = b.scaled;
   if (b.has_shift()) {
     auto moved = b.shift;
     for (std::size_t i = 0; i < PlanarFrame::axes; ++i) {
@@ -148,8 +156,8 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
         continue;
       }
       if ((*a.mirror >> i & 1U) != 0) v = negate(*v);
-      if (i < 3) v = multiplied(*v, *a.factor);
-      if (a.turns() && b.shift_scale[i] == WordScale::diameter) r.foreign = true;
+      if ((a.scaled >> i & 1U) != 0) v = multiplied(*v, *a.factor);
+      if (a.turns() && b.shift_scale[i] == WordScale::diameter) foreign = true;
     }
     const auto p = plane_axes(a.plane);
     const PlanePoint at = turned({moved[p.u], moved[p.v]}, a.angle);
@@ -158,7 +166,7 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
     for (std::size_t i = 0; i < PlanarFrame::axes; ++i) {
       if (moved[i] && moved[i]->is(0)) continue;
       const bool mixed = r.shift[i] && !r.shift[i]->is(0) && r.shift_scale[i] != b.shift_scale[i];
-      if (mixed) r.foreign = true;
+      if (mixed) foreign = true;
       r.shift_scale[i] = b.shift_scale[i];
       if (r.shift[i] && r.shift[i]->is(0))
         r.shift[i] = moved[i];
@@ -169,7 +177,9 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
     }
   }
   if (b.turns()) {
-    if (a.turns() && a.plane != b.plane) r.foreign = true;
+    const auto p = plane_axes(b.plane);
+    const bool one_scaled = a.scales() && ((a.scaled >> p.u ^ a.scaled >> p.v) & 1U) != 0;
+    if ((a.turns() && a.plane != b.plane) || one_scaled) foreign = true;
     r.plane = b.plane;
     if (!a.mirror || !b.angle || !a.angle)
       r.angle.reset();
@@ -184,6 +194,9 @@ PlanarFrame compose(const PlanarFrame& a, const PlanarFrame& b) {
     r.mirror = *a.mirror ^ *b.mirror;
   else
     r.mirror.reset();
+  const bool partly = r.scales() && r.scaled != PlanarFrame::linear;
+  r.foreign = foreign || partly;
+  r.by_axes = partly && !foreign;
   return r;
 }
 

@@ -23,9 +23,14 @@ struct PlanarFrame {
   std::optional<Value> factor;                ///< uniform scale
   std::optional<std::uint32_t> mirror;        ///< bit n: axis n is mirrored
   bool foreign = false;                       ///< something else is in it: a scale of single axes, a rotation in space
+  static constexpr std::uint32_t linear = 7;  ///< bits of X, Y, Z
+  std::uint32_t scaled = linear;              ///< axes of `factor`; others than all of them: foreign
+  bool by_axes = false;                       ///< foreign for nothing but `scaled`: a target may have it
 
   PlanarFrame();  ///< neutral
   [[nodiscard]] bool known() const;
+  /// Without the remark on `scaled`, for who looks at it.
+  [[nodiscard]] PlanarFrame with_axes() const;
   [[nodiscard]] bool neutral() const;
   [[nodiscard]] bool has_shift() const;  ///< an axis whose shift is not known to be 0
   [[nodiscard]] bool turns() const { return !(angle && angle->is(0)); }

@@ -1,7 +1,7 @@
 // Rapid moves while radius compensation is on (equivalences 16): some controls suspend the compensation for such a
 // block and take it up again after it, others keep it. The programmed path is the same, the centre of the tool is not.
 #include <algorithm>
-#include <set>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -67,6 +67,13 @@ bool interrupts(const Block& b) {
                      [](const Action& a) { return std::holds_alternative<Stop>(a.data); });
 }
 
+bool rotates(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* f = std::get_if<FrameOp>(&a.data);
+    return f != nullptr && f->change && f->change->kind == FrameKind::rotate;
+  });
+}
+
 /// Controls stop with an alarm there, or go on with another centre of the tool each.
 void check_changes(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !program_compensates(program, context.source_machine)) return;
@@ -74,7 +81,8 @@ void check_changes(Program& program, const LegaliseContext& context) {
   const FactsOf facts(numbered, context);
   const bool refuses = context.target_machine.option("comp.interruptions") == "refused" &&
                        context.source_machine.option("comp.interruptions") != "refused";
-  std::set<std::uint32_t> refused;
+  const bool ends = context.target_machine.option("comp.rotation") == "ended";
+  std::map<std::uint32_t, std::string_view> refused;
   for (const auto& r : numbered.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
@@ -83,7 +91,12 @@ void check_changes(Program& program, const LegaliseContext& context) {
       const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
       if (!before.reachable || !side || side == CompSide::off || now == CompSide::off) return;
       if (refuses && interrupts(*b)) {
-        refused.insert(s.id);
+        refused[s.id] =
+            "a stop or a move in machine coordinates while radius compensation is on: the target refuses it";
+        return;
+      }
+      if (ends && rotates(*b)) {
+        refused[s.id] = "a rotation while radius compensation is on: the target ends the compensation there";
         return;
       }
       if (b->has_motion && b->motion.kind == MotionKind::reference_point) {
@@ -108,17 +121,16 @@ void check_changes(Program& program, const LegaliseContext& context) {
     for_each_statement(r.body, [&ids](const Statement& s) { ids.push_back(s.id); });
   }
   std::size_t at = 0;
-  std::vector<Statement*> there;
+  std::vector<std::pair<Statement*, std::string_view>> there;
   for (auto& r : program.routines) {
     for_each_statement(r.body, [&](Statement& s) {
-      if (refused.contains(ids[at++])) there.push_back(&s);
+      const auto it = refused.find(ids[at++]);
+      if (it != refused.end()) there.emplace_back(&s, it->second);
     });
   }
-  for (Statement* s : there) {
-    refuse(*s, program, context, "TRN-399",
-           "a stop or a move in machine coordinates while radius compensation is on: the target refuses it",
+  for (const auto& [s, why] : there)
+    refuse(*s, program, context, "TRN-399", std::string(why),
            "end the compensation before it and start it again after it");
-  }
 }
 
 }  // namespace
