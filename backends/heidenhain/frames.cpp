@@ -59,10 +59,6 @@ void Writer::frame_op(const ir::Action& a, const ir::FrameOp& f) {
       if (!clear && !about_z && !same_dialect())
         return refuse(no_word, a.pos, "a rotation about another axis than Z has no counterpart here",
                       "write the part with G17");
-      if (const ir::Facts* now = facts(); !same_dialect() && now != nullptr && now->reachable &&
-                                          setting(ir::Setting::comp) != code_value(ir::CompSide::off))
-        return refuse(no_word, a.pos, "a rotation ends radius compensation here, and it is in force, or on some way",
-                      "end the compensation before the rotation and begin it again behind it");
       const std::string sign = c.combine == ir::FrameCombine::add ? "IROT" : "ROT";
       return old_cycle(10, {"ROTATION", sign + signed_amount(clear ? ir::Value(0) : c.angle, a.pos)});
     }

@@ -89,14 +89,15 @@ void check_changes(Program& program, const LegaliseContext& context) {
       if (b == nullptr) return;
       const Facts& before = facts.before(s);
       const auto side = setting<CompSide>(before, Setting::comp), now = setting_in<CompSide>(*b, before, Setting::comp);
-      if (!before.reachable || !side || side == CompSide::off || now == CompSide::off) return;
+      if (!before.reachable || side == CompSide::off || now == CompSide::off) return;
+      if (ends && rotates(*b)) {
+        refused[s.id] = "a rotation ends radius compensation on the target, and it is in force, or on some way";
+        return;
+      }
+      if (!side) return;
       if (refuses && interrupts(*b)) {
         refused[s.id] =
             "a stop or a move in machine coordinates while radius compensation is on: the target refuses it";
-        return;
-      }
-      if (ends && rotates(*b)) {
-        refused[s.id] = "a rotation while radius compensation is on: the target ends the compensation there";
         return;
       }
       if (b->has_motion && b->motion.kind == MotionKind::reference_point) {

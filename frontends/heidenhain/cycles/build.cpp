@@ -61,8 +61,14 @@ ir::CyclePtr CycleBuilder::build() {
   if (hole_.kind == HoleKind::mill && context_.tool_radius)
     hole_.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
   auto made = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
-  if (!aside_) return made;
+  if (!aside_ && cycle_.number != 254) return made;
   MoveList steps;
+  if (!aside_) {  // it leaves the tool over the middle of the circle
+    steps.cycle(std::move(made));
+    steps.plane({q(216), q(217), true, {}, {}});
+    told(steps);
+    return nullptr;
+  }
   steps.plane({aside_->first, aside_->second, false, {}, {}});
   steps.cycle(std::move(made));
   if (cycle_.number == 251 || cycle_.number == 3)
