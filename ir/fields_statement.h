@@ -147,6 +147,7 @@ void fields(V& v, T& x) {
   v.flag_off("forgotten", "persistent", x.persistent);
   v.flag("read_only", x.read_only);
   v.flag("stops_preparation", x.stops_preparation);
+  v.flag("zero_points", x.zero_points);
 }
 template <class V, Is<VariableSpace> T>
 void fields(V& v, T& x) {

@@ -28,6 +28,7 @@ struct SpaceSegment {
   bool persistent = true;  ///< survives the program end
   bool read_only = false;
   bool stops_preparation = false;
+  bool zero_points = false;  ///< the control keeps its zero points in them: they hold values before the program
 };
 /// A space of variables: numbered ("P", "L", "R") or named (name empty segments).
 struct VariableSpace {

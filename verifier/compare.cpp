@@ -39,10 +39,10 @@ std::string axis_label(std::size_t axis) {
 /// Walks two normalised traces side by side.
 class Comparison {
  public:
-  Comparison(const std::vector<Event>& source, const std::vector<Event>& target, bool selections,
-             const Options& options, Verdict& verdict)
-      : a_(normalise(source, options.offset_numbers, selections, options.shows_messages)),
-        b_(normalise(target, options.offset_numbers, selections, options.shows_messages)),
+  Comparison(const std::vector<Event>& source, const std::vector<Event>& target, const Options& options,
+             Verdict& verdict)
+      : a_(normalise(source, options.offset_numbers, options.makes_ready, options.shows_messages)),
+        b_(normalise(target, options.offset_numbers, options.makes_ready, options.shows_messages)),
         first_a_(source.data()),
         first_b_(target.data()),
         options_(options),
@@ -334,7 +334,7 @@ class Comparison {
   /// Where a move follows a control that does not stop rounds the corner.
   [[nodiscard]] std::string corner_difference(const Event& a, const Event& b) const {
     const auto &there = a.stop, &here = b.stop;
-    if (!cuts(a) || there.exact == here.exact || (!there.said && !here.said)) return {};
+    if (!cuts(a) || there.exact == here.exact) return {};
     if (!moves_next(a_, i_) || !moves_next(b_, j_)) return {};
     const bool asked = options_.stops_by_mode || (there.in_block && options_.stops_in_block);
     if (there.exact && !asked) return {};
@@ -441,8 +441,7 @@ class Comparison {
 Verdict compare(const std::vector<Event>& source, const std::vector<Event>& target, const Options& options) {
   Verdict verdict;
   verdict.status = Status::verified;
-  const bool selections = options.makes_ready && !changes_with_the_word(source) && !changes_with_the_word(target);
-  Comparison(source, target, selections, options, verdict).run();
+  Comparison(source, target, options, verdict).run();
   if (verdict.status != Status::verified) return verdict;
   // An empty trace never verifies: nothing was proved.
   const auto moved = [](const std::vector<Event>& events) {

@@ -154,11 +154,6 @@ class Taps {
 
 }  // namespace
 
-bool changes_with_the_word(const std::vector<Event>& events) {
-  return std::any_of(events.begin(), events.end(),
-                     [](const Event& e) { return e.kind == EventKind::tool && !e.state.empty(); });
-}
-
 std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_offsets, bool keep_selections,
                                     bool keep_messages) {
   std::vector<const Event*> out;

@@ -30,7 +30,4 @@ std::vector<const interpreter::Event*> normalise(const std::vector<interpreter::
   return switches ? e.offset.known : e.offset.known & ~e.offset.switched_off;
 }
 
-/// The machine changes the tool at its word: none is made ready before.
-bool changes_with_the_word(const std::vector<interpreter::Event>& events);
-
 }  // namespace cnctrans::verifier

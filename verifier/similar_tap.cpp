@@ -19,7 +19,7 @@ namespace {
 
 struct Hole {
   double u = 0, v = 0;
-  double depth = 0;  ///< below the reference plane
+  double depth = 0, top = 0;  ///< of its strokes, below the reference plane
   double pitch = 0;
 };
 
@@ -30,9 +30,10 @@ std::optional<Hole> hole_of(const CyclePasses& side, const Tolerances& t, std::s
   for (const Event* e : side.events) {
     const double below = (side.run->surface - e->to.value[axes.w]) * side.run->out;
     if (e->kind == EventKind::thread) {
-      const Hole here{e->to.value[axes.u], e->to.value[axes.v], below, std::fabs(e->pitch)};
+      const Hole here{e->to.value[axes.u], e->to.value[axes.v], below, below, std::fabs(e->pitch)};
       if (!hole) hole = here;
       hole->depth = std::max(hole->depth, below);
+      hole->top = std::min(hole->top, below);
       const bool same = std::fabs(hole->u - here.u) <= t.length && std::fabs(hole->v - here.v) <= t.length &&
                         close_relative(hole->pitch, here.pitch, t.feed_relative);
       if (!same) return what = "the strokes of a tap have other places or pitches", std::nullopt;
@@ -75,6 +76,9 @@ std::string tap_difference(const CyclePasses& source, const CyclePasses& target,
   if (std::fabs(a.surface - b.surface) > tolerances.length) return "the taps begin at other heights";
   if (std::fabs(there->depth - here->depth) > tolerances.length)
     return fmt::format("the threads are {} and {} mm deep", rounded(there->depth, 4), rounded(here->depth, 4));
+  if (std::fabs(there->top - here->top) > tolerances.length)
+    return fmt::format("the strokes come back to {} mm above the reference plane, and to {} mm",
+                       rounded(-there->top, 4), rounded(-here->top, 4));
   const auto in = strokes_of(source, false);
   for (const bool back : {false, true}) {
     const auto of_source = strokes_of(source, back), of_target = strokes_of(target, back);

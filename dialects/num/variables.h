@@ -165,7 +165,7 @@ inline std::vector<ir::VariableSpace> spaces() {
   }
   list[space_e].segments.push_back({51001, 51255, ir::Scope::global, true, false, true});  // tip radius of a mill
   // PREF, DEC1 and DEC3, where a program keeps them apart.
-  list[space_e].segments.push_back({60000, 68999, ir::Scope::global, true, false, true});
+  list[space_e].segments.push_back({60000, 68999, ir::Scope::global, true, false, true, true});
   list[space_symbol].scope = ir::Scope::program;
   list[space_symbol].starts_at_zero = true;
   return list;

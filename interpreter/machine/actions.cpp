@@ -221,7 +221,6 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
   }
   modal_.set(m.setting, m.value);
   length_comp_said_ = length_comp_said_ || m.setting == ir::Setting::length_comp;
-  path_mode_said_ = path_mode_said_ || m.setting == ir::Setting::path_mode;
   set_units();
 }
 

@@ -440,8 +440,8 @@ class BlockMachine final : public SystemData {
   // per block
   std::optional<Pending> block_corner_;
   bool sharp_ = false;  ///< the block writes a corner of 0
-  bool block_moves_ = false, feed_stop_ = false, path_mode_said_ = false, length_comp_said_ = false,
-       offset_of_machine_ = false, cycle_defined_here_ = false, cycle_waits_ = false;
+  bool block_moves_ = false, feed_stop_ = false, length_comp_said_ = false, offset_of_machine_ = false,
+       cycle_defined_here_ = false, cycle_waits_ = false;
   std::optional<Pending> pending_;
   ir::contour::Marks marks_;          ///< of the block at hand
   std::vector<OpenElement> contour_;  ///< their points are not known yet

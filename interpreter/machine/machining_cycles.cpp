@@ -222,7 +222,7 @@ bool BlockMachine::machining_path(const ir::cycles::TurnMove& m) {
       return failure_.fail(code::bad_cycle, "a cycle of a driven tool needs a feed in millimetres per minute");
   }
   if (m.has_feed) move.feed = m.feed;
-  if (m.sharp) move.stop = {true, true, true};
+  if (m.sharp) move.stop = {true, true};
   switch (m.step) {
     case TurnStep::rapid: move.kind = Move::Kind::rapid; break;
     case TurnStep::arc:

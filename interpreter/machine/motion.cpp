@@ -159,7 +159,7 @@ double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
 }
 
 PathStop BlockMachine::path_stop() const {
-  return {feed_stop_ || modal_.path_mode == ir::PathMode::exact_stop, feed_stop_, feed_stop_ || path_mode_said_};
+  return {feed_stop_ || modal_.path_mode == ir::PathMode::exact_stop, feed_stop_};
 }
 
 Move BlockMachine::move_from_here() const {

@@ -46,9 +46,9 @@ struct OffsetAxes {
   std::uint32_t with = 0, known = 0, switched_off = 0, unsaid = 0, of_start = 0, selected = 0, elsewhere = 0;
 };
 /// Whether the path stops at the end of a feed move, in place of going on round the corner.
-/// `in_block`: by a word of its block (G9); `said`: by a word of the program, not by the mode of power-on.
+/// `in_block`: by a word of its block (G9), not by the mode.
 struct PathStop {
-  bool exact = false, in_block = false, said = false;
+  bool exact = false, in_block = false;
 };
 enum class EndReason : std::uint8_t { program_end, error, event_limit, step_limit };
 

@@ -59,6 +59,7 @@ std::vector<NumberedSpace*> Variables::add_program(const ir::Program& program) {
         if (number.where != NumberedSpace::Where::none) continue;
         number.where = level ? NumberedSpace::Where::level : NumberedSpace::Where::global;
         number.read_only = segment.read_only;
+        number.given = segment.read_only || segment.zero_points;
       }
       if (level) levels = std::max(levels, static_cast<std::uint32_t>(hi) + 1);
     }
@@ -215,7 +216,7 @@ void Variables::store(const Place& p, std::string value) {
 }
 
 void Variables::note_unset(const NumberedSpace& space, std::uint32_t n) {
-  if (space.starts_at_zero || space.numbers[n].read_only) return;
+  if (space.starts_at_zero || space.numbers[n].given) return;
   std::string name = space.prefix + std::to_string(n);
   if (std::find(read_first_.begin(), read_first_.end(), name) == read_first_.end())
     read_first_.push_back(std::move(name));

@@ -27,6 +27,7 @@ struct NumberedSpace {
   struct Number {
     Where where = Where::none;
     bool read_only = false;
+    bool given = false;  ///< holds a value before the program: reading it first is no fault
   };
   std::string prefix;
   ir::Type type = ir::Type::real;

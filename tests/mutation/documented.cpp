@@ -31,15 +31,14 @@ enum Aspect : std::uint32_t {
   cycles = 1U << 8U,
   open_offset = 1U << 9U,
   exact_stops = 1U << 10U,
-  power_on_mode = 1U << 11U,
-  reads_first = 1U << 12U,  // known from the verdict: see trial.cpp
+  reads_first = 1U << 11U,  // known from the verdict: see trial.cpp
 };
 struct Row {
   Aspect aspect;
   const char* name;
   const char* sentence;  ///< of docs/verify.md
 };
-constexpr std::array<Row, 13> table = {{
+constexpr std::array<Row, 12> table = {{
     {state_order, "order of commands", "the order of spindle, coolant, tool and machine functions among each other"},
     {offset_numbers, "offset numbers", "offset numbers"},
     {selections, "tools made ready",
@@ -53,7 +52,6 @@ constexpr std::array<Row, 13> table = {{
      "the number of passes, the infeeds up to that limit and the ways between them are not compared"},
     {open_offset, "offset before the first D", "the offset before the first D or change of the program"},
     {exact_stops, "exact stop without a mode", "no such mode, or no such word, the source's is not asked for"},
-    {power_on_mode, "path mode of power-on", "nor is it where neither program says its mode"},
     {reads_first, "variable read first", "The answer names them"},
 }};
 constexpr std::uint32_t everything = (1U << table.size()) - 1;
@@ -108,21 +106,37 @@ std::string core(const std::string& text) {
   return out;
 }
 
+bool by_threads(const CycleRun& run) {
+  return run.family == "thread" || run.family == "tap";
+}
+
 /// The trace without what the aspects leave out.
 class Reduced {
  public:
   Reduced(const Trace& trace, std::uint32_t without, std::size_t unfed_moves)
       : trace_(trace), without_(without), unfed_(unfed_moves) {
     for (std::size_t k = 0; k < trace.events.size(); ++k) one(trace.events[k], k);
+    for (std::size_t k = items.size(); k-- > 1;) {  // the way to a cycle may be in several parts
+      if (leads_to_cycle(k) && items[k].e.kind == EventKind::rapid && items[k].commands.empty() &&
+          items[k - 1].e.kind == EventKind::rapid && items[k - 1].run == nullptr)
+        items[k].commands = std::move(items[k - 1].commands),
+        items.erase(items.begin() + static_cast<std::ptrdiff_t>(k) - 1);
+    }
     for (std::size_t k = 0; k < items.size(); ++k) {  // where the tool does not go on, it stops in any case
       if (k + 1 == items.size() || !moves(items[k + 1].e.kind)) items[k].e.stop = {};
     }
   }
   std::vector<Item> items;
+  /// With nothing but rapid moves in between.
+  [[nodiscard]] bool leads_to_cycle(std::size_t k) const {
+    while (k < items.size() && items[k].run == nullptr && items[k].e.kind == EventKind::rapid) ++k;
+    return k < items.size() && items[k].run != nullptr;
+  }
 
  private:
   [[nodiscard]] bool has(Aspect a) const { return (without_ & a) != 0; }
 
+  using Tool = std::pair<std::int32_t, std::string>;
   [[nodiscard]] const CycleRun* run_at(std::size_t k) const {
     if (!has(cycles)) return nullptr;
     for (const auto& run : trace_.cycles) {
@@ -152,7 +166,8 @@ class Reduced {
     if (e.kind == EventKind::offset && (has(offset_numbers) || !update(now_.offset, e.number))) return;
     if (e.kind == EventKind::feed_stop) return;       // said by the move
     if (e.kind == EventKind::tool) now_.offset = -1;  // a D selects again, for another tool
-    if (e.kind == EventKind::tool && !e.change && has(selections)) return;
+    if (e.kind == EventKind::tool && !e.change && (has(selections) || ready_ == Tool{e.number, e.text})) return;
+    if (e.kind == EventKind::tool) ready_ = e.change ? Tool{} : Tool{e.number, e.text};
     if (is_state(e.kind) && (!changes(e) || has(state_order))) return;
     const bool has_state = is_state(e.kind) || e.kind == EventKind::tool;  // the others keep that of an event before
     now_.commands.push_back(std::string(interpreter::name(e.kind)) + " " + std::to_string(e.number) + " " +
@@ -201,8 +216,7 @@ class Reduced {
 
   void widen(Item& item, const Event& e) const {
     if (!moves(e.kind)) return;
-    const bool by_threads = item.run->family == "thread" || item.run->family == "tap";
-    const bool bounds = !by_threads || e.kind == EventKind::thread;
+    const bool bounds = !by_threads(*item.run) || e.kind == EventKind::thread;
     if (bounds && item.unbounded) item.low = item.high = item.first = e.to;
     if (bounds) item.last = e.to;
     item.unbounded = item.unbounded && !bounds;
@@ -220,6 +234,7 @@ class Reduced {
     const bool cut = cuts(e.kind);
     if (item.run->family == "pocket" && cut) item.infeed = std::max(item.infeed, down);
     item.e.to = e.to;
+    if (!bounds) return;
     const double feed = e.kind == EventKind::rapid ? 0 : (e.kind == EventKind::thread ? e.pitch : e.feed);
     use(item, {item.run->family == "pocket" && cut ? (plane ? 2 : 1) : 0, feed});
   }
@@ -288,6 +303,7 @@ class Reduced {
   std::uint32_t without_;
   std::size_t unfed_;
   bool in_tap_ = false;
+  Tool ready_;  ///< that is made ready: its number and its name
   Item now_;
 };
 
@@ -313,11 +329,8 @@ std::string cycle_difference(Item a, Item b, const Tolerance& t) {
   leave_first_passes(a);
   leave_first_passes(b);
   if (!positions(a.low, b.low, wide).empty() || !positions(a.high, b.high, wide).empty()) return "extent of a cycle";
-  if (a.run->family == "tap") {  // how far it comes back, the way behind it shows
-    const auto along = ir::plane_axes(a.run->plane).w;
-    b.e.to.value[along] = a.e.to.value[along];
-  }
-  if (!positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
+  // How far the tool comes back from a thread, the way behind it shows.
+  if (!by_threads(*a.run) && !positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
   if (a.feeds.size() != b.feeds.size() ||
       !std::equal(a.feeds.begin(), a.feeds.end(), b.feeds.begin(),
                   [&](const auto& x, const auto& y) { return x.first == y.first && close(x.second, y.second, t); }))
@@ -358,8 +371,7 @@ std::string difference(const Item& a, const Item& b, const Tolerance& t, std::ui
   if (const auto what = positions(a.e.to, b.e.to, t); !what.empty()) return what + " of " + kind;
   if (a.e.centre_side != b.e.centre_side) return "side at " + kind;
   if (a.e.centre_side != ir::CompSide::off && a.e.plane != b.e.plane) return "plane of compensation at " + kind;
-  const bool open = (without & power_on_mode) != 0 && (!a.e.stop.said || !b.e.stop.said);
-  if (cuts(a.e.kind) && a.e.stop.exact != b.e.stop.exact && (without & exact_stops) == 0 && !open)
+  if (cuts(a.e.kind) && a.e.stop.exact != b.e.stop.exact && (without & exact_stops) == 0)
     return "exact stop at " + kind;
   const std::uint32_t unsaid = (without & open_offset) != 0 ? a.e.offset.unsaid | b.e.offset.unsaid : 0;
   const std::uint32_t known = a.e.offset.known & b.e.offset.known & ~unsaid;
@@ -384,8 +396,11 @@ std::string difference(const Item& a, const Item& b, const Tolerance& t, std::ui
 std::string difference(const Trace& a, const Trace& b, std::uint32_t without, std::size_t unfed_moves) {
   const Tolerance t = (without & tolerances) != 0 ? Tolerance{0.0011, 0.002, 1e-3, 0.0051, 0.00051} : Tolerance{};
   const Reduced x(a, without, unfed_moves), y(b, without, unfed_moves);
+  // The way to a cycle that is compared by the part: a millimetre outside of the hull is left aside.
   for (std::size_t k = 0; k < std::min(x.items.size(), y.items.size()); ++k) {
-    if (auto what = difference(x.items[k], y.items[k], t, without); !what.empty()) return what;
+    Tolerance here = t;
+    if (x.items[k].e.kind == EventKind::rapid && x.leads_to_cycle(k) && y.leads_to_cycle(k)) here.length = 1;
+    if (auto what = difference(x.items[k], y.items[k], here, without); !what.empty()) return what;
   }
   return x.items.size() == y.items.size() ? "" : "a part on one side only";
 }

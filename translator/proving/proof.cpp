@@ -11,7 +11,6 @@
 #include "machine/tool_data.h"
 #include "translator/proving/coverage.h"
 #include "translator/proving/explore.h"
-#include "translator/proving/zero_data.h"
 
 namespace cnctrans::translator {
 
@@ -179,12 +178,21 @@ class Prover {
           events.begin(), events.end(), [](const auto& e) { return e.kind == interpreter::EventKind::message; }));
     }
     v.read_first = proof.source.result.read_first;
-    const auto of_source = options_.target_settings(as_settings(v.read_first));
-    const auto zeros = zero_data(target_.program);
+    if (proof.target.result.read_first.empty()) return;
+    auto held = v.read_first;  // what the source's control holds before the program
+    add_zero_points(source_.program, held);
+    const auto of_source = options_.target_settings(as_settings(held));
     for (const auto& name : proof.target.result.read_first) {
-      if (zeros.count(plain_name(name)) != 0) continue;
       const auto same = [&name](const auto& s) { return plain_name(s.first) == plain_name(name); };
       if (std::none_of(of_source.begin(), of_source.end(), same)) v.target_read_first.push_back(name);
+    }
+  }
+  /// Variables in which the control keeps its zero points: a replay has them from its machine.
+  static void add_zero_points(const ir::Program& program, std::vector<std::string>& names) {
+    for (const auto& space : program.spaces) {
+      for (const auto& s : space.segments) {
+        for (auto n = s.lo; s.zero_points && n <= s.hi; ++n) names.push_back(space.prefix + std::to_string(n));
+      }
     }
   }
   static Settings as_settings(const std::vector<std::string>& names) {
