@@ -30,6 +30,8 @@ void select_written_offsets(Program& program, const LegaliseContext& context);
 void hold_written_offsets(Program& program, const LegaliseContext& context);
 /// Points of a contour that follow from its angles, tangency and intersections, written out.
 void solve_contours(Program& program, const LegaliseContext& context);
+/// Lines by their angle and one coordinate, for a target without such words.
+void write_line_angles(Program& program, const LegaliseContext& context);
 /// Splines and polynomials as straight steps within the tolerance of the source's profile.
 void write_out_curves(Program& program, const LegaliseContext& context);
 /// A tangent arc that is in force in the source is said in each block.

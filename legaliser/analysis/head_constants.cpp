@@ -152,4 +152,11 @@ Value HeadConstants::fold(const Value& v, const Routine& routine, const Statemen
   return n ? Value(*n) : Value(e);
 }
 
+std::optional<double> HeadConstants::count(const ExprPtr& times, const Routine& routine, const Statement& at) const {
+  const auto* rounded = std::get_if<Call>(&times->node);
+  const bool whole = rounded != nullptr && rounded->function == Function::to_integer && !rounded->args.empty();
+  const Value v = fold(Value(whole ? rounded->args.front() : times), routine, at);
+  return v.literal() ? std::optional(v.number) : constant_value(v.expr);
+}
+
 }  // namespace cnctrans::ir::passes

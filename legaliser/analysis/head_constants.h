@@ -25,6 +25,8 @@ class HeadConstants {
   /// numbers that were put in are added to `used` ("P1=40"), when it is given.
   [[nodiscard]] Value fold(const Value& v, const Routine& routine, const Statement& at,
                            std::map<std::string, double>* used = nullptr) const;
+  /// A computed number of times, rounded or not, that is a number by them.
+  [[nodiscard]] std::optional<double> count(const ExprPtr& times, const Routine& routine, const Statement& at) const;
   [[nodiscard]] bool empty() const { return known_.empty(); }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "ir/label_name.h"
+#include "legaliser/analysis/head_constants.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/edit/editor.h"
 
@@ -24,11 +25,13 @@ class CalledParts {
     }
   }
 
-  /// Repetitions of blocks that stand elsewhere in their routine.
+  /// Repetitions of blocks that stand elsewhere in their routine, or with a count that only the run knows.
   void run_repeats() {
+    const HeadConstants constants(program_);
+    constants_ = &constants;
     for (std::size_t n = 0; n < program_.routines.size(); ++n) {
       std::size_t from = 0;
-      while (const auto at = repeat_of_others(program_.routines[n].body, from)) {
+      while (const auto at = repeat_of_others(program_.routines[n], from)) {
         from = *at + 1;
         if (separate_repeated(n, *at)) from = 0;
       }
@@ -114,15 +117,18 @@ class CalledParts {
   }
   static std::string shown(const LabelRef& l) { return (l.is_number ? "N" : "") + l.text; }
 
-  static std::optional<std::size_t> repeat_of_others(const Body& body, std::size_t from) {
+  [[nodiscard]] std::optional<std::size_t> repeat_of_others(const Routine& routine, std::size_t from) const {
+    const Body& body = routine.body;
     for (std::size_t i = from; i < body.size(); ++i) {
       const auto* r = std::get_if<Repeat>(&body[i].node);
       if (r == nullptr || r->has_program || r->first.computed || r->last.computed || r->last.text.empty() ||
           r->curve_use != CurveUse::none)
         continue;
       const auto before = i != 0 ? labels_on(body[i - 1].line) : std::vector<LabelRef>{};
-      if (std::none_of(before.begin(), before.end(), [r](const LabelRef& l) { return same_label(l, r->last); }))
-        return i;
+      const bool computed = r->count && !context_.target.repeat_count_variable && !constant_value(r->count) &&
+                            !constants_->count(r->count, routine, body[i]);
+      const auto ends = [r](const LabelRef& l) { return same_label(l, r->last); };
+      if (computed || std::none_of(before.begin(), before.end(), ends)) return i;
     }
     return std::nullopt;
   }
@@ -160,9 +166,11 @@ class CalledParts {
     own.routine = part.name;
     Statement instead = made(from->line, std::move(own));
     instead.line.skip_mask = 0;  // of its first block alone
+    if (jumped_to(body, begin, end, repeat.first)) set_label(instead.line, repeat.first, program_);
     part.body.assign(std::make_move_iterator(from), std::make_move_iterator(to));
     context_.diagnostics.note("TRN-551", instead.line.span,
-                              "the target repeats only what stands right before the repetition: the blocks " +
+                              "the target repeats only what stands right before the repetition, and counts by numbers: "
+                              "the blocks " +
                                   shown(repeat.first) + " to " + shown(repeat.last) +
                                   " become a subprogram of their own");
     body.insert(body.erase(from, to), std::move(instead));
@@ -170,7 +178,21 @@ class CalledParts {
     return true;
   }
 
-  /// Nothing but repetitions of this part leads into it, and nothing out of it.
+  /// Something outside of the part jumps to its first block.
+  static bool jumped_to(const Body& body, std::size_t begin, std::size_t end, const LabelRef& first) {
+    bool found = false;
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      if (i >= begin && i < end) continue;
+      Body one{body[i]};
+      for_each_statement(one, [&](Statement& s) {
+        if (!std::holds_alternative<Repeat>(s.node))
+          each_label_ref(s, [&](LabelRef& l, bool) { found = found || same_label(l, first); });
+      });
+    }
+    return found;
+  }
+
+  /// Nothing but repetitions of this part and jumps to its first block lead into it, and nothing out of it.
   bool apart(std::size_t home, std::size_t begin, std::size_t end, const Repeat& repeat) const {
     const Body& body = program_.routines[home].body;
     std::set<LabelName> inside;
@@ -187,8 +209,9 @@ class CalledParts {
       const bool in = i >= begin && i < end;
       for_each_statement(one, [&](Statement& s) {
         if (std::holds_alternative<CallRoutine>(s.node) || repeats(s, repeat)) return;
+        const bool jumps = !in && !std::holds_alternative<Repeat>(s.node);
         each_label_ref(s, [&](LabelRef& l, bool) {
-          if (l.text.empty() && !l.computed) return;
+          if ((l.text.empty() && !l.computed) || (jumps && same_label(l, repeat.first))) return;
           good = good && !l.computed && (inside.count(label_name(l)) != 0) == in;
         });
       });
@@ -285,6 +308,7 @@ class CalledParts {
   Program& program_;
   const LegaliseContext& context_;
   std::vector<CallRoutine> left_;  ///< these stay
+  const HeadConstants* constants_ = nullptr;
   Span where_;
 };
 

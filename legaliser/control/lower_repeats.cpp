@@ -128,7 +128,7 @@ class RepeatPass {
     const auto most = static_cast<double>(target_.repeat_max);
     constexpr double most_statements = 10;
     if (node.count && !n) {
-      const auto known = known_count(node.count, s);
+      const auto known = constants_.count(node.count, editor_.routine, s);
       if (!known && !target_.repeat_count_variable) {
         refused(s, "TRN-196", "how often this is carried out is computed, and the target counts by a number only",
                 "write a loop with a jump");
@@ -168,14 +168,6 @@ class RepeatPass {
 
   /// A repetition can be repeated, wherever it stands.
   [[nodiscard]] bool repeats_repeats() const { return target_.repeat_range && !target_.repeat_ends_here; }
-
-  /// A computed count that follows from what the head of the program sets.
-  std::optional<double> known_count(const ExprPtr& count, const Statement& s) const {
-    const auto* rounded = std::get_if<Call>(&count->node);
-    const bool whole = rounded != nullptr && rounded->function == Function::to_integer && !rounded->args.empty();
-    const Value v = constants_.fold(Value(whole ? rounded->args.front() : count), editor_.routine, s);
-    return v.literal() ? std::optional(v.number) : constant_value(v.expr);
-  }
 
   /// The source may count further than the target.
   void tell_limit(const Statement& s) {

@@ -125,6 +125,8 @@ constexpr std::array table{
     Pass{"say_shift_modes", passes::say_shift_modes, PassScope::program,
          "Absolute words are said before a shift that counts by them, where they are not known to be in force."},
     Pass{"convert_poles", passes::convert_poles, PassScope::program, "Poles, and arcs by polar words."},
+    Pass{"write_line_angles", passes::write_line_angles, PassScope::program,
+         "Lines by their angle and one coordinate, for a target without such words."},
     Pass{"write_out_corners", passes::write_out_corners, PassScope::program,
          "Chamfers, roundings, lasting corners and their feeds."},
     Pass{"write_out_tangents", passes::write_out_tangents, PassScope::program,
