@@ -16,7 +16,7 @@ namespace cnctrans::verifier {
 
 /// How far two values may be apart. Lengths in mm, angles in degrees, times in seconds.
 struct Tolerances {
-  double length = 0.0011;  ///< end points (a target with 3 decimals rounds by 0.0005)
+  double length = 0.0014;  ///< end points (3 decimals round by 0.0005 mm, 4 decimals of inches by 0.00127)
   double center = 0.002;   ///< arc centres
   double angle = 0.0011;
   double feed_relative = 1e-6;

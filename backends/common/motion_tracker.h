@@ -35,6 +35,11 @@ class MotionTracker {
       in_step_ = ir_ && *ir_ == kind;
     }
   }
+  /// What was written holds for its block only, and `kind` stays in force in the IR.
+  void keeps_on(ir::MotionKind kind) {
+    ir_ = kind;
+    in_step_ = false;
+  }
   [[nodiscard]] std::optional<ir::MotionKind> text() const { return text_; }
   /// A label, a call, the border of a structure: control can come from elsewhere.
   void join() {

@@ -165,7 +165,8 @@ void Writer::motion(const ir::Motion& m) {
     thread.kind = ir::MotionKind::thread;
     thread.explicit_code = true;
     thread.keeps_modal = false;
-    return motion(thread);
+    motion(thread);
+    return motion_tracker().keeps_on(ir::MotionKind::thread);
   }
   if (!same_dialect() && m.kind == ir::MotionKind::modal && m.moves() &&
       begins_css()) {  // X beside G96 alone moves nothing

@@ -136,11 +136,7 @@ class ModalCalls {
     }
     if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
     auto* b = std::get_if<Block>(&s.node);
-    if (b != nullptr && by_another_way(s, *b))
-      return refused(
-          std::move(s), out, "TRN-393",
-          "which subprogram is modal here depends on the path that leads here, and its calls would stand in the text",
-          "call the subprogram where it is to run, or end the modal call on every path");
+    if (b != nullptr && by_another_way(s, *b)) return depends_on_way(std::move(s), out);
     const bool called_under = !active_ && !on_target_ && brought_by_caller(s);
     if (b != nullptr && pattern_in(*b) == nullptr &&
         ((on_target_ && cycle_beside(*b, true)) || (called_under && action_in<CycleDefine>(*b) != nullptr)))
@@ -165,8 +161,9 @@ class ModalCalls {
     const bool in_target =
         runs_modal_call(*b, facts_.before(s), words_run(context_.target_machine)) || cycle_beside(*b, false);
     if (in_source && acts_behind_motion(*b) && program_.dialect != context_.target.dialect)
-      return by_itself_with_call(std::move(s), out);
+      return surely_on(s) ? by_itself_with_call(std::move(s), out) : depends_on_way(std::move(s), out);
     if (in_source || !in_target) return out.push_back(std::move(s));
+    if (!surely_on(s)) return depends_on_way(std::move(s), out);
     // The target would run the subprogram here.
     if (!fixed_arguments(on_target_->call)) {
       context_.diagnostics.error("TRN-188", s.line.span,
@@ -184,6 +181,16 @@ class ModalCalls {
     out.push_back(made(like, *on_target_));
     wrapped_in_ = &out;
     wrapped_size_ = out.size();
+  }
+  /// The modal call that the text has in force here is so on every way: it may be ended and begun again about a block.
+  bool surely_on(const Statement& s) const {
+    const auto* state = in_force_.before(s);
+    return state == nullptr || *state == (from_ != 0 ? from_ : brought_);
+  }
+  void depends_on_way(Statement&& s, Body& out) {
+    refused(std::move(s), out, "TRN-393",
+            "which subprogram is modal here depends on the path that leads here, and its calls would stand in the text",
+            "call the subprogram where it is to run, or end the modal call on every path");
   }
   void refused(Statement&& s, Body& out, const char* code, const std::string& why, const std::string& hint) {
     refuse(s, program_, context_, code, why, hint);

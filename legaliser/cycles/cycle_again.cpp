@@ -25,6 +25,8 @@ void CyclePass::lower(Statement&& s, Body& out) {
       } else {
         Block b;
         b.actions.push_back(action(CycleCancel{}));
+        tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s));
+        feed_comes_back(s, b, facts_.before(s));
         s.node = std::move(b);
       }
       out.push_back(std::move(s));

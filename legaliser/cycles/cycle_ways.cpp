@@ -65,6 +65,7 @@ void CyclePass::end_elsewhere(const Statement& s) {
   if (!active_ || surely_active_ || !facts.reachable || !facts.cycle_active_known || facts.cycle_active) return;
   leave_off();  // a jump may have taken it to the end of the routine
   active_.reset();
+  tap_feed_ = false;  // it comes back where the cycle ends
 }
 void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
   if (!active_ || active_->on_target) return;

@@ -188,7 +188,7 @@ void FrameState::rotate(const FrameChange& c, const Facts& facts, const Block& b
 }
 
 /// Scale and mirror.
-void FrameState::stretch(const FrameChange& c, const machine::Profile& machine) {
+void FrameState::stretch(const FrameChange& c, const Facts& facts, const machine::Profile& machine) {
   auto& f = at(c.slot);
   PlanarFrame g;
   std::uint32_t named = 0, on = 0;
@@ -212,9 +212,11 @@ void FrameState::stretch(const FrameChange& c, const machine::Profile& machine) 
     const bool equal_words = !c.words.empty() && std::all_of(c.words.begin(), c.words.end(), [&c](const auto& w) {
       return equal(w.value, c.words[0].value);
     });
-    const bool all_axes = std::all_of(machine.axes.begin(), machine.axes.end(), [named](const auto& a) {
-      return a.rotary || (a.id < axes && (named >> a.id & 1U) != 0);
-    });
+    const bool developed = setting<Surface>(facts, Setting::surface) != Surface::none;  // a face has Y beside X
+    const bool all_axes = (!developed || (named >> axis::y & 1U) != 0) &&
+                          std::all_of(machine.axes.begin(), machine.axes.end(), [named](const auto& a) {
+                            return a.rotary || (a.id < axes && (named >> a.id & 1U) != 0);
+                          });
     const bool one = equal_words && (c.uniform_scale || all_axes || c.words[0].value.is(1));
     if (equal_words) g.factor = without_text(c.words[0].value);
     if (equal_words && !one) g.scaled = named;
@@ -273,7 +275,7 @@ void FrameState::apply(const FrameChange& c, const Facts& facts, const Block& b,
     case FrameKind::translate: return translate(c, facts, b);
     case FrameKind::rotate: return rotate(c, facts, b, machine);
     case FrameKind::scale:
-    case FrameKind::mirror: return stretch(c, machine);
+    case FrameKind::mirror: return stretch(c, facts, machine);
   }
 }
 

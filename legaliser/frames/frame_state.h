@@ -50,7 +50,7 @@ class FrameState {
   PlanarFrame& at(FrameSlot s) { return slots_[static_cast<std::size_t>(s)]; }
   void translate(const FrameChange& c, const Facts& facts, const Block& b);
   void rotate(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
-  void stretch(const FrameChange& c, const machine::Profile& machine);
+  void stretch(const FrameChange& c, const Facts& facts, const machine::Profile& machine);
   void preset(const FrameChange& c, const Facts& facts, const Block& b, const machine::Profile& machine);
   [[nodiscard]] PlanarFrame inner_of(FrameSlot slot, const machine::Profile& machine) const;
   std::array<PlanarFrame, frame_slots> slots_;

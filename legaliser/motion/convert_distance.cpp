@@ -365,7 +365,7 @@ class DistancePass {
       if (turned)
         context_.diagnostics.error("TRN-182", at, other_start, other_start_hint);
       else
-        displaced_.insert_or_assign(c.axis, at);
+        displaced_.emplace(c.axis, at);
     }
     return settled;
   }

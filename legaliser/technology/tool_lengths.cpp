@@ -8,21 +8,24 @@
 
 namespace cnctrans::ir::passes {
 
-bool BareTool::follow(const Block& block, const Span& where) {
+bool BareTool::follow(const Block& block, const LineInfo& line) {
   if (used_) return false;
   bool changes = false;
   for (const auto& a : block.actions) {
     if (const auto* t = std::get_if<ToolSelect>(&a.data)) {
       given_ = false;
       chosen_ = true;
+      chosen_under_ = line.skip_mask;
       changes = changes || t->changes;
     } else if (std::holds_alternative<ToolChange>(a.data)) {
       changes = true;
       if (keeps_ || !chosen_) given_ = false;
     }
   }
-  for (const auto& a : block.actions) given_ = given_ || std::holds_alternative<ToolOffset>(a.data);
-  if (changes && !waiting_ && !given_) change_ = where;
+  for (const auto& a : block.actions)
+    given_ = given_ ||
+             ((line.skip_mask == 0 || line.skip_mask == chosen_under_) && std::holds_alternative<ToolOffset>(a.data));
+  if (changes && !waiting_ && !given_) change_ = line.span;
   if (changes) waiting_ = true;
   if (given_) waiting_ = false;
   used_ = waiting_ && has_motion(block);
@@ -45,7 +48,7 @@ void check_bare_tools(const Program& program, const LegaliseContext& context) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();
-      if (said || b == nullptr || !tool.follow(*b, s.line.span)) return;
+      if (said || b == nullptr || !tool.follow(*b, s.line)) return;
       said = true;
       tool.tell(context);
     });

@@ -26,7 +26,7 @@ class BareTool {
   explicit BareTool(const machine::Profile& source, bool chosen = true)
       : keeps_(source.option("tool.bare_offset") == "kept"), chosen_(chosen) {}
   /// \return a move uses such a tool, for the first time
-  bool follow(const Block& block, const Span& where);
+  bool follow(const Block& block, const LineInfo& line);
   /// The D may have been given where it can't be seen.
   void forget() {
     waiting_ = false;
@@ -37,10 +37,11 @@ class BareTool {
 
  private:
   bool keeps_ = false;
-  bool chosen_ = true;    ///< some T stands before: without one a change brings what the machine has ready
-  bool given_ = false;    ///< a D since the last T
-  bool waiting_ = false;  ///< changed without one
-  bool used_ = false;     ///< by a move: the rest does not matter any more
+  bool chosen_ = true;              ///< some T stands before: without one a change brings what the machine has ready
+  bool given_ = false;              ///< a D since the last T, not left out where that T is not
+  bool waiting_ = false;            ///< changed without one
+  bool used_ = false;               ///< by a move: the rest does not matter any more
+  std::uint16_t chosen_under_ = 0;  ///< the skip levels of the last T
   Span change_;
 };
 

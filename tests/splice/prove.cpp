@@ -54,10 +54,11 @@ constexpr std::array<Narrow, 3> narrow = {{{"TRN-159", "feed"}, {"TRN-392", ""},
 /// Said once for all moves up to the next word of an offset.
 constexpr std::array<Narrow, 1> lasting = {{{"TRN-522", "tool offset"}}};
 
-/// A word D stands behind line `from` (counted from 1), at `to` or before.
+/// A word D stands behind line `from` (counted from 1), at `to` or before, and no switch leaves it out.
 bool has_offset_word(const Program& p, std::uint32_t from, std::uint32_t to) {
   for (std::size_t i = from; i < std::min<std::size_t>(to, p.lines.size()); ++i) {
     const std::string& line = p.lines[i];
+    if (line.rfind('/', 0) == 0) continue;
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const bool begins = k == 0 || std::isalpha(static_cast<unsigned char>(line[k - 1])) == 0;
       if (line[k] == 'D' && begins && std::isdigit(static_cast<unsigned char>(line[k + 1])) != 0) return true;

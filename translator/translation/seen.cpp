@@ -1,6 +1,7 @@
 #include "translator/translation/seen.h"
 
 #include <algorithm>
+#include <bitset>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -12,6 +13,7 @@ namespace cnctrans::translator {
 
 namespace {
 
+constexpr std::size_t most_skip_levels = 3;  ///< each set of them is a run
 constexpr std::uint64_t most_events = 50'000, most_steps = 500'000;
 
 class NoEvents : public interpreter::TraceSink {
@@ -35,6 +37,7 @@ constexpr bool ends_at_the_machine(ir::MotionKind kind) {
 /// add to what was programmed before.
 struct Inputs {
   bool reads_machine = false, frames = false, offsets = false, inches = false;
+  std::uint32_t skips = 0;  ///< bit n: level n
 };
 Inputs inputs_of(const ir::Program& program) {
   Inputs found;
@@ -47,6 +50,7 @@ Inputs inputs_of(const ir::Program& program) {
               found.reads_machine || (datum != nullptr && datum->datum != ir::Datum::programmed_position);
         });
       });
+      found.skips |= s.line.skip_mask;
       const auto* b = std::get_if<ir::Block>(&s.node);
       if (b == nullptr) return;
       found.reads_machine =
@@ -98,7 +102,7 @@ std::optional<Seen> see(const AttemptContext& c, const ir::Program& source) {
   ir::Program program = source;
   ir::number_statements(program);
   const Inputs look = inputs_of(program);
-  if (look.reads_machine) return std::nullopt;
+  if (look.reads_machine || std::bitset<16>(look.skips).count() > most_skip_levels) return std::nullopt;
   const bool same_place = !look.offsets && (c.source_machine.option("frame.change_keeps") == "machine" || !look.frames);
   Seen seen;
   machine::Profile elsewhere = c.source_machine;  // what depends on where the machine stands first is no fact
@@ -123,8 +127,9 @@ std::optional<Seen> see(const AttemptContext& c, const ir::Program& source) {
   };
   NoEvents sink;
   for (const auto* machine : {&c.source_machine, &std::as_const(elsewhere)}) {
-    for (const std::uint16_t skip : {0, 0xffff}) {
-      run.skip_mask = skip;
+    for (std::uint32_t skip = 0; skip <= look.skips; ++skip) {
+      if ((skip & ~look.skips) != 0) continue;
+      run.skip_mask = static_cast<std::uint16_t>(skip);
       Diagnostics said;
       const auto result = interpreter::run(program, *machine, run, sink, said);
       if (result.reason != interpreter::EndReason::program_end || !result.read_first.empty()) return std::nullopt;
