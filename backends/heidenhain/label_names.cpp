@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "dialects/heidenhain/limits.h"
+#include "ir/analysis/label_uses.h"
 
 namespace cnctrans::backends::heidenhain {
 
@@ -13,6 +14,19 @@ bool is_label_number(std::string_view digits) {
 }
 std::string quoted_name(std::string_view text) {
   return '"' + to_upper_ascii(text.substr(0, dialects::heidenhain::label_length)) + '"';
+}
+
+/// The labels that nothing but ends of called parts lead to: LBL 0.
+std::set<std::pair<bool, std::string>> part_ends(const ir::Program& program, const ir::Routine& r) {
+  bool some = false;
+  for_each_statement(r.body, [&some](const ir::Statement& s) {
+    const auto* repeat = std::get_if<ir::Repeat>(&s.node);
+    some = some || (repeat != nullptr && !repeat->last.text.empty());
+  });
+  if (!some) return {};
+  auto uses = ir::passes::label_uses(program, r);
+  for (const auto& l : uses.targets) uses.ends.erase(l);
+  return std::move(uses.ends);
 }
 
 }  // namespace
@@ -32,6 +46,7 @@ LabelNames::LabelNames(const ir::Program& program, const std::vector<FileGroup>&
       routines_[i] = take(std::move(wanted));
     }
     for (const std::size_t i : files[file].routines) {
+      for (const auto& [number, text] : part_ends(program, program.routines[i])) labels_[{i, number, text}] = "0";
       ir::for_each_statement(program.routines[i].body, [&](const ir::Statement& s) {
         if (!s.line.number.empty() && use.is_target(i, s.line.number)) {
           std::string digits(without_leading_zeros(s.line.number));

@@ -230,6 +230,11 @@ void Writer::repeat(const ir::Repeat& r) {
   if (r.first.computed || label.empty() || r.has_program || r.curve_use != ir::CurveUse::none ||
       (r.count && (!count || *count < 1)))
     return refuse(no_statement, {}, "this repetition has no counterpart here");
+  if (!r.last.text.empty()) {  // a part that ends with LBL 0
+    if (count.value_or(1) != 1 || names_.of(routine_index(), r.last.text, r.last.is_number) != "0")
+      return refuse(no_statement, {}, "this repetition has no counterpart here");
+    return add("CALL LBL " + label, Rank::tail);
+  }
   const std::string times = shortest(count.value_or(1));
   add("CALL LBL " + label + " REP " + times, Rank::tail);
 }

@@ -277,13 +277,28 @@ bool ArcPass::turns_to_pitch(Arc& arc) {
   return true;
 }
 
+/// It ends where it begins in its plane, whatever the values of its words are.
+bool ArcPass::closes(const Arc& arc) const {
+  const Motion& m = arc.b.motion;
+  if (m.radius_given) return false;
+  return std::all_of(m.coords.begin(), m.coords.end(), [&](const CoordWord& w) {
+    if (w.axis != arc.axis[0] && w.axis != arc.axis[1]) return true;
+    const auto counts = distance_of(w, arc.b, arc.facts);
+    if (counts == Distance::incremental) return w.value.is(0);
+    const auto from = start_of(arc, w.axis);
+    const auto f = to_radius(w.axis, w.scale, counts, arc.b, arc.facts, context_.source_machine);
+    return counts && f && from && equal(scale(w.value, *f), *from);
+  });
+}
+
 void ArcPass::helix_angle(Arc& arc) {
   Motion& m = arc.b.motion;
   const bool rises =
       std::any_of(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
   const bool turns = m.extra && m.extra->has_turns;
   if ((!rises && !turns) || program_.dialect == context_.target.dialect) return;
-  const auto angle = partial_angle(arc);
+  auto angle = partial_angle(arc);
+  if (!angle && closes(arc)) angle = 360;
   if (!plane_known_ || !angle || (turns && !m.extra->turns.literal()))
     return fail(arc, "TRN-311",
                 "a helix whose start or end is not known here; the target wants the angle through which it turns",

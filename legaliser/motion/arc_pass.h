@@ -257,6 +257,7 @@ class ArcPass {
 
   /// A helix says the whole angle through which it turns.
   void helix_angle(Arc& arc);
+  [[nodiscard]] bool closes(const Arc& arc) const;
 
   // --- centres --------------------------------------------------------------------------------------------------
 
