@@ -1,15 +1,22 @@
 #include "legaliser/uncalled.h"
 
+#include <set>
+
 #include "ir/analysis/call_graph.h"
 #include "ir/text/enum_names.h"
 
 namespace cnctrans::ir::passes {
 
 std::vector<std::size_t> uncalled_routines(const Program& program) {
-  std::vector<std::size_t> list;
   const CallGraph calls(program);
+  std::set<std::size_t> whole;  // a call of a part leaves the rest to callers that are not at hand
+  for (const auto& site : calls.sites()) {
+    const auto* c = std::get_if<CallRoutine>(&site.statement->node);
+    if (site.callee && !(c != nullptr && c->has_range)) whole.insert(*site.callee);
+  }
+  std::vector<std::size_t> list;
   for (std::size_t i = 0; i < program.routines.size(); ++i) {
-    if (program.routines[i].kind == RoutineKind::sub && !calls.called(i)) list.push_back(i);
+    if (program.routines[i].kind == RoutineKind::sub && whole.count(i) == 0) list.push_back(i);
   }
   return list;
 }

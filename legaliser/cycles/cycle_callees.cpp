@@ -119,7 +119,8 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
   }
   const auto same = std::find_if(callees_.copies.begin(), callees_.copies.end(), [&](const auto& c) {
     return c->original == *callee && c->source == active_->source && c->native == active_->native &&
-           c->on_target == active_->on_target && c->single == active_->single;
+           c->on_target == active_->on_target && c->maybe_on_target == active_->maybe_on_target &&
+           c->single == active_->single;
   });
   CycleCallees::Copy* copy = same == callees_.copies.end() ? nullptr : same->get();
   if (copy != nullptr && !copy->finished) return false;  // it calls itself
@@ -130,6 +131,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     copy->source = active_->source;
     copy->native = active_->native;
     copy->on_target = active_->on_target;
+    copy->maybe_on_target = active_->maybe_on_target;
     copy->single = active_->single;
     copy->routine = program_.routines[*callee];
     RoutineName& name = copy->routine.name;
@@ -157,6 +159,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     inner.run();
     copy->ended_after = !inner.active_;
     copy->on_target_after = inner.active_ && inner.active_->on_target && !inner.active_->maybe_on_target;
+    copy->maybe_on_target_after = inner.active_ && inner.active_->maybe_on_target;
     if (inner.active_) copy->height_after = inner.active_->height;
     copy->finished = true;
   }
@@ -167,6 +170,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
   }
   for_each_statement(program_.routines[*callee].body, [this](const Statement& s) { leave_height(s); });
   active_->on_target = copy->on_target_after;
+  active_->maybe_on_target = copy->maybe_on_target_after;
   active_->height = copy->height_after;
   return true;
 }

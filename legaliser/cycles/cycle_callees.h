@@ -20,11 +20,11 @@ struct CycleCallees {
   struct Copy {
     std::size_t original = 0;
     CyclePtr source, native;
-    bool on_target = false, single = false;  ///< before the call
+    bool on_target = false, maybe_on_target = false, single = false;  ///< before the call
     Routine routine;
     bool finished = false;
     std::optional<double> height_after;
-    bool on_target_after = false, ended_after = false;
+    bool on_target_after = false, maybe_on_target_after = false, ended_after = false;
   };
   std::vector<std::unique_ptr<Copy>> copies;
   int made = 0;

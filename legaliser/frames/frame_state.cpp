@@ -223,7 +223,7 @@ void FrameState::stretch(const FrameChange& c, const Facts& facts, const machine
     g.foreign = !one;
     g.by_axes = equal_words && !one && named <= PlanarFrame::linear;
     if (keeps) {
-      if (!c.uniform_scale && !all_axes)
+      if ((!c.uniform_scale && !all_axes) || !one)
         f.foreign = true;
       else if (c.combine == FrameCombine::add)
         f = compose(f, g);
