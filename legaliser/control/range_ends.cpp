@@ -165,8 +165,7 @@ class RangeEnds {
       return !jump || !i->else_body.empty();
     }
     return !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Jump>(s.node) &&
-           !std::holds_alternative<Label>(s.node) && !std::holds_alternative<Repeat>(s.node) &&
-           !std::holds_alternative<Opaque>(s.node);
+           !std::holds_alternative<Label>(s.node) && !std::holds_alternative<Opaque>(s.node);
   }
 
   /// A computed sign that says which way a rotary axis turns.

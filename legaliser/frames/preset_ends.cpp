@@ -34,8 +34,9 @@ bool presets_taken_back(const Program& program, const LegaliseContext& context, 
         const auto* f = std::get_if<FrameOp>(&a.data);
         if (f == nullptr || !f->change) continue;
         state.apply(*f->change, facts.before(s), *b, context.source_machine);
-        found = found || (f->change->slot == FrameSlot::preset && f->change->combine == FrameCombine::clear &&
-                          !before.slot(FrameSlot::preset).neutral());
+        const bool goes = f->change->combine == FrameCombine::clear && !before.slot(FrameSlot::preset).neutral();
+        const bool waits = presets(a) && before.preset_waits();  // the target's own would act at once
+        found = found || (f->change->slot == FrameSlot::preset && (goes || waits));
       }
     });
   }

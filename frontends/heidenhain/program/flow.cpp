@@ -69,7 +69,7 @@ std::vector<int> Flow::next(int item, bool sub) const {
     case ItemKind::jump:
     case ItemKind::repeat: {
       const auto* jump = std::get_if<ir::Jump>(&i.statement.node);
-      const bool always = jump != nullptr && !jump->condition;
+      const bool always = jump != nullptr && !jump->condition && i.statement.line.skip_mask == 0;
       const int to = label(i);
       std::vector<int> out;
       if (to >= 0) out.push_back(to);
