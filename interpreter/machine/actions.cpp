@@ -1,7 +1,6 @@
 // Actions of a block: settings, spindle, tool, coolant, dwell.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "interpreter/machine/block_machine.h"
 #include "interpreter/trace/run_codes.h"
@@ -48,7 +47,7 @@ struct ActionRunner {
   bool operator()(const ir::ModalSet& a) const {
     if (a.setting == ir::Setting::comp) m.set_comp(static_cast<ir::CompSide>(a.value));
     if (after && a.setting != ir::Setting::comp) m.set_modal(a, b);
-    if (a.setting == ir::Setting::spindle_mode) m.emit_if_running(b, m.master_, after);
+    if (a.setting == ir::Setting::spindle_mode) m.emit_if_running(b, m.spindles_.master_number(), after);
     return true;
   }
   bool operator()(const ir::SetFeed& a) const {
@@ -73,9 +72,7 @@ struct ActionRunner {
     const double angle = m.value(a.angle);
     auto* s = m.spindle(a.number);
     if (m.failure_.set || s == nullptr) return false;
-    s->oriented = true;
-    s->state = ir::SpindleState::off;
-    s->angle = angle + (a.incremental ? s->angle : 0);
+    s->orient(angle + (a.incremental ? s->angle : 0));
     m.emit_spindle(a.number);
     return true;
   }
@@ -83,36 +80,35 @@ struct ActionRunner {
   bool operator()(const ir::MasterSpindle& a) const {  // the other one goes on as it turns
     const auto* s = m.spindle(a.number);
     if (s == nullptr) return false;
-    m.master_ = a.number;
+    m.spindles_.make_master(a.number);
     m.modal_.spindle_mode = s->mode;
     return true;
   }
   bool operator()(const ir::ToolSelect& a) const {
     const bool changed_here = first_of<ir::ToolChange>(b) != nullptr;
     if (changed_here) return true;  // one event, at the change
-    if (!m.select_tool(a)) return false;
     const bool own = first_of<ir::ToolOffset>(b) != nullptr;
-    m.offset_of_selected(own);
-    if (a.changes) m.offset_of_change(own);
+    if (!m.select_tool(a, own)) return false;
+    if (a.changes) m.tool_.offset_of_change(own);
     m.emit_tool(a.changes);
     return true;
   }
   bool operator()(const ir::ToolChange& /*a*/) const {
     const auto* t = first_of<ir::ToolSelect>(b);
-    if (t != nullptr && !m.select_tool(*t)) return false;
     const bool own = first_of<ir::ToolOffset>(b) != nullptr;
-    if (t != nullptr) m.offset_of_selected(own);
-    if (t != nullptr || !m.tool_came_with_t_) {
-      m.offset_of_change(own);
+    if (t != nullptr && !m.select_tool(*t, own)) return false;
+    if (t != nullptr || !m.tool_.came_with_t()) {
+      m.tool_.offset_of_change(own);
       m.emit_tool(true);
     }
     return true;
   }
   bool operator()(const ir::ToolOffset& a) const {
-    if (!m.whole(m.value(a.number), "offset number", m.offset_)) return false;
-    m.select_offset();
+    std::int32_t number = 0;
+    if (!m.whole(m.value(a.number), "offset number", number)) return false;
+    m.tool_.select_offset(number);
     auto& e = m.plain(EventKind::offset);
-    e.number = m.offset_;
+    e.number = number;
     m.emitter_.emit(e);
     return true;
   }
@@ -131,7 +127,7 @@ struct ActionRunner {
     return true;
   }
   bool operator()(const ir::ExactStopBlock& /*a*/) const {
-    m.feed_stop_ = true;
+    m.now_.feed_stop = true;
     return true;
   }
   bool operator()(const ir::Coolant& a) const {
@@ -145,7 +141,7 @@ struct ActionRunner {
   }
   bool operator()(const ir::CycleDefine& a) const { return m.define_cycle(a); }
   bool operator()(const ir::CycleCancel& /*a*/) const {
-    m.hole_.reset();
+    m.cycle_.hole.reset();
     return true;
   }
   bool operator()(const ir::Corner& a) const {
@@ -158,10 +154,10 @@ struct ActionRunner {
   }
   bool operator()(const ir::PreparationStop& /*a*/) const { return m.split_curve(); }
   bool operator()(const ir::SplineAxes& a) const {
-    m.spline_axes_.clear();
+    m.curve_.axes.clear();
     for (const auto& axis : a.axes) {
       if (!m.check_axis(axis.axis)) return false;
-      m.spline_axes_.push_back(axis.axis);
+      m.curve_.axes.push_back(axis.axis);
     }
     return true;
   }
@@ -212,15 +208,15 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
     case ir::Setting::units: modal_.units_feed_too = m.feed_too; break;
     case ir::Setting::plane:
       if (policy_.plane_resets_pole) {
-        pole_ = {};
-        pole_set_ = false;
+        polar_.pole = {};
+        polar_.pole_set = false;
       }
-      if (policy_.plane_ends_cycle && m.value != static_cast<std::uint8_t>(modal_.plane)) hole_.reset();
+      if (policy_.plane_ends_cycle && m.value != static_cast<std::uint8_t>(modal_.plane)) cycle_.hole.reset();
       break;
     default: break;
   }
   modal_.set(m.setting, m.value);
-  length_comp_said_ = length_comp_said_ || m.setting == ir::Setting::length_comp;
+  if (m.setting == ir::Setting::length_comp) tool_.length_compensation_said();
   set_units();
 }
 
@@ -262,10 +258,10 @@ void BlockMachine::set_feed(const ir::SetFeed& f) {
 
 // --- spindle ---------------------------------------------------------------------------------------------------
 
-BlockMachine::Spindle* BlockMachine::spindle(int number) {
-  if (number >= 0 && number < static_cast<int>(spindles_.size())) return &spindles_[static_cast<std::size_t>(number)];
-  failure_.fail(code::spindle_number, "there is no spindle " + std::to_string(number));
-  return nullptr;
+Spindle* BlockMachine::spindle(int number) {
+  auto* s = spindles_.find(number);
+  if (s == nullptr) failure_.fail(code::spindle_number, "there is no spindle " + std::to_string(number));
+  return s;
 }
 
 void BlockMachine::set_spindle_value(const ir::SetSpindle& set) {
@@ -274,52 +270,35 @@ void BlockMachine::set_spindle_value(const ir::SetSpindle& set) {
   const bool feet = s->mode == ir::SpindleMode::css && modal_.units == ir::Units::inch && modal_.units_feed_too;
   const double speed = value(set.value);
   if (speed < 0) failure_.fail(code::number_range, "a spindle speed is not negative");
-  s->value[static_cast<std::size_t>(s->mode)] = speed * (feet ? 0.3048 : 1);
+  s->set_speed(speed * (feet ? 0.3048 : 1));
 }
 
 void BlockMachine::set_spindle_limit(const ir::SpindleLimit& l) {
   auto* s = spindle(l.number);
-  if (s == nullptr || l.lower) return;
-  s->has_limit = true;
-  s->limit = value(l.value);
+  if (s != nullptr && !l.lower) s->set_limit(value(l.value));
 }
 
-/// Leaving constant cutting speed without a new S keeps the speed reached: n = 1000 v / (pi d), d at the present X.
 void BlockMachine::set_spindle_mode(ir::SpindleMode mode, bool with_value) {
   modal_.spindle_mode = mode;
-  auto& s = spindles_[master_];
-  if (mode == ir::SpindleMode::rpm && s.mode == ir::SpindleMode::css && !with_value) {
-    const double d = 2 * std::abs(p_[ir::axis::x]);
-    const double v = s.value[static_cast<std::size_t>(ir::SpindleMode::css)];
-    double n = d > 0 ? 1000 * v / (std::numbers::pi * d) : s.limit;
-    if (s.has_limit) n = std::min(n, s.limit);
-    s.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = n;
-  }
-  s.mode = mode;
+  spindles_.master().set_mode(mode, with_value, 2 * std::abs(p_[ir::axis::x]));
 }
 
 void BlockMachine::run_spindle(int number, ir::SpindleState state) {
   auto* s = spindle(number);
   if (s == nullptr) return;
-  s->state = state;
-  s->oriented = false;
+  s->run(state);
   emit_spindle(number);
 }
 
+void BlockMachine::orient_master(double angle) {
+  spindles_.master().orient(angle);
+  emit_master();
+}
+
 void BlockMachine::emit_spindle(int number) {
-  auto& s = spindles_[static_cast<std::size_t>(number)];
   auto& e = plain(EventKind::spindle);
   e.number = number;
-  e.state = s.oriented ? "oriented"
-                       : (s.state == ir::SpindleState::cw ? "cw" : (s.state == ir::SpindleState::ccw ? "ccw" : "off"));
-  e.css = s.mode == ir::SpindleMode::css;
-  e.value = s.value[static_cast<std::size_t>(s.mode)];
-  e.has_limit = s.has_limit;
-  e.limit = s.limit;
-  e.angle = s.angle;
-  s.shown_mode = s.mode;
-  s.shown_value = e.value;
-  s.shown_limit = s.has_limit ? s.limit : 0;
+  spindles_[number].show(e);
   emitter_.emit(e);
 }
 
@@ -327,10 +306,7 @@ void BlockMachine::emit_spindle(int number) {
 /// that is carried out at the same time.
 void BlockMachine::emit_if_running(const ir::Block& b, int number, bool after) {
   auto* s = spindle(number);
-  if (s == nullptr || s->state == ir::SpindleState::off || commands_spindle(b, number, after)) return;
-  const bool changed = s->mode != s->shown_mode || s->value[static_cast<std::size_t>(s->mode)] != s->shown_value ||
-                       (s->has_limit ? s->limit : 0) != s->shown_limit;
-  if (changed) emit_spindle(number);
+  if (s != nullptr && s->turns() && s->changed() && !commands_spindle(b, number, after)) emit_spindle(number);
 }
 
 // --- tool, coolant, machine functions --------------------------------------------------------------------------
@@ -345,22 +321,18 @@ bool BlockMachine::whole(double number, std::string_view what, std::int32_t& out
   return true;
 }
 
-bool BlockMachine::select_tool(const ir::ToolSelect& t) {
-  const double number = value(t.number);  // of a name: as the tools of the machine have it, else 0
-  if (failure_.set) return false;
-  tool_name_ = std::string(t.name);
-  if (!whole(number, "tool number", tool_)) return false;
-  tool_came_with_t_ = t.changes;
+/// `own_offset`: a D stands beside it.
+bool BlockMachine::select_tool(const ir::ToolSelect& t, bool own_offset) {
+  std::int32_t number = 0;  // of a name: as the tools of the machine have it, else 0
+  if (!whole(value(t.number), "tool number", number)) return false;
+  tool_.select(number, std::string(t.name), t.changes);
+  tool_.offset_of_selected(own_offset);
   return true;
 }
 
 void BlockMachine::emit_tool(bool change) {
-  if (change) tool_in_spindle_ = tool_;
   auto& e = plain(EventKind::tool);
-  e.number = tool_;
-  e.state = tool_came_with_t_ ? "with T" : "";
-  e.text = tool_name_;
-  e.change = change;
+  tool_.show(e, change);
   emitter_.emit(e);
   e.text.clear();
 }
@@ -376,7 +348,7 @@ void BlockMachine::emit_dwell(double amount, bool revolutions) {
   auto& e = plain(EventKind::dwell);
   e.amount = amount;
   e.revolutions = revolutions;
-  e.number = master_;
+  e.number = spindles_.master_number();
   emitter_.emit(e);
 }
 
@@ -408,13 +380,12 @@ bool BlockMachine::profile_function(const machine::MCode& m) {
     case MMeaning::spindle_ccw: run_spindle(1, ir::SpindleState::ccw); break;
     case MMeaning::spindle_stop: run_spindle(1, ir::SpindleState::off); break;
     case MMeaning::spindle_orient:
-      spindles_[1].oriented = true;
-      spindles_[1].state = ir::SpindleState::off;
+      spindles_[1].orient(spindles_[1].angle);
       emit_spindle(1);
       break;
     case MMeaning::tool_change:
-      if (tool_came_with_t_) break;
-      offset_of_change(false);
+      if (tool_.came_with_t()) break;
+      tool_.offset_of_change(false);
       emit_tool(true);
       break;
     case MMeaning::coolant_off: emit_coolant("off"); break;
@@ -443,13 +414,13 @@ void BlockMachine::set_corner(const ir::Corner& c) {
     p.feed = value(*c.feed) * feed_unit();
   }
   if (c.modal) {
-    modal_corner_ = std::max(0.0, p.size);
-    modal_corner_has_feed_ = p.has_feed;
-    modal_corner_feed_ = p.feed;
+    modal_corner_.size = std::max(0.0, p.size);
+    modal_corner_.has_feed = p.has_feed;
+    modal_corner_.feed = p.feed;
   } else if (p.size > 0) {
-    block_corner_ = p;
+    now_.corner = p;
   } else {
-    sharp_ = true;  // a corner of 0 in its block: none, whatever holds for the others
+    now_.sharp = true;  // a corner of 0 in its block: none, whatever holds for the others
   }
 }
 
@@ -458,7 +429,7 @@ void BlockMachine::set_tangential(const ir::TangentialEnd& t) {
   p.tangential = true;
   p.exit = t.end == ir::TangentEnd::exit;
   p.size = value(t.radius) * unit();
-  block_corner_ = p;
+  now_.corner = p;
 }
 
 }  // namespace cnctrans::interpreter

@@ -73,7 +73,7 @@ bool BlockMachine::polar_arc(const ir::Motion& m, Move& move) {
   const auto plane = ir::plane_axes(move.plane);
   const auto& x = *m.extra;
   if (m.centers.empty()) {
-    move.centre = pole_;
+    move.centre = polar_.pole;
   } else if (!arc_centre(m, move)) {
     return false;
   }
@@ -81,7 +81,7 @@ bool BlockMachine::polar_arc(const ir::Motion& m, Move& move) {
   const double r0 = length(p0 - move.centre);
   double r = r0;
   if (x.has_polar_radius)
-    polar_radius_ = r = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : r0);
+    polar_.radius = r = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : r0);
   if (x.has_polar_angle || (x.has_polar_radius && r0 > same_point)) {  // without its word the angle stays
     const double a = x.has_polar_angle ? value(x.polar_angle) : 0;
     Vec direction{cos_degrees(a), sin_degrees(a)};
@@ -168,19 +168,19 @@ bool BlockMachine::tangent_arc(Move& move) {
 
 /// Direction in which the last element of the plane ended; (0, 0) when there is none.
 Vec BlockMachine::last_direction(const ir::PlaneAxes& plane) const {
-  if (!has_path_) return {};
+  if (!last_.known) return {};
   const Vec here{p_[plane.u], p_[plane.v]};
-  if (!last_was_arc_) return normalised(here - Vec{before_[plane.u], before_[plane.v]});
-  const Vec n = left_of(normalised(here - last_centre_));
-  return last_ccw_ ? n : -1.0 * n;
+  if (!last_.arc) return normalised(here - Vec{last_.before[plane.u], last_.before[plane.v]});
+  const Vec n = left_of(normalised(here - last_.centre));
+  return last_.ccw ? n : -1.0 * n;
 }
 
 /// Full turns: given, or from a pitch: total turns = travel / pitch, the arc itself included.
 bool BlockMachine::arc_turns(const ir::Motion& m, Move& move) {
   const auto plane = ir::plane_axes(move.plane);
   if (policy_.pole_follows_arc) {
-    pole_ = move.centre;
-    pole_set_ = true;
+    polar_.pole = move.centre;
+    polar_.pole_set = true;
   }
   if (!m.extra) return !failure_.set;
   if (m.extra->has_turns) {

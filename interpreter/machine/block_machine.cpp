@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "interpreter/trace/message_form.h"
 #include "interpreter/trace/run_codes.h"
-#include "machine/tool_data.h"
 
 namespace cnctrans::interpreter {
 
@@ -19,11 +18,14 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
       failure_(failure),
       values_(values),
       modal_(profile.power_on),
-      work_offsets_(profile.work_offsets) {
+      zeros_(profile.work_offsets),
+      parts_(profile.frame_order),
+      spindles_(profile.power_on.spindle_mode),
+      tool_(profile),
+      data_(profile) {
   const auto is = [&profile](std::string_view option, std::string_view value) {
     return profile.option(option) == value;
   };
-  tool_came_with_t_ = machine::changes_on_select(profile);
   policy_.cycle_rapid = is("cycle.positioning", "rapid");
   policy_.modal_words = is("call.modal_words", "yes");
   policy_.cycles_in_full = is("cycle.stops", "all");
@@ -42,12 +44,9 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   policy_.position_as_words = is("machine_position.scale", "words");
   policy_.offsets_at_once = is("work_offset.write", "at_once");
   policy_.preset_is_offset = is("frame.preset", "with_work_offset");
-  curve_tolerance_ = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
+  curve_.tolerance = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
   policy_.plane_ends_cycle = is("cycle.plane_function", "ends");
   policy_.data_modal = is("machine_data.units", "modal");
-  policy_.table_offset = is("tool.bare_offset", "table");
-  policy_.edge_offset = is("tool.bare_offset", "edge");
-  policy_.mill = profile.kind == machine::Kind::mill;
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
     axis_[a.id].rotary = a.rotary;
@@ -59,25 +58,24 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
   }
   feed_[static_cast<std::size_t>(modal_.feed_mode)] = profile.power_on_feed;
   feed_degrees_ = feed_;
-  for (auto& s : spindles_) s.mode = modal_.spindle_mode;
   set_units();
-  load_offset(modal_.work_offset);
-  if (world_ != nullptr && world_->zeros) active_offset_ = world_->start_offset(profile_);
+  zeros_.load(modal_.work_offset);
+  count_preset();
+  if (world_ != nullptr && world_->zeros) zeros_.start_at(world_->start_offset(profile_));
   // The start is a machine position: the first frame is put under it.
   frame_ = Frame{};
   rebuild_frame();
-  base_pending_ = 0;
+  increments_.pending = 0;
 }
 
 Standing BlockMachine::standing() const {
-  const Spindle& s = spindles_[master_];
   return {modal_,
           p_,
-          !contour_.empty(),
+          !contour_.elements.empty(),
           feed_now() / feed_unit(),
-          master_,
-          s.value[static_cast<std::size_t>(s.mode)],
-          hole_.has_value()};
+          spindles_.master_number(),
+          spindles_.master().speed(),
+          cycle_.hole.has_value()};
 }
 
 double BlockMachine::expression(const ir::Value& v) {
@@ -113,21 +111,21 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
   failure_.where = where;
   path_event_.file = event_.file = where.file;
   path_event_.line = event_.line = where.line;
-  block_moves_ = sharp_ = false;
+  now_.moves = now_.sharp = false;
   // On some machines a word of the tool axis under a cycle would be the depth, which can't change there.
   const auto axis_word = [&] {
-    if (!hole_ || !b.has_motion || b.motion.frame != ir::FrameUse::normal) return false;
+    if (!cycle_.hole || !b.has_motion || b.motion.frame != ir::FrameUse::normal) return false;
     const bool there = std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
-                                   [this](const ir::CoordWord& w) { return w.axis == hole_axis_; });
+                                   [this](const ir::CoordWord& w) { return w.axis == cycle_.axis; });
     if (!there || profile_.option("cycle.axis_word") != "refused") return false;
     failure_.fail(code::bad_cycle, "a word of the tool axis in a block while a drilling cycle is active");
     return true;
   };
-  marks_ = b.actions.empty() ? ir::contour::Marks{} : ir::contour::marks_of(b);
+  now_.marks = b.actions.empty() ? ir::contour::Marks{} : ir::contour::marks_of(b);
   if (b.actions.empty()) {
-    pattern_here_ = cycle_defined_here_ = false;
+    pattern_.here = now_.cycle_defined = false;
     if (axis_word() || (b.has_motion && !motion(b, with_cycle))) return false;
-    if (hole_ && with_cycle && cycle_triggers(b)) return run_cycle();
+    if (cycle_.hole && with_cycle && cycle_triggers(b)) return run_cycle();
     return !failure_.set;
   }
   const auto feed_before = feed_;
@@ -136,36 +134,36 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     const auto* f = std::get_if<ir::SetFeed>(&a.data);
     return f != nullptr && f->block_only;
   });
-  if (open_pattern_ == &b) return go_on_with_pattern(b);
-  machining_ = nullptr;
-  cycle_defined_here_ = cycle_waits_ = once_ = pattern_here_ = false;
-  block_corner_.reset();
+  if (pattern_.open == &b) return go_on_with_pattern(b);
+  now_.machining = nullptr;
+  now_.cycle_defined = now_.cycle_waits = now_.cycle_once = pattern_.here = false;
+  now_.corner.reset();
   if (!settings_first(b) || !actions(b, false)) return false;
   if (own_feed) feeds(b, true);
-  if (!(cycle_defined_here_ && cycle_waits_) && axis_word()) return false;
+  if (!(now_.cycle_defined && now_.cycle_waits) && axis_word()) return false;
   if (b.has_motion && !motion(b, with_cycle)) return false;
   if (own_feed) {
     feed_ = feed_before;
     feed_degrees_ = degrees_before;
     feeds(b, false);
   }
-  if (block_corner_) {
-    block_corner_.reset();
+  if (now_.corner) {
+    now_.corner.reset();
     return failure_.fail(code::corner_alone, "a corner function stands in a block that does not move");
   }
-  if (machining_ != nullptr && with_cycle && !run_machining(*machining_)) return false;
-  if (pattern_here_ && with_cycle) {
+  if (now_.machining != nullptr && with_cycle && !run_machining(*now_.machining)) return false;
+  if (pattern_.here && with_cycle) {
     if (!run_pattern()) return false;
-    if (single_points && block_moves_) {  // what acts behind it waits for its last point
-      open_pattern_ = &b;
+    if (single_points && now_.moves) {  // what acts behind it waits for its last point
+      pattern_.open = &b;
       return !failure_.set;
     }
-  } else if (hole_ && with_cycle) {
-    const bool runs = cycle_defined_here_ ? !cycle_waits_ : cycle_triggers(b);
+  } else if (cycle_.hole && with_cycle) {
+    const bool runs = now_.cycle_defined ? !now_.cycle_waits : cycle_triggers(b);
     if (runs && !run_cycle()) return false;
-    if (once_) end_single_cycle();
+    if (now_.cycle_once) end_single_cycle();
   }
-  if (std::exchange(feed_stop_, false) && block_moves_) emitter_.emit(plain(EventKind::feed_stop));
+  if (std::exchange(now_.feed_stop, false) && now_.moves) emitter_.emit(plain(EventKind::feed_stop));
   return actions(b, true) && !failure_.set;
 }
 
@@ -189,8 +187,8 @@ void BlockMachine::message(std::string text, const Span& where) {
 }
 
 bool BlockMachine::finish() {
-  if (curve_ && !close_curve(nullptr)) return false;
-  if (!contour_.empty())
+  if (curve_.open && !close_curve(nullptr)) return false;
+  if (!contour_.elements.empty())
     return failure_.fail(code::contour_open, "the program ends before the element that closes the contour");
   if (!pending_) return true;
   const bool fault = !pending_->modal;
@@ -200,7 +198,7 @@ bool BlockMachine::finish() {
 }
 
 void BlockMachine::end_event(EndReason reason, const Failure& failure, const Span& where) {
-  if (curve_) close_curve(nullptr);
+  if (curve_.open) close_curve(nullptr);
   if (pending_) release_pending();
   Event e;
   e.kind = EventKind::end;

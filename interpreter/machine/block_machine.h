@@ -13,7 +13,12 @@
 
 #include "base/diagnostics.h"
 #include "interpreter/machine/emitter.h"
+#include "interpreter/machine/frame_parts.h"
+#include "interpreter/machine/given_data.h"
 #include "interpreter/machine/open_curve.h"
+#include "interpreter/machine/spindles.h"
+#include "interpreter/machine/tool_in_use.h"
+#include "interpreter/machine/zero_points.h"
 #include "interpreter/trace/cycle_runs.h"
 #include "interpreter/trace/failure.h"
 #include "interpreter/trace/standing.h"
@@ -66,21 +71,21 @@ class BlockMachine final : public SystemData {
   /// Carries out one block. `with_cycle` false: positions only (a block repeated zero times). False on failure.
   bool block(const ir::Block& b, const Span& where, bool with_cycle = true);
   /// The block just carried out was a path motion (for modal calls).
-  [[nodiscard]] bool moved() const { return block_moves_; }
+  [[nodiscard]] bool moved() const { return now_.moves; }
   /// The block runs a modal subprogram: it moves, or has words that do the same on this machine.
   [[nodiscard]] bool runs_modal_call(const ir::Block& b) const {
-    return block_moves_ || (policy_.modal_words && path_words(b));
+    return now_.moves || (policy_.modal_words && path_words(b));
   }
   /// A cycle that runs after every later block with path motion; null ends it.
   bool modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here);
-  void cancel_cycle() { hole_.reset(); }
+  void cancel_cycle() { cycle_.hole.reset(); }
   void message(std::string text, const Span& where);
   /// Contours that several points fit were settled by the nearest one, here.
-  [[nodiscard]] const std::vector<Span>& chosen_contours() const { return chosen_contours_; }
+  [[nodiscard]] const std::vector<Span>& chosen_contours() const { return contour_.chosen; }
   /// The makers' manuals leave the way of splines between their points open: said once, at the first one.
   void tell_path(Diagnostics& diagnostics) const;
   /// The next spline block stands at its first point (a curve with a definition of its own); the curve ends.
-  void begin_defined_curve() { curve_from_first_point_ = true; }
+  void begin_defined_curve() { curve_.from_first_point = true; }
   bool end_defined_curve();
   /// The program has ended: nothing may wait for a next element.
   bool finish();
@@ -113,19 +118,8 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] double length_of(ir::AxisId axis, double value) const override;
   [[nodiscard]] std::string axis_name(ir::AxisId axis) const override;
   /// --set of a machine datum by its name.
-  void preset_datum(const std::string& name, double value) {
-    written_[name] = value;
-    unread_.insert(name);
-  }
-  [[nodiscard]] bool preset_unread(const std::string& name) const { return unread_.count(name) != 0; }
-  /// Data that nobody gave: the value of a machine at rest was taken, here for the first time.
-  struct Assumed {
-    Span where;
-    std::string name;
-    double value = 0;
-    std::string hint;  ///< how to give another
-  };
-  [[nodiscard]] const std::vector<Assumed>& assumed() const { return assumed_; }
+  void preset_datum(const std::string& name, double value) { data_.preset(name, value); }
+  [[nodiscard]] const GivenData& given_data() const { return data_; }
   /// The radius of a tool that nobody gives, and the first milling cycle that ran with it.
   struct AssumedRadius {
     Span where;
@@ -134,31 +128,19 @@ class BlockMachine final : public SystemData {
   };
   [[nodiscard]] const std::vector<AssumedRadius>& assumed_radii() const { return assumed_radii_; }
   /// The program writes tables of zero points.
-  [[nodiscard]] bool writes_zeros() const { return writes_zeros_; }
+  [[nodiscard]] bool writes_zeros() const { return zeros_.written(); }
   std::uint64_t arguments_given = 0;  ///< of the present call level
   std::size_t calls_open = 0;
   std::string_view last_label;  ///< number of the numbered statement carried out last; empty: none yet
   bool block_again = false;     ///< a further pass of a repeated block: the cycle it defines is in force already
   bool single_points = false;   ///< a pattern stops at each point: a modal subprogram runs there
   /// The block goes on behind the modal subprogram: with the next point, or with what acts behind the last one.
-  [[nodiscard]] bool points_left() const { return open_pattern_ != nullptr; }
+  [[nodiscard]] bool points_left() const { return pattern_.open != nullptr; }
 
  private:
   struct AxisState {
     bool present = false, rotary = false, diameter = false;
     double scale_absolute = 1, scale_incremental = 1;  ///< mm (radius) in one unit of a word under the modes in force
-  };
-  struct Spindle {
-    ir::SpindleMode mode = ir::SpindleMode::rpm;
-    ir::SpindleState state = ir::SpindleState::off;
-    bool oriented = false;
-    std::array<double, 2> value{};  ///< by SpindleMode
-    bool has_limit = false;
-    double limit = 0;
-    double angle = 0;
-    // as the last event showed it
-    ir::SpindleMode shown_mode = ir::SpindleMode::rpm;
-    double shown_value = 0, shown_limit = 0;
   };
   /// Options of the profile, looked up once.
   struct Policies {
@@ -167,9 +149,7 @@ class BlockMachine final : public SystemData {
     bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
          pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
          offsets_at_once = false, preset_is_offset = false, straight_tangents = false, polar_radius_stays = false;
-    bool data_modal = false;                         ///< machine data in the units of the program
-    bool table_offset = false, edge_offset = false;  ///< of a tool without a D
-    bool mill = false;
+    bool data_modal = false;  ///< machine data in the units of the program
     bool plane_ends_cycle = false, cycles_in_full = false;
   };
   struct Pending {
@@ -190,14 +170,13 @@ class BlockMachine final : public SystemData {
   bool check_axis(ir::AxisId a);
 
   // machine data (machine_data.cpp)
-  [[nodiscard]] const double* given_datum(const ir::SystemRef& ref, std::span<const double> args) const;
   bool read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const;
   bool read_of_run(const ir::SystemRef& ref, std::span<const double> args, const std::string& name, double& out);
   bool read_at_rest(const std::string& name, double& out);
+  [[nodiscard]] std::int32_t offset_row(std::span<const double> args) const;
   bool place_in_table(ir::AxisId axis, std::span<const double> args, double& out) const;
-  void assume(const std::string& name, double value, const std::string& hint = {});
 
   // actions (actions.cpp)
   friend struct ActionRunner;
@@ -210,12 +189,7 @@ class BlockMachine final : public SystemData {
   void set_spindle_value(const ir::SetSpindle& s);
   void set_spindle_limit(const ir::SpindleLimit& l);
   bool whole(double number, std::string_view what, std::int32_t& out);
-  bool select_tool(const ir::ToolSelect& t);
-  // the offset of the tool (tool_offset.cpp)
-  void select_offset();
-  void offset_of_selected(bool own);
-  void offset_of_change(bool own);
-  void put_offset(Event& e, std::uint32_t moved) const;
+  bool select_tool(const ir::ToolSelect& t, bool own_offset);
   [[nodiscard]] PathStop path_stop() const;
   bool machine_function(const ir::MachineFunction& m);
   bool define_cycle(const ir::CycleDefine& c);
@@ -227,7 +201,10 @@ class BlockMachine final : public SystemData {
   void set_spindle_mode(ir::SpindleMode mode, bool with_value);
   Spindle* spindle(int number);
   void run_spindle(int number, ir::SpindleState state);
+  void run_master(ir::SpindleState state) { run_spindle(spindles_.master_number(), state); }
+  void orient_master(double angle);
   void emit_spindle(int number);
+  void emit_master() { emit_spindle(spindles_.master_number()); }
   void turn_at(const ir::cycles::TurnMove& m);
   void emit_if_running(const ir::Block& b, int number, bool after);
   void emit_tool(bool change);
@@ -239,22 +216,14 @@ class BlockMachine final : public SystemData {
   // frames (frames.cpp)
   bool change_frame(const ir::FrameChange& c);
   void set_pole(const ir::PoleSet& p);
-  bool preset(const ir::FrameChange& c, Frame& slot);
-  bool change_slot(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
-  bool translate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
-  bool rotate(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
-  bool stretch(const ir::FrameChange& c, ir::FrameCombine combine, Frame& slot);
-  Frame inner_of(ir::FrameSlot slot) const;
-  [[nodiscard]] Frame slot_frame(ir::FrameSlot slot) const;
+  static std::vector<ir::AxisId> named_axes(const ir::FrameChange& c);
+  bool preset(const ir::FrameChange& c);
+  void change_part(const ir::FrameChange& c, ir::FrameCombine combine);
+  Frame turn_of(const ir::FrameChange& c);
+  void count_preset();
+  bool offset_written(std::int32_t row);
   bool rebuild_frame();
   bool use_frame(const Frame& f);
-  [[nodiscard]] Frame offset_frame() const;
-  [[nodiscard]] Frame settable_frame() const;
-  /// The base frames in force from this row on.
-  [[nodiscard]] Frame base_frame(std::int32_t from = 0) const;
-  void load_base();
-  void load_offset(std::int32_t row);
-  [[nodiscard]] Frame programmable_frame() const;
 
   // motion (motion.cpp, arcs.cpp, threads in motion.cpp)
   bool motion(const ir::Block& b, bool with_cycle);
@@ -389,112 +358,116 @@ class BlockMachine final : public SystemData {
   Frame frame_, inverse_;
   bool plain_frame_ = true;  ///< frame_ only translates
   std::uint64_t frame_serial_ = 0;
-  std::array<Frame, 6> slots_;  ///< by FrameSlot
-  std::uint8_t suspended_ = 0;  ///< bit n: slot n does not count for now, a preset: while no work offset is in force
+  ZeroPoints zeros_;
+  FrameParts parts_;
   Policies policy_;
-  std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets_;
-  std::map<std::int32_t, std::map<ir::AxisId, double>> fine_offsets_;  ///< added to those of the same row
-  std::map<std::int32_t, Frame> offset_shapes_;  ///< turn, scale and mirror of a row; missing: none
-  std::map<std::int32_t, Frame> base_frames_;    ///< in force, outside of the settable frame; by row
-  std::map<ir::AxisId, double> active_offset_;   ///< fine part included
-  Frame active_shape_;
-  bool zero_open_ = true;           ///< no offset has been selected
-  bool writes_zeros_ = false;       ///< the program writes the tables of offsets or frames
-  Axes fine_shift_{};               ///< of the programmable frame; in the slot too
-  Axes axis_feed_{};                ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
-  Axes increment_base_{};           ///< last programmed coordinate before a frame change, where that is what counts
-  std::uint32_t base_pending_ = 0;  ///< bit n: an incremental word of axis n starts from there
+  Axes axis_feed_{};  ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
+  /// Increments behind a change of the frame, where they count from the last programmed coordinate.
+  struct Increments {
+    Axes from{};
+    std::uint32_t pending = 0;  ///< bit n: an incremental word of axis n starts from there
+  };
+  Increments increments_;
   std::array<double, 3> feed_{}, feed_degrees_{};  ///< by FeedMode: in mm; the number programmed
-  std::array<Spindle, 32> spindles_{};
-  std::uint8_t master_ = 1;  ///< of the spindles: the one that feeds, threads and cycles follow
-  std::int32_t tool_ = 0, tool_in_spindle_ = 0, offset_ = 0;
-  /// The offset in force: whether it is one, is none (D0), or that the control's own rule leaves it open.
-  enum class OffsetUse : std::uint8_t { open, none, some };
-  OffsetUse offset_use_ = OffsetUse::open;
-  bool bare_tool_ = false;         ///< no D since its T
-  bool tool_came_with_t_ = false;  ///< T changes the tool: M6 has nothing left to do
-  std::string tool_name_;
-  Vec pole_;
-  bool pole_set_ = false;               ///< by the program, not the zero point of the plane
-  std::optional<double> polar_radius_;  ///< the one programmed last
-  double start_angle_ = 0;              ///< of a thread, where it stays in force
-  std::uint64_t thread_end_ = 0;        ///< events up to the last thread, that one included
-
-  // the last path element, for tangents
-  std::array<double, 3> before_{};
-  bool last_was_arc_ = false, has_path_ = false;
-  Vec last_centre_;
-  bool last_ccw_ = false;
-  double lead_ = 0, reached_pitch_ = 0;  ///< of threads, mm per revolution: programmed, and at the end of the last one
-
-  // splines
-  std::unique_ptr<OpenCurve> curve_;
-  bool curve_broken_ = false;            ///< closed while its motion function is still in force
-  bool curve_from_first_point_ = false;  ///< its first block is where it begins
+  Spindles spindles_;
+  ToolInUse tool_;
+  struct Polar {
+    Vec pole;
+    bool pole_set = false;         ///< by the program, not the zero point of the plane
+    std::optional<double> radius;  ///< the one programmed last
+  };
+  Polar polar_;
+  struct Threads {
+    double lead = 0, reached_pitch = 0;  ///< mm per revolution: programmed, and at the end of the last one
+    double start_angle = 0;              ///< degrees, where it stays in force
+    std::uint64_t end = 0;               ///< events up to the last thread, that one included
+  };
+  Threads thread_;
+  /// The last path element, for tangents.
+  struct LastElement {
+    bool known = false, arc = false, ccw = false;
+    std::array<double, 3> before{};  ///< where it began
+    Vec centre;
+  };
+  LastElement last_;
+  struct Curve {
+    std::unique_ptr<OpenCurve> open;
+    bool broken = false;            ///< closed while its motion function is still in force
+    bool from_first_point = false;  ///< its first block is where it begins
+    double tolerance = 0.001;       ///< mm
+    std::vector<ir::AxisId> axes;   ///< of splines; empty: the first three
+    std::vector<Span> assumed;      ///< where the way between points is the interpreter's choice
+  };
+  Curve curve_;
   bool for_contour_ = false;
-  double curve_tolerance_ = 0.001;
-  std::vector<ir::AxisId> spline_axes_;  ///< empty: the first three
-  std::vector<Span> curves_assumed_;
   std::vector<std::pair<Span, std::string>> corners_left_out_;  ///< with the reason
 
-  // per block
-  std::optional<Pending> block_corner_;
-  bool sharp_ = false;  ///< the block writes a corner of 0
-  bool block_moves_ = false, feed_stop_ = false, length_comp_said_ = false, offset_of_machine_ = false,
-       cycle_defined_here_ = false, cycle_waits_ = false;
+  struct BlockInWork {
+    std::optional<Pending> corner;
+    bool sharp = false;  ///< it writes a corner of 0
+    bool moves = false, feed_stop = false;
+    bool cycle_defined = false, cycle_waits = false, cycle_once = false;
+    ir::contour::Marks marks;
+    const ir::NamedCycle* machining = nullptr;
+  };
+  BlockInWork now_;
   std::optional<Pending> pending_;
-  ir::contour::Marks marks_;          ///< of the block at hand
-  std::vector<OpenElement> contour_;  ///< their points are not known yet
-  std::vector<Span> chosen_contours_;
-  std::uint64_t contour_frame_ = 0, contour_events_ = 0;
-  double modal_corner_ = 0;
-  bool modal_corner_has_feed_ = false;
-  double modal_corner_feed_ = 0;
+  struct OpenContour {
+    std::vector<OpenElement> elements;  ///< their points are not known yet
+    std::vector<Span> chosen;
+    std::uint64_t frame = 0, events = 0;
+  };
+  OpenContour contour_;
+  struct ModalCorner {
+    double size = 0;  ///< mm; 0: none
+    bool has_feed = false;
+    double feed = 0;
+  };
+  ModalCorner modal_corner_;
 
-  double cylinder_ = 0;   ///< mm: diameter of the unrolled cylinder
-  double y_beneath_ = 0;  ///< place of the Y axis while Y is a coordinate of the face or the cylinder
-  bool y_lent_ = false;   ///< the machine has no Y axis of its own
-
-  std::optional<ir::cycles::HoleNumbers> hole_;
-  ir::cycles::MillNumbers mill_;  ///< with a hole of kind `mill`
+  /// The face or the cylinder of a turning part.
+  struct TurnedSurface {
+    double cylinder = 0;   ///< mm: diameter of the unrolled cylinder
+    double y_beneath = 0;  ///< place of the Y axis while Y is a coordinate of the face or the cylinder
+    bool y_lent = false;   ///< the machine has no Y axis of its own
+  };
+  TurnedSurface surface_;
+  struct ActiveCycle {
+    std::optional<ir::cycles::HoleNumbers> hole;
+    ir::cycles::MillNumbers mill;  ///< with a hole of kind `mill`
+    ir::AxisId axis = ir::axis::z;
+    bool follows_plane = false;  ///< a modal call works along the normal of the plane at each point
+    ir::CycleTrigger trigger = ir::CycleTrigger::plane_axis_word;
+  };
+  ActiveCycle cycle_;
+  std::optional<ActiveCycle> modal_cycle_;  ///< the modal cycle while another one runs once
   std::vector<ir::cycles::MillContour> mill_contours_;
   ContourHomes contour_homes_;
   std::vector<std::pair<double, double>> hole_entries_;  ///< places of a hole cycle that finds them itself
   std::vector<Span> pocket_orders_;                      ///< contour pockets carried out
-  ir::AxisId hole_axis_ = ir::axis::z;
-  bool hole_follows_plane_ = false;  ///< a modal call works along the normal of the plane at each point
-  ir::CycleTrigger trigger_ = ir::CycleTrigger::plane_axis_word;
-  bool once_ = false;
-  struct ModalHole {
-    ir::cycles::HoleNumbers hole;
-    ir::cycles::MillNumbers mill;
-    ir::AxisId axis = ir::axis::z;
-    bool follows_plane = false;
-    ir::CycleTrigger trigger = ir::CycleTrigger::plane_axis_word;
-  };
-  std::optional<ModalHole> modal_hole_;  ///< the modal cycle while another one runs once
   void end_single_cycle();
-  const ir::NamedCycle* machining_ = nullptr;  ///< of the block at hand
-  const ir::NamedCycle* pattern_ = nullptr;    ///< the pattern in work
-  bool pattern_here_ = false;                  ///< it stands in the block at hand
-  const ir::Block* open_pattern_ = nullptr;    ///< a modal subprogram runs between its points, or behind the last one
-  std::vector<ir::cycles::PatternPoint> points_;
-  std::size_t next_point_ = 0;
+  struct PatternInWork {
+    const ir::NamedCycle* cycle = nullptr;
+    bool here = false;                ///< it stands in the block at hand
+    const ir::Block* open = nullptr;  ///< a modal subprogram runs between its points, or behind the last one
+    std::vector<ir::cycles::PatternPoint> points;
+    std::size_t next = 0;
+  };
+  PatternInWork pattern_;
 
   const ir::Program* program_ = nullptr;
   const ir::ProgramFinder* library_ = nullptr;
   const ir::Routine* routine_ = nullptr;
 
-  std::map<std::string, double> written_;  ///< machine data the program wrote, by name and indices
+  GivenData data_;
   [[nodiscard]] double unit_of_written(const std::string& name) const;
-  std::set<std::string> written_in_mm_;  ///< of written_
-  std::map<std::tuple<ir::Datum, ir::AxisId, std::vector<double>>, double> written_tools_;
-  std::vector<Assumed> assumed_;
   std::vector<AssumedRadius> assumed_radii_;
-  Axes travelled_{};  ///< way of the axes since the start, or since the program set it
-  Axes travel_set_{};
-  std::uint32_t travel_given_ = 0;  ///< bit n: the program set the way of axis n
-  std::set<std::string> unread_;    ///< of those, what --set gave and nothing has asked for
+  /// Way of the axes since the start, or since the program set it.
+  struct Travel {
+    Axes way{}, set{};
+    std::uint32_t given = 0;  ///< bit n: the program set the way of axis n
+  };
+  Travel travel_;
 };
 
 }  // namespace cnctrans::interpreter

@@ -7,18 +7,18 @@ namespace cnctrans::interpreter {
 bool BlockMachine::contour_element(const ir::Motion& m, ir::MotionKind kind, Move move) {
   const auto plane = ir::plane_axes(move.plane);
   if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
-  const bool first = contour_.empty();
+  const bool first = contour_.elements.empty();
   if (first) {
-    contour_frame_ = frame_serial_;
-    contour_events_ = emitter_.seen();
+    contour_.frame = frame_serial_;
+    contour_.events = emitter_.seen();
   }
-  if (contour_frame_ != frame_serial_ || contour_events_ != emitter_.seen() ||
-      (!first && contour_.front().move.plane != move.plane)) {
+  if (contour_.frame != frame_serial_ || contour_.events != emitter_.seen() ||
+      (!first && contour_.elements.front().move.plane != move.plane)) {
     return failure_.fail(code::contour_open,
                          "the end of an element before follows from this block: no change of the plane or of the zero "
                          "point, and no machine function may stand between them");
   }
-  if (!first) move.from = move.to = contour_.back().move.to;
+  if (!first) move.from = move.to = contour_.elements.back().move.to;
   OpenElement item;
   if (!contour_data(m, kind, move, item.data)) return false;
   for (const auto& w : m.coords) {
@@ -39,10 +39,10 @@ bool BlockMachine::contour_element(const ir::Motion& m, ir::MotionKind kind, Mov
   move.kind = item.data.arc ? Move::Kind::arc : kind == ir::MotionKind::rapid ? Move::Kind::rapid : Move::Kind::linear;
   move.ccw = item.data.ccw;
   item.move = move;
-  item.corner = std::exchange(block_corner_, std::nullopt);
-  contour_.push_back(item);
-  if (contour_.back().data.end != ir::contour::ElementEnd::given) {
-    return contour_.size() < ir::contour::longest ||
+  item.corner = std::exchange(now_.corner, std::nullopt);
+  contour_.elements.push_back(item);
+  if (contour_.elements.back().data.end != ir::contour::ElementEnd::given) {
+    return contour_.elements.size() < ir::contour::longest ||
            failure_.fail(code::contour, "more than 3 elements in a row whose end follows from the next one");
   }
   return close_contour();
@@ -55,8 +55,8 @@ bool BlockMachine::contour_data(const ir::Motion& m, ir::MotionKind kind, const 
   e.ccw = kind == ir::MotionKind::arc_ccw;
   if (!e.arc && kind != ir::MotionKind::linear && kind != ir::MotionKind::rapid)
     return failure_.fail(code::contour_open, "only lines and arcs can stand in a contour by angles and tangency");
-  e.end = marks_.end;
-  e.branch = marks_.branch;
+  e.end = now_.marks.end;
+  e.branch = now_.marks.branch;
   if (m.extra) {
     if (m.extra->has_line_angle) e.angle = value(m.extra->line_angle);
     if (m.extra->has_polar_angle || m.extra->has_polar_radius || m.extra->has_turns || m.extra->has_pitch)
@@ -84,14 +84,14 @@ bool BlockMachine::contour_data(const ir::Motion& m, ir::MotionKind kind, const 
 }
 
 bool BlockMachine::close_contour() {
-  const auto plane = ir::plane_axes(contour_.front().move.plane);
+  const auto plane = ir::plane_axes(contour_.elements.front().move.plane);
   std::vector<ir::contour::Element> elements;
-  elements.reserve(contour_.size());
-  for (const auto& item : contour_) elements.push_back(item.data);
+  elements.reserve(contour_.elements.size());
+  for (const auto& item : contour_.elements) elements.push_back(item.data);
   const auto solved = ir::contour::solve({p_[plane.u], p_[plane.v]}, elements, profile_.arc_tolerance);
   if (!solved.ok) return failure_.fail(code::contour, solved.error);
-  if (solved.chosen) chosen_contours_.push_back(failure_.where);
-  const std::vector<OpenElement> items = std::exchange(contour_, {});
+  if (solved.chosen) contour_.chosen.push_back(failure_.where);
+  const std::vector<OpenElement> items = std::exchange(contour_.elements, {});
   for (std::size_t i = 0; i < items.size(); ++i) {
     Move move = items[i].move;
     const auto& s = solved.elements[i];
@@ -99,7 +99,7 @@ bool BlockMachine::close_contour() {
     move.to[plane.u] = s.to.u;
     move.to[plane.v] = s.to.v;
     move.centre = {s.centre.u, s.centre.v};
-    block_corner_ = items[i].corner;
+    now_.corner = items[i].corner;
     path_event_.file = move.file;
     path_event_.line = move.line;
     if (!send(move)) return false;

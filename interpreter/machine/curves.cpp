@@ -45,11 +45,11 @@ void BlockMachine::tell_path(Diagnostics& diagnostics) const {
         "the maker states what a pocket with islands clears, not the way of the tool in it: the control's own path "
         "inside the pocket may differ; the same volume is cleared (told once)",
         "compare with the control where the way matters");
-  if (curves_assumed_.empty()) return;
+  if (curve_.assumed.empty()) return;
   diagnostics.warning(
-      code::curve_assumed, curves_assumed_.front(),
+      code::curve_assumed, curve_.assumed.front(),
       "the way of a spline between its points is computed by the usual formulas and run in straight steps within " +
-          shortest(curve_tolerance_) +
+          shortest(curve_.tolerance) +
           " mm; the maker describes only its properties, and the control's own curve may differ between the points "
           "(told once)",
       "compare with the control before a part depends on it");
@@ -61,8 +61,8 @@ bool BlockMachine::curve_allowed(const ir::Motion& m, bool spline) {
     return failure_.fail(code::curve_place, what + " cannot stand beside a spline or a polynomial");
   };
   if (m.frame != ir::FrameUse::normal) return no("machine coordinates");
-  if (pending_ || block_corner_ || modal_corner_ > 0) return no("a corner function");
-  if (!contour_.empty() || marks_.any()) return no("an open contour");
+  if (pending_ || now_.corner || modal_corner_.size > 0) return no("a corner function");
+  if (!contour_.elements.empty() || now_.marks.any()) return no("an open contour");
   if (modal_.feed_mode == ir::FeedMode::inverse_time) return no("a feed by inverse time");
   if (!m.centers.empty() || m.radius_given) return no("the centre or the radius of an arc");
   if (for_contour_) return no("the contour of a cycle");
@@ -70,19 +70,19 @@ bool BlockMachine::curve_allowed(const ir::Motion& m, bool spline) {
                                  [](const auto& w) { return w.positioning != ir::Positioning::with_path; });
   if (alone) return no("a positioning axis");
   if (!spline) return true;
-  if (hole_) return no("an active cycle");
+  if (cycle_.hole) return no("an active cycle");
   if (single_points) return no("a modal call of a subprogram");
   return true;
 }
 
 /// Spline axes: those the program has chosen, else the first three linear axes of the machine.
 void BlockMachine::begin_curve(ir::MotionKind kind) {
-  curve_ = std::make_unique<OpenCurve>();
-  auto& c = *curve_;
+  curve_.open = std::make_unique<OpenCurve>();
+  auto& c = *curve_.open;
   c.kind = c.points.kind = kind;
-  c.axes = spline_axes_;
+  c.axes = curve_.axes;
   for (const auto a : axes_) {
-    if (spline_axes_.empty() && !axis_[a].rotary && c.axes.size() < 3) c.axes.push_back(a);
+    if (curve_.axes.empty() && !axis_[a].rotary && c.axes.size() < 3) c.axes.push_back(a);
   }
   for (const auto a : axes_) {
     if (std::find(c.axes.begin(), c.axes.end(), a) == c.axes.end()) c.beside.push_back(a);
@@ -92,28 +92,28 @@ void BlockMachine::begin_curve(ir::MotionKind kind) {
   c.points.beside.push_back(chosen(here, c.beside));
   c.points.weights.push_back(1);
   c.points.start = modal_.spline_start;
-  if (has_path_) {
+  if (last_.known) {
     Axes back = p_;
-    if (last_was_arc_) {
+    if (last_.arc) {
       const auto plane = ir::plane_axes(modal_.plane);
       const Vec d = last_direction(plane);
       back[plane.u] -= d.u;
       back[plane.v] -= d.v;
     } else {
-      for (std::size_t i = 0; i < 3; ++i) back[i] = before_[i];
+      for (std::size_t i = 0; i < 3; ++i) back[i] = last_.before[i];
     }
     const Axes before = frame_.apply(back);
     Axes way{};
     for (std::size_t i = 0; i < 3; ++i) way[i] = here[i] - before[i];
     c.points.start_direction = chosen(way, c.axes);
   }
-  curves_assumed_.push_back(failure_.where);
+  curve_.assumed.push_back(failure_.where);
   emitter_.hold();
 }
 
 /// The words of a B-spline point.
 bool BlockMachine::spline_words(const ir::Motion& m, double& weight, double& interval) {
-  auto& c = *curve_;
+  auto& c = *curve_.open;
   weight = 1;
   interval = -1;
   if (!m.extra) return true;
@@ -139,14 +139,14 @@ bool BlockMachine::spline_words(const ir::Motion& m, double& weight, double& int
 
 /// One more point of a spline.
 bool BlockMachine::spline_point(const ir::Motion& m, ir::MotionKind kind) {
-  if (curve_broken_) {
+  if (curve_.broken) {
     return failure_.fail(code::curve_place,
                          "a move of another kind stands between the points of a spline: where the curve goes on is "
                          "not certain");
   }
   if (!curve_allowed(m, true)) return false;
-  if (!curve_) begin_curve(kind);
-  auto& c = *curve_;
+  if (!curve_.open) begin_curve(kind);
+  auto& c = *curve_.open;
   double weight = 1, interval = -1;
   Move move = move_from_here();
   if (!end_point(m, move) || !spline_words(m, weight, interval)) return false;
@@ -160,7 +160,7 @@ bool BlockMachine::spline_point(const ir::Motion& m, ir::MotionKind kind) {
   auto beside = chosen(to, c.beside);
   bool linear = false;
   for (const auto a : axes_) linear = linear || (!axis_[a].rotary && std::abs(move.to[a] - move.from[a]) > no_move);
-  for (const auto a : axes_) base_pending_ &= move.to[a] != move.from[a] ? ~(1U << a) : ~0U;
+  for (const auto a : axes_) increments_.pending &= move.to[a] != move.from[a] ? ~(1U << a) : ~0U;
   p_ = move.to;
   c.points.end = modal_.spline_end;
   c.points.beside_by = modal_.path_reference;
@@ -170,7 +170,7 @@ bool BlockMachine::spline_point(const ir::Motion& m, ir::MotionKind kind) {
     c.points.weights.front() = weight;
     return true;
   }
-  if (c.blocks.empty() && curve_from_first_point_ && !c.first_point_said) {
+  if (c.blocks.empty() && curve_.from_first_point && !c.first_point_said) {
     return failure_.fail(code::curve_place, "the tool does not stand at the first point of the curve");
   }
   if (c.blocks.size() >= most_points)
@@ -186,8 +186,8 @@ bool BlockMachine::spline_point(const ir::Motion& m, ir::MotionKind kind) {
 
 /// What a motion of another kind, or a code of another spline, means to the curve.
 bool BlockMachine::leave_curve(ir::MotionKind kind) {
-  if (kind == curve_->kind) return true;
-  const bool by_next = curve_->points.end == ir::SplineEnd::tangent;
+  if (kind == curve_.open->kind) return true;
+  const bool by_next = curve_.open->points.end == ir::SplineEnd::tangent;
   const bool to_machine = kind == ir::MotionKind::reference_point || kind == ir::MotionKind::fixed_point;
   if (!by_next) return close_curve(nullptr);
   if (ir::is_curve(kind) || kind == ir::MotionKind::arc_tangent || to_machine) {
@@ -216,10 +216,10 @@ Axes BlockMachine::start_direction(const Move& move) const {
 
 /// The curve is known now: its steps go out, and the other events between them.
 bool BlockMachine::close_curve(const Move* next) {
-  const auto open = std::move(curve_);
-  curve_.reset();
+  const auto open = std::move(curve_.open);
+  curve_.open.reset();
   auto& c = *open;
-  curve_broken_ = ir::is_spline(modal_.motion);
+  curve_.broken = ir::is_spline(modal_.motion);
   if (c.blocks.empty()) {
     emitter_.release();
     return true;
@@ -235,13 +235,13 @@ bool BlockMachine::close_curve(const Move* next) {
   std::vector<ir::curves::Point> steps;
   e.kind = EventKind::linear;
   e.in_machine = false;
-  e.number = master_;
+  e.number = spindles_.master_number();
   e.stop = path_stop();
   for (std::size_t i = 0; i < c.blocks.size(); ++i) {
     const auto& b = c.blocks[i];
     emitter_.pass_held(b.held);
     steps.clear();
-    ir::curves::spline_steps(c.points, curve, i, curve_tolerance_, steps);
+    ir::curves::spline_steps(c.points, curve, i, curve_.tolerance, steps);
     e.file = b.file;
     e.line = b.line;
     e.feed = b.feed;
@@ -257,7 +257,7 @@ bool BlockMachine::close_curve(const Move* next) {
         moved |= 1U << a;
       }
       if (moved == 0) continue;
-      put_offset(e, moved);
+      tool_.put_offset(e, moved, modal_);
       add_travel(from, e);
       emitter_.pass(e);
     }
@@ -273,29 +273,29 @@ bool BlockMachine::close_curve(const Move* next) {
     Axes back = e.to.value;
     for (std::size_t k = 0; k < c.axes.size(); ++k) back[c.axes[k]] -= slope[k] / way;
     const Axes work = inverse_.apply(back);
-    for (std::size_t i = 0; i < 3; ++i) before_[i] = work[i];
-    last_was_arc_ = false;
-    has_path_ = true;
+    for (std::size_t i = 0; i < 3; ++i) last_.before[i] = work[i];
+    last_.arc = false;
+    last_.known = true;
   }
   return true;
 }
 
 /// A stop of the preparation ends the curve; the next point begins another.
 bool BlockMachine::split_curve() {
-  if (!curve_) return true;
-  if (curve_->points.end == ir::SplineEnd::tangent) {
+  if (!curve_.open) return true;
+  if (curve_.open->points.end == ir::SplineEnd::tangent) {
     return failure_.fail(code::curve_place,
                          "a stop of the preparation inside of a spline that ends along the block behind it");
   }
   if (!close_curve(nullptr)) return false;
-  curve_broken_ = false;
+  curve_.broken = false;
   return true;
 }
 
 bool BlockMachine::end_defined_curve() {
-  curve_from_first_point_ = false;
-  if (!curve_) {
-    curve_broken_ = ir::is_spline(modal_.motion);
+  curve_.from_first_point = false;
+  if (!curve_.open) {
+    curve_.broken = ir::is_spline(modal_.motion);
     return true;
   }
   return close_curve(nullptr);
@@ -346,7 +346,7 @@ bool BlockMachine::polynomial(const ir::Motion& m) {
   std::vector<ir::curves::Point> steps;
   ir::curves::Point direction;
   std::string error;
-  if (!ir::curves::polynomial_steps(block, curve_tolerance_, steps, direction, error))
+  if (!ir::curves::polynomial_steps(block, curve_.tolerance, steps, direction, error))
     return failure_.fail(code::curve_data, error);
   Move step = move;
   step.kind = Move::Kind::linear;
@@ -357,10 +357,10 @@ bool BlockMachine::polynomial(const ir::Motion& m) {
   }
   arrived(move);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (axes_[i] <= ir::axis::z) before_[axes_[i]] = p_[axes_[i]] - direction[i];
+    if (axes_[i] <= ir::axis::z) last_.before[axes_[i]] = p_[axes_[i]] - direction[i];
   }
-  last_was_arc_ = false;
-  has_path_ = true;
+  last_.arc = false;
+  last_.known = true;
   return true;
 }
 

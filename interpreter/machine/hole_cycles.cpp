@@ -22,7 +22,7 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
   context.level_unit = axis_[axis].scale_absolute;
   context.feed_unit = feed_unit();
   context.distance = modal_.distance;
-  context.height = hole->keeps_initial && hole_ ? hole_->initial : p_[axis];
+  context.height = hole->keeps_initial && cycle_.hole ? cycle_.hole->initial : p_[axis];
   const auto evaluate = [this](const ir::Value& v) -> std::optional<double> {
     const double x = value(v);
     if (failure_.set) return std::nullopt;
@@ -31,14 +31,14 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
   // A change of the cycle in force: the levels it does not name stay where they are.
   std::optional<ir::HoleCycle> merged;
   if (hole->keeps_initial) {
-    if (!hole_) return failure_.fail(code::bad_cycle, "the words of a cycle are changed, and no cycle is active");
+    if (!cycle_.hole) return failure_.fail(code::bad_cycle, "the words of a cycle are changed, and no cycle is active");
     merged = *hole;
     const auto stays = [&](ir::Level& l, double height) {
       if (l.given) return;
       l = ir::Level{ir::Value(height / context.level_unit), ir::LevelBase::absolute, ir::LevelBase::absolute, true};
     };
-    stays(merged->reference, hole_->reference);
-    stays(merged->bottom, hole_->bottom);
+    stays(merged->reference, cycle_.hole->reference);
+    stays(merged->bottom, cycle_.hole->bottom);
     hole = &*merged;
   }
   std::string error;
@@ -52,7 +52,7 @@ bool BlockMachine::resolve_cycle(const ir::CyclePtr& cycle, std::optional<ir::cy
     auto mill = ir::cycles::resolve(hole->mill, units, evaluate, &error);
     if (!mill && !failure_.set) return failure_.fail(code::bad_cycle, error);
     if (!mill) return false;
-    mill_ = std::move(*mill);
+    cycle_.mill = std::move(*mill);
     if (!read_mill_contours(*hole)) return false;
     if (hole->kind != ir::HoleKind::mill && !find_pocket_entries()) return false;
   }
@@ -64,17 +64,17 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   const auto* named = c.cycle ? std::get_if<ir::NamedCycle>(&c.cycle->node) : nullptr;
   const bool pocket = named != nullptr && ir::cycles::is_pocket_cycle(named->name);
   if (named != nullptr && !c.modal && c.here && (pocket || ir::cycles::find_machining(named->name) != nullptr)) {
-    machining_ = named;
+    now_.machining = named;
     return true;
   }
   if (named != nullptr && !c.modal && c.here && ir::cycles::find_pattern(named->name) != nullptr) {
-    pattern_here_ = true;
+    pattern_.here = true;
     return start_pattern(*named);
   }
-  if (block_again && c.modal && hole_) return true;
+  if (block_again && c.modal && cycle_.hole) return true;
   std::optional<ir::cycles::HoleNumbers> numbers;
   ir::AxisId axis = ir::axis::z;
-  auto mill_before = c.modal ? ir::cycles::MillNumbers{} : mill_;
+  const ActiveCycle before = c.modal ? ActiveCycle{} : cycle_;  // resolving it writes into the present one
   if (!resolve_cycle(c.cycle, numbers, axis)) return false;
   const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
   const auto* own = profile_.axis(axis);
@@ -86,34 +86,31 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
     return failure_.fail(code::bad_cycle,
                          "the tool stands between the reference plane and the depth where the cycle is called");
   }
-  modal_hole_.reset();
-  if (!c.modal && hole_)
-    modal_hole_ = ModalHole{*hole_, std::move(mill_before), hole_axis_, hole_follows_plane_, trigger_};
-  hole_ = numbers;
-  hole_axis_ = axis;
-  hole_follows_plane_ = c.trigger == ir::CycleTrigger::path_motion && hole != nullptr && hole->axis == ir::axis::none;
-  trigger_ = c.trigger;
-  once_ = !c.modal;
-  cycle_defined_here_ = true;
-  cycle_waits_ = !c.here;
+  modal_cycle_.reset();
+  if (before.hole) modal_cycle_ = before;
+  cycle_.hole = numbers;
+  cycle_.axis = axis;
+  cycle_.follows_plane = c.trigger == ir::CycleTrigger::path_motion && hole != nullptr && hole->axis == ir::axis::none;
+  cycle_.trigger = c.trigger;
+  now_.cycle_once = !c.modal;
+  now_.cycle_defined = true;
+  now_.cycle_waits = !c.here;
   return true;
 }
 
 /// The modal cycle goes on behind a cycle that was called by itself.
 void BlockMachine::end_single_cycle() {
-  hole_.reset();
-  if (!modal_hole_) return;
-  hole_ = modal_hole_->hole;
-  mill_ = std::move(modal_hole_->mill);
-  hole_axis_ = modal_hole_->axis;
-  hole_follows_plane_ = modal_hole_->follows_plane;
-  trigger_ = modal_hole_->trigger;
-  modal_hole_.reset();
+  if (modal_cycle_) {
+    cycle_ = std::move(*modal_cycle_);
+    modal_cycle_.reset();
+  } else {
+    cycle_.hole.reset();
+  }
 }
 
 bool BlockMachine::modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here) {
   if (!cycle) {
-    hole_.reset();
+    cycle_.hole.reset();
     return true;
   }
   ir::CycleDefine c;
@@ -121,7 +118,7 @@ bool BlockMachine::modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigg
   c.trigger = trigger;
   c.here = here;
   if (!define_cycle(c)) return false;
-  once_ = false;
+  now_.cycle_once = false;
   return !here || run_cycle();
 }
 
@@ -138,13 +135,13 @@ bool BlockMachine::path_words(const ir::Block& b) const {
 bool BlockMachine::cycle_triggers(const ir::Block& b) const {
   const auto& m = b.motion;
   if (b.has_motion && m.frame != ir::FrameUse::normal) return false;
-  if (trigger_ == ir::CycleTrigger::path_motion) {
+  if (cycle_.trigger == ir::CycleTrigger::path_motion) {
     return (b.has_motion && m.moves()) || path_words(b);
   }
   if (!b.has_motion) return false;
   const auto plane = ir::plane_axes(modal_.plane);
   for (const auto& w : m.coords) {
-    if (w.axis == hole_axis_) continue;
+    if (w.axis == cycle_.axis) continue;
     if (w.axis == plane.u || w.axis == plane.v || w.axis == plane.w) return true;
     if (policy_.rotary_triggers && axis_[w.axis].rotary) return true;
   }
@@ -154,11 +151,11 @@ bool BlockMachine::cycle_triggers(const ir::Block& b) const {
 /// The plane at the point counts; the levels, in millimetres, stay.
 bool BlockMachine::turn_hole() {
   const ir::AxisId axis = ir::plane_axes(modal_.plane).w;
-  if (axis == hole_axis_) return true;
+  if (axis == cycle_.axis) return true;
   if (!check_axis(axis)) return false;
-  if (axis_[axis].scale_absolute != axis_[hole_axis_].scale_absolute)
+  if (axis_[axis].scale_absolute != axis_[cycle_.axis].scale_absolute)
     return failure_.fail(code::bad_cycle, "the plane of a modal cycle was changed, and its levels would be diameters");
-  hole_axis_ = axis;
+  cycle_.axis = axis;
   return true;
 }
 
@@ -167,8 +164,8 @@ bool BlockMachine::run_cycle() {
     release_pending();
     if (!without_corner("a cycle follows a corner function")) return false;
   }
-  if (hole_follows_plane_ && !turn_hole()) return false;
-  if (hole_->kind == ir::HoleKind::mill) return run_milling();
+  if (cycle_.follows_plane && !turn_hole()) return false;
+  if (cycle_.hole->kind == ir::HoleKind::mill) return run_milling();
   if (hole_entries_.empty()) return run_hole();
   const auto plane = ir::plane_axes(modal_.plane);
   for (const auto& [u, v] : hole_entries_) {
@@ -186,14 +183,14 @@ bool BlockMachine::run_cycle() {
 /// The hole at the place where the tool stands.
 bool BlockMachine::run_hole() {
   std::string error;
-  hole_->told_in_full = policy_.cycles_in_full;
-  const auto moves = ir::cycles::expand(*hole_, p_[hole_axis_], modal_.retract_plane, &error);
+  cycle_.hole->told_in_full = policy_.cycles_in_full;
+  const auto moves = ir::cycles::expand(*cycle_.hole, p_[cycle_.axis], modal_.retract_plane, &error);
   if (!error.empty()) return failure_.fail(code::not_carried, error);
-  const bool taps = hole_->kind == ir::HoleKind::tap || hole_->kind == ir::HoleKind::tap_floating;
-  auto& spindle = spindles_[master_];
+  const bool taps = cycle_.hole->kind == ir::HoleKind::tap || cycle_.hole->kind == ir::HoleKind::tap_floating;
+  auto& spindle = spindles_.master();
   // A tap that turns the spindle itself by its pitch needs none running.
-  const bool turns_itself = hole_->orient_first || hole_->spindle_bottom == ir::SpindleStep::none;
-  if (taps && !turns_itself && spindle.state == ir::SpindleState::off) run_spindle(master_, ir::SpindleState::cw);
+  const bool turns_itself = cycle_.hole->orient_first || cycle_.hole->spindle_bottom == ir::SpindleStep::none;
+  if (taps && !turns_itself && !spindle.turns()) run_master(ir::SpindleState::cw);
   const auto sense = spindle.state;
   const Axes hole = p_;
   const std::uint64_t first = emitter_.seen();
@@ -201,12 +198,12 @@ bool BlockMachine::run_hole() {
     if (!cycle_move(m, hole, sense)) return false;
   }
   if (cycle_runs_ != nullptr && taps)
-    keep_tap(first, hole_->pitch < 0 || (!turns_itself && sense == ir::SpindleState::ccw));
+    keep_tap(first, cycle_.hole->pitch < 0 || (!turns_itself && sense == ir::SpindleState::ccw));
   return true;
 }
 
 void BlockMachine::keep_tap(std::uint64_t first, bool left_hand) {
-  keep_place(first, "tap", hole_->reference, left_hand ? -1 : 1);
+  keep_place(first, "tap", cycle_.hole->reference, left_hand ? -1 : 1);
 }
 
 bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, ir::SpindleState sense) {
@@ -217,22 +214,15 @@ bool BlockMachine::cycle_move(const ir::cycles::CycleMove& m, const Axes& hole, 
     case CycleStep::feed:
     case CycleStep::thread: return cycle_path(m, hole);
     case CycleStep::dwell: emit_dwell(m.amount, m.revolutions); break;
-    case CycleStep::spindle_reverse: run_spindle(master_, sense == ir::SpindleState::off ? sense : opposite); break;
+    case CycleStep::spindle_reverse: run_master(sense == ir::SpindleState::off ? sense : opposite); break;
     case CycleStep::spindle_restore:
-      if (sense != ir::SpindleState::off || spindles_[master_].oriented) run_spindle(master_, sense);
+      if (sense != ir::SpindleState::off || spindles_.master().oriented) run_master(sense);
       break;
-    case CycleStep::spindle_stop: run_spindle(master_, ir::SpindleState::off); break;
-    case CycleStep::spindle_cw: run_spindle(master_, ir::SpindleState::cw); break;
-    case CycleStep::spindle_ccw: run_spindle(master_, ir::SpindleState::ccw); break;
-    case CycleStep::spindle_speed:
-      spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.amount;
-      break;
-    case CycleStep::spindle_orient:
-      spindles_[master_].oriented = true;
-      spindles_[master_].state = ir::SpindleState::off;
-      spindles_[master_].angle = m.amount;
-      emit_spindle(master_);
-      break;
+    case CycleStep::spindle_stop: run_master(ir::SpindleState::off); break;
+    case CycleStep::spindle_cw: run_master(ir::SpindleState::cw); break;
+    case CycleStep::spindle_ccw: run_master(ir::SpindleState::ccw); break;
+    case CycleStep::spindle_speed: spindles_.master().set_rpm(m.amount); break;
+    case CycleStep::spindle_orient: orient_master(m.amount); break;
     case CycleStep::operator_stop: emit_stop(false); break;
   }
   return true;
@@ -242,9 +232,9 @@ bool BlockMachine::cycle_path(const ir::cycles::CycleMove& m, const Axes& hole) 
   using ir::cycles::CycleStep;
   const auto plane = ir::plane_axes(modal_.plane);
   Move move = move_from_here();
-  move.to[hole_axis_] = m.w;
-  if (plane.u != hole_axis_) move.to[plane.u] = hole[plane.u] + m.du;
-  if (plane.v != hole_axis_) move.to[plane.v] = hole[plane.v] + m.dv;
+  move.to[cycle_.axis] = m.w;
+  if (plane.u != cycle_.axis) move.to[plane.u] = hole[plane.u] + m.du;
+  if (plane.v != cycle_.axis) move.to[plane.v] = hole[plane.v] + m.dv;
   move.feed = (m.has_feed ? m.feed : feed_now()) * m.feed_factor;
   move.feed_degrees.reset();
   move.kind = m.step == CycleStep::rapid ? Move::Kind::rapid : Move::Kind::linear;
@@ -254,7 +244,7 @@ bool BlockMachine::cycle_path(const ir::cycles::CycleMove& m, const Axes& hole) 
   }
   if (!emit_move(move, false)) return false;
   p_ = move.to;
-  has_path_ = false;
+  last_.known = false;
   return true;
 }
 
@@ -267,7 +257,7 @@ bool BlockMachine::cycle_pitch(const ir::cycles::CycleMove& m, double& pitch) {
     pitch = feed;
     return true;
   }
-  const double speed = spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  const double speed = spindles_.master().rpm();
   if (speed <= 0) return failure_.fail(code::bad_cycle, "tapping needs a pitch, or a feed and a spindle speed");
   pitch = feed / speed;
   return true;

@@ -20,24 +20,15 @@ using ir::Datum;
 
 constexpr std::size_t crossing_count = 3 + 2 * element_values;
 
-std::string datum_key(const ir::SystemRef& ref, std::span<const double> args) {
-  std::string key = ref.text;
-  if (args.empty()) return key;
-  key += '[';
-  for (std::size_t i = 0; i < args.size(); ++i) key += (i == 0 ? "" : ",") + shortest(args[i]);
-  return key + "]";
-}
 const machine::Tool* tool_of(const machine::Profile& p, double number) {
   const auto it = std::find_if(p.tools.begin(), p.tools.end(), [number](const auto& t) { return t.number == number; });
   return it == p.tools.end() ? nullptr : &*it;
 }
-std::size_t slot_of(ir::FrameSlot s) {
-  return static_cast<std::size_t>(s);
-}
-/// active_modal also says whether a part of the programmable frame counts: setting_count + 2 + FrameSlot; else -1.
-int frame_slot(std::span<const double> args) {
+/// active_modal also says whether a part of the programmable frame counts: setting_count + 2 + FrameSlot.
+std::optional<ir::FrameSlot> frame_slot(std::span<const double> args) {
   const int n = args.size() == 3 ? saturate<int>(args[1]) - static_cast<int>(ir::setting_count) - 2 : -1;
-  return n >= 0 && n <= static_cast<int>(ir::FrameSlot::chain) ? n : -1;
+  if (n < 0 || n > static_cast<int>(ir::FrameSlot::chain)) return std::nullopt;
+  return static_cast<ir::FrameSlot>(n);
 }
 bool tool_length_unit(Datum d) {
   return d == Datum::tool_radius || d == Datum::tool_length || d == Datum::tool_wear || d == Datum::tool_nose_width;
@@ -55,49 +46,30 @@ double value_of(const ir::ModalState& state, int setting) {
 
 /// A length that the program wrote is kept in mm, whatever unit is in force when it is read.
 double BlockMachine::unit_of_written(const std::string& name) const {
-  return policy_.data_modal && written_in_mm_.contains(name) ? unit() : 1;
-}
-
-/// What the program wrote, what --set gave, what the profile says; a name with an index may be set without brackets.
-const double* BlockMachine::given_datum(const ir::SystemRef& ref, std::span<const double> args) const {
-  if (written_.empty() && profile_.data.empty()) return nullptr;
-  const std::string keys[] = {datum_key(ref, args), args.empty() ? ref.text : ref.text + shortest(args[0])};
-  for (const auto& k : keys) {
-    if (const auto it = written_.find(k); it != written_.end()) return &it->second;
-  }
-  for (const auto& k : keys) {
-    if (const auto it = profile_.data.find(k); it != profile_.data.end()) return &it->second;
-  }
-  if (args.empty()) return nullptr;
-  const auto any = profile_.data.find(ref.text + "[*]");  // the same for every index
-  return any == profile_.data.end() ? nullptr : &any->second;
+  return policy_.data_modal && data_.in_mm(name) ? unit() : 1;
 }
 
 bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
-  if (const double* given = given_datum(ref, args)) {
+  if (const double* given = data_.find(ref, args)) {
     out = *given / unit_of_written(datum_key(ref, args));
-    if (!unread_.empty()) {
-      unread_.erase(datum_key(ref, args));
-      if (!args.empty()) unread_.erase(ref.text + shortest(args[0]));
-    }
+    data_.read_now(ref, args);
     return true;
   }
-  if (curve_ && (ref.datum == Datum::work_position || ref.datum == Datum::machine_position)) {
+  if (curve_.open && (ref.datum == Datum::work_position || ref.datum == Datum::machine_position)) {
     return failure_.fail(code::curve_place,
                          "the position is read between the points of a spline: reading it stops the preparation, which "
                          "ends the curve");
   }
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length) {
     // Another name of the control may have written the same datum.
-    const auto it = written_tools_.find({ref.datum, ref.axis, {args.begin(), args.end()}});
-    if (it != written_tools_.end()) {
-      out = it->second / (policy_.data_modal ? unit() : 1);
+    if (const double* written = data_.tool(ref.datum, ref.axis, args)) {
+      out = *written / (policy_.data_modal ? unit() : 1);
       return true;
     }
   }
   if (ref.datum == Datum::tool_radius && args.empty() && ref.args.empty()) {
     const double radius = tool_radius();
-    out = (radius == 0 ? radius_of_world(offset_) : radius) / (policy_.data_modal ? unit() : 1);
+    out = (radius == 0 ? radius_of_world(tool_.offset()) : radius) / (policy_.data_modal ? unit() : 1);
     return true;
   }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
@@ -113,29 +85,28 @@ bool BlockMachine::read_of_run(const ir::SystemRef& ref, std::span<const double>
                                double& out) {
   const auto answer = machine::data_of_run(profile_, name);
   if (!answer) return false;
-  const auto& s = spindles_[static_cast<std::size_t>(answer->spindle)];
+  const Spindle& s = spindles_[static_cast<int>(answer->spindle)];
   switch (answer->datum) {
     case machine::RunDatum::travelled: {
       if (ref.axis >= ir::axis::count_max || !axis_[ref.axis].present) return false;
-      const double start = travel_set_[ref.axis];
-      if ((travel_given_ >> ref.axis & 1U) == 0)
-        assume(name + " before the start", start, "the program sets it: (" + name + "=0)");
-      out = (start + travelled_[ref.axis]) / (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
+      const double start = travel_.set[ref.axis];
+      if ((travel_.given >> ref.axis & 1U) == 0)
+        data_.assume(failure_.where, name + " before the start", start, "the program sets it: (" + name + "=0)");
+      out = (start + travel_.way[ref.axis]) / (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
       return true;
     }
-    case machine::RunDatum::next_offset: out = offset_; return true;
+    case machine::RunDatum::next_offset: out = tool_.offset(); return true;
     case machine::RunDatum::spindle_angle: out = s.angle; return true;
-    case machine::RunDatum::rpm: out = s.value[static_cast<std::size_t>(ir::SpindleMode::rpm)]; return true;
-    case machine::RunDatum::cutting_speed: out = s.value[static_cast<std::size_t>(ir::SpindleMode::css)]; return true;
-    case machine::RunDatum::spindle_limit: out = s.has_limit ? s.limit : 0; return true;
+    case machine::RunDatum::rpm: out = s.rpm(); return true;
+    case machine::RunDatum::cutting_speed: out = s.cutting_speed(); return true;
+    case machine::RunDatum::spindle_limit: out = s.limit_in_force(); return true;
     case machine::RunDatum::call_level: out = static_cast<double>(calls_open); return true;
-    case machine::RunDatum::next_tool: out = tool_; return true;
+    case machine::RunDatum::next_tool: out = tool_.selected(); return true;
     case machine::RunDatum::spindle_position: out = s.angle; return s.oriented;
     case machine::RunDatum::turning_speed: {
-      const bool turns = s.state == ir::SpindleState::cw || s.state == ir::SpindleState::ccw;
-      if (turns && s.mode == ir::SpindleMode::css) return false;
-      out = turns ? s.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] : 0;
-      assume(name, out);
+      if (s.turns() && s.mode == ir::SpindleMode::css) return false;
+      out = s.turns() ? s.rpm() : 0;
+      data_.assume(failure_.where, name, out, {});
       return true;
     }
     case machine::RunDatum::plane_normal: {
@@ -194,15 +165,8 @@ bool BlockMachine::read_at_rest(const std::string& name, double& out) {
   const auto value = machine::data_at_rest(profile_, name);
   if (!value) return false;
   out = *value;
-  assume(name, *value);
+  data_.assume(failure_.where, name, *value, {});
   return true;
-}
-
-void BlockMachine::assume(const std::string& name, double value, const std::string& hint) {
-  const auto same = [&](const Assumed& a) { return a.name == name; };
-  if (std::any_of(assumed_.begin(), assumed_.end(), same)) return;
-  assumed_.push_back({failure_.where, name, value,
-                      hint.empty() ? "give another by --set " + name + "=VALUE or in the profile's \"data\"" : hint});
 }
 
 bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
@@ -221,23 +185,13 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
                                           : axis_[ref.axis].rotary  ? 1
                                                                     : length);
       return true;
-    case Datum::work_offset: {
-      const auto row = work_offsets_.find(args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]));
-      out = 0;
-      if (row != work_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis) / length;
-      return true;
-    }
+    case Datum::work_offset: out = zeros_.coarse(offset_row(args), ref.axis) / length; return true;
     case Datum::active_offset: out = modal_.work_offset; return true;
     case Datum::active_shift:
       if (!has_axis) return false;
-      out = along(compose(offset_frame(), slots_[slot_of(ir::FrameSlot::preset)]));
+      out = along(compose(zeros_.outside(), parts_[ir::FrameSlot::preset]));
       return true;
-    case Datum::work_offset_fine: {
-      const auto row = fine_offsets_.find(args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]));
-      out = 0;
-      if (row != fine_offsets_.end() && row->second.contains(ref.axis)) out = row->second.at(ref.axis) / length;
-      return true;
-    }
+    case Datum::work_offset_fine: out = zeros_.fine(offset_row(args), ref.axis) / length; return true;
     case Datum::measured_work:
       if (!has_axis) return false;
       out = p_[ref.axis] / axis_[ref.axis].scale_absolute;
@@ -248,7 +202,7 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       return true;
     case Datum::settable_position:
       if (!has_axis) return false;
-      out = programmable_frame().apply(p_)[ref.axis] / axis_[ref.axis].scale_absolute;
+      out = parts_.written().apply(p_)[ref.axis] / axis_[ref.axis].scale_absolute;
       return true;
     case Datum::frame_settable:
       if (args.size() == crossing_count && args[0] == ir::frame_rows::crossing) return crossing(args, failure_, out);
@@ -262,27 +216,27 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       return true;
     case Datum::programmed_shift:
       if (!has_axis) return false;
-      out = (frame_.t[ref.axis] - offset_frame().t[ref.axis]) / length;
+      out = (frame_.t[ref.axis] - zeros_.outside().t[ref.axis]) / length;
       return true;
-    case Datum::pole_first: out = pole_.u / axis_[ir::plane_axes(modal_.plane).u].scale_absolute; return true;
-    case Datum::pole_second: out = pole_.v / axis_[ir::plane_axes(modal_.plane).v].scale_absolute; return true;
+    case Datum::pole_first: out = polar_.pole.u / axis_[ir::plane_axes(modal_.plane).u].scale_absolute; return true;
+    case Datum::pole_second: out = polar_.pole.v / axis_[ir::plane_axes(modal_.plane).v].scale_absolute; return true;
     default: return false;
   }
 }
 
 bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
-  const double row = args.empty() ? tool_in_spindle_ : args[0];
+  const double row = args.empty() ? tool_.in_spindle() : args[0];
   const auto* tool = tool_of(profile_, row);
   const double length = policy_.data_modal ? unit() : 1;
   const auto feed = [&](ir::FeedMode m) {
     const bool inch = m != ir::FeedMode::inverse_time && modal_.units == ir::Units::inch && modal_.units_feed_too;
     return feed_[static_cast<std::size_t>(m)] / (inch ? 25.4 : 1);
   };
-  const auto speed = [&](ir::SpindleMode m) { return spindles_[1].value[static_cast<std::size_t>(m)]; };
+  const Spindle& spindle = spindles_.first();
   switch (ref.datum) {
-    case Datum::tool_number: out = tool_in_spindle_; return true;
-    case Datum::next_tool: out = tool_; return true;
-    case Datum::offset_number: out = offset_; return true;
+    case Datum::tool_number: out = tool_.in_spindle(); return true;
+    case Datum::next_tool: out = tool_.selected(); return true;
+    case Datum::offset_number: out = tool_.offset(); return true;
     case Datum::tool_length:
       out = tool == nullptr ? 0 : (ref.axis == ir::axis::x ? tool->length_x : tool->length) / length;
       if (out == 0 && world_ != nullptr) out = world_->tool_length(row, ref.axis) / length;
@@ -297,15 +251,13 @@ bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const dou
     case Datum::feed_per_minute: out = feed(ir::FeedMode::per_minute); return true;
     case Datum::feed_per_rev: out = feed(ir::FeedMode::per_rev); return true;
     case Datum::feed_inverse_time: out = feed(ir::FeedMode::inverse_time); return true;
-    case Datum::spindle_speed: out = speed(spindles_[1].mode); return true;
-    case Datum::rpm: out = speed(ir::SpindleMode::rpm); return true;
-    case Datum::cutting_speed: out = speed(ir::SpindleMode::css); return true;
-    case Datum::spindle_limit: out = spindles_[1].has_limit ? spindles_[1].limit : 0; return true;
-    case Datum::spindle_state: {
-      const auto& s = spindles_[1];
-      out = args.size() == 2 && !s.oriented && static_cast<double>(s.state) == args[1] ? 1 : 0;
+    case Datum::spindle_speed: out = spindle.speed(); return true;
+    case Datum::rpm: out = spindle.rpm(); return true;
+    case Datum::cutting_speed: out = spindle.cutting_speed(); return true;
+    case Datum::spindle_limit: out = spindle.limit_in_force(); return true;
+    case Datum::spindle_state:
+      out = args.size() == 2 && !spindle.oriented && static_cast<double>(spindle.state) == args[1] ? 1 : 0;
       return true;
-    }
     case Datum::feed_override: out = 100; return true;
     default: return false;
   }
@@ -313,9 +265,9 @@ bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const dou
 
 bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
   const auto order = [this](ir::AxisId a) { return std::find(axes_.begin(), axes_.end(), a) - axes_.begin(); };
-  const Frame& scale = slots_[slot_of(ir::FrameSlot::scale)];
-  const Frame& rotation = slots_[slot_of(ir::FrameSlot::rotation)];
-  const Frame& mirror = slots_[slot_of(ir::FrameSlot::mirror)];
+  const Frame& scale = parts_[ir::FrameSlot::scale];
+  const Frame& rotation = parts_[ir::FrameSlot::rotation];
+  const Frame& mirror = parts_[ir::FrameSlot::mirror];
   const auto factor = [](const Frame& f, ir::AxisId a) { return a < 3 ? f.m[a][a] : f.d[a]; };
   const auto plane = ir::plane_axes(modal_.plane);
   switch (ref.datum) {
@@ -329,8 +281,8 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
       return true;
     case Datum::active_modal:
       if (args.size() != 3) return false;
-      if (const int slot = frame_slot(args); slot >= 0) {
-        out = (suspended_ >> slot & 1U) == 0 ? 1 : 0;
+      if (const auto slot = frame_slot(args)) {
+        out = parts_.counts(*slot) ? 1 : 0;
         return true;
       }
       out = value_of(modal_, saturate<int>(args[1])) == args[2] ? 1 : 0;
@@ -343,7 +295,7 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
     case Datum::scale_factor: out = scale.m[0][0]; return true;
     case Datum::axis_scale:
       if (ref.axis >= ir::axis::count_max || !axis_[ref.axis].present) return false;
-      out = factor(scale, ref.axis) * factor(slots_[slot_of(ir::FrameSlot::chain)], ref.axis);
+      out = factor(scale, ref.axis) * factor(parts_[ir::FrameSlot::chain], ref.axis);
       return true;
     case Datum::rotation_angle: {
       const double angle =
@@ -356,6 +308,11 @@ bool BlockMachine::read_state(const ir::SystemRef& ref, std::span<const double> 
   }
 }
 
+/// The row that an index names; without one, the row in force.
+std::int32_t BlockMachine::offset_row(std::span<const double> args) const {
+  return args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]);
+}
+
 double BlockMachine::length_of(ir::AxisId axis, double value) const {
   return axis < ir::axis::count_max && axis_[axis].present ? value * axis_[axis].scale_absolute : value;
 }
@@ -366,28 +323,21 @@ std::string BlockMachine::axis_name(ir::AxisId axis) const {
 }
 
 bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
-  writes_zeros_ = writes_zeros_ || ref.datum == Datum::work_offset || ref.datum == Datum::work_offset_fine;
+  const auto in_table = [&] {
+    const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
+    return v * (policy_.data_modal && linear ? unit() : 1);
+  };
   switch (ref.datum) {
-    case Datum::work_offset: {
-      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]);
-      const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
-      work_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
-      if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
-      load_offset(row);
-      return rebuild_frame();
-    }
+    case Datum::work_offset:
+      zeros_.set_coarse(offset_row(args), ref.axis, in_table());
+      return offset_written(offset_row(args));
     case Datum::active_modal: {
-      const int slot = frame_slot(args);
-      if (slot < 0) return failure_.fail(code::no_datum, datum_key(ref, args) + " can only be read");
-      suspended_ = static_cast<std::uint8_t>(v != 0 ? suspended_ & ~(1U << slot) : suspended_ | 1U << slot);
+      const auto slot = frame_slot(args);
+      if (!slot) return failure_.fail(code::no_datum, datum_key(ref, args) + " can only be read");
+      parts_.suspend(*slot, v == 0);
       return rebuild_frame();
     }
-    case Datum::work_offset_fine: {
-      const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
-      const auto row = args.empty() ? modal_.work_offset : saturate<std::int32_t>(args[0]);
-      fine_offsets_[row][ref.axis] = v * (policy_.data_modal && linear ? unit() : 1);
-      return true;
-    }
+    case Datum::work_offset_fine: zeros_.set_fine(offset_row(args), ref.axis, in_table()); return true;
     case Datum::axis_feed:
       if (!check_axis(ref.axis)) return false;
       if (v < 0) return failure_.fail(code::no_datum, "the feed of an axis cannot be negative");
@@ -410,19 +360,17 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
   if (const auto answer = machine::data_of_run(profile_, datum_key(ref, args));
       answer && answer->datum == machine::RunDatum::travelled) {
     if (!check_axis(ref.axis)) return false;
-    travel_set_[ref.axis] = v * (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
-    travelled_[ref.axis] = 0;
-    travel_given_ |= 1U << ref.axis;
+    travel_.set[ref.axis] = v * (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
+    travel_.way[ref.axis] = 0;
+    travel_.given |= 1U << ref.axis;
     return true;
   }
   const std::string key = datum_key(ref, args);
-  if (tool_length_unit(ref.datum) || machine::is_length_datum(profile_, key)) {
-    if (policy_.data_modal) v *= unit();
-    written_in_mm_.insert(key);
-  }
-  written_[key] = v;
+  const bool length = tool_length_unit(ref.datum) || machine::is_length_datum(profile_, key);
+  if (length && policy_.data_modal) v *= unit();
+  data_.write(key, v, length);
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length)
-    written_tools_[{ref.datum, ref.axis, {args.begin(), args.end()}}] = v;
+    data_.write_tool(ref.datum, ref.axis, args, v);
   return true;
 }
 

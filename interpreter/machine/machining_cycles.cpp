@@ -66,15 +66,12 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   if (!machining_numbers(c, numbers)) return false;
   ir::cycles::TurnContext context;
   context.start = {p_[ir::axis::x], p_[ir::axis::z]};
-  machine::tell_tool(profile_, tool_in_spindle_, context);
-  for (const std::string& name : machine::tool_data_names(profile_, "tool.width_data", tool_in_spindle_, offset_)) {
-    const auto written = written_.find(name);
-    const auto given = profile_.data.find(name);
-    const bool by_program = written != written_.end();
-    if (!by_program && given == profile_.data.end()) continue;
-    if (by_program) unread_.erase(name);
-    context.nose_width = (by_program ? written->second : given->second) *
-                         (policy_.data_modal && !written_in_mm_.contains(name) ? unit() : 1);
+  machine::tell_tool(profile_, tool_.in_spindle(), context);
+  for (const std::string& name :
+       machine::tool_data_names(profile_, "tool.width_data", tool_.in_spindle(), tool_.offset())) {
+    const double* given = data_.by_name(name);
+    if (given == nullptr) continue;
+    context.nose_width = *given * (policy_.data_modal && !data_.in_mm(name) ? unit() : 1);
     break;
   }
   std::optional<ir::cycles::TurnProfile> contour;
@@ -95,14 +92,14 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   CycleRun run;
   run.family = ir::cycles::family_of(c.name);
   run.first = emitter_.seen();
-  const Spindle before = spindles_[master_];
+  const Spindle before = spindles_.master();
   if (!machining_moves(*cycle, *moves, taps)) return false;
-  auto& now = spindles_[master_];
+  auto& now = spindles_.master();
   const bool other = now.mode != before.mode || now.value != before.value;
   if (c.name == "part.off" && other && profile_.option("cycle.parting_after") == "restored") {
     set_spindle_mode(before.mode, true);
     now.value = before.value;
-    if (now.state != ir::SpindleState::off) emit_spindle(master_);
+    if (now.state != ir::SpindleState::off) emit_master();
   }
   if (cycle_runs_ == nullptr || run.family.empty()) return true;
   run.last = emitter_.seen();
@@ -113,8 +110,8 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
 
 bool BlockMachine::machining_moves(const ir::cycles::MachiningCycle& cycle,
                                    const std::vector<ir::cycles::TurnMove>& moves, bool taps) {
-  auto& spindle = spindles_[master_];
-  if (taps && spindle.state == ir::SpindleState::off) run_spindle(master_, ir::SpindleState::cw);
+  auto& spindle = spindles_.master();
+  if (taps && !spindle.turns()) run_master(ir::SpindleState::cw);
   const auto sense = spindle.state;
   for (const auto& m : moves) {
     if (!machining_move(m, sense)) return false;
@@ -173,21 +170,16 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
   switch (m.step) {
     case TurnStep::dwell: emit_dwell(m.seconds, false); return true;
     case TurnStep::spindle_reverse:
-      run_spindle(master_, sense == ir::SpindleState::cw ? ir::SpindleState::ccw : ir::SpindleState::cw);
+      run_master(sense == ir::SpindleState::cw ? ir::SpindleState::ccw : ir::SpindleState::cw);
       return true;
-    case TurnStep::spindle_restore: run_spindle(master_, sense); return true;
-    case TurnStep::spindle_stop: run_spindle(master_, ir::SpindleState::off); return true;
-    case TurnStep::spindle_orient:
-      spindles_[master_].oriented = true;
-      spindles_[master_].state = ir::SpindleState::off;
-      spindles_[master_].angle = m.start_angle;
-      emit_spindle(master_);
-      return true;
+    case TurnStep::spindle_restore: run_master(sense); return true;
+    case TurnStep::spindle_stop: run_master(ir::SpindleState::off); return true;
+    case TurnStep::spindle_orient: orient_master(m.start_angle); return true;
     case TurnStep::spindle_speed:
     case TurnStep::spindle_cutting_speed: turn_at(m); return true;
     case TurnStep::live_run:
       spindles_[live].mode = ir::SpindleMode::rpm;
-      spindles_[live].value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = std::abs(m.speed);
+      spindles_[live].set_rpm(std::abs(m.speed));
       run_spindle(live, m.speed < 0 ? ir::SpindleState::ccw : ir::SpindleState::cw);
       return true;
     case TurnStep::live_stop: run_spindle(live, ir::SpindleState::off); return true;
@@ -201,12 +193,12 @@ bool BlockMachine::machining_move(const ir::cycles::TurnMove& m, ir::SpindleStat
 void BlockMachine::turn_at(const ir::cycles::TurnMove& m) {
   const bool cut = m.step == TurnStep::spindle_cutting_speed;
   set_spindle_mode(cut ? ir::SpindleMode::css : ir::SpindleMode::rpm, true);
-  set_spindle_value({master_, ir::Value{m.speed}});
-  if (m.limit > 0) set_spindle_limit({master_, ir::Value{m.limit}, false});
+  set_spindle_value({spindles_.master_number(), ir::Value{m.speed}});
+  if (m.limit > 0) set_spindle_limit({spindles_.master_number(), ir::Value{m.limit}, false});
   if (m.sense != 0)
-    run_spindle(master_, m.sense > 0 ? ir::SpindleState::cw : ir::SpindleState::ccw);
-  else if (spindles_[master_].state != ir::SpindleState::off)
-    emit_spindle(master_);
+    run_master(m.sense > 0 ? ir::SpindleState::cw : ir::SpindleState::ccw);
+  else if (spindles_.master().state != ir::SpindleState::off)
+    emit_master();
 }
 
 bool BlockMachine::machining_path(const ir::cycles::TurnMove& m) {
@@ -247,7 +239,7 @@ bool BlockMachine::machining_path(const ir::cycles::TurnMove& m) {
   }
   if (!emit_move(move, false)) return false;
   p_ = move.to;
-  has_path_ = false;
+  last_.known = false;
   return true;
 }
 

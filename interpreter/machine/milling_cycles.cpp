@@ -19,21 +19,16 @@ using ir::cycles::MillStep;
 }  // namespace
 
 double BlockMachine::tool_radius() {
-  const std::int32_t number = tool_in_spindle_ != 0 ? tool_in_spindle_ : tool_;
-  auto names = machine::tool_data_names(profile_, "tool.radius_data", number, offset_);
+  const std::int32_t number = tool_.number();
+  auto names = machine::tool_data_names(profile_, "tool.radius_data", number, tool_.offset());
   constexpr std::string_view of_any_tool = "TOOL_RADIUS";  // no control's own name: always in mm
   names.emplace_back(of_any_tool);
   for (const std::string& name : names) {
     const double length = policy_.data_modal && name != of_any_tool ? unit() : 1;
-    if (const auto it = written_.find(name); it != written_.end()) {
-      unread_.erase(name);
-      return it->second * (written_in_mm_.contains(name) ? 1 : length);
-    }
-    if (const auto it = profile_.data.find(name); it != profile_.data.end()) return it->second * length;
+    if (const double* given = data_.by_name(name)) return *given * (data_.in_mm(name) ? 1 : length);
   }
-  const std::vector<double> row{static_cast<double>(offset_)};
-  const auto written = written_tools_.find({ir::Datum::tool_radius, ir::axis::none, row});
-  if (written != written_tools_.end()) return written->second;
+  const double row = tool_.offset();
+  if (const double* written = data_.tool(ir::Datum::tool_radius, ir::axis::none, {&row, 1})) return *written;
   const auto tool = std::find_if(profile_.tools.begin(), profile_.tools.end(),
                                  [number](const auto& t) { return t.number == number; });
   return tool == profile_.tools.end() ? 0 : tool->radius;
@@ -76,8 +71,8 @@ bool BlockMachine::mill_context(ir::cycles::MillContext& context) {
   context.u = p_[plane.u];
   context.v = p_[plane.v];
   context.w = p_[plane.w];
-  context.tool_radius = mill_.tool_radius.value_or(tool_radius());
-  context.spindle_ccw = spindles_[master_].state == ir::SpindleState::ccw;
+  context.tool_radius = cycle_.mill.tool_radius.value_or(tool_radius());
+  context.spindle_ccw = spindles_.master().state == ir::SpindleState::ccw;
   context.plane = modal_.retract_plane;
   context.contours = &mill_contours_;
   ir::cycles::pocket_habits([this](std::string_view name) { return profile_.option(name); }, context);
@@ -91,7 +86,7 @@ std::optional<std::vector<ir::cycles::MillMove>> BlockMachine::milling_by_assume
     ir::cycles::MillContext& context, std::string* error) {
   constexpr std::array usual{5.0,  4.0,  3.0,  2.0,  1.5,  1.0,  0.5,  6.0, 8.0,
                              10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0, 50.0};
-  const std::int32_t tool = tool_in_spindle_ != 0 ? tool_in_spindle_ : tool_;
+  const std::int32_t tool = tool_.number();
   std::vector<double> radii;
   for (const auto& a : assumed_radii_) {
     if (a.tool == tool) radii.insert(radii.begin(), a.radius);
@@ -102,7 +97,7 @@ std::optional<std::vector<ir::cycles::MillMove>> BlockMachine::milling_by_assume
   for (std::size_t k = 0; k < radii.size(); ++k) {
     context.tool_radius = radii[k];
     std::string why;
-    auto moves = ir::cycles::expand(mill_, *hole_, context, &why);
+    auto moves = ir::cycles::expand(cycle_.mill, *cycle_.hole, context, &why);
     if (moves && k >= before) assumed_radii_.push_back({failure_.where, tool, radii[k]});
     if (moves) return moves;
     if (k == 0) *error = why;
@@ -129,39 +124,37 @@ void BlockMachine::tell_radii(Diagnostics& diagnostics) const {
 bool BlockMachine::run_milling() {
   ir::cycles::MillContext context;
   if (!mill_context(context)) return false;
-  const auto need = ir::cycles::needs_radius(mill_);
+  const auto need = ir::cycles::needs_radius(cycle_.mill);
   if (context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::lead)
-    assume("TOOL_RADIUS", 0,
-           "the way onto the contour and off it is counted from the tool's edge: give the radius with --tools FILE, in "
-           "the profile's \"tools\" or by --set TOOL_RADIUS=5");
+    data_.assume(
+        failure_.where, "TOOL_RADIUS", 0,
+        "the way onto the contour and off it is counted from the tool's edge: give the radius with --tools FILE, in "
+        "the profile's \"tools\" or by --set TOOL_RADIUS=5");
   std::string error;
   const bool unknown = context.tool_radius <= 0 && need == ir::cycles::RadiusNeed::moves;
-  const auto moves =
-      unknown ? milling_by_assumed_radius(context, &error) : ir::cycles::expand(mill_, *hole_, context, &error);
+  const auto moves = unknown ? milling_by_assumed_radius(context, &error)
+                             : ir::cycles::expand(cycle_.mill, *cycle_.hole, context, &error);
   if (!moves) {
     return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
   }
-  if (mill_.shape->kind == ir::cycles::MillKind::contour_pocket) pocket_orders_.push_back(failure_.where);
-  const double speed = spindles_[master_].value[static_cast<std::size_t>(ir::SpindleMode::rpm)];
+  if (cycle_.mill.shape->kind == ir::cycles::MillKind::contour_pocket) pocket_orders_.push_back(failure_.where);
+  const double speed = spindles_.master().rpm();
   const std::uint64_t first = emitter_.seen();
-  const auto sense = spindles_[master_].state;
+  const auto sense = spindles_.master().state;
   for (const auto& m : *moves) {
     if (m.step == MillStep::orient) {
-      spindles_[master_].oriented = true;
-      spindles_[master_].state = ir::SpindleState::off;
-      spindles_[master_].angle = m.angle;
-      emit_spindle(master_);
+      orient_master(m.angle);
     } else if (m.step == MillStep::reverse || m.step == MillStep::restart) {
       const bool turned = m.step == MillStep::reverse && sense != ir::SpindleState::off;
       const bool cw = (sense == ir::SpindleState::cw) != turned;
-      run_spindle(master_, sense == ir::SpindleState::off ? sense : cw ? ir::SpindleState::cw : ir::SpindleState::ccw);
+      run_master(sense == ir::SpindleState::off ? sense : cw ? ir::SpindleState::cw : ir::SpindleState::ccw);
     } else if (!milling_move(m, speed)) {
       return false;
     }
   }
   using ir::cycles::MillKind;
-  const bool pocket = mill_.shape->kind == MillKind::rectangle || mill_.shape->kind == MillKind::circle;
-  if (cycle_runs_ != nullptr && pocket) keep_place(first, "pocket", hole_->surface, context.tool_radius);
+  const bool pocket = cycle_.mill.shape->kind == MillKind::rectangle || cycle_.mill.shape->kind == MillKind::circle;
+  if (cycle_runs_ != nullptr && pocket) keep_place(first, "pocket", cycle_.hole->surface, context.tool_radius);
   return true;
 }
 
@@ -180,17 +173,17 @@ void BlockMachine::keep_place(std::uint64_t first, std::string_view family, doub
   high = frame_.apply(high);
   run.surface = low[plane.w];
   const double rise = high[plane.w] - low[plane.w];  // a scale makes it longer, a mirror negative
-  run.out = rise < 0 ? -hole_->up : hole_->up;
+  run.out = rise < 0 ? -cycle_.hole->up : cycle_.hole->up;
   const auto stays = [&](ir::AxisId axis) { return std::abs(high[axis] - low[axis]) < 1e-9; };
-  run.comparable = std::abs(rise) > 1e-9 && stays(plane.u) && stays(plane.v) && plane.w == hole_axis_;
+  run.comparable = std::abs(rise) > 1e-9 && stays(plane.u) && stays(plane.v) && plane.w == cycle_.axis;
   cycle_runs_->push_back(std::move(run));
 }
 
 bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
   if (m.step == MillStep::speed || m.step == MillStep::restore_speed) {
-    auto& spindle = spindles_[master_];
-    spindle.value[static_cast<std::size_t>(ir::SpindleMode::rpm)] = m.step == MillStep::speed ? m.amount : speed;
-    if (spindle.state != ir::SpindleState::off) emit_spindle(master_);
+    auto& spindle = spindles_.master();
+    spindle.set_rpm(m.step == MillStep::speed ? m.amount : speed);
+    if (spindle.turns()) emit_master();
     return true;
   }
   if (m.step == MillStep::comp_left || m.step == MillStep::comp_right || m.step == MillStep::comp_off) {
@@ -222,7 +215,7 @@ bool BlockMachine::milling_move(const ir::cycles::MillMove& m, double speed) {
     return failure_.fail(code::bad_cycle, "a milling cycle needs a feed: its own, or the one in force");
   if (!emit_move(move, false)) return false;
   p_ = move.to;
-  has_path_ = false;
+  last_.known = false;
   return true;
 }
 

@@ -28,17 +28,17 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   const auto& m = b.motion;
   auto kind = m.kind;
   // A straight code beside a point of a curve with a number says nothing: its blocks are points.
-  const bool point = curve_from_first_point_ && ir::is_spline(modal_.motion) &&
+  const bool point = curve_.from_first_point && ir::is_spline(modal_.motion) &&
                      (kind == ir::MotionKind::rapid || kind == ir::MotionKind::linear);
   if (kind == ir::MotionKind::modal || point) {
     kind = modal_.motion;
   } else if (m.keeps_modal) {
     modal_.motion = ir::left_in_force(kind);
   }
-  if (curve_ && !leave_curve(kind)) return false;
-  if (m.explicit_code && ir::is_spline(kind)) curve_broken_ = false;
+  if (curve_.open && !leave_curve(kind)) return false;
+  if (m.explicit_code && ir::is_spline(kind)) curve_.broken = false;
   if (kind == ir::MotionKind::reference_point) {
-    if (policy_.plane_ends_cycle) hole_.reset();  // the search for home ends it as well
+    if (policy_.plane_ends_cycle) cycle_.hole.reset();  // the search for home ends it as well
     return reference_move(m);
   }
   if (kind == ir::MotionKind::fixed_point) return fixed_point_move(m);
@@ -48,23 +48,23 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
                   [](const auto& w) { return w.positioning != ir::Positioning::with_path; })) {
     return positioning_moves(m);
   }
-  block_moves_ = true;
-  if (hole_ && policy_.cycle_rapid && !m.explicit_code && kind != ir::MotionKind::rapid && with_cycle &&
-      (cycle_defined_here_ || cycle_triggers(b))) {
+  now_.moves = true;
+  if (cycle_.hole && policy_.cycle_rapid && !m.explicit_code && kind != ir::MotionKind::rapid && with_cycle &&
+      (now_.cycle_defined || cycle_triggers(b))) {
     kind = ir::MotionKind::rapid;
   }
   if (ir::is_spline(kind)) return spline_point(m, kind);
   if (kind == ir::MotionKind::polynomial) return polynomial(m);
   const bool rapid = kind == ir::MotionKind::rapid;
   if (m.frame == ir::FrameUse::normal) {
-    const bool quick = plain_frame_ && !m.extra && contour_.empty() && !marks_.any() && base_pending_ == 0 &&
-                       !pending_ && !block_corner_ && modal_corner_ == 0 && !curve_;
+    const bool quick = plain_frame_ && !m.extra && contour_.elements.empty() && !now_.marks.any() &&
+                       increments_.pending == 0 && !pending_ && !now_.corner && modal_corner_.size == 0 && !curve_.open;
     if (quick && (rapid || kind == ir::MotionKind::linear)) return quick_line(m, rapid);
     return general_motion(m, kind);
   }
   if (m.frame != ir::FrameUse::no_programmable) return machine_move(m, kind);
   const Frame whole = frame_;
-  const bool done = use_frame(offset_frame()) && general_motion(m, kind);
+  const bool done = use_frame(zeros_.outside()) && general_motion(m, kind);
   return done && use_frame(whole);
 }
 
@@ -97,24 +97,24 @@ bool BlockMachine::quick_line(const ir::Motion& m, bool rapid) {
       moved |= 1U << a;
       linear = linear || !axis.rotary;
     }
-    travelled_[a] += std::abs(x - to[a]);
+    travel_.way[a] += std::abs(x - to[a]);
     to[a] = x;
   }
   if (failure_.set) return false;
   if (moved == 0) return true;
-  before_ = from;
-  last_was_arc_ = false;
-  has_path_ = true;
+  last_.before = from;
+  last_.arc = false;
+  last_.known = true;
   path_event_.kind = rapid ? EventKind::rapid : EventKind::linear;
   path_event_.feed = linear ? feed_now() : feed_degrees();
   path_event_.feed_mode = modal_.feed_mode;
   path_event_.in_machine = false;
-  path_event_.zero_open = zero_open_;
-  path_event_.number = master_;
+  path_event_.zero_open = zeros_.open();
+  path_event_.number = spindles_.master_number();
   path_event_.stop = path_stop();
   path_event_.centre_side = modal_.comp;
   if (modal_.comp != ir::CompSide::off) path_event_.plane = modal_.plane;
-  put_offset(path_event_, moved);
+  tool_.put_offset(path_event_, moved, modal_);
   emitter_.emit(path_event_);
   return true;
 }
@@ -159,7 +159,7 @@ double BlockMachine::rotary_target(const ir::CoordWord& w, double v) const {
 }
 
 PathStop BlockMachine::path_stop() const {
-  return {feed_stop_ || modal_.path_mode == ir::PathMode::exact_stop, feed_stop_};
+  return {now_.feed_stop || modal_.path_mode == ir::PathMode::exact_stop, now_.feed_stop};
 }
 
 Move BlockMachine::move_from_here() const {
@@ -178,7 +178,7 @@ Move BlockMachine::move_from_here() const {
 
 bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
   Move move = move_from_here();
-  if (!contour_.empty() || marks_.any()) return contour_element(m, kind, move);
+  if (!contour_.elements.empty() || now_.marks.any()) return contour_element(m, kind, move);
   if (!end_point(m, move)) return false;
   switch (kind) {
     case ir::MotionKind::rapid: move.kind = Move::Kind::rapid; break;
@@ -217,13 +217,13 @@ bool BlockMachine::end_point(const ir::Motion& m, Move& move) {
     const bool absolute = w.mode == ir::WordMode::absolute ||
                           (w.mode == ir::WordMode::modal && modal_.distance == ir::Distance::absolute);
     const double x = coordinate(a, w.value, w.scale, absolute);
-    const bool from_base = ((base_pending_ >> a) & 1U) != 0;
+    const bool from_base = ((increments_.pending >> a) & 1U) != 0;
     if (absolute) {
       move.to[a] = w.direction == ir::RotaryDirection::as_value ? x : rotary_target(w, x);
     } else {
-      move.to[a] = x + (from_base ? increment_base_[a] : p_[a]);
+      move.to[a] = x + (from_base ? increments_.from[a] : p_[a]);
     }
-    base_pending_ &= ~(1U << a);
+    increments_.pending &= ~(1U << a);
   }
   if (failure_.set || !m.extra) return !failure_.set;
   if (!m.extra->computed.empty() && !computed_words(m, move)) return false;
@@ -239,20 +239,20 @@ bool BlockMachine::polar_end(const ir::Motion& m, Move& move) {
   const bool cartesian = std::any_of(m.coords.begin(), m.coords.end(),
                                      [&](const auto& w) { return w.axis == plane.u || w.axis == plane.v; });
   if (!check_axis(plane.u) || !check_axis(plane.v)) return false;
-  const Vec here = Vec{p_[plane.u], p_[plane.v]} - pole_;
+  const Vec here = Vec{p_[plane.u], p_[plane.v]} - polar_.pole;
   double radius = length(here);
   double angle = radius < same_point ? 0 : std::atan2(here.v, here.u) * 180 / std::numbers::pi;
   if (x.has_polar_radius) {
-    polar_radius_ = radius = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : radius);
-  } else if (policy_.polar_radius_stays && polar_radius_) {
-    radius = *polar_radius_;
+    polar_.radius = radius = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : radius);
+  } else if (policy_.polar_radius_stays && polar_.radius) {
+    radius = *polar_.radius;
   }
   if (x.has_polar_angle) angle = value(x.polar_angle) + (counts_absolutely(x.polar_angle_mode) ? 0 : angle);
   if (radius < 0) return failure_.fail(code::polar, "the polar radius becomes negative");
   if (cartesian) return failure_.fail(code::polar, "a coordinate of the plane stands beside polar words");
-  move.to[plane.u] = pole_.u + radius * cos_degrees(angle);
-  move.to[plane.v] = pole_.v + radius * sin_degrees(angle);
-  base_pending_ &= ~(1U << plane.u | 1U << plane.v);
+  move.to[plane.u] = polar_.pole.u + radius * cos_degrees(angle);
+  move.to[plane.v] = polar_.pole.v + radius * sin_degrees(angle);
+  increments_.pending &= ~(1U << plane.u | 1U << plane.v);
   return !failure_.set;
 }
 
@@ -275,7 +275,7 @@ bool BlockMachine::line_by_angle(const ir::Motion& m, Move& move) {
     return failure_.fail(code::polar, "a line at this angle never reaches the coordinate");
   }
   const double other = std::abs(travel) <= no_move ? 0 : travel * across / along;
-  base_pending_ &= ~(1U << plane.u | 1U << plane.v);
+  increments_.pending &= ~(1U << plane.u | 1U << plane.v);
   if (has_u) {
     move.to[plane.v] = move.from[plane.v] + other;
   } else {
@@ -286,29 +286,29 @@ bool BlockMachine::line_by_angle(const ir::Motion& m, Move& move) {
 
 bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
   move.kind = Move::Kind::thread;
-  const bool joins = thread_end_ == emitter_.seen() && modal_.path_mode == ir::PathMode::continuous;
+  const bool joins = thread_.end == emitter_.seen() && modal_.path_mode == ir::PathMode::continuous;
   if (joins) move.start_angle = path_event_.start_angle;  // on in the groove of the thread before it
   if (m.extra) {
     const auto& x = *m.extra;
-    if (x.has_lead) lead_ = value(x.lead) * unit();
+    if (x.has_lead) thread_.lead = value(x.lead) * unit();
     if (variable) move.pitch_change = value(x.lead_change) * unit();
     if (x.has_start_angle) move.start_angle = value(x.start_angle);
-    if (policy_.start_angle_stays && x.has_start_angle) start_angle_ = move.start_angle;
+    if (policy_.start_angle_stays && x.has_start_angle) thread_.start_angle = move.start_angle;
   }
-  if (policy_.start_angle_stays) move.start_angle = start_angle_;
+  if (policy_.start_angle_stays) move.start_angle = thread_.start_angle;
   // No pitch and no change of it behind a thread of variable pitch: on with the pitch reached there.
-  if (variable && lead_ == 0 && move.pitch_change == 0) lead_ = reached_pitch_;
-  move.pitch = lead_;
-  if (lead_ == 0) return failure_.fail(code::thread_pitch, "the thread has no pitch");
+  if (variable && thread_.lead == 0 && move.pitch_change == 0) thread_.lead = thread_.reached_pitch;
+  move.pitch = thread_.lead;
+  if (thread_.lead == 0) return failure_.fail(code::thread_pitch, "the thread has no pitch");
   const auto way = [&move](ir::AxisId a) { return std::abs(move.to[a] - move.from[a]); };
   double travel = 0;
   for (const auto a : axes_) travel = std::max(travel, way(a));
   // The trace has the pitch along the longest way.
   if (m.extra && m.extra->has_lead && m.extra->lead_axis != ir::axis::none && way(m.extra->lead_axis) > no_move)
     move.pitch *= travel / way(m.extra->lead_axis);
-  const double square = lead_ * lead_ + 2 * move.pitch_change * travel;
+  const double square = thread_.lead * thread_.lead + 2 * move.pitch_change * travel;
   if (square < 0) return failure_.fail(code::thread_pitch, "the pitch of the thread falls to zero before its end");
-  reached_pitch_ = std::copysign(std::sqrt(square), lead_);
+  thread_.reached_pitch = std::copysign(std::sqrt(square), thread_.lead);
   return !failure_.set;
 }
 
@@ -316,13 +316,13 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
 bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
   if (ir::turns_part(modal_.surface) && names_turned_axes(m))
     return failure_.fail(code::surface, std::string(no_machine_point));
-  if (pending_ || block_corner_ || !contour_.empty())
+  if (pending_ || now_.corner || !contour_.elements.empty())
     return failure_.fail(code::corner_alone,
                          "a corner or an open contour cannot stand beside a move in machine coordinates");
   if (kind != ir::MotionKind::rapid && kind != ir::MotionKind::linear) {
     return failure_.fail(code::not_carried, "only straight moves are carried out in machine coordinates");
   }
-  if (!base_frame().is_identity()) {  // some controls keep the base frames here, depending on the code
+  if (!zeros_.base().is_identity()) {  // some controls keep the base frames here, depending on the code
     return failure_.fail(code::not_carried, "moves in machine coordinates under a base frame are not carried out");
   }
   Axes machine = frame_.apply(p_);
@@ -337,7 +337,7 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
       machine[w.axis] += x;
     else
       machine[w.axis] = w.direction == ir::RotaryDirection::as_value ? x : unwrapped(w.direction, x, machine[w.axis]);
-    base_pending_ &= ~(1U << w.axis);
+    increments_.pending &= ~(1U << w.axis);
   }
   if (failure_.set) return false;
   Move move = move_from_here();
@@ -371,7 +371,7 @@ bool BlockMachine::fixed_point_move(const ir::Motion& m) {
     const auto& spec = *profile_.axis(w.axis);
     const std::string name = "fixed point " + number_text(n) + " of axis " + spec.name;
     if (const auto rest = machine::data_at_rest(profile_, name); rest && n >= 1 && spec.fixed_points.empty()) {
-      assume(name, *rest, "\"fixed_points\" of the axis in the profile give the real one");
+      data_.assume(failure_.where, name, *rest, "\"fixed_points\" of the axis in the profile give the real one");
       points.push_back(*rest);
       continue;
     }
@@ -396,7 +396,7 @@ bool BlockMachine::to_machine_points(const ir::Motion& named, const std::vector<
     word.value = ir::Value(points[i] / (axis_[word.axis].rotary ? 1 : metric));
     to.coords.push_back(word);
   }
-  block_moves_ = !to.coords.empty();
+  now_.moves = !to.coords.empty();
   return to.coords.empty() || machine_move(to, ir::MotionKind::rapid);
 }
 

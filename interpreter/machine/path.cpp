@@ -55,7 +55,7 @@ void BlockMachine::put_centre_side(Event& e, ir::CompSide side, ir::Plane plane)
 
 /// A move goes out, or waits because its end is a corner.
 bool BlockMachine::send(const Move& given) {
-  if (curve_ && !close_curve(&given)) return false;
+  if (curve_.open && !close_curve(&given)) return false;
   Move move = given;
   const Axes end = move.to;
   if (pending_ && !join(move)) return false;
@@ -68,34 +68,34 @@ bool BlockMachine::send(const Move& given) {
 }
 
 void BlockMachine::arrived(const Move& move) {
-  if (base_pending_ != 0) {  // increments go on from here, whatever said the end point
-    for (const auto a : axes_) base_pending_ &= move.to[a] != move.from[a] ? ~(1U << a) : ~0U;
+  if (increments_.pending != 0) {  // increments go on from here, whatever said the end point
+    for (const auto a : axes_) increments_.pending &= move.to[a] != move.from[a] ? ~(1U << a) : ~0U;
   }
   p_ = move.to;
   if (move.kind == Move::Kind::arc || move.from != move.to) {
-    for (std::size_t i = 0; i < 3; ++i) before_[i] = move.from[i];
-    last_was_arc_ = move.kind == Move::Kind::arc;
-    last_centre_ = move.centre;
-    last_ccw_ = move.ccw;
-    has_path_ = true;
+    for (std::size_t i = 0; i < 3; ++i) last_.before[i] = move.from[i];
+    last_.arc = move.kind == Move::Kind::arc;
+    last_.centre = move.centre;
+    last_.ccw = move.ccw;
+    last_.known = true;
   }
 }
 
 bool BlockMachine::hold_if_corner(const Move& move) {
-  if (!block_corner_ && (sharp_ || modal_corner_ <= 0 || !is_contour(move))) return false;
+  if (!now_.corner && (now_.sharp || modal_corner_.size <= 0 || !is_contour(move))) return false;
   if (!in_plane(move)) {
-    if (block_corner_ && without_corner("a corner function needs a move in the plane")) block_corner_.reset();
+    if (now_.corner && without_corner("a corner function needs a move in the plane")) now_.corner.reset();
     return false;
   }
-  if (block_corner_) {
-    pending_ = block_corner_;
-    block_corner_.reset();
+  if (now_.corner) {
+    pending_ = now_.corner;
+    now_.corner.reset();
   } else {
     pending_ = Pending{};
     pending_->modal = true;
-    pending_->size = modal_corner_;
-    pending_->has_feed = modal_corner_has_feed_;
-    pending_->feed = modal_corner_feed_;
+    pending_->size = modal_corner_.size;
+    pending_->has_feed = modal_corner_.has_feed;
+    pending_->feed = modal_corner_.feed;
   }
   pending_->move = move;
   pending_->frame_serial = frame_serial_;
@@ -197,7 +197,7 @@ void BlockMachine::add_travel(const Axes& from, const Event& e) {
   const bool arc = e.kind == EventKind::arc;
   const auto plane = ir::plane_axes(e.plane);
   for (const auto a : axes_) {
-    if (!arc || (a != plane.u && a != plane.v)) travelled_[a] += std::abs(e.to.value[a] - from[a]);
+    if (!arc || (a != plane.u && a != plane.v)) travel_.way[a] += std::abs(e.to.value[a] - from[a]);
   }
   if (!arc) return;
   const double radius = std::hypot(from[plane.u] - e.center_u, from[plane.v] - e.center_v);
@@ -220,13 +220,13 @@ void BlockMachine::add_travel(const Axes& from, const Event& e) {
     }
     return sum * radius;
   };
-  travelled_[plane.u] += way(begin);
-  travelled_[plane.v] += way(begin - pi / 2);
+  travel_.way[plane.u] += way(begin);
+  travel_.way[plane.v] += way(begin - pi / 2);
 }
 
 /// Maps a move to the machine and emits it; a move that changes nothing makes no event (a full circle does).
 bool BlockMachine::emit_move(const Move& move, bool past_held) {
-  if (curve_ && !past_held && !close_curve(&move)) return false;
+  if (curve_.open && !past_held && !close_curve(&move)) return false;
   Axes to = move.to;
   if (plain_frame_) {
     for (const auto a : axes_) to[a] += frame_.t[a];
@@ -249,11 +249,11 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   e.feed = linear ? move.feed : *move.feed_degrees;
   e.feed_mode = move.feed_mode;
   e.in_machine = move.in_machine;
-  e.zero_open = zero_open_ && !move.in_machine;
-  e.number = master_;
+  e.zero_open = zeros_.open() && !move.in_machine;
+  e.number = spindles_.master_number();
   e.stop = move.stop;
   put_centre_side(e, move.comp, move.plane);
-  put_offset(e, moved);
+  tool_.put_offset(e, moved, modal_);
   switch (move.kind) {
     case Move::Kind::rapid: e.kind = EventKind::rapid; break;
     case Move::Kind::linear: e.kind = EventKind::linear; break;
@@ -266,8 +266,8 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
       e.pitch = move.pitch;
       e.pitch_change = move.pitch_change;
       e.start_angle = move.start_angle;
-      e.css = spindles_[master_].mode == ir::SpindleMode::css;
-      e.value = spindles_[master_].value[static_cast<std::size_t>(spindles_[master_].mode)];
+      e.css = spindles_.master().mode == ir::SpindleMode::css;
+      e.value = spindles_.master().speed();
       break;
     case Move::Kind::arc: {
       const auto plane = ir::plane_axes(move.plane);
@@ -295,7 +295,7 @@ bool BlockMachine::emit_move(const Move& move, bool past_held) {
   } else {
     emitter_.emit(e);
   }
-  if (e.kind == EventKind::thread) thread_end_ = emitter_.seen();
+  if (e.kind == EventKind::thread) thread_.end = emitter_.seen();
   return true;
 }
 

@@ -8,11 +8,11 @@
 namespace cnctrans::interpreter {
 
 bool BlockMachine::start_pattern(const ir::NamedCycle& c) {
-  if (open_pattern_ != nullptr)
+  if (pattern_.open != nullptr)
     return failure_.fail(code::not_carried, "a pattern in a modal subprogram that runs at the points of a pattern");
-  pattern_ = &c;
-  points_.clear();
-  next_point_ = 0;
+  pattern_.cycle = &c;
+  pattern_.points.clear();
+  pattern_.next = 0;
   const auto* pattern = ir::cycles::find_pattern(c.name);
   ir::cycles::PatternNumbers numbers;
   for (const auto& [word, v] : c.words) {
@@ -28,7 +28,7 @@ bool BlockMachine::start_pattern(const ir::NamedCycle& c) {
   std::string error;
   auto points = ir::cycles::pattern_points(*pattern, numbers, p_[plane.u], p_[plane.v], &error);
   if (!points) return failure_.fail(code::bad_cycle, error);
-  points_ = std::move(*points);
+  pattern_.points = std::move(*points);
   return true;
 }
 
@@ -38,14 +38,14 @@ bool BlockMachine::run_pattern() {
     release_pending();
     return failure_.fail(code::corner_alone, "a pattern follows a corner function");
   }
-  const auto* spec = pattern_ != nullptr ? ir::cycles::find_pattern(pattern_->name) : nullptr;
-  if (spec != nullptr && spec->from_tool && !hole_ && !single_points) {
+  const auto* spec = pattern_.cycle != nullptr ? ir::cycles::find_pattern(pattern_.cycle->name) : nullptr;
+  if (spec != nullptr && spec->from_tool && !cycle_.hole && !single_points) {
     return failure_.fail(code::bad_cycle,
                          "points of a pattern where no cycle and no modal subprogram is in force: nothing to repeat");
   }
-  while (next_point_ < points_.size()) {
-    if (!to_point(points_[next_point_++])) return false;
-    if (hole_ && !run_cycle()) return false;
+  while (pattern_.next < pattern_.points.size()) {
+    if (!to_point(pattern_.points[pattern_.next++])) return false;
+    if (cycle_.hole && !run_cycle()) return false;
     if (single_points) break;
   }
   return true;
@@ -53,8 +53,8 @@ bool BlockMachine::run_pattern() {
 
 /// Behind a run of the modal subprogram: to the next point, or what the block does behind its last one.
 bool BlockMachine::go_on_with_pattern(const ir::Block& b) {
-  if (next_point_ < points_.size()) return run_pattern();
-  open_pattern_ = nullptr;
+  if (pattern_.next < pattern_.points.size()) return run_pattern();
+  pattern_.open = nullptr;
   return actions(b, true) && !failure_.set;
 }
 
@@ -71,11 +71,11 @@ bool BlockMachine::to_point(const ir::cycles::PatternPoint& to) {
     move.centre = {to.centre_u, to.centre_v};
     move.ccw = to.way == Way::ccw;
   }
-  block_moves_ = true;
+  now_.moves = true;
   if (!emit_move(move, false)) return false;
   p_ = move.to;
-  base_pending_ &= ~(1U << plane.u | 1U << plane.v);  // increments go on from the point
-  has_path_ = false;
+  increments_.pending &= ~(1U << plane.u | 1U << plane.v);  // increments go on from the point
+  last_.known = false;
   return true;
 }
 

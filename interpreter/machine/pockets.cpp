@@ -23,7 +23,7 @@ bool BlockMachine::run_pocket(const ir::NamedCycle& call) {
   if (!operations) {
     return failure_.fail(error.ends_with("not carried out yet") ? code::not_carried : code::bad_cycle, error);
   }
-  hole_.reset();
+  cycle_.hole.reset();
   const Span here = failure_.where;
   for (const auto& s : operations->blocks) {
     if (!block(std::get<ir::Block>(s.node), s.line.span)) return false;
@@ -40,24 +40,20 @@ bool BlockMachine::find_pocket_entries() {
   ir::cycles::MillContext context;
   if (!mill_context(context)) return false;
   const auto number = [this](std::string_view word, std::int32_t otherwise) {
-    const auto it = mill_.words.find(word);
-    return it == mill_.words.end() ? otherwise : static_cast<std::int32_t>(it->second);
+    const auto it = cycle_.mill.words.find(word);
+    return it == cycle_.mill.words.end() ? otherwise : static_cast<std::int32_t>(it->second);
   };
-  const auto tool = tool_, in_spindle = tool_in_spindle_, offset = offset_;
-  tool_ = number("tool", tool_);
-  tool_in_spindle_ = number("tool", tool_in_spindle_);
-  offset_ = number("offset", offset_);
+  const ToolInUse here = tool_;
+  tool_.pretend(number("tool", tool_.number()), number("offset", tool_.offset()));
   context.tool_radius = tool_radius();
-  tool_ = tool;
-  tool_in_spindle_ = in_spindle;
-  offset_ = offset;
+  tool_ = here;
   if (context.tool_radius <= 0)
     return failure_.fail(code::bad_cycle,
                          "the places of the drilling depend on the radius of the roughing tool, which "
                          "is not known: give it with --tools FILE, in the profile's \"tools\" or by --set "
                          "TOOL_RADIUS=5");
   std::string error;
-  const auto points = ir::cycles::pocket_entries(mill_, context, &error);
+  const auto points = ir::cycles::pocket_entries(cycle_.mill, context, &error);
   if (points.empty()) return failure_.fail(code::bad_cycle, error);
   for (const auto& p : points) hole_entries_.emplace_back(p.u, p.v);
   return true;

@@ -112,13 +112,13 @@ bool fits_pocket(const ir::Block& b, bool must_be_absolute, std::string* error) 
 void BlockMachine::stand_for_contour(const ir::ModalState& state, std::optional<ir::cycles::TurnPoint> from) {
   restore_modal(state);
   for_contour_ = true;
-  for (auto& slot : slots_) slot = Frame{};
+  parts_.replace_all(Frame{});
   use_frame(Frame{});
   modal_.motion = ir::MotionKind::linear;
   modal_.plane = ir::Plane::zx;
   modal_.comp = ir::CompSide::off;
-  hole_.reset();
-  base_pending_ = 0;
+  cycle_.hole.reset();
+  increments_.pending = 0;
   p_.fill(0);
   // Without a start the move to the first point is seen wherever that lies.
   path_event_.to.value[ir::axis::x] = from ? from->x : no_place;

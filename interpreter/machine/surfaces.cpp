@@ -34,18 +34,18 @@ void BlockMachine::leave_surface(Axes& machine) {
     machine[c] = std::atan2(machine[y], machine[x]) * 180 / std::numbers::pi;
     machine[x] = std::hypot(machine[x], machine[y]);
   } else if (modal_.surface == ir::Surface::cylinder) {
-    machine[c] = machine[y] * 360 / (std::numbers::pi * cylinder_);
+    machine[c] = machine[y] * 360 / (std::numbers::pi * surface_.cylinder);
   }
-  machine[y] = y_beneath_;
+  machine[y] = surface_.y_beneath;
 }
 
 void BlockMachine::enter_surface(ir::Surface surface, Axes& machine) {
-  y_beneath_ = machine[y];
+  surface_.y_beneath = machine[y];
   if (surface == ir::Surface::face) {
     machine[y] = machine[x] * sin_degrees(machine[c]);
     machine[x] *= cos_degrees(machine[c]);
   } else {
-    machine[y] = machine[c] * std::numbers::pi * cylinder_ / 360;
+    machine[y] = machine[c] * std::numbers::pi * surface_.cylinder / 360;
   }
 }
 
@@ -58,36 +58,36 @@ bool BlockMachine::set_surface(const ir::SurfaceSet& s) {
   if (failure_.set) return false;
   if (s.surface == ir::Surface::cylinder && !(diameter > 0))
     return failure_.fail(code::surface, "the radius of the cylinder is not greater than zero");
-  if (s.surface == modal_.surface && diameter == cylinder_) return true;
-  if (pending_ || !contour_.empty())
+  if (s.surface == modal_.surface && diameter == surface_.cylinder) return true;
+  if (pending_ || !contour_.elements.empty())
     return failure_.fail(code::surface, "a corner or an open contour stands before this change of the coordinates");
-  if (curve_ && !split_curve()) return false;
+  if (curve_.open && !split_curve()) return false;
   const bool turned = ir::turns_part(modal_.surface), turns = ir::turns_part(s.surface);
   const auto shifted = [this](ir::AxisId a) { return frame_.t[a] != 0; };
   if (turns && axis_[c].present && shifted(c))
     return failure_.fail(code::surface, "a zero offset or shift of the C axis under work on the face or the cylinder");
   Axes machine = frame_.apply(p_);
   if (turned) leave_surface(machine);
-  if (!turns && y_lent_) {
+  if (!turns && surface_.y_lent) {
     y_axis(false);
-    y_lent_ = false;
+    surface_.y_lent = false;
   } else if (turns && !axis_[y].present) {
     y_axis(true);
-    y_lent_ = true;
+    surface_.y_lent = true;
   }
-  cylinder_ = diameter;
+  surface_.cylinder = diameter;
   if (turns) enter_surface(s.surface, machine);
   modal_.surface = s.surface;
   if (!turned && !turns) {  // the point stays what it is; increments count from it (frames.cpp)
-    base_pending_ = 0;
+    increments_.pending = 0;
     return true;
   }
   for (const ir::AxisId a : {x, y, c}) {
     if (axis_[a].present) path_event_.to.value[a] = machine[a];
-    base_pending_ &= ~(1U << a);
+    increments_.pending &= ~(1U << a);
   }
   p_ = inverse_.apply(machine);
-  has_path_ = false;
+  last_.known = false;
   ++frame_serial_;
   return true;
 }

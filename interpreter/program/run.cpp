@@ -99,7 +99,7 @@ Result Runner::run() {
                          "count with whole numbers where you can, or ask for < and >");
   }
   machine_.tell_path(diagnostics_);
-  for (const auto& datum : machine_.assumed()) {
+  for (const auto& datum : machine_.given_data().assumed()) {
     diagnostics_.warning(code::data_at_rest, datum.where,
                          "the value of " + datum.name + " is known to the machine only; " + shortest(datum.value) +
                              " was taken, as of a machine at rest",
@@ -178,7 +178,7 @@ void Runner::report_settings() {
     const std::string text = "--set " + p.name + "=" + p.value;
     if (p.found && !p.fits) {
       diagnostics_.warning(code::unused_set, {}, text + ": the value is no number; the variable keeps its own");
-    } else if (!p.found && (!preset_number(p.value) || machine_.preset_unread(p.name))) {
+    } else if (!p.found && (!preset_number(p.value) || machine_.given_data().preset_unread(p.name))) {
       diagnostics_.warning(code::unused_set, {}, text + ": this run has no variable of that name; nothing is set",
                            "names are written as in the program: P100, L1, R5, DEPTH");
     }
