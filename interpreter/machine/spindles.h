@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "interpreter/trace/trace.h"
-#include "ir/modal.h"
+#include "ir/block.h"
 
 namespace cnctrans::interpreter {
 
