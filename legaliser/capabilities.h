@@ -142,8 +142,9 @@ struct Capabilities {
                                   MotionKind::arc_ccw};
   std::set<FrameUse> frame_uses = {FrameUse::normal};
   std::set<CornerKind> corners;
-  bool corner_modal = false;  ///< a corner function that stays in force
-  bool corner_feed = false;   ///< a feed of the corner's own
+  bool motion_in_each_block = false;  ///< no motion code stays in force
+  bool corner_modal = false;          ///< a corner function that stays in force
+  bool corner_feed = false;           ///< a feed of the corner's own
   bool polar = false, line_angle = false;
   bool distance_per_word = false;      ///< X=IC(..)
   bool distance_inside_block = false;  ///< G90/G91 act from their place in the block on

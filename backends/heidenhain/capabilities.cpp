@@ -52,6 +52,7 @@ void expressions(ir::Capabilities& c) {  // reference 12.2, 13.1
 }
 
 void words(ir::Capabilities& c) {  // reference 5, 8, 9, 10
+  c.motion_in_each_block = true;
   c.motions = {ir::MotionKind::modal,  ir::MotionKind::rapid,   ir::MotionKind::linear,
                ir::MotionKind::arc_cw, ir::MotionKind::arc_ccw, ir::MotionKind::arc_tangent};
   c.frame_uses = {ir::FrameUse::normal, ir::FrameUse::machine};

@@ -95,6 +95,8 @@ constexpr std::array table{
          "Jumps become IF, WHILE, REPEAT and LOOP where the options ask for it."},
     Pass{"lower_control", passes::lower_control, PassScope::program,
          "Structured statements and switches become jumps where the target lacks them."},
+    Pass{"separate_first_moves", passes::separate_first_moves, PassScope::program,
+         "A move whose motion function differs between the ways to it is written for each of them."},
     Pass{"select_written_offsets", passes::select_written_offsets, PassScope::program,
          "A work offset that the program writes is selected again where it does not count at once."},
     Pass{"place_missing_offsets", passes::place_missing_offsets, PassScope::program,
