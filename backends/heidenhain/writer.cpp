@@ -163,8 +163,8 @@ bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
   return same_dialect() && ProgramWriter::joins(before, next);
 }
 
-void Writer::say_waiting() {
-  if (!feed_ && !side_) return;
+std::string Writer::take_waiting() {
+  if (!feed_ && !side_) return {};
   std::string text = "L";
   if (side_) {
     if (*side_ != ir::CompSide::off) {
@@ -176,7 +176,11 @@ void Writer::say_waiting() {
   }
   if (feed_) text += " F" + *feed_;
   forget_waiting();
-  raw_line_in_branch(text, current().line.span);
+  return text;
+}
+
+void Writer::say_waiting() {
+  if (const std::string text = take_waiting(); !text.empty()) raw_line_in_branch(text, current().line.span);
 }
 
 // ---- statements ----------------------------------------------------------------------------------------------------
@@ -204,6 +208,10 @@ std::string Writer::condition_operand(const ir::ExprPtr& e) {
 }
 
 void Writer::jump(const ir::Jump& j) {
+  if (const std::string text = take_waiting(); !text.empty()) {  // the jump stands in a line behind something else
+    add(text, Rank::head);
+    next_line();
+  }
   if (j.target.computed) return refuse(no_statement, {}, "a jump to a computed label has no counterpart here");
   const std::string label = names_.of(routine_index(), j.target.text, j.target.is_number);
   if (label.empty()) return refuse(no_statement, {}, "the label of this jump stands nowhere");

@@ -65,6 +65,7 @@ class Writer final : public ProgramWriter {
 
   // words that wait for a block that can take them
   void say_waiting();
+  [[nodiscard]] std::string take_waiting();  ///< the line that says it; empty: nothing waits
   void forget_waiting() { feed_.reset(), side_.reset(); }
   [[nodiscard]] bool is_join(const ir::LineInfo& info) const;
 
