@@ -1,6 +1,7 @@
 // The height from which a cycle starts, where the controls go another way to its planes.
 #include "ir/known_number.h"
 #include "legaliser/cycles/cycle_pass.h"
+#include "legaliser/edit/blocks.h"
 
 namespace cnctrans::ir::passes {
 
@@ -215,14 +216,10 @@ void CyclePass::rise_and_define(Statement&& s, const Active& a, bool modal, Body
   }
   Statement define = make_block(like, action(CycleDefine{a.native, modal, true, CycleTrigger::plane_axis_word}));
   auto& words = std::get<Block>(define.node);
-  if (apart)
-    words.actions.insert(words.actions.begin(),
-                         action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::absolute)}));
+  if (apart) words.actions.insert(words.actions.begin(), distance_set(Distance::absolute));
   feed_for_tap(words, a);
   pieces.push_back(std::move(define));
-  if (apart)
-    pieces.push_back(
-        make_block(like, action(ModalSet{Setting::distance, static_cast<std::uint8_t>(Distance::incremental)})));
+  if (apart) pieces.push_back(make_block(like, distance_set(Distance::incremental)));
   put_group(out, std::move(pieces), main);
 }
 

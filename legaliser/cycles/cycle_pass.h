@@ -372,6 +372,8 @@ class CyclePass {
   void define_here(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out);
   /// The unit of lengths has changed since the definition: the cycle is said in the new one. True: refused.
   bool follow_units(Statement& s, const Block& b, const Facts& facts, Body& pieces, Body& out);
+  void define_by_words(Statement&& s, const CycleDefine& d, Active&& a, bool old_may, Body&& pieces, Body& out);
+  void put_words(Statement& s, CycleDefine&& native, const Active& a, bool old_may, Body& pieces);
   void define_by_call(Statement&& s, const CycleDefine& d, Active&& a, bool point_here, Body&& pieces, Body& out);
 
   bool triggers(const Block& b, const Facts& facts) const {

@@ -54,6 +54,10 @@ struct OrderOf {
 
 }  // namespace
 
+Action distance_set(Distance mode) {
+  return action(ModalSet{Setting::distance, static_cast<std::uint8_t>(mode)});
+}
+
 Order target_order(const Action& action, const machine::Profile& target) {
   return std::visit(OrderOf{target}, action.data);
 }

@@ -17,6 +17,9 @@ bool own_block(const Action& action, const Capabilities& target);
 /// True when the block moves or runs a cycle.
 bool has_motion(const Block& block);
 
+/// G90 or G91 as an action.
+Action distance_set(Distance mode);
+
 /// A block a pass has taken everything out of becomes a mark of its line; one that shows nothing goes with `tidy`.
 void settle(Statement& statement);
 
