@@ -53,8 +53,6 @@ class MoveList {
     if (m.w) at_ = m.w;
     moves_.push_back(std::move(m));
   }
-  /// Where the last move along the tool axis leads, if that is known.
-  [[nodiscard]] const std::optional<ir::Value>& height() const { return at_; }
   [[nodiscard]] std::size_t size() const { return moves_.size(); }
   std::vector<CycleMove> take() { return std::move(moves_); }
 

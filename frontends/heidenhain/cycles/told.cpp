@@ -66,10 +66,6 @@ bool CycleBuilder::thread_with_countersink() {
     else if (!climb())
       return false;
     hole_.mill.shape = "thread.helix";
-    // From where the tool stands; a cycle does not begin below its own bottom.
-    const auto& here = steps.height();
-    if (here && here->literal() && here->number > surface + n(201))
-      hole_.reference = level_of(*here, LevelBase::absolute);
     if (context_.tool_radius)
       hole_.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
     steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{hole_}));
