@@ -91,14 +91,15 @@ class ModalCalls {
     const bool runs = runs_modal_call(b, facts_.before(s), words_run(context_.source_machine));
     // What acts behind the run of a subprogram that the text does not show would come before it.
     const bool outside = by_main_.count(routine_) != 0;
-    const bool behind = runs && outside && !on_target_ && context_.target.modal_call &&
-                        program_.dialect != context_.target.dialect && acts_behind_motion(b);
+    const bool other = program_.dialect != context_.target.dialect;
+    const bool behind = runs && outside && !on_target_ && context_.target.modal_call && other && acts_behind_motion(b);
     const auto known = [this] {
       return defined_.count(brought_) != 0 ||
              std::all_of(defined_.begin(), defined_.end(), [this](const auto& d) { return is_own(d.second.call); });
     };
     if (from_ == 0 && *state == brought_ && (!outside || known())) return behind;
-    if (runs || pattern_in(b)) return some_written_out_ || behind;
+    const auto* pattern = pattern_in(b);
+    if (runs || pattern) return some_written_out_ || behind || (other && goes_at_a_feed(pattern));
     return runs_modal_call(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
   }
   /// A routine that begins or ends modal calls itself may be called while another one is in force on the target.

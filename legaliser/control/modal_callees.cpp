@@ -154,6 +154,11 @@ bool leaves_feed(const Program& program, const CallGraph& calls, const CallRouti
          });
 }
 
+bool goes_at_a_feed(const NamedCycle* pattern) {
+  return pattern != nullptr &&
+         std::any_of(pattern->words.begin(), pattern->words.end(), [](const auto& w) { return w.first == "way_feed"; });
+}
+
 std::set<std::size_t> called_by_main(const Program& program, const CallGraph& calls) {
   std::set<std::size_t> found;
   for (std::size_t i = 0; i < program.routines.size(); ++i) {

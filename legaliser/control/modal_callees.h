@@ -33,6 +33,8 @@ bool runs_modal_call(const Block& b, const Facts& facts, bool by_words);
 bool leaves_feed(const Program& program, const CallGraph& calls, const CallRoutine& call, double feed);
 /// What the block does behind its motion, or in blocks of their own on another control, a modal call would come before.
 bool acts_behind_motion(const Block& b);
+/// The ways from point to point have a feed of their own: the one before comes back behind each of them.
+bool goes_at_a_feed(const NamedCycle* pattern);
 /// Routines that run outside of modal subprograms: the main program and what it calls.
 std::set<std::size_t> called_by_main(const Program& program, const CallGraph& calls);
 /// Called with arguments here and on the caller's level elsewhere: its parameters may have to be set before each call.

@@ -273,8 +273,8 @@ class DistancePass {
 
   /// Where the source's control counts an increment of the axis from, in the frame in force (radius).
   std::optional<double> base(AxisId a, const Statement& s, const Block& b, const Facts& facts) const {
-    if (facts.position[a]) return facts.position[a];
-    if (const auto seen = path_ ? path_->number(s, a) : std::nullopt) return seen;
+    if (!changes_here_ && facts.position[a]) return facts.position[a];
+    if (const auto seen = path_ && !changes_here_ ? path_->number(s, a) : std::nullopt) return seen;
     if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
     if (context_.source_machine.option("frame.change_keeps") == "programmed") {
       const auto surface = facts.settings[static_cast<std::size_t>(Setting::surface)];
@@ -296,7 +296,8 @@ class DistancePass {
   }
   /// Where the source counts from the place of the machine in the new frame, and the target can name that place.
   bool from_place(Block& b, const Facts& facts) const {
-    if (context_.source_machine.option("frame.change_keeps") != "machine" || !context_.target.distance_per_word ||
+    if (changes_here_ ||  // the place would be read before the change
+        context_.source_machine.option("frame.change_keeps") != "machine" || !context_.target.distance_per_word ||
         b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0 || centres_follow(b) ||
         setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
       return false;
@@ -326,9 +327,11 @@ class DistancePass {
     }
     if (b.has_motion && is_polar(b.motion)) shifted_.at.fill(std::nullopt);
     const Facts& facts = facts_.before(s);
+    changes_here_ = false;
     for (const auto& a : b.actions) {
       const auto* f = std::get_if<FrameOp>(&a.data);
       const bool offset = std::holds_alternative<WorkOffset>(a.data);
+      changes_here_ = changes_here_ || f != nullptr || offset;
       if (f == nullptr && !offset) {
         const auto* m = std::get_if<ModalSet>(&a.data);
         if (m != nullptr && m->setting == Setting::units) shifted_.at.fill(std::nullopt);
@@ -401,6 +404,8 @@ class DistancePass {
   std::optional<FlowStates<UnmovedAxes>> unmoved_;
   std::optional<PathStates> path_;
   bool keeps_differ_ = false;
+  bool changes_here_ =
+      false;                  ///< the block at hand changes the frame itself: what is known before it is of the old one
   std::uint32_t turned_ = 0;  ///< bit n: not since a rotation, scale or mirror began or ended
   bool turns_ = false;        ///< the program has such
   std::uint32_t dirty_ = 0;   ///< bit n: axis n has not moved since the frame changed
