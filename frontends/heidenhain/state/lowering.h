@@ -22,6 +22,37 @@ namespace cnctrans::frontends::heidenhain {
 /// The name of a program file: capitals, without folders and without `.H`.
 std::string program_name(std::string_view text);
 
+/// Path functions (reference 5): `none` is a block of axis words alone, which is read as L.
+enum class PathForm : std::uint8_t {
+  none,
+  line,
+  normal_line,
+  arc,
+  by_radius,
+  tangent,
+  polar_line,
+  polar_arc,
+  polar_tangent
+};
+
+/// A block with a path function, and those of its words that make the motion together.
+struct PathLine {
+  PathForm form = PathForm::none;
+  const syntax::Word *radius = nullptr, *polar_radius = nullptr, *polar_angle = nullptr;
+  const syntax::Word* retract_feed = nullptr;  ///< F behind M140
+
+  [[nodiscard]] bool straight_in_axes() const { return form == PathForm::none || form == PathForm::line; }
+  [[nodiscard]] bool straight() const {
+    return straight_in_axes() || form == PathForm::normal_line || form == PathForm::polar_line;
+  }
+  [[nodiscard]] bool about_pole() const { return form == PathForm::arc || form == PathForm::polar_arc; }
+  /// An arc that DR gives its sense.
+  [[nodiscard]] bool by_sense() const { return about_pole() || form == PathForm::by_radius; }
+  [[nodiscard]] bool polar() const {
+    return form == PathForm::polar_line || form == PathForm::polar_arc || form == PathForm::polar_tangent;
+  }
+};
+
 class Lowering {
  public:
   Lowering(const machine::Profile& profile, ir::Program& program, Diagnostics& diagnostics)
@@ -84,6 +115,13 @@ class Lowering {
 
   // words/
   bool path();
+  bool path_words(PathLine& line);
+  bool place_word(PathLine& line, const Word& w);
+  std::size_t with_own_words(std::size_t at);
+  bool kept_word(const PathLine& line, const Word& w);
+  bool path_fits(const PathLine& line);
+  bool path_motion(const PathLine& line);
+  void put_path(const PathLine& line);
   bool tool_call(const syntax::Statement& s);
   bool tool_def(const syntax::Statement& s);
   ir::ToolSelect tool_of(const syntax::Word* number, const syntax::Statement& s);

@@ -1,5 +1,6 @@
 // Path functions (reference 5, 9, 10): L, C, CR, CT, LP, CP, CTP, CC, RND, CHF, and lines of M functions.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,28 @@ bool is(const syntax::Word& w, std::string_view address) {
 }
 bool bare(const syntax::Word& w) {
   return !w.has_value && w.number_text.empty();
+}
+
+using Form = PathForm;
+
+/// The path function that a block begins with; none: axis words alone, which are read as L.
+Form form_of(const syntax::Word& first) {
+  struct Row {
+    std::string_view word;
+    Form form;
+  };
+  static constexpr std::array rows{Row{"L", Form::line},
+                                   Row{"C", Form::arc},
+                                   Row{"CR", Form::by_radius},
+                                   Row{"CT", Form::tangent},
+                                   Row{"LP", Form::polar_line},
+                                   Row{"CP", Form::polar_arc},
+                                   Row{"CTP", Form::polar_tangent},
+                                   Row{"LN", Form::normal_line}};
+  for (const auto& row : rows) {
+    if (is(first, row.word) && bare(first)) return row.form;
+  }
+  return Form::none;
 }
 
 /// Full turns that a polar arc by its signed angle makes beyond the first.
@@ -168,8 +191,7 @@ void Lowering::end_motion() {
 }
 
 bool Lowering::path() {
-  const auto& words = block_->words;
-  const Word& first = words.front();
+  const Word& first = block_->words.front();
   if (is(first, "RND") || is(first, "CHF"))
     return corner(first, is(first, "RND") ? ir::CornerKind::round : ir::CornerKind::chamfer_leg);
   if (is(first, "CC")) return pole();
@@ -177,40 +199,25 @@ bool Lowering::path() {
     report_.keep("HEI-013", first.pos, "formulas of contours are kept as text", "language.statement");
     return false;
   }
-  using ir::MotionKind;
-  enum class Form : std::uint8_t {
-    none,
-    line,
-    normal_line,
-    arc,
-    by_radius,
-    tangent,
-    polar_line,
-    polar_arc,
-    polar_tangent
-  };
-  struct FormRow {
-    std::string_view word;
-    Form form;
-  };
-  static constexpr std::array forms{FormRow{"L", Form::line},
-                                    FormRow{"C", Form::arc},
-                                    FormRow{"CR", Form::by_radius},
-                                    FormRow{"CT", Form::tangent},
-                                    FormRow{"LP", Form::polar_line},
-                                    FormRow{"CP", Form::polar_arc},
-                                    FormRow{"CTP", Form::polar_tangent},
-                                    FormRow{"LN", Form::normal_line}};
-  Form form = Form::none;
-  for (const auto& f : forms) {
-    if (is(first, f.word) && bare(first)) form = f.form;
+  PathLine line;
+  line.form = form_of(first);
+  if (!path_words(line) || !path_fits(line) || !path_motion(line)) return false;
+  if (retract_ || retract_far_) retract(line.retract_feed);
+  if (from_maker_point_) {
+    for (auto& c : out_.motion.coords) {
+      const ir::ExprPtr point = datum(ir::Datum::other, "M92_" + std::string(ir::fixed_axis_name(c.axis)));
+      c.value = ir::add(c.value, ir::Value(point));
+    }
   }
-  const bool named = form != Form::none;
-  if (!named) form = Form::line;
-  const Word *radius = nullptr, *retract_feed = nullptr;  // of M140
-  const Word *polar_radius = nullptr, *polar_angle = nullptr;
-  for (std::size_t i = named ? 1 : 0; i < words.size() && !report_.refused(); ++i) {
-    Word w = words[i];
+  put_path(line);
+  return true;
+}
+
+bool Lowering::path_words(PathLine& line) {
+  const auto& words = block_->words;
+  for (std::size_t i = line.form == Form::none ? 0 : 1; i < words.size() && !report_.refused(); ++i) {
+    const Word& written = words[i];
+    Word w = written;
     // A name and its MAX or AUTO with a blank between them.
     if (is(w, "F") && bare(w) && i + 1 < words.size() && bare(words[i + 1])) {
       const Word& next = words[i + 1];
@@ -222,143 +229,132 @@ bool Lowering::path() {
     }
     if (w.has_value && !w.is_expression && w.number_text.empty() && slice(w).find("+-") != std::string_view::npos)
       report_.warn("HEI-023", w.pos, "`" + std::string(slice(w)) + "`: two signs are read as a minus");
-    const bool incremental = is_incremental(w.address);
-    const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
-    if (axis != ir::axis::none && (w.has_value || form == Form::line)) {
-      axis_word(w, axis, incremental);
-      continue;
-    }
-    if (is(w, "DR") && !w.number_text.empty() && !w.has_value) {
-      sense_ = w.number_text == "+" ? 1 : -1;
-      continue;
-    }
-    if (is(w, "R") && w.has_value && form == Form::by_radius && radius == nullptr) {
-      radius = &words[i];
-      continue;
-    }
-    if ((is(w, "PR") || is(w, "IPR")) && w.has_value) {
-      polar_radius = &words[i];
-      continue;
-    }
-    if ((is(w, "PA") || is(w, "IPA")) && w.has_value) {
-      polar_angle = &words[i];
-      continue;
-    }
-    if (is(w, "M") && w.has_value) {  // with the words that belong to it
-      const auto code = w.is_expression ? -1 : saturate<std::int64_t>(w.number);
-      machine_function(w);
-      if (i + 1 >= words.size()) continue;
-      const Word& next = words[i + 1];
-      const bool own_feed = (code == 103 || code == 128) && is(next, "F");
-      const bool own = own_feed || (code == 120 && is(next, "LA")) || (code == 124 && is(next, "T")) ||
-                       (code == 118 && axis_of(next.address) != ir::axis::none);
-      if (own) ++i;
-      if (code == 103 && own) plunge_ = value(next);
-      if (code != 140) continue;
-      if (is(next, "MBMAX") || (is(next, "MB") && bare(next))) {
-        retract_far_ = true;
-        i += is(next, "MB") ? 2 : 1;  // MB MAX
-      } else if (is(next, "MB")) {
-        retract_ = next;
-        ++i;
-      }
-      continue;
-    }
     if (remark(w)) break;
-    if (is(w, "R") && !w.has_value && !w.number_text.empty()) {  // R+ and R- of a move of one axis
-      report_.warn("HEI-006", w.pos,
-                   "`" + std::string(slice(w)) +
-                       "`: positions are the programmed ones; the control lengthens or shortens the move by the tool "
-                       "radius",
-                   "write L with RL or RR");
-      act(w, ir::OpaqueWord{slice(w)});
-      continue;
-    }
-    if (form == Form::normal_line && w.has_value && facts::in_words(facts::vector_words, w.address)) {
-      act(w, ir::OpaqueWord{slice(w)});
-      continue;
-    }
-    if ((retract_ || retract_far_) && is(w, "F") && w.has_value) {
-      retract_feed = &words[i];
-      continue;
-    }
-    if (!tail(w)) {
+    if (is(w, "M") && w.has_value) {
+      i += with_own_words(i);
+    } else if (!place_word(line, written) && !kept_word(line, w) && !tail(w)) {
       report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing in this block", {}, "block.word");
     }
   }
-  if (report_.refused()) return false;
-  ir::Motion& m = out_.motion;
-  const bool polar = form == Form::polar_line || form == Form::polar_arc || form == Form::polar_tangent;
-  if ((polar_radius != nullptr || polar_angle != nullptr) && !polar) {
-    report_.refuse("HEI-006", (polar_radius != nullptr ? *polar_radius : *polar_angle).pos,
-                   "polar words belong to LP, CP and CTP");
-    return false;
+  return !report_.refused();
+}
+
+/// Axes, centres, angles, radii and the sense: where the block goes. False: the word is none of them.
+bool Lowering::place_word(PathLine& line, const Word& w) {
+  const bool incremental = is_incremental(w.address);
+  const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
+  if (axis != ir::axis::none && (w.has_value || line.straight_in_axes())) {
+    axis_word(w, axis, incremental);
+    return true;
   }
-  if (form == Form::arc || form == Form::by_radius || form == Form::polar_arc) {
-    if (sense_ == 0) {
-      report_.refuse("HEI-006", first.pos, "the arc has no sense", "write DR+ or DR-");
-      return false;
-    }
-  } else if (sense_ != 0) {
-    report_.refuse("HEI-006", first.pos, "DR belongs to an arc");
-    return false;
+  if (is(w, "DR") && !w.number_text.empty() && !w.has_value) {
+    sense_ = w.number_text == "+" ? 1 : -1;
+    return true;
   }
-  if (form == Form::normal_line)
-    report_.warn("HEI-006", first.pos,
+  if (!w.has_value) return false;
+  const Word** place = is(w, "PR") || is(w, "IPR")   ? &line.polar_radius
+                       : is(w, "PA") || is(w, "IPA") ? &line.polar_angle
+                                                     : nullptr;
+  if (is(w, "R") && line.form == Form::by_radius && line.radius == nullptr) place = &line.radius;
+  if (is(w, "F") && (retract_ || retract_far_)) place = &line.retract_feed;
+  if (place != nullptr) *place = &w;
+  return place != nullptr;
+}
+
+/// M with the words that belong to it. Returns how many these are.
+std::size_t Lowering::with_own_words(std::size_t at) {
+  const auto& words = block_->words;
+  const Word& w = words[at];
+  const auto code = w.is_expression ? -1 : saturate<std::int64_t>(w.number);
+  machine_function(w);
+  if (at + 1 >= words.size()) return 0;
+  const Word& next = words[at + 1];
+  if (code == 140 && (is(next, "MBMAX") || (is(next, "MB") && bare(next)))) {
+    retract_far_ = true;
+    return is(next, "MB") ? 2 : 1;  // MB MAX
+  }
+  if (code == 140 && is(next, "MB")) {
+    retract_ = next;
+    return 1;
+  }
+  const bool own_feed = (code == 103 || code == 128) && is(next, "F");
+  const bool own = own_feed || (code == 120 && is(next, "LA")) || (code == 124 && is(next, "T")) ||
+                   (code == 118 && axis_of(next.address) != ir::axis::none);
+  if (code == 103 && own) plunge_ = value(next);
+  return own ? 1 : 0;
+}
+
+/// Words that change no position: kept as text. False: the word is none of them.
+bool Lowering::kept_word(const PathLine& line, const Word& w) {
+  const bool by_radius = is(w, "R") && !w.has_value && !w.number_text.empty();  // R+ and R- of a move of one axis
+  if (by_radius)
+    report_.warn("HEI-006", w.pos,
+                 "`" + std::string(slice(w)) +
+                     "`: positions are the programmed ones; the control lengthens or shortens the move by the tool "
+                     "radius",
+                 "write L with RL or RR");
+  const bool of_vector =
+      line.form == Form::normal_line && w.has_value && facts::in_words(facts::vector_words, w.address);
+  if (by_radius || of_vector) act(w, ir::OpaqueWord{slice(w)});
+  return by_radius || of_vector;
+}
+
+/// The words belong together. False: refused.
+bool Lowering::path_fits(const PathLine& line) {
+  const WordPos at = block_->words.front().pos;
+  const auto refused = [&](WordPos where, std::string_view what, std::string_view hint = {}) {
+    report_.refuse("HEI-006", where, std::string(what), std::string(hint));
+    return false;
+  };
+  const Word* polar = line.polar_radius != nullptr ? line.polar_radius : line.polar_angle;
+  if (polar != nullptr && !line.polar()) return refused(polar->pos, "polar words belong to LP, CP and CTP");
+  if (line.by_sense() && sense_ == 0) return refused(at, "the arc has no sense", "write DR+ or DR-");
+  if (!line.by_sense() && sense_ != 0) return refused(at, "DR belongs to an arc");
+  if (line.form == Form::normal_line)
+    report_.warn("HEI-006", at,
                  "LN: positions are those of the tool's tip; the control turns the tool and shifts it by the vectors");
-  const bool straight = form == Form::line || form == Form::normal_line || form == Form::polar_line;
-  if (rapid_ && !straight) {
-    report_.refuse("HEI-006", first.pos, "an arc is not run in rapid traverse: its feed is unknown", "write F");
-    return false;
-  }
-  if (polar_angle != nullptr) {
-    angle_ = value(*polar_angle);
-    angle_incremental_ = polar_angle->address.size() == 3;
-    if (form == Form::polar_arc && angle_incremental_ && angle_->literal() && angle_->number * sense_ < 0) {
-      report_.refuse("HEI-006", polar_angle->pos, "the sign of IPA and DR contradict each other");
+  if (rapid_ && !line.straight())
+    return refused(at, "an arc is not run in rapid traverse: its feed is unknown", "write F");
+  if (line.form == Form::by_radius && line.radius == nullptr) return refused(at, "the arc has no radius", "write R");
+  if (line.form == Form::none && out_.motion.coords.size() > 1)
+    report_.warn("HEI-006", at, "axis words without a path function are read as L", "write L before them");
+  return true;
+}
+
+/// The motion of the block from its words. False: refused.
+bool Lowering::path_motion(const PathLine& line) {
+  using ir::MotionKind;
+  ir::Motion& m = out_.motion;
+  if (const Word* w = line.polar_angle) {
+    angle_ = value(*w);
+    angle_incremental_ = w->address.size() == 3;
+    if (line.form == Form::polar_arc && angle_incremental_ && angle_->literal() && angle_->number * sense_ < 0) {
+      report_.refuse("HEI-006", w->pos, "the sign of IPA and DR contradict each other");
       return false;
     }
   }
-  if (polar_radius != nullptr) {
+  if (const Word* w = line.polar_radius) {
     auto extra = std::make_shared<ir::MotionExtra>();
     extra->has_polar_radius = true;
-    extra->polar_radius = value(*polar_radius);
-    extra->polar_mode = polar_radius->address.size() == 3 ? ir::WordMode::incremental : ir::WordMode::modal;
+    extra->polar_radius = value(*w);
+    extra->polar_mode = w->address.size() == 3 ? ir::WordMode::incremental : ir::WordMode::modal;
     m.extra = std::move(extra);
   }
-  switch (form) {
-    case Form::none:
-    case Form::line:
-    case Form::normal_line:
-    case Form::polar_line: m.kind = rapid_ ? MotionKind::rapid : MotionKind::linear; break;
-    case Form::arc:
-    case Form::by_radius:
-    case Form::polar_arc: m.kind = sense_ > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw; break;
-    case Form::tangent:
-    case Form::polar_tangent: m.kind = MotionKind::arc_tangent; break;
-  }
+  m.kind = line.straight()   ? (rapid_ ? MotionKind::rapid : MotionKind::linear)
+           : line.by_sense() ? (sense_ > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw)
+                             : MotionKind::arc_tangent;
   end_motion();
-  out_.has_motion = m.moves() || form == Form::arc || form == Form::polar_arc;  // without an end point: a full circle
+  out_.has_motion = m.moves() || line.about_pole();  // without an end point: a full circle
   m.explicit_code = out_.has_motion;
-  if (form == Form::by_radius) {
-    if (radius == nullptr) {
-      report_.refuse("HEI-006", first.pos, "the arc has no radius", "write R");
-      return false;
-    }
+  if (line.radius != nullptr) {
     m.radius_given = true;
-    m.radius = value(*radius);
-    m.radius_pos = radius->pos;
+    m.radius = value(*line.radius);
+    m.radius_pos = line.radius->pos;
   }
-  if (!named && m.coords.size() > 1)
-    report_.warn("HEI-006", first.pos, "axis words without a path function are read as L", "write L before them");
-  const bool by_pole = form == Form::arc || form == Form::polar_arc;
-  if (retract_ || retract_far_) retract(retract_feed);
-  if (from_maker_point_) {
-    for (auto& c : m.coords) {
-      const ir::ExprPtr point = datum(ir::Datum::other, "M92_" + std::string(ir::fixed_axis_name(c.axis)));
-      c.value = ir::add(c.value, ir::Value(point));
-    }
-  }
+  return true;
+}
+
+void Lowering::put_path(const PathLine& line) {
   const bool moves = out_.has_motion;
   const auto tilted = untilted_ ? std::exchange(tilt_, std::nullopt) : std::nullopt;
   if (tilted) put_tilt();
@@ -366,8 +362,8 @@ bool Lowering::path() {
   if (!only_ends) {
     Item& item = put(ItemKind::plain, std::move(out_));
     item.moves = moves;
-    item.by_pole = by_pole;
-    item.polar = polar && form != Form::polar_arc;
+    item.by_pole = line.about_pole();
+    item.polar = line.polar() && line.form != Form::polar_arc;
     item.call = call_;
     item.plunge = plunge_;
   }
@@ -375,13 +371,11 @@ bool Lowering::path() {
     tilt_ = tilted;
     put_tilt();
   }
-  if (!end_text_.empty()) {
-    ir::End end;
-    end.text = end_text_;
-    put(ItemKind::end, std::move(end));
-    ended_ = true;
-  }
-  return true;
+  if (end_text_.empty()) return;
+  ir::End end;
+  end.text = end_text_;
+  put(ItemKind::end, std::move(end));
+  ended_ = true;
 }
 
 /// M140: back along the tool axis before the block moves otherwise, at the F behind it, else in rapid. MB MAX goes to
