@@ -224,12 +224,17 @@ class LabelPass {
         if (o.s == m.s && !o.label.is_number && !o.renamed) return o.label;
       }
       const std::string wanted = target_.label_prefix + m.label.text;
-      const bool taken = std::any_of(marks_.begin(), marks_.end(), [&](const Mark& o) {
-        return (o.label.text == wanted && !o.label.is_number) || (o.renamed && o.renamed->text == wanted);
-      });
-      if (!taken) return LabelRef{wanted, false, nullptr};
+      if (!taken(LabelRef{wanted, false, nullptr})) return LabelRef{wanted, false, nullptr};
     }
-    return editor.fresh_label();
+    LabelRef fresh = editor.fresh_label();
+    while (taken(fresh)) fresh = editor.fresh_label();
+    return fresh;
+  }
+  /// A label of the routine has the name, or has been given it.
+  [[nodiscard]] bool taken(const LabelRef& name) const {
+    return std::any_of(marks_.begin(), marks_.end(), [&name](const Mark& o) {
+      return same_label(o.label, name) || (o.renamed && same_label(*o.renamed, name));
+    });
   }
 
   // --- writing --------------------------------------------------------------------------------------------------
