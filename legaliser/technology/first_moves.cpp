@@ -32,12 +32,21 @@ class FirstMoves {
     for (std::size_t n = 0; n < program_.routines.size(); ++n) {
       for (std::size_t from = 0; const auto at = next(n, from); from = *at + 1) {
         Program tried = program_;
-        if (separate(tried, n, *at)) program_ = std::move(tried);
+        const std::size_t before = left(program_, n);
+        if (separate(tried, n, *at) && left(tried, n) < before) program_ = std::move(tried);
       }
     }
   }
 
  private:
+  /// Moves whose function is open; each separation leaves fewer, or it would never end.
+  std::size_t left(Program& program, std::size_t routine) const {
+    const FactsOf facts(program, context_);
+    std::size_t open = 0;
+    for_each_statement(program.routines[routine].body,
+                       [&](const Statement& s) { open += undecided(s, facts.before(s)) ? 1 : 0; });
+    return open;
+  }
   std::optional<std::size_t> next(std::size_t routine, std::size_t from) {
     const FactsOf facts(program_, context_);
     const Body& body = program_.routines[routine].body;
