@@ -44,7 +44,8 @@ constexpr std::array<Row, 12> table = {{
     {selections, "tools made ready",
      "a tool that is only made ready when a T of one of the two programs changes the tool at once"},
     {small_moves, "small moves", "a move below the tolerance, on one side only"},
-    {tolerances, "tolerance", "Tolerances: 0.0011 mm and degrees on end points"},
+    {tolerances, "tolerance",
+     "Tolerances: 0.0014 mm (half of the fourth decimal of an inch) and 0.0011 degrees on end points"},
     {texts, "signs of messages", "Messages are the same text, letters and signs, as far as a target can show it"},
     {taps, "sense in a tap", "there the sense of the spindle follows from the path"},
     {unfed, "feed before any F", "The feed the target's power-on state gives such a move"},
@@ -116,11 +117,18 @@ class Reduced {
   Reduced(const Trace& trace, std::uint32_t without, std::size_t unfed_moves)
       : trace_(trace), without_(without), unfed_(unfed_moves) {
     for (std::size_t k = 0; k < trace.events.size(); ++k) one(trace.events[k], k);
-    for (std::size_t k = items.size(); k-- > 1;) {  // the way to a cycle may be in several parts
-      if (leads_to_cycle(k) && items[k].e.kind == EventKind::rapid && items[k].commands.empty() &&
-          items[k - 1].e.kind == EventKind::rapid && items[k - 1].run == nullptr)
-        items[k].commands = std::move(items[k - 1].commands),
-        items.erase(items.begin() + static_cast<std::ptrdiff_t>(k) - 1);
+    // The ways to a cycle, and away from a thread, may be in several parts.
+    for (std::size_t k = 1; k < items.size();) {
+      Item &before = items[k - 1], &item = items[k];
+      const bool plain = item.run == nullptr && item.e.kind == EventKind::rapid && item.commands.empty();
+      const bool away = plain && before.run != nullptr && by_threads(*before.run);
+      const bool on_the_way = plain && before.run == nullptr && before.e.kind == EventKind::rapid && leads_to_cycle(k);
+      if (away) before.e.to = item.e.to;
+      if (on_the_way) item.commands = std::move(before.commands);
+      if (away || on_the_way)
+        items.erase(items.begin() + static_cast<std::ptrdiff_t>(away ? k : k - 1));
+      else
+        ++k;
     }
     for (std::size_t k = 0; k < items.size(); ++k) {  // where the tool does not go on, it stops in any case
       if (k + 1 == items.size() || !moves(items[k + 1].e.kind)) items[k].e.stop = {};
@@ -268,7 +276,7 @@ class Reduced {
     Item& last = items.back();
     const bool straight = item.e.kind == EventKind::rapid || item.e.kind == EventKind::linear;
     if (!straight || last.e.to.known != item.e.to.known || !item.commands.empty()) return false;
-    if (has(small_moves) && distance(last.e.to, item.e.to) <= 0.0011) return true;
+    if (has(small_moves) && distance(last.e.to, item.e.to) <= 0.0014) return true;
     const bool fed = last.e.kind != EventKind::rapid;
     if (last.e.kind != item.e.kind || (fed && (last.e.feed != item.e.feed || last.e.feed_mode != item.e.feed_mode)) ||
         last.e.centre_side != item.e.centre_side || (!has(open_offset) && last.e.offset.with != item.e.offset.with))
@@ -329,8 +337,7 @@ std::string cycle_difference(Item a, Item b, const Tolerance& t) {
   leave_first_passes(a);
   leave_first_passes(b);
   if (!positions(a.low, b.low, wide).empty() || !positions(a.high, b.high, wide).empty()) return "extent of a cycle";
-  // How far the tool comes back from a thread, the way behind it shows.
-  if (!by_threads(*a.run) && !positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
+  if (!positions(a.e.to, b.e.to, wide).empty()) return "end of a cycle";
   if (a.feeds.size() != b.feeds.size() ||
       !std::equal(a.feeds.begin(), a.feeds.end(), b.feeds.begin(),
                   [&](const auto& x, const auto& y) { return x.first == y.first && close(x.second, y.second, t); }))
@@ -394,7 +401,7 @@ std::string difference(const Item& a, const Item& b, const Tolerance& t, std::ui
 }
 
 std::string difference(const Trace& a, const Trace& b, std::uint32_t without, std::size_t unfed_moves) {
-  const Tolerance t = (without & tolerances) != 0 ? Tolerance{0.0011, 0.002, 1e-3, 0.0051, 0.00051} : Tolerance{};
+  const Tolerance t = (without & tolerances) != 0 ? Tolerance{0.0014, 0.002, 1e-3, 0.0051, 0.00051} : Tolerance{};
   const Reduced x(a, without, unfed_moves), y(b, without, unfed_moves);
   // The way to a cycle that is compared by the part: a millimetre outside of the hull is left aside.
   for (std::size_t k = 0; k < std::min(x.items.size(), y.items.size()); ++k) {
