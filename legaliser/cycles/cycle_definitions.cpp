@@ -8,20 +8,6 @@
 
 namespace cnctrans::ir::passes {
 
-static Block rapid_up(AxisId axis, const Value& height) {
-  Block up;
-  up.has_motion = true;
-  up.motion.kind = MotionKind::rapid;
-  up.motion.explicit_code = true;
-  up.motion.keeps_modal = false;
-  CoordWord word;
-  word.axis = axis;
-  word.mode = WordMode::absolute;
-  word.value = height;
-  up.motion.coords.push_back(word);
-  return up;
-}
-
 void CyclePass::define_in_block(Statement&& s, const CycleDefine& d, Body&& pieces, Body& out) {
   const auto* change = std::get_if<HoleCycle>(&d.cycle->node);
   if (change != nullptr && change->keeps_initial && active_ &&
@@ -153,7 +139,7 @@ void CyclePass::define_by_words(Statement&& s, const CycleDefine& d, Active&& a,
   const LineInfo like = s.line;
   const std::size_t main = pieces.size();
   pieces.push_back(std::move(s));
-  pieces.push_back(made(like, rapid_up(*w, *leave)));
+  pieces.push_back(made(like, straight_move(MotionKind::rapid, *w, *leave)));
   put_group(out, std::move(pieces), main);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "legaliser/cycles/cycle_pass.h"
+#include "legaliser/edit/blocks.h"
 
 namespace cnctrans::ir::passes {
 
@@ -151,16 +152,7 @@ std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statem
                 shortest(n->lift / unit);
   const double retract = cycles::retract_level(*n, plane);
   if (std::fabs(retract - n->reference) > 1e-9) {
-    Block up;
-    up.has_motion = true;
-    up.motion.kind = MotionKind::rapid;
-    up.motion.explicit_code = true;
-    up.motion.keeps_modal = false;
-    CoordWord word;
-    word.axis = *w;
-    word.mode = WordMode::absolute;
-    word.value = level(retract).value;
-    up.motion.coords.push_back(word);
+    Block up = straight_move(MotionKind::rapid, *w, level(retract).value);
     out.blocks.push_back(made(like, std::move(up)));
   }
   if (needs.feed && facts.feed && !feeds_.at(s, b, facts).none)

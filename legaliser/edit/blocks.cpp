@@ -54,6 +54,20 @@ struct OrderOf {
 
 }  // namespace
 
+Block straight_move(MotionKind kind, AxisId axis, const Value& to) {
+  Block b;
+  b.has_motion = true;
+  b.motion.kind = kind;
+  b.motion.explicit_code = true;
+  b.motion.keeps_modal = false;
+  CoordWord word;
+  word.axis = axis;
+  word.mode = WordMode::absolute;
+  word.value = to;
+  b.motion.coords.push_back(word);
+  return b;
+}
+
 Action distance_set(Distance mode) {
   return action(ModalSet{Setting::distance, static_cast<std::uint8_t>(mode)});
 }

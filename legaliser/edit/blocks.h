@@ -17,6 +17,9 @@ bool own_block(const Action& action, const Capabilities& target);
 /// True when the block moves or runs a cycle.
 bool has_motion(const Block& block);
 
+/// A straight move of one axis to a place, with its code; the motion function in force stays.
+Block straight_move(MotionKind kind, AxisId axis, const Value& to);
+
 /// G90 or G91 as an action.
 Action distance_set(Distance mode);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "legaliser/cycles/parts/cycle_parts.h"
+#include "legaliser/edit/blocks.h"
 
 namespace cnctrans::ir::passes {
 
@@ -177,19 +178,7 @@ class ComputedHole {
   // --- moves ----------------------------------------------------------------------------------------------------
 
   Body& body() { return loop_ != nullptr ? *loop_ : out_; }
-  Block move(MotionKind kind, const Value& to) const {
-    Block b;
-    b.has_motion = true;
-    b.motion.kind = kind;
-    b.motion.explicit_code = true;
-    b.motion.keeps_modal = false;
-    CoordWord w;
-    w.axis = axis_;
-    w.mode = WordMode::absolute;
-    w.value = to;
-    b.motion.coords.push_back(w);
-    return b;
-  }
+  Block move(MotionKind kind, const Value& to) const { return straight_move(kind, axis_, to); }
   void rapid(const Value& to) { body().push_back(made(like_, move(MotionKind::rapid, to))); }
   void feed(const Value& to) {
     Block b = move(MotionKind::linear, to);
