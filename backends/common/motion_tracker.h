@@ -3,9 +3,15 @@
 
 #include <optional>
 
+#include "ir/block.h"
 #include "ir/motion_kinds.h"
 
 namespace cnctrans::backends {
+
+/// The code of a cut in a block that does not move.
+inline bool is_code_alone(const ir::Motion& m) {
+  return m.kind != ir::MotionKind::modal && m.kind != ir::MotionKind::rapid && !m.moves();
+}
 
 /// Both agree (whatever they are) as long as every code that is written stays in force in the IR too. A one-shot motion
 /// (`keeps_modal` false) breaks that until the next written code.

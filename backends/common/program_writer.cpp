@@ -15,12 +15,14 @@ bool wants_approach(const ir::Action& a) {
   return hole != nullptr && hole->retract.given;
 }
 
-bool has_one_shots(const ir::Program& program, bool approaches) {
+bool has_one_shots(const ir::Program& program, const Style& style) {
+  const bool approaches = style.approaches_cycles && program.dialect != style.dialect;
   bool found = false;
   for (const ir::Routine& r : program.routines) {
     ir::for_each_statement(r.body, [&](const ir::Statement& s) {
       const auto* b = std::get_if<ir::Block>(&s.node);
-      found = found || (b != nullptr && b->has_motion && !b->motion.keeps_modal);
+      found = found || (b != nullptr && b->has_motion &&
+                        (!b->motion.keeps_modal || (style.code_waits_for_move && is_code_alone(b->motion))));
       found =
           found || (approaches && b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), wants_approach));
     });
@@ -63,7 +65,7 @@ ProgramWriter::ProgramWriter(const ir::Program& program, const WriteOptions& opt
       diagnostics_(diagnostics),
       same_dialect_(program.dialect == style.dialect),
       labels_(program),
-      tracker_(has_one_shots(program, style.approaches_cycles && program.dialect != style.dialect)) {
+      tracker_(has_one_shots(program, style)) {
   if (&program_ == &numbered_) ir::number_statements(numbered_);
 }
 

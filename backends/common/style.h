@@ -67,6 +67,7 @@ struct Style {
   bool order_by_rank = false;            ///< words always in rank order, also when the source had another one
   bool label_blocks = false;             ///< a label is a block of its own; block numbers say nothing and are made last
   std::size_t indent = 0;                ///< blanks a nesting level of structured statements
+  bool code_waits_for_move = false;      ///< the code of a cut stands in the block of its move, never alone
   bool blank_lines = true;               ///< blank lines of the source are kept
   std::string_view blank_line = {};      ///< what stands in a blank line (";" where it can't be empty)
   std::string_view only_label = {};      ///< what must follow a block number that stands alone (";")

@@ -146,7 +146,9 @@ void ProgramWriter::motion(const ir::Motion& m) {
                   std::string(what) + " has no counterpart here");
   }
   frame_use(m);
-  if (m.kind != ir::MotionKind::modal) {
+  if (style_.code_waits_for_move && is_code_alone(m)) {
+    tracker_.keeps_on(ir::left_in_force(m.kind));
+  } else if (m.kind != ir::MotionKind::modal) {
     const bool known_already = !m.explicit_code && tracker_.text() == m.kind;
     const std::string_view own = same_dialect_ ? m.code_text : std::string_view{};
     const std::string_view code = own.empty() ? code_of(style_, m) : own;

@@ -49,6 +49,7 @@ inline constexpr Style style{
     .kept_decimals = 12,
     .made_decimals = 6,
     .indent = 2,
+    .code_waits_for_move = true,  // it stops at a G1 without a feed, with axes or without
     .skip_marks = skip_marks,
 };
 

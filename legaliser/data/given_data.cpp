@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "ir/edit/rewrite.h"
+#include "ir/frame_rows.h"
 
 namespace cnctrans::ir::passes {
 
@@ -78,12 +79,17 @@ class GivenData {
   std::set<std::string> told_;
 };
 
+bool holds_base_frame(const SystemRef& ref) {
+  const auto row = ref.datum == Datum::frame_settable && !ref.args.empty() ? constant_value(ref.args[0]) : std::nullopt;
+  return row && *row >= frame_rows::first;
+}
+
 }  // namespace
 
 std::string name_of_datum(const SystemRef& ref, const Program& program) {
   if (ref.text.empty()) return std::string(name(ref.datum));
   const auto s = spelled(ref, program);
-  if (!s) return ref.text;
+  if (!s || holds_base_frame(ref)) return ref.text;  // the row is a number of ours
   return s->index.empty() ? s->name : s->name + '[' + s->index + ']';
 }
 

@@ -6,6 +6,7 @@
 
 #include "ir/edit/rewrite.h"
 #include "legaliser/frames/axis_scales.h"
+#include "legaliser/legalise.h"
 
 namespace cnctrans::ir::passes {
 
@@ -27,6 +28,13 @@ struct Shifted {
   }
 };
 
+/// The head of the translation selects the work offset that the source's machine has in force at the start.
+inline bool head_selects_offset(const LegaliseContext& context) {
+  const auto offset = context.source_machine.power_on.work_offset;
+  return offset != context.target_machine.power_on.work_offset && offset > 0 &&
+         offset <= context.target.work_offset_rows;
+}
+
 /// It may be more than a shift.
 inline bool turns(const FrameChange& c) {
   return c.kind != FrameKind::translate || c.slot == FrameSlot::rotation || c.slot == FrameSlot::scale ||
@@ -41,9 +49,10 @@ inline bool holds_still(const CoordWord& c) {
   return c.mode == WordMode::incremental && c.pos.column == 0 && c.value.is(0);
 }
 
-/// Axes that have not moved since the last change of the frame on some way, as bits: a domain of FlowStates. The bits
-/// from first_plane_bit on say which planes may be in force (polar words move both axes of the plane), those from
-/// first_turned_bit on which axes have not moved since a rotation, scale or mirror.
+/// Axes that have not moved since the last change of the frame (or since the start, in a frame that the head selects)
+/// on some way, as bits: a domain of FlowStates. The bits from first_plane_bit on say which planes may be in force
+/// (polar words move both axes of the plane), those from first_turned_bit on which axes have not moved since a
+/// rotation, scale or mirror.
 struct UnmovedAxes {
   using State = std::uint64_t;
   static constexpr State one = 1;
@@ -53,7 +62,8 @@ struct UnmovedAxes {
   static constexpr State axis_bits = axes_waiting | axes_turned;
   /// Only the axes of a frame have one.
   static State turned_bit(AxisId a) { return a < axis::first_extra ? one << (first_turned_bit + a) : 0; }
-  explicit UnmovedAxes(Plane at_power_on) : power_on(plane_bit(at_power_on)) {}
+  UnmovedAxes(Plane at_power_on, bool in_another_frame)
+      : power_on(plane_bit(at_power_on) | (in_another_frame ? axes_waiting : 0)) {}
   State power_on;
   static State plane_bit(Plane plane) { return one << (first_plane_bit + static_cast<unsigned>(plane)); }
   [[nodiscard]] State start(const Routine& r, bool called) const {

@@ -25,7 +25,7 @@ class DistancePass {
     keeps_differ_ =
         context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
     if (!keeps_differ_) return;
-    unmoved_.emplace(program, UnmovedAxes(context.source_machine.power_on.plane));
+    unmoved_.emplace(program, UnmovedAxes(context.source_machine.power_on.plane, head_selects_offset(context)));
     for (const auto& r : program.routines) {
       for_each_statement(r.body, [this](const Statement& s) {
         const auto* b = std::get_if<Block>(&s.node);
@@ -37,7 +37,8 @@ class DistancePass {
       });
     }
     if (context.source_machine.option("frame.change_keeps") == "machine" &&
-        std::any_of(program.routines.begin(), program.routines.end(), UnmovedAxes::adds))
+        (head_selects_offset(context) ||
+         std::any_of(program.routines.begin(), program.routines.end(), UnmovedAxes::adds)))
       path_.emplace(program, facts, context.target_machine, context);
   }
 
@@ -420,7 +421,7 @@ void leave_out_idle(Program& program, const LegaliseContext& context, const Fact
   if (context.source_machine.option("frame.change_keeps") != "machine" ||
       context.target_machine.option("frame.change_keeps") == "machine")
     return;
-  bool changes = false, idle = false;
+  bool changes = head_selects_offset(context), idle = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       UnmovedAxes::State none = 0;
@@ -433,7 +434,7 @@ void leave_out_idle(Program& program, const LegaliseContext& context, const Fact
     });
   }
   if (!changes || !idle) return;
-  const UnmovedAxes domain(context.source_machine.power_on.plane);
+  const UnmovedAxes domain(context.source_machine.power_on.plane, head_selects_offset(context));
   const FlowStates<UnmovedAxes> unmoved(program, domain);
   const auto statement = [&](Statement& s) {
     auto* b = std::get_if<Block>(&s.node);

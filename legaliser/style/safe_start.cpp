@@ -8,6 +8,7 @@
 #include "legaliser/analysis/facts.h"
 #include "legaliser/analysis/feed_state.h"
 #include "legaliser/edit/editor.h"
+#include "legaliser/frames/shifted_axes.h"
 #include "legaliser/passes.h"
 
 namespace cnctrans::ir::passes {
@@ -41,8 +42,7 @@ class SafeStart {
     Body blocks;
     if (!head.empty()) blocks.push_back(made(LineInfo{}, std::move(head)));
     const auto offset = context_.source_machine.power_on.work_offset;
-    if (!offset_said_ && offset != context_.target_machine.power_on.work_offset && offset > 0 &&
-        offset <= context_.target.work_offset_rows) {
+    if (!offset_said_ && head_selects_offset(context_)) {
       blocks.push_back(make_block(LineInfo{}, action(WorkOffset{Value{static_cast<double>(offset)}, false})));
     }
     if (!offset_said_ && offset == 0) tell_offset();

@@ -34,10 +34,6 @@ void StatementLowering::tell_beside(WordPos pos, const std::string& what, std::s
 }
 
 bool StatementLowering::without_effect(const std::string& name, WordPos pos, Parts& parts) {
-  ir::Opaque o;
-  o.text = c_.slice(pos);
-  o.feature = "language.statement";
-  o.harmless = true;
   std::string text = kept_text(name);
   if (name == "FGROUP") {
     text +=
@@ -45,6 +41,14 @@ bool StatementLowering::without_effect(const std::string& name, WordPos pos, Par
         "names";
   }
   c_.note("SIN-009", pos, std::move(text));
+  if (!change_of_speed(name).empty()) {
+    parts.act(ir::OpaqueWord{c_.slice(pos)}, pos, c_.slice(pos)).order = ir::Order::with;
+    return true;
+  }
+  ir::Opaque o;
+  o.text = c_.slice(pos);
+  o.feature = "language.statement";
+  o.harmless = true;
   parts.calls.emplace_back(std::move(o));
   return true;
 }
