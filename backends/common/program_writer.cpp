@@ -136,6 +136,7 @@ void ProgramWriter::start_routine(std::size_t index) {
   routine_ = index;
   depth_ = 0;
   tracker_.start_routine();
+  if (style_.code_waits_for_move) tracker_.join();  // the caller may have left one waiting
   branch_ = 0;
   settings_.fill(std::nullopt);
 }

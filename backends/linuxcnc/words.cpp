@@ -206,6 +206,11 @@ void Writer::machine_function(const ir::Action& a, const ir::MachineFunction& m)
 void Writer::motion(const ir::Motion& m) {
   if (m.kind == ir::MotionKind::thread && m.coords.size() != 1)
     return refuse(no_word, m.code_pos, "a thread along two axes has no counterpart here (K counts along the path)");
+  const bool probes = m.kind == ir::MotionKind::probe_toward || m.kind == ir::MotionKind::probe_away;
+  const ir::Facts* f = probes ? facts() : nullptr;
+  if (f != nullptr && f->settings[static_cast<std::size_t>(Setting::feed_mode)] != code_value(ir::FeedMode::per_minute))
+    return refuse(no_word, m.code_pos, "a probing move while F counts per revolution has no counterpart here",
+                  "write G94 and its F before it");
   ProgramWriter::motion(m);
 }
 

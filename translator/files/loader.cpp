@@ -349,6 +349,10 @@ void Loader::read_by_callers() {
   by_callers_ = true;
   std::vector<std::unique_ptr<ir::Program>> alone;
   for (Candidate* c : reached) alone.push_back(std::move(c->program));
+  for (Candidate& c : candidates_) {  // what was only looked into: a computed call may reach it
+    c.program.reset();
+    c.diagnostics.clear();
+  }
   for (std::size_t k = 0; k < reached.size(); ++k) {
     callers_ = {mains_.front().get()};
     for (std::size_t n = 0; n < alone.size(); ++n) {
@@ -359,7 +363,8 @@ void Loader::read_by_callers() {
     for (std::size_t r = 0; r < read->routines.size() && r < alone[k]->routines.size(); ++r)
       reached[k]->program->routines[r].name = alone[k]->routines[r].name;
   }
-  callers_.clear();
+  callers_ = {mains_.front().get()};
+  for (const Candidate* c : reached) callers_.push_back(c->program.get());
 }
 
 const ir::Program* Loader::find(const ir::RoutineName& name) {

@@ -105,7 +105,7 @@ class Loader {
   std::vector<std::unique_ptr<ir::Program>> own_definitions_;
   std::vector<const ir::Program*> definitions_;
   std::vector<const ir::Program*> called_;
-  std::vector<const ir::Program*> callers_;  ///< of the file that is read
+  std::vector<const ir::Program*> callers_;  ///< of the file that is read, the main program first
   Diagnostics library_diagnostics_;
   std::map<std::pair<FileId, std::uint32_t>, Diagnostic> faults_;  ///< line 0: of a routine without header
 };

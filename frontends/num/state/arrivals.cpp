@@ -166,8 +166,9 @@ bool agrees(const std::vector<ModalUse>& uses, const Arrivals& arrivals) {
 void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arrivals& arrivals,
                 Diagnostics& diagnostics) {
   if (arrivals.empty()) return;
-  const bool outside = leads_outside(ways.whole);
   const auto sure = lines_with_callers(ways);
+  const bool nobody = ways.own != 0 && sure.empty();  // called by another number than the one it names
+  const bool outside = nobody || leads_outside(ways.whole);
   bool told = false;
   for (const auto& use : uses) {
     const auto at = arrivals.find(use.where.line);
@@ -176,7 +177,7 @@ void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arriv
       if (!has(use, n.fact)) continue;
       const Match found = match(use, n.fact, at->second);
       // Of a cycle nobody knows, the judge of its changes says what is to be said (NUM-048).
-      const bool unknown = found == Match::unknown && n.fact != Modal::cycle && sure.count(use.where.line) != 0;
+      const bool unknown = found == Match::unknown && n.fact != Modal::cycle && (nobody || sure.count(use.where.line) != 0);
       if (unknown && outside && !std::exchange(told, true)) {
         diagnostics.warning("NUM-072", use.where,
                             "this block depends on " + std::string(n.what) +
