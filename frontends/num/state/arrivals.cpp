@@ -177,7 +177,8 @@ void judge_uses(const Ways& ways, const std::vector<ModalUse>& uses, const Arriv
       if (!has(use, n.fact)) continue;
       const Match found = match(use, n.fact, at->second);
       // Of a cycle nobody knows, the judge of its changes says what is to be said (NUM-048).
-      const bool unknown = found == Match::unknown && n.fact != Modal::cycle && (nobody || sure.count(use.where.line) != 0);
+      const bool unknown =
+          found == Match::unknown && n.fact != Modal::cycle && (nobody || sure.count(use.where.line) != 0);
       if (unknown && outside && !std::exchange(told, true)) {
         diagnostics.warning("NUM-072", use.where,
                             "this block depends on " + std::string(n.what) +
