@@ -14,6 +14,7 @@
 #include "legaliser/analysis/feed_units.h"
 #include "legaliser/early_passes.h"
 #include "legaliser/frames/frame_state.h"
+#include "legaliser/frames/shifted_axes.h"
 #include "legaliser/motion/path_values.h"
 #include "machine/data_at_rest.h"
 
@@ -44,6 +45,8 @@ class KnownData {
   }
 
   void in(const Routine& r) { routine_ = &r; }
+  /// The centres that asked for the pole are known now: nothing else may need it.
+  [[nodiscard]] bool poles_read() const { return poles_read_; }
   void statement(Statement& s) {
     diameter_switch(s);
     bool used = false;
@@ -107,6 +110,10 @@ class KnownData {
         if (e->pos.column != 0) tell(word_span(s.line.span, e->pos), ref, *value);  // else the reader has put it there
         return number(*value);
       }
+    }
+    if (const auto at = pole(s, ref)) {  // the reader has put it there
+      poles_read_ = true;
+      return as_expr(*at);
     }
     if (const auto formula = place(s, ref)) {
       context_.diagnostics.note("TRN-132", word_span(s.line.span, e->pos),
@@ -279,12 +286,27 @@ class KnownData {
     return *facts.position[a] * (*mode == DiameterMode::radius ? 1 : 2);
   }
 
+  /// A coordinate of the pole, where every way brings the same.
+  std::optional<Value> pole(const Statement& s, const SystemRef& ref) {
+    const bool first = ref.datum == Datum::pole_first;
+    if ((!first && ref.datum != Datum::pole_second) ||
+        setting<Units>(facts_.before(s), Setting::units) != Units::metric)
+      return std::nullopt;
+    const auto at = path().pole(s);
+    if (!at) return std::nullopt;
+    return first ? at->u : at->v;
+  }
+
+  const PathStates& path() {
+    if (!path_) path_.emplace(program_, facts_, context_.source_machine, context_);
+    return *path_;
+  }
+
   /// The programmed position as a formula in the program's variables, which this statement leaves alone.
   std::optional<Value> place(const Statement& s, const SystemRef& ref) {
     const auto* spec = context_.source_machine.axis(ref.axis);
     if (ref.datum != Datum::programmed_position || spec == nullptr || spec->diameter) return std::nullopt;
-    if (!path_) path_.emplace(program_, facts_, context_.source_machine, context_);
-    auto found = path_->place(s, ref.axis);
+    auto found = path().place(s, ref.axis);
     if (!found || found->literal()) return std::nullopt;
     const auto* a = std::get_if<Assign>(&s.node);
     if (a == nullptr || a->items.size() > 1)
@@ -339,16 +361,44 @@ class KnownData {
 
   const Program& program_;
   const LegaliseContext& context_;
-  std::optional<PathStates> path_;  ///< where a position is asked for
+  std::optional<PathStates> path_;  ///< where a position or the pole is asked for
   const CallGraph calls_;
   const Routine* routine_ = nullptr;
   std::set<std::tuple<FileId, std::uint32_t, std::uint32_t>> told_;  ///< places of notes
+  bool poles_read_ = false;
   bool gauges_ = false;  ///< the program counts with gauges of tools, or without its offsets
   FactsOf facts_;
   FrameStates frames_;
   FeedUnits feed_domain_;
   FlowStates<FeedUnits> feed_units_;
 };
+
+bool needs_pole(const Program& program) {
+  bool needed = false;
+  for (const auto& r : program.routines) {
+    for_each_statement(r.body, [&needed](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      needed = needed || (b != nullptr && is_polar(b->motion));
+      each_expression(s, [&needed](const ExprPtr& e) {
+        walk(e, [&needed](const ExprPtr& x) {
+          const auto* ref = datum_in(x);
+          needed = needed || (ref != nullptr && (ref->datum == Datum::pole_first || ref->datum == Datum::pole_second));
+        });
+      });
+    });
+  }
+  return needed;
+}
+
+void drop_poles(Program& program) {
+  const auto is_pole = [](const Action& a) { return std::holds_alternative<PoleSet>(a.data); };
+  const auto idle = [&is_pole](Statement& s) {
+    auto* b = std::get_if<Block>(&s.node);
+    const bool dropped = b != nullptr && std::erase_if(b->actions, is_pole) != 0;
+    return dropped && b->empty() && s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
+  };
+  for (auto& r : program.routines) std::erase_if(r.body, idle);
+}
 
 bool reads_or_writes_data(const Program& program) {
   bool found = false;
@@ -374,6 +424,7 @@ void write_known_data(Program& program, const LegaliseContext& context) {
     pass.in(r);
     for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });
   }
+  if (pass.poles_read() && !needs_pole(program)) drop_poles(program);
 }
 
 }  // namespace cnctrans::ir::passes

@@ -71,8 +71,7 @@ class DistancePass {
       return;
     }
     if (switches) return switch_for_block(editor, std::move(s), *mode, out);
-    if (mode == Distance::incremental && all_absolute(b, facts))
-      return switch_for_block(editor, std::move(s), *mode, out);
+    if (mode && all_in_other_mode(b, *mode, facts)) return switch_for_block(editor, std::move(s), *mode, out);
     if (mode)
       refuse(s, editor.program, context_, "TRN-181",
              "absolute and incremental words in one block, and the position before it is not known here",
@@ -198,16 +197,30 @@ class DistancePass {
     return follow(b.motion.centers) || (b.motion.extra && follow(b.motion.extra->through));
   }
 
-  /// A block of increments with absolute words beside them: all of them absolute. False: nothing is changed.
-  bool all_absolute(Block& b, const Facts& facts) const {
-    const std::vector<CoordWord> as_it_was = b.motion.coords;
-    if (centres_follow(b) || b.motion.extra) return false;
+  /// A block with words of both modes, all in the other one than that in force. False: nothing is changed.
+  bool all_in_other_mode(Block& b, Distance mode, const Facts& facts) const {
+    const bool absolute = mode == Distance::incremental;
+    const Motion as_it_was = b.motion;
+    if (b.motion.extra || (centres_follow(b) && (absolute || !centres_from_start(b, facts)))) return false;
     for (auto& c : b.motion.coords) {
-      if (c.mode == WordMode::modal) c.mode = WordMode::incremental;
+      if (c.mode == WordMode::modal) c.mode = absolute ? WordMode::incremental : WordMode::absolute;
     }
-    if (to_block_mode(b, Distance::absolute, facts)) return true;
-    b.motion.coords = as_it_was;
+    if (to_block_mode(b, absolute ? Distance::absolute : Distance::incremental, facts)) return true;
+    b.motion = as_it_was;
     return false;
+  }
+  /// Centres that are places become increments from the start.
+  bool centres_from_start(Block& b, const Facts& facts) const {
+    std::vector<CenterWord> centers = b.motion.centers;
+    for (auto& c : centers) {
+      const auto& at = facts.position[c.axis];
+      const auto one = to_radius(c.axis, c.scale, Distance::absolute, b, facts, context_.source_machine);
+      if (c.mode != CenterMode::follows_distance || one != 1 || !at) return false;
+      c.value = subtract(c.value, Value{*at});
+      c.value.text = {};
+    }
+    b.motion.centers = std::move(centers);
+    return true;
   }
 
   /// The increment added to what the target knows as the last programmed coordinate, or as the place in the frame.
