@@ -57,6 +57,10 @@ HEADS = {
         ("variables", "BEGIN PGM CAM MM\nQ1 = 3\nQ2 = Q1 * 5\nTOOL CALL 1 Z S5000\nM3\nL X+0 Y+0 R0 FMAX\nL Z+Q2 R0 FMAX\n"),
     ],
 }
+for language, (first, *_) in list(HEADS.items()):
+    HEADS[language].append(("rotary axes", first[1]))
+# Where the sign of a rotary word is a direction for one side only, the words go by where the axis stands.
+BY_PLACE = {("fagor", "num"), ("sinumerik", "num"), ("heidenhain", "num"), ("num", "fagor"), ("num", "heidenhain")}
 TOOLS = {"heidenhain": "L Z+50 R0 FMAX\nTOOL CALL {} Z S4000\nM3\nL X+1 Y+1 R0 FMAX\nL Z+15 R0 FMAX\n",
          "fagor": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n", "num": "G0 Z50\nT{} D{} M6\nS4000 M3 M41\nG0 X1 Y1 Z15\n",
          "sinumerik": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n"}
@@ -64,25 +68,26 @@ TAILS = {"fagor": "G0 Z50\nM5\nM30\n{}", "num": "G0 Z50\nM5\nM02\n{}", "sinumeri
          "heidenhain": "L Z+50 R0 FMAX\nM5\nM30\n{}END PGM CAM MM\n"}
 SUBS = {"fagor": "(SUB 7)\nM8\n(RET)\n", "num": "%7\nM8\n", "sinumerik": "", "heidenhain": "LBL 7\nM8\nLBL 0\n"}
 COMMENTS = {"fagor": ";{}", "num": "({})", "sinumerik": "; {}", "heidenhain": "; {}"}
-SIGNED = re.compile(r"([XYZ])(?=[0-9.])")
+SIGNED = re.compile(r"([XYZAC])(?=[0-9.])")
 
 
 def plain_text(words):
     """The same block as a Heidenhain says it: L or CC and C, with signs."""
-    places = [SIGNED.sub(r"\1+", w) for w in words[1:] if w[0] in "XYZF"]
+    places = [SIGNED.sub(r"\1+", w) for w in words[1:] if w[0] in "XYZACF"]
     if words[0] != "G3":
         return " ".join(["L", *places])
     centre = [SIGNED.sub(r"\1+", w.replace("I", "X").replace("J", "Y")) for w in words[1:] if w[0] in "IJ"]
     return f"CC {' '.join(centre)}\nC {' '.join(places)} DR+"
 
 
-def body(language, size, seed):
-    """Lines of a path of one or more tools, about `size` bytes."""
+def body(language, size, seed, turns=False):
+    """Lines of a path of one or more tools, about `size` bytes; `turns`: with the words of two rotary axes."""
     r = random.Random(seed)
     numbers, arcs, every, tools = r.random() < 0.5, r.random() < 0.6, r.choice([0, 0, 500]), r.choice([0, 4000])
     space = r.choice([" ", " ", "" if language in ("fagor", "num") else " "])
     out, length, n, x, y, count = [], 0, 100, 0.0, 0.0, 0
     tool, blocks = 1, itertools.count(9)
+    a, c = 0.0, 10.0
     while length < size:
         words, lines = [], []
         z = -round(r.random() * 5, 3)
@@ -104,6 +109,11 @@ def body(language, size, seed):
             words = ["G1", f"X{nx:.3f}", f"Y{ny:.3f}"]
         else:
             words = ["G1", f"X{nx:.3f}", f"Y{ny:.3f}", f"Z{z:.3f}"]
+        if turns and words[0] != "G3":
+            before = c
+            a, c = (round(at + r.uniform(-0.9, 0.9) - at / 100, 3) for at in (a, c))
+            sign = "-" if language == "num" and c < before else ""  # the direction of the way there
+            words += [f"A{a:.3f}", f"C{sign}{c % 360 if language == 'num' else c:.3f}"]
         if language == "heidenhain":
             words = [plain_text(words)]
             if numbers:
@@ -127,7 +137,7 @@ def body(language, size, seed):
 
 
 def program(language, head, size, seed):
-    text, count = body(language, size, seed)
+    text, count = body(language, size, seed, "rotary" in head[0])
     sub = SUBS[language] if "call" in head[0] else ""
     if language == "fagor" and sub:
         return head[1] + text + TAILS[language].format("") + sub, count
@@ -147,6 +157,8 @@ def cases(only=""):
     for language, heads in HEADS.items():
         for k, head in enumerate(heads):
             for to in HEADS:
+                if "rotary" in head[0] and (language, to) in BY_PLACE:
+                    continue
                 if to != language and only in f"{language} {to} {head[0]}":
                     yield language, head, to, k
 

@@ -103,6 +103,7 @@ void prove_as_usual(TranslateOptions& options);
 /// What a program does that its text was not folded for.
 struct Unfit {
   std::set<std::uint64_t> numbers;  ///< it jumps to these blocks
+  std::uint32_t letters = 0;        ///< of axes whose words mean more than their number; bit 0 is A
   bool whole = false;               ///< any line may matter
 };
 

@@ -66,6 +66,7 @@ struct FreeNumber {
   bool minus = false;       ///< also negative ones
   bool zero = false;        ///< also 0
   bool plus = false;        ///< a plus sign may stand before it
+  bool sign_told = false;   ///< its sign may be a direction: with another one the line is another one
   std::uint8_t whole = 0;   ///< at most so many digits before the point
   std::uint8_t places = 0;  ///< and behind it
   std::uint32_t most = 0;   ///< of a whole number: the largest; 0: what its digits allow

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
@@ -47,6 +48,8 @@ class Path {
     modal_ = !plain_text() && chance(50);
     every_ = chance(50) ? between(40, 200) : 0;
     places_ = between(1, 3);
+    if (!lathe && chance(40)) turning_ = chance(50) ? "AC" : chance(50) ? "BC" : "A";
+    plain_turns_ = chance(50);
   }
 
   std::string text() {
@@ -78,6 +81,16 @@ class Path {
   int place() {
     const int unit = places_ == 1 ? 100 : places_ == 2 ? 10 : 1;
     return between(-90000, 90000) / unit * unit;
+  }
+
+  /// Thousandths of a degree: the way there is short, or any; a NUM says the direction by the sign.
+  int turn(char axis) {
+    int& at = turned_[axis == 'A' ? 0 : 1];
+    if (chance(10)) return at;
+    const int to = std::clamp(plain_turns_ ? at + between(-900, 900) : between(-200, 400) * 1000, -199000, 359000);
+    const bool by_sign = language_ == "num" && axis != 'A';
+    const int from = std::exchange(at, to), place = (to + 360000) % 360000;
+    return by_sign && place != 0 && to < from ? -place : by_sign ? place : to;
   }
 
   [[nodiscard]] bool plain_text() const { return language_ == "heidenhain"; }
@@ -117,6 +130,7 @@ class Path {
       if (chance(30)) put({"Q1 = 3"});
       tool(1);
       put({"M3"});
+      if (chance(20)) put({"M126"});
       put({"G0", "X10", "Y20"});
       put({"G0", "Z5"});
       at_ = {10000, 20000};
@@ -202,6 +216,9 @@ class Path {
     if (axes != 1) words.push_back("X" + number(at_[0] = place()));
     if (axes != 2) words.push_back(second + number(at_[1] = place()));
     if (axes > 3 && !lathe_) words.push_back("Z" + number(place()));
+    for (const char axis : turning_) {
+      if (chance(80)) words.push_back(axis + number(turn(axis)));
+    }
     if (i == 0 || chance(5)) words.push_back("F" + std::to_string(between(1, 20) * 50));
     put(words);
   }
@@ -210,8 +227,10 @@ class Path {
   bool lathe_, numbers_ = false, tight_ = false, arcs_ = false, modal_ = false;
   std::mt19937 random_;
   int every_ = 0, places_ = 3, block_ = 10, label_ = 1;
-  std::array<int, 2> at_{};
-  std::string motion_;  ///< that was said last
+  std::array<int, 2> at_{}, turned_{};
+  bool plain_turns_ = false;
+  std::string turning_;  ///< letters of the rotary axes
+  std::string motion_;   ///< that was said last
   std::string out_;
 };
 

@@ -22,9 +22,42 @@ std::optional<std::uint64_t> block_number(std::string_view label) {
   return number;
 }
 
+/// Does what is written for the word go by where the axis stands before it?
+bool goes_by_place(const ir::CoordWord& w, const ir::Program& program, const FoldTarget& target) {
+  const machine::Profile& machine = target.machine;
+  if (program.dialect == target.dialect || machine.option("rotary.direction") == "in_word") return false;
+  const std::string dialect(target.dialect);
+  const bool by_sign =
+      machine.option(dialect + ".rotary_modulo").find(ir::fixed_axis_name(w.axis)) != std::string::npos ||
+      machine.option(dialect + ".rotary_rollover") == "yes";
+  return w.direction != (by_sign ? ir::RotaryDirection::by_sign : ir::RotaryDirection::as_value);
+}
+
+/// Letters of rotary words that were left out and are not plain coordinates.
+std::uint32_t rotary_letters(const ir::Program& program, const machine::Profile& machine, const FoldTarget& target,
+                             const FoldedText& folded) {
+  std::uint32_t found = 0;
+  for (const ir::AxisId id : {ir::axis::a, ir::axis::b, ir::axis::c}) {
+    const std::uint32_t letter = 1U << static_cast<unsigned>(ir::fixed_axis_name(id).front() - 'A');
+    if ((folded.letters() & letter) == 0) continue;
+    const auto* axis = machine.axis(id);
+    bool other = axis == nullptr || !axis->rotary;
+    for (const auto& routine : program.routines) {
+      ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
+        const auto* block = std::get_if<ir::Block>(&s.node);
+        if (block == nullptr || !block->has_motion) return;
+        for (const auto& w : block->motion.coords) other = other || (w.axis == id && goes_by_place(w, program, target));
+      });
+    }
+    if (other) found |= letter;
+  }
+  return found;
+}
+
 }  // namespace
 
-std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& machine, const FoldedText& folded) {
+std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& machine, const FoldTarget& target,
+                           const FoldedText& folded) {
   Unfit found;
   ir::Program program = given;
   ir::number_statements(program);
@@ -52,7 +85,8 @@ std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& mac
                   return it == ids.end() || facts.before(it->second).settings[distance] !=
                                                 static_cast<std::uint8_t>(ir::Distance::absolute);
                 });
-  if (!found.whole && found.numbers.empty()) return std::nullopt;
+  found.letters = rotary_letters(program, machine, target, folded);
+  if (!found.whole && found.numbers.empty() && found.letters == 0) return std::nullopt;
   return found;
 }
 

@@ -290,6 +290,7 @@ class TextFolder {
   void close_gap() {
     if (!open_) return;
     open_ = false;
+    result_.letters_ |= used_;
     std::vector<Last> lines;
     for (std::uint32_t left = used_; left != 0; left &= left - 1) {
       Last last = last_[static_cast<std::size_t>(std::countr_zero(left))];

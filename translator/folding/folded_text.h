@@ -73,6 +73,8 @@ class FoldedText {
   [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }
   [[nodiscard]] std::uint64_t lines_left_out() const { return left_out_; }
   [[nodiscard]] std::uint32_t last_line() const { return last_line_; }
+  /// Of the words in lines that were left out; bit 0 is A.
+  [[nodiscard]] std::uint32_t letters() const { return letters_; }
   /// Blocks that stay because of their number.
   [[nodiscard]] const std::set<std::uint64_t>& numbers() const { return numbers_; }
 
@@ -84,6 +86,7 @@ class FoldedText {
   std::vector<Shape> shapes_;
   std::set<std::uint64_t> numbers_;
   std::uint64_t left_out_ = 0;
+  std::uint32_t letters_ = 0;
   std::uint32_t last_line_ = 0;
 };
 

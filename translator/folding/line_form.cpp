@@ -51,9 +51,15 @@ std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const Plain
     piece.number = i;
     if (line.number(i).letter == letter && line.number(i).text == bare) return piece;
   }
-  for (std::size_t i = 0; i < line.count(); ++i) {  // a centre as a place
+  for (std::size_t i = 0; i < line.count(); ++i) {  // spelt anew, and a centre as a place
     const PlainNumber& n = line.number(i);
-    if (n.letter != letter || letter < 'I' || letter > 'K') continue;
+    if (n.letter != letter) continue;
+    if (shortest(scaled(n.text)) == bare) {
+      piece.number = i;
+      piece.anew = true;
+      return piece;
+    }
+    if (letter < 'I' || letter > 'K') continue;
     const auto axis = static_cast<std::size_t>(n.letter - 'I');
     if (!before.known[axis] || shortest(scaled(n.text) + before.at[axis]) != bare) continue;
     piece.number = i;
@@ -102,6 +108,12 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
       continue;
     }
     auto piece = find(line, before, letter, centre, token);
+    if (piece && token.front() == '-') {
+      piece->plus = letter >= 'A' && letter <= 'Z' && target.numbers[static_cast<std::size_t>(letter - 'A')].plus;
+    } else if (!piece && token.front() == '-') {
+      piece = find(line, before, letter, centre, token.substr(1));
+      fixed += '-';
+    }
     if (!piece) return std::nullopt;
     piece->before = std::move(fixed);
     fixed.clear();
@@ -118,11 +130,6 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
   return form;
 }
 
-void LineForm::take_plus_signs(const LineForm& other) {
-  for (std::size_t i = 0; i < std::min(pieces_.size(), other.pieces_.size()); ++i)
-    pieces_[i].plus = pieces_[i].plus || other.pieces_[i].plus;
-}
-
 void LineForm::write(const PlainLine& line, const PlainPlace& before, std::string& out) const {
   const std::size_t old = out.size();
   std::size_t size = fixed_size_;
@@ -133,8 +140,8 @@ void LineForm::write(const PlainLine& line, const PlainPlace& before, std::strin
   for (const Piece& p : pieces_) {
     to = copy_short(to, p.before);
     std::string_view number = line.number(p.number).text;
-    if (p.axis >= 0) {
-      sum = shortest(scaled(number) + before.at[static_cast<std::size_t>(p.axis)]);
+    if (p.anew || p.axis >= 0) {
+      sum = shortest(scaled(number) + (p.axis >= 0 ? before.at[static_cast<std::size_t>(p.axis)] : 0));
       number = sum;
     }
     if (p.plus && number.front() != '-') *to++ = '+';

@@ -201,6 +201,10 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     number.letter = radius ? 'R' : meant;
     has_radius = has_radius || number.letter == 'R';
     if (!take_number(p, end, rule, number, odd)) return Kind::other;
+    if (rule.sign_told && number.text.front() == '-') {
+      add('-');
+      number.text.remove_prefix(1);
+    }
     if (c == 'N' && other_blocks_ != 0 && whole_number(number.text) > other_blocks_) add('!');
     if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
   }

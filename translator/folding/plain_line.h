@@ -21,7 +21,7 @@ using NumberForm = std::uint8_t;
 inline constexpr std::size_t number_forms = 128;
 
 struct PlainNumber {
-  std::string_view text;  ///< without a plus sign
+  std::string_view text;  ///< without a plus sign, and without a minus that is told by the key
   char letter = 0;        ///< of its word
   NumberForm form = 0;
   std::uint8_t places = 0;  ///< digits behind the point

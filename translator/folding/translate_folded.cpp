@@ -1,3 +1,4 @@
+#include <bit>
 #include <filesystem>
 
 #include "machine/profile.h"
@@ -45,6 +46,8 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
     if (result.unfit) {
       if (result.unfit->whole) return nullptr;
       stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
+      for (std::uint32_t left = result.unfit->letters; left != 0; left &= left - 1)
+        words.numbers[static_cast<std::size_t>(std::countr_zero(left))] = {};
       continue;
     }
     done->unfolding = std::make_unique<Unfolding>(path, words, done->text, target, numbers);

@@ -116,7 +116,6 @@ bool Unfolding::take(Form& form, Sample sample) {
   }
   if (line_.scan(sample.text, sample.motion) != PlainLine::Kind::plain) return false;
   auto other = LineForm::of(line_, sample.place, sample.written, target_);
-  if (other && form.form) other->take_plus_signs(*form.form);
   const auto good = [&](const Sample& s) { return explains(*other, s); };
   if (!other || !good(sample) || !std::all_of(form.samples.begin(), form.samples.end(), good)) return false;
   form.form = other;

@@ -26,8 +26,6 @@ class LineForm {
                                     const frontends::PlainWords& target);
   /// Appends the line. `before`: where it begins, for centres that are written as places.
   void write(const PlainLine& line, const PlainPlace& before, std::string& out) const;
-  /// A negative number does not show whether others get a plus; a form of the same words may know.
-  void take_plus_signs(const LineForm& other);
   [[nodiscard]] bool uses_place() const { return uses_place_; }
 
  private:
@@ -35,6 +33,7 @@ class LineForm {
     std::string before;      ///< fixed text
     std::size_t number = 0;  ///< which number of the line
     bool plus = false;       ///< a number without a minus gets a plus
+    bool anew = false;       ///< the shortest way to write it
     std::int8_t axis = -1;   ///< the place of this axis is added
   };
   static std::optional<Piece> find(const PlainLine& line, const PlainPlace& before, char letter, bool of_centre,

@@ -199,7 +199,7 @@ bool Translation::read() {
   result_.diagnostics.append(loader.library_diagnostics());
   if (options_.folded != nullptr) {
     result_.lines = options_.folded->last_line();
-    result_.unfit = unfit(source_, reading_.profile(), *options_.folded);
+    result_.unfit = unfit(source_, reading_.profile(), {to_->name, *target_profile_}, *options_.folded);
     if (result_.unfit) return false;
   }
   end_cycles();

@@ -239,10 +239,10 @@ class HeidenhainFrontend : public Frontend {
     ReadStats own;
     return HeidenhainReader(source, file, options, diagnostics, stats != nullptr ? *stats : own).read();
   }
-  /// Straight lines, and arcs by their radius or by a CC before them, in X, Y and Z, with or without block numbers.
+  /// Straight lines, and arcs by their radius or by a CC before them, with or without block numbers.
   [[nodiscard]] PlainWords plain_words() const override {
     PlainWords words;
-    for (const char c : {'X', 'Y', 'Z'})
+    for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'})
       words.numbers[static_cast<std::size_t>(c - 'A')] = {
           .free = true, .minus = true, .zero = true, .plus = true, .whole = 5, .places = 4};
     words.numbers['F' - 'A'] = {.free = true, .whole = 5, .places = 3};
