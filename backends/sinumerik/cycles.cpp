@@ -373,8 +373,10 @@ bool native_cycle(const ir::Cycle& cycle) {
   if (const auto* named = std::get_if<ir::NamedCycle>(&cycle.node))
     return dialect::cycle(named->name) != nullptr || dialect::turning_cycle(named->name) != nullptr ||
            pattern_of(named->name) != nullptr;
+  const auto& hole = std::get<HoleCycle>(cycle.node);
+  const bool unnamed = ir::cycles::has_contours(hole) && ir::cycles::contours_named(hole).empty();  // only as points
   Arguments args;
-  return !arguments(std::get<HoleCycle>(cycle.node), args).empty();
+  return !unnamed && !arguments(hole, args).empty();
 }
 
 /// The parameter of the control for one of the IR.

@@ -201,16 +201,32 @@ std::optional<double> ArcPass::partial_angle(const Arc& arc) const {
   return swept_angle(point(arc.start), point(arc.end), *c, *arc.ccw);
 }
 
+std::optional<double> ArcPass::angle_turned(const Arc& arc) const {
+  const auto angle = partial_angle(arc);
+  return angle || !plane_known_ || !closes(arc) ? angle : 360;
+}
+
+std::optional<double> ArcPass::travel_across(const Arc& arc) const {
+  if (arc.start[2] && arc.end[2]) return std::fabs(*arc.end[2] - *arc.start[2]);
+  for (const CoordWord& w : arc.b.motion.coords) {
+    const auto counts = distance_of(w, arc.b, arc.facts);
+    const auto f = to_radius(w.axis, w.scale, counts, arc.b, arc.facts, context_.source_machine);
+    if (w.axis == arc.axes.w && counts == Distance::incremental && w.value.literal() && f)
+      return std::fabs(w.value.number * *f);
+  }
+  return std::nullopt;
+}
+
 bool ArcPass::pitch_to_turns(Arc& arc) {
   Motion& m = arc.b.motion;
   const Value pitch = m.extra->pitch;
-  const auto angle = partial_angle(arc);
-  if (!pitch.literal() || pitch.number == 0 || !angle || !arc.start[2] || !arc.end[2]) {
+  const auto angle = angle_turned(arc), travel = travel_across(arc);
+  if (!pitch.literal() || pitch.number == 0 || !angle || !travel) {
     fail(arc, "TRN-309", "a helix by its pitch, and its start or end is not known here; the target wants the turns",
          "program start, end and pitch as numbers");
     return false;
   }
-  const double revolutions = std::fabs(*arc.end[2] - *arc.start[2]) / std::fabs(pitch.number);
+  const double revolutions = *travel / std::fabs(pitch.number);
   const double turns = std::max(0.0, std::round(revolutions - *angle / 360));
   const bool nearest = context_.source_machine.option("helix.pitch_mismatch") == "nearest";
   if (!nearest && std::fabs(revolutions - turns - *angle / 360) > 0.01 * std::max(1.0, revolutions)) {
@@ -232,13 +248,13 @@ bool ArcPass::exact_pitch(Arc& arc) {
     return true;
   Motion& m = arc.b.motion;
   const Value pitch = m.extra->pitch;
-  const auto angle = partial_angle(arc);
-  if (!pitch.literal() || pitch.number == 0 || !angle || !arc.start[2] || !arc.end[2]) {
+  const auto angle = angle_turned(arc), across = travel_across(arc);
+  if (!pitch.literal() || pitch.number == 0 || !angle || !across) {
     fail(arc, "TRN-309", "a helix by its pitch that need not fit its travel, and its start or end is not known here",
          "program start, end and pitch as numbers");
     return false;
   }
-  const double travel = std::fabs(*arc.end[2] - *arc.start[2]);
+  const double travel = *across;
   auto extra = std::make_shared<MotionExtra>(*m.extra);
   if (travel == 0) {  // no helix
     extra->has_pitch = false;
@@ -263,16 +279,15 @@ bool ArcPass::turns_to_pitch(Arc& arc) {
     drop_empty_extra(m);
     return true;
   }
-  const auto angle = partial_angle(arc);
-  if (!turns.literal() || !angle || !arc.start[2] || !arc.end[2] || *arc.start[2] == *arc.end[2] ||
-      !context_.target.helix_pitch) {
+  const auto angle = angle_turned(arc), travel = travel_across(arc);
+  if (!turns.literal() || !angle || !travel || *travel == 0 || !context_.target.helix_pitch) {
     fail(arc, "TRN-311",
          "a helix by its number of turns, and its start or end is not known here; the target wants the pitch",
          "program start, end and turns as numbers");
     return false;
   }
   extra->has_pitch = true;
-  extra->pitch = Value{std::fabs(*arc.end[2] - *arc.start[2]) / (turns.number + *angle / 360)};
+  extra->pitch = Value{*travel / (turns.number + *angle / 360)};
   m.extra = std::move(extra);
   return true;
 }
@@ -297,8 +312,7 @@ void ArcPass::helix_angle(Arc& arc) {
       std::any_of(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
   const bool turns = m.extra && m.extra->has_turns;
   if ((!rises && !turns) || program_.dialect == context_.target.dialect) return;
-  auto angle = partial_angle(arc);
-  if (!angle && closes(arc)) angle = 360;
+  const auto angle = angle_turned(arc);
   if (!plane_known_ || !angle || (turns && !m.extra->turns.literal()))
     return fail(arc, "TRN-311",
                 "a helix whose start or end is not known here; the target wants the angle through which it turns",
@@ -325,13 +339,17 @@ void ArcPass::both_ends(Arc& arc, bool needed) {
   const auto unknown = [&](AxisId axis) { return missing(axis) && !start_of(arc, axis); };
   const bool rounded = u && v && known(arc.start) && known(arc.end) && !stays_closed(arc);
   if ((rounded || unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
+  const auto other = std::find_if(coords.begin(), coords.end(), [&arc](const CoordWord& w) {
+    return w.axis == arc.axis[0] || w.axis == arc.axis[1];
+  });
+  const bool beside_increment = other != coords.end() && other->mode == WordMode::incremental;
   std::vector<CoordWord> more;
   for (const AxisId axis : {arc.axis[0], arc.axis[1]}) {
     if (!missing(axis)) continue;
     CoordWord w;
     w.axis = axis;
     w.scale = radius_scale(w.axis);
-    if (arc.distance == Distance::incremental) {
+    if (arc.distance == Distance::incremental || beside_increment) {
       w.mode = WordMode::incremental;
       w.value = Value{0.0};
     } else {

@@ -247,6 +247,10 @@ class ArcPass {
   }
 
   std::optional<double> partial_angle(const Arc& arc) const;
+  /// A full turn where it ends in its plane where it begins, wherever that is.
+  [[nodiscard]] std::optional<double> angle_turned(const Arc& arc) const;
+  /// Along the normal of the plane, without its sign.
+  [[nodiscard]] std::optional<double> travel_across(const Arc& arc) const;
 
   bool pitch_to_turns(Arc& arc);
 

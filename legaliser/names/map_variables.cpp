@@ -239,11 +239,9 @@ class VariableMap {
       if (ReadFirst(program_, calls, false)(user, VarRef{key.first, key.second, nullptr, {}})) return false;
     }
     if (plain.size() < 3 || !(plain[1] >= 'A' && plain[1] <= 'Z')) plain = "_" + plain;  // X1, R5: addresses
-    SpaceId locals = 0;
-    while (!(context_.target.spaces[locals].named() && context_.target.spaces[locals].scope == Scope::routine))
-      ++locals;
-    named_places_[key] = VarRef{locals, plain, nullptr, {}};
-    declared_[*info.routines.begin()].push_back(plain);
+    const Type type = program_.spaces[key.first].type == Type::string ? Type::string : Type::real;
+    named_places_[key] = VarRef{local_space(type), plain, nullptr, {}};
+    declared_[{*info.routines.begin(), type}].push_back(plain);
     return true;
   }
 
@@ -442,16 +440,16 @@ class VariableMap {
     }
     std::vector<VariableSpace> spaces = context_.target.spaces;
     program_.spaces = std::move(spaces);
-    for (const auto& [r, names] : declared_) {
-      const SpaceId locals = named_places_.empty() ? 0 : local_space();
-      declare_at_top(program_.routines[r], Type::real, locals, names);
-    }
+    for (const auto& [key, names] : declared_)
+      declare_at_top(program_.routines[key.first], key.second, local_space(key.second), names);
     put_variable_table(program_, head, zero_first_);
   }
-  SpaceId local_space() const {
+  /// The target's names of routines of that type.
+  SpaceId local_space(Type type) const {
     const auto& spaces = context_.target.spaces;
     for (std::size_t i = 0; i < spaces.size(); ++i) {
-      if (spaces[i].named() && spaces[i].scope == Scope::routine) return static_cast<SpaceId>(i);
+      if (spaces[i].named() && spaces[i].scope == Scope::routine && spaces[i].type == type)
+        return static_cast<SpaceId>(i);
     }
     return 0;
   }
@@ -483,7 +481,7 @@ class VariableMap {
   std::map<SpaceId, SpaceId> shifted_space_;
   std::map<std::pair<std::size_t, std::string>, VarRef> local_;
   std::map<NamedKey, VarRef> named_places_;
-  std::map<std::size_t, std::vector<std::string>> declared_;
+  std::map<std::pair<std::size_t, Type>, std::vector<std::string>> declared_;
   std::vector<VarRef> zero_first_;
   Span at_;  ///< of the statement at hand
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frontends/heidenhain/program/cycle_calls.h"
+#include "frontends/heidenhain/program/from_pole.h"
 #include "frontends/heidenhain/state/datum.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -73,8 +74,15 @@ class Finisher {
       const bool all_incremental = !pole.words.empty() && std::find(pole.incremental.begin(), pole.incremental.end(),
                                                                     false) == pole.incremental.end();
       given = given || all_incremental;
-      if (!given || (!c.value.literal() && a.written)) return false;
-      if (c.mode == ir::CenterMode::from_start && a.moved) return false;
+      if (given && c.mode == ir::CenterMode::from_start && a.moved) {
+        const auto from = from_pole(flat_, a);
+        if (!from) return false;
+        c.value = ir::negate(axis == plane.u ? from->first : from->second);
+        given = c.value.literal() || !a.changed;
+      } else if (!c.value.literal() && a.written) {
+        given = false;
+      }
+      if (!given) return false;
       centres.push_back(std::move(c));
     }
     std::get<ir::Block>(item.statement.node).motion.centers = std::move(centres);

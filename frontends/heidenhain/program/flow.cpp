@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frontends/heidenhain/program/from_pole.h"
 #include "frontends/heidenhain/program/way.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -26,6 +27,8 @@ bool narrow(Arrival& a, const Arrival& b) {
   same(a.pattern, b.pattern);
   a.moved = a.moved || b.moved;
   a.written = a.written || b.written;
+  same(a.from, b.from);
+  a.changed = a.changed || b.changed;
   same(a.overlay, b.overlay);
   same(a.selected, b.selected);
   a.outside = a.outside || b.outside;
@@ -104,6 +107,7 @@ void Flow::reach(Root& root, bool sub) const {
 
 Arrival Flow::after(int item, Arrival a) const {
   const Item& i = flat_.items[static_cast<std::size_t>(item)];
+  follow_from_pole(flat_, item, a);
   switch (i.kind) {
     case ItemKind::cycle:
       a.cycle = i.index;

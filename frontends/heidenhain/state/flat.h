@@ -151,6 +151,8 @@ struct Arrival {
   int pole = none;                ///< of the CC in force
   bool moved = false;             ///< since that CC
   bool written = false;           ///< a variable, since that CC
+  int from = none;                ///< the item that says where the tool stands seen from that CC
+  bool changed = false;           ///< a variable, since that item
   int modal = 0;                  ///< M89: 0 off, 1 on, several
   int plane = 0;                  ///< ir::Plane, or several
   int pattern = none;             ///< index of the PATTERN DEF in force
