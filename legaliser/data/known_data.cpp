@@ -13,6 +13,7 @@
 #include "ir/edit/rewrite.h"
 #include "legaliser/analysis/feed_units.h"
 #include "legaliser/early_passes.h"
+#include "legaliser/edit/blocks.h"
 #include "legaliser/frames/frame_state.h"
 #include "legaliser/frames/shifted_axes.h"
 #include "legaliser/motion/path_values.h"
@@ -395,7 +396,7 @@ void drop_poles(Program& program) {
   const auto idle = [&is_pole](Statement& s) {
     auto* b = std::get_if<Block>(&s.node);
     const bool dropped = b != nullptr && std::erase_if(b->actions, is_pole) != 0;
-    return dropped && b->empty() && s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty();
+    return dropped && b->empty() && shows_nothing(s.line);
   };
   for (auto& r : program.routines) std::erase_if(r.body, idle);
 }

@@ -30,4 +30,9 @@ void settle(Statement& statement);
 using BlockEdit = std::function<void(class Editor&, Statement&&, Body&)>;
 void edit_blocks(Program& program, const LegaliseContext& context, const BlockEdit& edit);
 
+/// A line that leaves nothing behind when its statement goes.
+inline bool shows_nothing(const LineInfo& line) {
+  return line.number.empty() && line.labels.empty() && line.comments.empty();
+}
+
 }  // namespace cnctrans::ir::passes

@@ -48,8 +48,12 @@ class SurfacePass {
       return;
     }
     const Facts& facts = facts_.before(s);
-    const LineInfo line = s.line;
     const Surface surface = set->surface;
+    if (surface == Surface::none && setting<Surface>(facts, Setting::surface) == Surface::none) {  // it was off
+      std::erase_if(b->actions, [](const Action& a) { return std::holds_alternative<SurfaceSet>(a.data); });
+      if (!b->empty() || !shows_nothing(s.line)) out.push_back(std::move(s));
+      return;
+    }
     if (surface == Surface::cylinder && !cylinder(s, *set, facts)) {
       out.push_back(std::move(s));
       return;

@@ -3,16 +3,13 @@
 #include <optional>
 #include <utility>
 
+#include "legaliser/edit/blocks.h"
 #include "legaliser/edit/editor.h"
 #include "legaliser/passes.h"
 
 namespace cnctrans::ir::passes {
 
 namespace {
-
-bool shows_nothing(const LineInfo& line) {
-  return line.number.empty() && line.labels.empty() && line.comments.empty();
-}
 
 /// A mark whose label the next statement can carry.
 bool can_join(const Statement& mark, const Statement& next, const Capabilities& target) {
