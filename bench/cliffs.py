@@ -60,7 +60,7 @@ HEADS = {
 for language, (first, *_) in list(HEADS.items()):
     HEADS[language].append(("rotary axes", first[1]))
 # Where the sign of a rotary word is a direction for one side only, the words go by where the axis stands.
-BY_PLACE = {("fagor", "num"), ("sinumerik", "num"), ("heidenhain", "num"), ("num", "fagor"), ("num", "heidenhain")}
+BY_PLACE = {("num", "fagor"), ("num", "heidenhain")}
 TOOLS = {"heidenhain": "L Z+50 R0 FMAX\nTOOL CALL {} Z S4000\nM3\nL X+1 Y+1 R0 FMAX\nL Z+15 R0 FMAX\n",
          "fagor": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n", "num": "G0 Z50\nT{} D{} M6\nS4000 M3 M41\nG0 X1 Y1 Z15\n",
          "sinumerik": "G0 Z50\nT{} D{}\nM6\nS4000 M3\nG0 X1 Y1 Z15\n"}

@@ -67,6 +67,7 @@ struct FreeNumber {
   bool zero = false;        ///< also 0
   bool plus = false;        ///< a plus sign may stand before it
   bool sign_told = false;   ///< its sign may be a direction: with another one the line is another one
+  bool by_way = false;      ///< what is written goes by the way there: with another direction the line is another one
   std::uint8_t whole = 0;   ///< at most so many digits before the point
   std::uint8_t places = 0;  ///< and behind it
   std::uint32_t most = 0;   ///< of a whole number: the largest; 0: what its digits allow
@@ -94,7 +95,9 @@ struct PlainWords {
   std::string_view lead;     ///< a line of this word says the centre of the arc in the line behind it; empty: none
   bool assignments = false;  ///< X=5 is X5, and CR=5 the radius of an arc, alike as long as it is positive
   CommentLine comments{};
-  std::uint32_t other_blocks = 0;  ///< block numbers above it are something else to the target; 0: none is
+  std::string_view increments, places;  ///< words that switch: `G91`, `G90`; empty: none does
+  char increment = 0;                   ///< stands before the letter of an axis whose number is an increment: IX
+  std::uint32_t other_blocks = 0;       ///< block numbers above it are something else to the target; 0: none is
 };
 
 /// Reads a straight-line program line by line. Views in `out` point into the line given.

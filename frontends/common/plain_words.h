@@ -18,6 +18,8 @@ inline PlainWords usual_plain_words(std::uint8_t places, std::uint32_t last_bloc
   rule('R') = {.free = true, .whole = 5, .places = places};
   rule('F') = {.free = true, .whole = 5, .places = places};
   rule('N') = {.free = true, .zero = true, .whole = 8, .most = last_block};
+  words.increments = "G91";
+  words.places = "G90";
   return words;
 }
 

@@ -22,36 +22,33 @@ std::optional<std::uint64_t> block_number(std::string_view label) {
   return number;
 }
 
-/// Does what is written for the word go by where the axis stands before it?
-bool goes_by_place(const ir::CoordWord& w, const ir::Program& program, const FoldTarget& target) {
+/// What is written for a rotary word goes by its number, by the way there as well, or by more than that.
+enum class GoesBy : std::uint8_t { number, way, more };
+
+GoesBy turning(const ir::CoordWord& w, const ir::Program& program, const FoldTarget& target) {
+  using ir::RotaryDirection;
   const machine::Profile& machine = target.machine;
-  if (program.dialect == target.dialect || machine.option("rotary.direction") == "in_word") return false;
+  if (program.dialect == target.dialect || machine.option("rotary.direction") == "in_word") return GoesBy::number;
   const std::string dialect(target.dialect);
   const bool by_sign =
       machine.option(dialect + ".rotary_modulo").find(ir::fixed_axis_name(w.axis)) != std::string::npos ||
       machine.option(dialect + ".rotary_rollover") == "yes";
-  return w.direction != (by_sign ? ir::RotaryDirection::by_sign : ir::RotaryDirection::as_value);
+  if (w.direction == (by_sign ? RotaryDirection::by_sign : RotaryDirection::as_value)) return GoesBy::number;
+  return w.direction == RotaryDirection::as_value ? GoesBy::way : GoesBy::more;
 }
 
-/// Letters of rotary words that were left out and are not plain coordinates.
-std::uint32_t rotary_letters(const ir::Program& program, const machine::Profile& machine, const FoldTarget& target,
-                             const FoldedText& folded) {
-  std::uint32_t found = 0;
-  for (const ir::AxisId id : {ir::axis::a, ir::axis::b, ir::axis::c}) {
-    const std::uint32_t letter = 1U << static_cast<unsigned>(ir::fixed_axis_name(id).front() - 'A');
-    if ((folded.letters() & letter) == 0) continue;
-    const auto* axis = machine.axis(id);
-    bool other = axis == nullptr || !axis->rotary;
-    for (const auto& routine : program.routines) {
-      ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
-        const auto* block = std::get_if<ir::Block>(&s.node);
-        if (block == nullptr || !block->has_motion) return;
-        for (const auto& w : block->motion.coords) other = other || (w.axis == id && goes_by_place(w, program, target));
-      });
-    }
-    if (other) found |= letter;
+GoesBy turning(ir::AxisId axis, const ir::Program& program, const FoldTarget& target) {
+  GoesBy most = GoesBy::number;
+  for (const auto& routine : program.routines) {
+    ir::for_each_statement(routine.body, [&](const ir::Statement& s) {
+      const auto* block = std::get_if<ir::Block>(&s.node);
+      if (block == nullptr || !block->has_motion) return;
+      for (const auto& w : block->motion.coords) {
+        if (w.axis == axis) most = std::max(most, turning(w, program, target));
+      }
+    });
   }
-  return found;
+  return most;
 }
 
 }  // namespace
@@ -82,11 +79,27 @@ std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& mac
   constexpr auto distance = static_cast<std::size_t>(ir::Setting::distance);
   found.whole = found.whole || std::any_of(folded.gaps().begin(), folded.gaps().end(), [&](const Gap& gap) {
                   const auto it = ids.find(gap.first - 1);
+                  if (gap.stands_in) return false;
                   return it == ids.end() || facts.before(it->second).settings[distance] !=
                                                 static_cast<std::uint8_t>(ir::Distance::absolute);
                 });
-  found.letters = rotary_letters(program, machine, target, folded);
-  if (!found.whole && found.numbers.empty() && found.letters == 0) return std::nullopt;
+  for (const ir::AxisId id : {ir::axis::a, ir::axis::b, ir::axis::c}) {
+    const std::uint32_t letter = 1U << static_cast<unsigned>(ir::fixed_axis_name(id).front() - 'A');
+    const auto with_it = [letter](const Gap& gap) { return (gap.letters & letter) != 0; };
+    if (std::none_of(folded.gaps().begin(), folded.gaps().end(), with_it)) continue;
+    const auto* axis = machine.axis(id);
+    const auto goes_by = axis != nullptr && axis->rotary ? turning(id, program, target) : GoesBy::more;
+    const bool lost = std::any_of(folded.gaps().begin(), folded.gaps().end(), [&](const Gap& gap) {
+      const auto it = ids.find(gap.first - 1);
+      return with_it(gap) && !gap.stands_in && it != ids.end() && !facts.before(it->second).position[id];
+    });
+    const bool told = (folded.by_way() & letter) != 0;
+    if (goes_by == GoesBy::more || (goes_by == GoesBy::way && told && lost))
+      found.letters |= letter;
+    else if (goes_by == GoesBy::way && !told)
+      found.by_way |= letter;
+  }
+  if (!found.whole && found.numbers.empty() && (found.letters | found.by_way) == 0) return std::nullopt;
   return found;
 }
 

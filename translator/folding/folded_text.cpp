@@ -40,32 +40,6 @@ constexpr std::uint32_t centres = bit('I') | bit('J') | bit('K'), plane_axes = b
 
 }  // namespace
 
-std::int64_t scaled(std::string_view number) {
-  std::int64_t value = 0, unit = place_scale;
-  bool minus = false, fraction = false;
-  for (const char c : number) {
-    if (c == '-') {
-      minus = true;
-    } else if (c == '.') {
-      fraction = true;
-    } else {
-      value = value * 10 + (c - '0');
-      if (fraction) unit /= 10;
-    }
-  }
-  return (minus ? -value : value) * unit;
-}
-
-void PlainPlace::follow(const PlainLine& line) {
-  for (std::size_t i = 0; i < line.count(); ++i) {
-    const PlainNumber& n = line.number(i);
-    if (n.letter < 'X' || n.letter > 'Z') continue;
-    const auto axis = static_cast<std::size_t>(n.letter - 'X');
-    at[axis] = scaled(n.text);
-    known[axis] = true;
-  }
-}
-
 std::int32_t ShapeIndex::find(const PlainLine& line, const std::vector<Shape>& shapes) const {
   const std::string_view key = line.key();
   for (std::int32_t at = first_[line.hash() % buckets]; at >= 0; at = next_[static_cast<std::size_t>(at)]) {
@@ -131,7 +105,7 @@ class TextFolder {
 
   void take(const Raw& raw, std::string_view text) {
     std::int8_t before = motion_;
-    const auto kind = line_.scan(text, before);
+    auto kind = line_.scan(text, before, place_);
     if (kind == PlainLine::Kind::other) {
       if (line_.comment()) {  // changes nothing: the lines around it may stay away
         if (open_)
@@ -154,12 +128,13 @@ class TextFolder {
       close_gap();
       forget_place();
       before = motion_unknown;
-      line_.scan(text, before);
+      kind = line_.scan(text, before, place_);
     }
     motion_ = line_.motion_after();
     if (kind == PlainLine::Kind::odd) {
       keep(raw);
-      forget_place();
+      forget_start();
+      place_.follow(line_);
       return;
     }
     if ((line_.letters() & bit('G')) != 0) motion_said_ = {raw, before};
@@ -187,7 +162,6 @@ class TextFolder {
     } else {
       leave_out(raw, before);
     }
-    known_ |= line_.letters();
   }
 
   /// Asked once for each line, in order.
@@ -227,7 +201,9 @@ class TextFolder {
 
   void forget_place() {
     place_ = {};
-    known_ = 0;
+    forget_start();
+  }
+  void forget_start() {
     anchor_ = {};
     motion_said_ = {};
   }
@@ -255,11 +231,12 @@ class TextFolder {
   void leave_out(const Raw& raw, std::int8_t before) {
     if (!open_) {
       open_ = true;
-      gap_ = {raw.first, 0, 0, run_, raw.from, 0, before, place_};
+      gap_ = {.first = raw.first, .run = run_, .from = raw.from, .motion = before, .place = place_};
       used_ = 0;
     }
     gap_.last = raw.last;
     gap_.to = raw.to;
+    if (line_.by_way() != 0) place_.follow(line_);
     const Last now =
         needs_start() ? Last{raw, anchor_.raw, anchor_.motion, anchor_.said} : Last{raw, raw, before, motion_said_};
     const std::uint32_t letters = line_.letters() | bit('N');
@@ -290,7 +267,8 @@ class TextFolder {
   void close_gap() {
     if (!open_) return;
     open_ = false;
-    result_.letters_ |= used_;
+    gap_.letters = used_;
+    const bool by_way = (used_ & line_.by_way()) != 0;
     std::vector<Last> lines;
     for (std::uint32_t left = used_; left != 0; left &= left - 1) {
       Last last = last_[static_cast<std::size_t>(std::countr_zero(left))];
@@ -313,36 +291,57 @@ class TextFolder {
       if (l.raw.first < rest.first) continue;  // stays already
       if (l.begin.first > rest.first) {
         add_gap(rest, l.begin);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          if ((used_ & bit(static_cast<char>('X' + axis))) != 0) place_.known[axis] = false;
+        for (const char letter : {'X', 'Y', 'Z', 'A', 'B', 'C'}) {
+          if ((used_ & bit(letter)) != 0)
+            rest.place.known[static_cast<std::size_t>(PlainPlace::index_of(letter))] = false;
         }
-        rest = {l.begin.first, 0, 0, run_, l.begin.from, 0, l.motion, {}, true};
+        rest.first = l.begin.first;
+        rest.from = l.begin.from;
+        rest.motion = l.motion;
+        rest.goes_on = true;
       }
-      keep_part(rest, l.raw, line);
+      const Gap kept = rest;
+      const bool comment = keep_part(rest, l.raw, line, !by_way || !rest.goes_on);
+      if (by_way && !comment && kept.goes_on) stand_in(kept, rest);
       rest.goes_on = result_.gaps_.size() != gaps_before;
     }
+    if (line_.by_way() == 0) place_ = rest.place;
   }
 
-  /// The lines from the rest's first one to this one stay.
-  void keep_part(Gap& rest, const Raw& last, PlainLine& line) {
+  /// The lines from the rest's first one to this one stay; `shown`: they are written as the others of their shape.
+  /// True: nothing but comments.
+  bool keep_part(Gap& rest, const Raw& last, PlainLine& line, bool shown) {
     std::string_view text = bytes(rest.from, last.to);
     text_ += text;
     SourceLine l;
     PlainUnit unit;
     l.number = rest.first - 1;
-    std::int8_t motion = rest.motion;
+    bool comment = true;
     while (line.take(text, l, unit)) {
       take_numbers(unit.first, unit.last);
-      const auto kind = line.scan(unit.text, motion);
+      const auto kind = line.scan(unit.text, rest.motion, rest.place);
       if (kind == PlainLine::Kind::other && line.comment()) continue;
-      lost_ = lost_ || kind != PlainLine::Kind::plain;
-      const std::int32_t shape = index_.find(line, result_.shapes_);
-      lost_ = lost_ || shape < 0;
-      result_.kept_.push_back({unit.first, unit.last, run_, static_cast<std::uint32_t>(shape), false, motion, place_});
-      place_.follow(line);
-      motion = line.motion_after();
+      comment = false;
+      lost_ = lost_ || kind == PlainLine::Kind::other;
+      if (shown) {
+        const std::int32_t shape = index_.find(line, result_.shapes_);
+        lost_ = lost_ || shape < 0;
+        result_.kept_.push_back(
+            {unit.first, unit.last, run_, static_cast<std::uint32_t>(shape), false, rest.motion, rest.place});
+      }
+      rest.place.follow(line);
+      rest.motion = line.motion_after();
     }
-    rest = {last.last + 1, 0, 0, run_, last.to, 0, motion, place_, true};
+    rest.first = last.last + 1;
+    rest.from = last.to;
+    return comment;
+  }
+  /// The lines that were kept last, up to the rest, are written by their forms.
+  void stand_in(Gap kept, const Gap& rest) {
+    kept.last = rest.first - 1;
+    kept.to = rest.from;
+    kept.stands_in = true;
+    result_.gaps_.push_back(kept);
   }
   /// The lines up to the unit behind them are left out.
   void add_gap(Gap gap, const Raw& next) {
@@ -362,9 +361,8 @@ class TextFolder {
   std::uint32_t run_ = 0, run_begin_ = 0;
   bool in_run_ = false;
   std::int8_t motion_ = motion_unknown;
-  PlainPlace place_;         ///< behind the last line that stays
-  std::uint32_t known_ = 0;  ///< letters that the run has said
-  bool open_ = false;        ///< lines are being left out
+  PlainPlace place_;   ///< behind the last line that stays
+  bool open_ = false;  ///< lines are being left out
   Gap gap_;
   std::array<Last, 26> last_{};
   std::uint32_t used_ = 0;      ///< letters with a line in last_
@@ -387,6 +385,7 @@ std::optional<FoldedText> FoldedText::of(const std::string& path, const frontend
                                          const Stays& stays) {
   FoldedText result;
   result.numbers_ = stays.numbers;
+  result.by_way_ = PlainLine(words).by_way();
   if (!TextFolder(words, stays, result).run(path)) return std::nullopt;
   return result;
 }

@@ -13,26 +13,18 @@
 
 namespace cnctrans::translator {
 
-/// Ten thousandths: the last number of X, Y and Z in this run of plain lines.
-struct PlainPlace {
-  std::array<std::int64_t, 3> at{};
-  std::array<bool, 3> known{};
-  /// After the plain line.
-  void follow(const PlainLine& line);
-};
-inline constexpr std::int64_t place_scale = 10000;
-/// A plain number in ten thousandths.
-std::int64_t scaled(std::string_view number);
-
-/// Lines that were left out, one behind the other; the lines before and behind them are there.
+/// Lines that were left out, one behind the other; the lines before and behind them are there. Or lines that stay to
+/// leave the state that the file has there: where they begin is another place, and they are written as left out ones.
 struct Gap {
   std::uint32_t first = 0, last = 0;  ///< line numbers
   std::uint32_t next = 0;             ///< last line of the unit behind it
   std::uint32_t run = 0;
   std::uint64_t from = 0, to = 0;  ///< bytes of the file
   std::int8_t motion = motion_unknown;
-  PlainPlace place;      ///< before the first
-  bool goes_on = false;  ///< of the gap before it: nothing but lines of the same kind that stay stand between them
+  PlainPlace place;           ///< before the first
+  std::uint32_t letters = 0;  ///< of its words; bit 0 is A
+  bool stands_in = false;     ///< the lines are there
+  bool goes_on = false;       ///< of the gap before it: nothing but lines of the same kind that stay stand between them
 };
 
 /// Lines that are alike.
@@ -73,8 +65,8 @@ class FoldedText {
   [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }
   [[nodiscard]] std::uint64_t lines_left_out() const { return left_out_; }
   [[nodiscard]] std::uint32_t last_line() const { return last_line_; }
-  /// Of the words in lines that were left out; bit 0 is A.
-  [[nodiscard]] std::uint32_t letters() const { return letters_; }
+  /// Of axes whose words go by the way there; bit 0 is A.
+  [[nodiscard]] std::uint32_t by_way() const { return by_way_; }
   /// Blocks that stay because of their number.
   [[nodiscard]] const std::set<std::uint64_t>& numbers() const { return numbers_; }
 
@@ -86,7 +78,7 @@ class FoldedText {
   std::vector<Shape> shapes_;
   std::set<std::uint64_t> numbers_;
   std::uint64_t left_out_ = 0;
-  std::uint32_t letters_ = 0;
+  std::uint32_t by_way_ = 0;
   std::uint32_t last_line_ = 0;
 };
 

@@ -59,6 +59,11 @@ std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const Plain
       piece.anew = true;
       return piece;
     }
+    if (letter >= 'A' && letter <= 'C' && shortest(full_turn - scaled(n.text)) == bare) {
+      piece.number = i;
+      piece.turn = true;
+      return piece;
+    }
     if (letter < 'I' || letter > 'K') continue;
     const auto axis = static_cast<std::size_t>(n.letter - 'I');
     if (!before.known[axis] || shortest(scaled(n.text) + before.at[axis]) != bare) continue;
@@ -107,14 +112,25 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
       fixed += token;
       continue;
     }
+    const bool known_letter = letter >= 'A' && letter <= 'Z';
+    const bool still = known_letter && (line.still() >> static_cast<unsigned>(letter - 'A') & 1U) != 0;
+    if (still && token == "0") {  // no way to go
+      fixed += token;
+      continue;
+    }
     auto piece = find(line, before, letter, centre, token);
     if (piece && token.front() == '-') {
-      piece->plus = letter >= 'A' && letter <= 'Z' && target.numbers[static_cast<std::size_t>(letter - 'A')].plus;
-    } else if (!piece && token.front() == '-') {
-      piece = find(line, before, letter, centre, token.substr(1));
+      piece->plus = known_letter && target.numbers[static_cast<std::size_t>(letter - 'A')].plus;
+    }
+    std::string_view bare = token;
+    if (!piece && token.front() == '-') {
+      bare.remove_prefix(1);
+      piece = find(line, before, letter, centre, bare);
       fixed += '-';
     }
     if (!piece) return std::nullopt;
+    const PlainNumber& number = line.number(piece->number);
+    if (number.minus != (bare.size() != token.size()) && shortest(scaled(number.text)) == bare) piece->anew = true;
     piece->before = std::move(fixed);
     fixed.clear();
     used[piece->number] = true;
@@ -140,8 +156,9 @@ void LineForm::write(const PlainLine& line, const PlainPlace& before, std::strin
   for (const Piece& p : pieces_) {
     to = copy_short(to, p.before);
     std::string_view number = line.number(p.number).text;
-    if (p.anew || p.axis >= 0) {
-      sum = shortest(scaled(number) + (p.axis >= 0 ? before.at[static_cast<std::size_t>(p.axis)] : 0));
+    if (p.anew || p.turn || p.axis >= 0) {
+      const std::int64_t value = p.turn ? full_turn - scaled(number) : scaled(number);
+      sum = shortest(value + (p.axis >= 0 ? before.at[static_cast<std::size_t>(p.axis)] : 0));
       number = sum;
     }
     if (p.plus && number.front() != '-') *to++ = '+';

@@ -36,6 +36,36 @@ constexpr NumberForm form_minus = 1, form_no_whole = 2, form_leading_zero = 4, f
 
 }  // namespace
 
+std::int64_t scaled(std::string_view number) {
+  std::int64_t value = 0, unit = place_scale;
+  bool minus = false, fraction = false;
+  for (const char c : number) {
+    if (c == '-') {
+      minus = true;
+    } else if (c == '.') {
+      fraction = true;
+    } else {
+      value = value * 10 + (c - '0');
+      if (fraction) unit /= 10;
+    }
+  }
+  return (minus ? -value : value) * unit;
+}
+
+std::int64_t signed_value(const PlainNumber& number) {
+  return number.minus ? -scaled(number.text) : scaled(number.text);
+}
+
+void PlainPlace::follow(const PlainLine& line) {
+  for (std::size_t i = 0; i < line.count(); ++i) {
+    const PlainNumber& n = line.number(i);
+    const int axis = index_of(n.letter);
+    if (axis < 0) continue;
+    at[static_cast<std::size_t>(axis)] = signed_value(n);
+    known[static_cast<std::size_t>(axis)] = n.places <= 4;
+  }
+}
+
 PlainLine::PlainLine(const frontends::PlainWords& words)
     : rules_(words.numbers),
       codes_(words.codes),
@@ -44,6 +74,7 @@ PlainLine::PlainLine(const frontends::PlainWords& words)
       other_blocks_(words.other_blocks),
       comments_(words.comments) {
   for (const auto& code : codes_) code_letters_ |= 1U << static_cast<unsigned>(code.text.front() - 'A');
+  for (std::size_t i = 0; i < rules_.size(); ++i) by_way_ |= std::uint32_t{rules_[i].by_way} << i;
   if (words.assignments) radius_ = std::exchange(rules_['R' - 'A'], {});
 }
 
@@ -139,12 +170,19 @@ bool PlainLine::is_comment(std::string_view line) const {
          (comments_.last == 0 || line.find(comments_.last) == line.size() - 1);
 }
 
-PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before) {
+char PlainLine::way_to(const PlainNumber& number, const PlainPlace& before) {
+  const auto axis = static_cast<std::size_t>(PlainPlace::index_of(number.letter));
+  const std::int64_t way = signed_value(number) - before.at[axis];
+  if (!before.known[axis] || way >= full_turn / 2 || way <= -full_turn / 2) return 0;
+  return way < 0 ? '<' : way > 0 ? '>' : '~';
+}
+
+PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before, const PlainPlace& before) {
   comment_ = is_comment(line);
   const char* p = line.data();
   const char* const end = p + line.size();
   std::size_t n = 0;
-  std::uint32_t hash = hash_seed, letters = 0;
+  std::uint32_t hash = hash_seed, letters = 0, still = 0;
   const auto add = [&](char c) {
     key_[n++] = c;
     hash = hashed(hash, c);
@@ -176,7 +214,8 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     }
     add(c);
     const bool place = in_lead && c >= 'X';  // of the centre
-    const auto meant = static_cast<char>(place ? c - 'X' + 'I' : c);
+    const bool radius = c == 'C' && radius_.free && end - p > 2 && p[0] == 'R' && p[1] == '=';
+    const auto meant = static_cast<char>(radius ? 'R' : place ? c - 'X' + 'I' : c);
     letters |= 1U << static_cast<unsigned>(meant - 'A');
     if (c == 'G' && codes_.empty()) {
       const char* const from = p;
@@ -188,7 +227,6 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
       for (const char* d = from; d != p; ++d) add(*d);
       continue;
     }
-    const bool radius = c == 'C' && radius_.free && end - p > 2 && p[0] == 'R' && p[1] == '=';
     const frontends::FreeNumber& rule = radius ? radius_ : rules_[static_cast<std::size_t>(c - 'A')];
     if (radius) ++p;
     if (radius || (radius_.free && p != end && *p == '=' && c != 'N')) {
@@ -198,12 +236,22 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     if (!rule.free) return Kind::other;
     if (count_ == max_numbers) return Kind::other;
     PlainNumber& number = numbers_[count_++];
-    number.letter = radius ? 'R' : meant;
+    number.letter = meant;
     has_radius = has_radius || number.letter == 'R';
     if (!take_number(p, end, rule, number, odd)) return Kind::other;
-    if (rule.sign_told && number.text.front() == '-') {
+    number.minus = rule.sign_told && number.text.front() == '-';
+    if (number.minus) {
       add('-');
       number.text.remove_prefix(1);
+    }
+    if (rule.by_way) {
+      const char way = way_to(number, before);
+      odd = odd || way == 0;
+      add(way);
+      if (way == '~') {
+        still |= 1U << static_cast<unsigned>(c - 'A');
+        --count_;
+      }
     }
     if (c == 'N' && other_blocks_ != 0 && whole_number(number.text) > other_blocks_) add('!');
     if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
@@ -213,6 +261,7 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
   key_size_ = n;
   hash_ = hash ^ hash >> 15U;
   letters_ = letters;
+  still_ = still;
   return odd ? Kind::odd : Kind::plain;
 }
 

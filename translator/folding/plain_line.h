@@ -25,11 +25,33 @@ struct PlainNumber {
   char letter = 0;        ///< of its word
   NumberForm form = 0;
   std::uint8_t places = 0;  ///< digits behind the point
+  bool minus = false;       ///< told by the key
 };
 
 /// The motion in force, as far as plain lines tell: 0 to 3 as of G0 to G3, or one of these. An F beside a rapid move
 /// waits in some languages for the first move that has it.
 inline constexpr std::int8_t motion_unknown = -1, rapid_with_feed = 4;
+
+inline constexpr std::int64_t place_scale = 10000, full_turn = 360 * place_scale;
+/// A plain number in ten thousandths.
+std::int64_t scaled(std::string_view number);
+
+/// With its sign.
+std::int64_t signed_value(const PlainNumber& number);
+
+class PlainLine;
+
+/// Ten thousandths: the last number of X, Y, Z, A, B and C in this run of plain lines.
+struct PlainPlace {
+  std::array<std::int64_t, 6> at{};
+  std::array<bool, 6> known{};
+  /// -1: no letter of an axis.
+  static constexpr int index_of(char letter) {
+    return letter >= 'X' && letter <= 'Z' ? letter - 'X' : letter >= 'A' && letter <= 'C' ? letter - 'A' + 3 : -1;
+  }
+  /// After the plain line.
+  void follow(const PlainLine& line);
+};
 
 /// A line, or two of which the first one says the centre of the arc in the second.
 struct PlainUnit {
@@ -55,7 +77,7 @@ class PlainLine {
   [[nodiscard]] std::string_view whole_units(std::string_view text) const;
 
   /// Looks at the text of a unit. What follows is about it, where it is plain.
-  Kind scan(std::string_view line, std::int8_t motion_before);
+  Kind scan(std::string_view line, std::int8_t motion_before, const PlainPlace& before);
 
   [[nodiscard]] std::string_view key() const { return {key_.data(), key_size_}; }
   [[nodiscard]] std::uint32_t hash() const { return hash_; }
@@ -66,9 +88,16 @@ class PlainLine {
   [[nodiscard]] bool comment() const { return comment_; }
   /// Bit 0 is A: letters of its words.
   [[nodiscard]] std::uint32_t letters() const { return letters_; }
+  /// Of its words: the axis stands there already, and its number is not among the others.
+  [[nodiscard]] std::uint32_t still() const { return still_; }
   [[nodiscard]] std::int8_t motion_after() const { return motion_; }
+  /// Letters of axes whose words go by the way there.
+  [[nodiscard]] std::uint32_t by_way() const { return by_way_; }
 
  private:
+  /// By which way the axis comes to the number: `<`, `>`, `~` where it stands there; 0: not known, or half a turn and
+  /// more.
+  static char way_to(const PlainNumber& number, const PlainPlace& before);
   bool take_number(const char*& p, const char* end, const frontends::FreeNumber& rule, PlainNumber& number, bool& odd);
 
   [[nodiscard]] const frontends::PlainCode* code_at(const char* at, const char* end) const;
@@ -88,7 +117,7 @@ class PlainLine {
   std::array<char, max_key> key_{};
   std::size_t key_size_ = 0, count_ = 0;
   std::array<PlainNumber, max_numbers> numbers_{};
-  std::uint32_t hash_ = 0, letters_ = 0;
+  std::uint32_t hash_ = 0, letters_ = 0, still_ = 0, by_way_ = 0;
   std::int8_t motion_ = motion_unknown;
 };
 

@@ -10,7 +10,7 @@ namespace cnctrans::translator {
 
 namespace {
 
-constexpr int most_tries = 4;
+constexpr int most_tries = 5;
 
 bool may_fold(const std::string& path, const TranslateOptions& options, std::uintmax_t least_size) {
   std::error_code ignored;
@@ -48,6 +48,11 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
       stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
       for (std::uint32_t left = result.unfit->letters; left != 0; left &= left - 1)
         words.numbers[static_cast<std::size_t>(std::countr_zero(left))] = {};
+      for (std::uint32_t left = result.unfit->by_way; left != 0; left &= left - 1) {
+        auto& rule = words.numbers[static_cast<std::size_t>(std::countr_zero(left))];
+        rule.by_way = rule.sign_told = true;
+        rule.most = 359;
+      }
       continue;
     }
     done->unfolding = std::make_unique<Unfolding>(path, words, done->text, target, numbers);

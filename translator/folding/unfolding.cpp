@@ -103,7 +103,7 @@ Unfolding::Unfolding(std::string path, const frontends::PlainWords& words, const
 
 bool Unfolding::explains(const LineForm& form, const Sample& sample) {
   std::string again;
-  if (line_.scan(sample.text, sample.motion) != PlainLine::Kind::plain) return false;
+  if (line_.scan(sample.text, sample.motion, sample.place) != PlainLine::Kind::plain) return false;
   form.write(line_, sample.place, again);
   return again == sample.written;
 }
@@ -114,7 +114,7 @@ bool Unfolding::take(Form& form, Sample sample) {
     if (form.samples.size() < kept_samples) form.samples.push_back(std::move(sample));
     return true;
   }
-  if (line_.scan(sample.text, sample.motion) != PlainLine::Kind::plain) return false;
+  if (line_.scan(sample.text, sample.motion, sample.place) != PlainLine::Kind::plain) return false;
   auto other = LineForm::of(line_, sample.place, sample.written, target_);
   const auto good = [&](const Sample& s) { return explains(*other, s); };
   if (!other || !good(sample) || !std::all_of(form.samples.begin(), form.samples.end(), good)) return false;
@@ -182,14 +182,27 @@ bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, Folde
   places_.assign(outputs.size(), {});
   for (std::size_t g = 0; g < folded_.gaps().size(); ++g) {
     const Gap& gap = folded_.gaps()[g];
+    if (gap.stands_in) {
+      const auto own = lines_of(gap.first, gap.last);
+      if (!own) {
+        bad.insert(gap.run);
+        continue;
+      }
+      const OutputLines& in = written[own->output];
+      const std::size_t at = own->line == 0 ? 0 : in.ends[own->line - 1];
+      places_[own->output].push_back({at, in.ends[own->line + own->count - 1] - at, g});
+      continue;
+    }
     const auto a = lines_of(gap.first - 1, gap.first - 1), b = lines_of(gap.last + 1, gap.next);
     if (!a || !b || a->output != b->output || a->line + a->count != b->line) {
       bad.insert(gap.run);
       continue;
     }
-    places_[a->output].push_back({written[a->output].ends[a->line + a->count - 1], g});
+    places_[a->output].push_back({written[a->output].ends[a->line + a->count - 1], 0, g});
   }
-  for (auto& p : places_) std::sort(p.begin(), p.end(), [](const Place& x, const Place& y) { return x.at < y.at; });
+  for (auto& p : places_)
+    std::sort(p.begin(), p.end(),
+              [](const Place& x, const Place& y) { return x.at != y.at ? x.at < y.at : x.gap < y.gap; });
   stays.runs.insert(bad.begin(), bad.end());
   stays.more.insert(special.begin(), special.end());
   stays.shapes.insert(odd.begin(), odd.end());
@@ -202,8 +215,8 @@ bool Unfolding::write(std::size_t output, std::string_view bytes, const TextSink
   const bool crlf = bytes.find("\r\n") != std::string_view::npos;
   const std::string_view eol = crlf ? "\r\n" : "\n";
   PlainLine line(words_);
-  const bool places =
-      std::any_of(forms_.begin(), forms_.end(), [](const Form& f) { return f.form && f.form->uses_place(); });
+  const bool places = line.by_way() != 0 || std::any_of(forms_.begin(), forms_.end(),
+                                                        [](const Form& f) { return f.form && f.form->uses_place(); });
   Lines out(numbers_(), eol);
   std::size_t done = 0, last = 0;
   std::int8_t motion = motion_unknown;
@@ -211,7 +224,7 @@ bool Unfolding::write(std::size_t output, std::string_view bytes, const TextSink
   for (const Place& place : places_[output]) {
     const Gap& gap = folded_.gaps()[place.gap];
     out.add(bytes.substr(done, place.at - done));
-    done = place.at;
+    done = place.at + place.size;
     // Where it goes on from another one the state is what that one left, and the lines between them.
     std::size_t before = place.gap;
     const bool follows = gap.goes_on && place.at != 0 && last + 1 == place.gap;
@@ -234,7 +247,7 @@ bool Unfolding::write(std::size_t output, std::string_view bytes, const TextSink
       SourceLine l;
       PlainUnit unit;
       while (line.take(text, l, unit)) {
-        const auto kind = line.scan(unit.text, motion);
+        const auto kind = line.scan(unit.text, motion, at);
         if (!own && kind == PlainLine::Kind::other && line.comment()) continue;
         if (kind != PlainLine::Kind::plain) return false;
         if (own) {

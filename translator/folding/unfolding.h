@@ -34,6 +34,7 @@ class LineForm {
     std::size_t number = 0;  ///< which number of the line
     bool plus = false;       ///< a number without a minus gets a plus
     bool anew = false;       ///< the shortest way to write it
+    bool turn = false;       ///< what is left of a full turn
     std::int8_t axis = -1;   ///< the place of this axis is added
   };
   static std::optional<Piece> find(const PlainLine& line, const PlainPlace& before, char letter, bool of_centre,
@@ -60,9 +61,9 @@ class Unfolding {
   bool write(std::size_t output, std::string_view bytes, const TextSink& sink) const;
 
  private:
-  /// Behind this byte of an output the lines of a gap belong.
+  /// Behind this byte of an output the lines of a gap belong, in place of so many bytes.
   struct Place {
-    std::size_t at = 0;
+    std::size_t at = 0, size = 0;
     std::size_t gap = 0;
   };
 

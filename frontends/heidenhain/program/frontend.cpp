@@ -251,6 +251,7 @@ class HeidenhainFrontend : public Frontend {
     words.codes = plain_codes;
     words.bare_block_number = true;
     words.lead = "CC";
+    words.increment = 'I';
     words.comments = {';', 0};
     return words;
   }
