@@ -150,7 +150,8 @@ VerifyResult verify(const Input& source, const std::vector<Input>& targets, cons
 struct RunOptions : InputOptions {
   std::string dialect;
   interpreter::Options run;
-  bool may_stream = false;  ///< straight-line programs may run in flat memory (the sink must not keep or print events)
+  bool may_stream = false;  ///< long programs may run in flat memory (the sink must not keep or print events)
+  const FoldedText* folded = nullptr;  ///< the program is the folded text of a file; may be null
 };
 struct RunResult {
   interpreter::Result result;
@@ -158,6 +159,7 @@ struct RunResult {
   FileTable files;
   std::vector<std::string> axis_names;
   std::vector<std::pair<std::string, std::string>> written;  ///< files that the program has written: name, text
+  std::optional<Unfit> unfit;                                ///< of a folded text: nothing else counts
   std::string error;
 };
 /// Makes the receiver of the events; gets the file table and the axis names that events refer to.

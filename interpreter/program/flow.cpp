@@ -102,10 +102,12 @@ class Builder {
   void body(const ir::Body& body) {
     std::vector<Open> open;
     bool skipped = false;
+    const ir::Statement* before = nullptr;
     for (const auto& s : body) {
       const bool own_skip = (s.line.skip_mask & skip_mask_) != 0;
       if (!s.line.joined) {
         close(open);
+        behind(before);
         skipped = own_skip;
       }
       mark(s.line, open);
@@ -118,8 +120,10 @@ class Builder {
         fault_of(s.line, &s);
         statement(s);
       }
+      before = &s;
     }
     close(open);
+    behind(before);
   }
 
  private:
@@ -130,6 +134,10 @@ class Builder {
   };
 
   std::uint32_t here() const { return static_cast<std::uint32_t>(flow_.code.size()); }
+
+  void behind(const ir::Statement* s) {
+    if (s != nullptr && options_.behind != nullptr && options_.behind->any(s->line.span)) add(Op::lines_behind, s);
+  }
 
   void mark(const ir::LineInfo& line, std::vector<Open>& open) {
     const auto label = [&](std::string key) {

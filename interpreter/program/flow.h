@@ -19,6 +19,7 @@ inline constexpr std::uint32_t nowhere = 0xffffffff;
 enum class Op : std::uint8_t {
   nothing,  ///< a place for labels
   block,
+  lines_behind,  ///< blocks that are not in the program
   assign,
   branch_false,  ///< to `target` when `expr` is zero
   go,            ///< structural jump to `target`

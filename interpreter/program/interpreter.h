@@ -19,6 +19,18 @@
 
 namespace cnctrans::interpreter {
 
+/// Blocks that stand behind a line of the main program and are not in it: those of a long file that are alike.
+class LinesBehind {
+ public:
+  LinesBehind() = default;
+  LinesBehind(const LinesBehind&) = delete;
+  LinesBehind& operator=(const LinesBehind&) = delete;
+  virtual ~LinesBehind() = default;
+  [[nodiscard]] virtual bool any(const Span& line) const = 0;
+  /// Gives them one by one, until `take` says no. False: they can't be had.
+  virtual bool each(const Span& line, const std::function<bool(const ir::Statement&)>& take) = 0;
+};
+
 struct Options {
   std::uint64_t max_events = 50'000'000;
   std::uint64_t max_steps = 500'000'000;  ///< statements carried out
@@ -35,6 +47,7 @@ struct Options {
   std::function<const ir::Program*(const std::string& name, const std::string& text, std::string& why)> read_written;
   /// The error that reading gave for one of these lines; null: none. A statement there is not carried out.
   std::function<const Diagnostic*(FileId file, std::uint32_t first_line, std::uint32_t last_line)> fault;
+  LinesBehind* behind = nullptr;  ///< null: the program is whole
   /// Gets the cycles of a lathe that are carried out, in order; null: nobody asks.
   std::vector<CycleRun>* cycles = nullptr;
   /// Sees what holds before each statement; empty: nobody asks.

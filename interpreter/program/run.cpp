@@ -253,7 +253,8 @@ void Runner::loop() {
 bool Runner::begins(const Instruction& in) const {
   const bool again = !repeats_.empty() && repeats_.size() > calls_.back().repeats && repeats_.back().block &&
                      repeats_.back().begin == at_;
-  return !again && !(in_modal_ == 0 && machine_.points_left()) && in.op != Op::go && in.op != Op::nothing;
+  return !again && !(in_modal_ == 0 && machine_.points_left()) && in.op != Op::go && in.op != Op::nothing &&
+         in.op != Op::lines_behind;
 }
 
 bool Runner::over_limits() {
@@ -276,6 +277,7 @@ void Runner::step(Instruction& in) {
   switch (in.op) {
     case Op::nothing: go_to(at_ + 1); return;
     case Op::block: block(in); return;
+    case Op::lines_behind: lines_behind(in.statement->line.span); return;
     case Op::assign:
       assign(*in.statement);
       go_to(at_ + 1);
@@ -320,6 +322,27 @@ void Runner::step(Instruction& in) {
     case Op::fault: failure_.fail(code::opaque, fault_text(*in.fault)); return;
     case Op::stray_exit: failure_.fail(code::exit_outside, "an exit stands outside of every loop"); return;
   }
+}
+
+void Runner::lines_behind(const Span& line) {
+  if (modal_.active) return fail_whole();
+  machine_.belongs_to(flow_->program, flow_->routine);
+  --steps_;  // of the instruction, which is no statement
+  const bool had = options_.behind->each(line, [this](const ir::Statement& s) {
+    last_ = failure_.where = s.line.span;
+    if (steps_ >= next_check_ && over_limits()) return false;
+    ++steps_;
+    ++blocks_;
+    if (!machine_.block(std::get<ir::Block>(s.node), s.line.span)) fail_state();
+    if (emitter_.limit_reached()) state_ = State::event_limit;
+    return state_ == State::running;
+  });
+  if (!had) return fail_whole();
+  go_to(at_ + 1);
+}
+
+void Runner::fail_whole() {
+  failure_.fail(code::needs_whole_program, "these blocks need the whole program");
 }
 
 /// Control comes to `next` in sequence (a programmed jump sets at_ itself): ends of repeated parts and ranges count

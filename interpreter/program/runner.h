@@ -69,6 +69,8 @@ class Runner {
   void loop();
   bool over_limits();
   void step(Instruction& in);
+  void lines_behind(const Span& line);
+  void fail_whole();
   [[nodiscard]] bool begins(const Instruction& in) const;
   void go_to(std::uint32_t next);
   void arrived();

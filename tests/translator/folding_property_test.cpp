@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
+#include "translator/files/registry.h"
+#include "translator/folding/folded_lines.h"
 #include "translator/folding/unfolding.h"
 
 namespace cnctrans::test {
@@ -266,6 +268,60 @@ std::uint64_t compare(const Pair& pair, std::uint32_t seed, const TemporaryFolde
   if (::testing::Test::HasFailure()) ADD_FAILURE() << program;
   return folded->text.lines_left_out();
 }
+
+/// The events as text, and how the run ended.
+class EventTexts final : public interpreter::TraceSink {
+ public:
+  EventTexts(std::string& out, const FileTable& files, std::vector<std::string> axes)
+      : out_(out), files_(files), axes_(std::move(axes)) {
+    out_.clear();
+  }
+  void on_event(const interpreter::Event& e) override { out_ += interpreter::to_json(e, files_, axes_) + '\n'; }
+
+ private:
+  std::string& out_;
+  const FileTable& files_;
+  std::vector<std::string> axes_;
+};
+
+/// True: the program was run by its folded text, and as the whole one.
+bool compare_runs(const std::string& language, bool lathe, std::uint32_t seed, const TemporaryFolder& folder) {
+  const std::string path = folder.write("PART12.TXT", Path(language, lathe, seed).text());
+  translator::RunOptions options;
+  options.dialect = language;
+  options.machine = language + (lathe ? "-lathe" : "-mill");
+  std::string folded_events, events;
+  const auto into = [](std::string& text) {
+    return [&text](const FileTable& files, const std::vector<std::string>& axes) {
+      return std::make_unique<EventTexts>(text, files, axes);
+    };
+  };
+  const auto folded =
+      translator::run_folded(path, *translator::find_dialect(language), options, into(folded_events), 0);
+  if (!folded) return false;
+  const auto whole = translator::run(path, options, into(events));
+  SCOPED_TRACE(language + ", seed " + std::to_string(seed));
+  EXPECT_EQ(folded_events, events);
+  EXPECT_EQ(folded->result.reason, whole.result.reason);
+  EXPECT_EQ(folded->result.steps, whole.result.steps);
+  EXPECT_EQ(folded->result.blocks, whole.result.blocks);
+  EXPECT_EQ(codes(folded->diagnostics), codes(whole.diagnostics));
+  return true;
+}
+
+class FoldingOfRun : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(FoldingOfRun, IsThatOfTheWholeText) {
+  const TemporaryFolder folder;
+  const auto first = static_cast<std::uint32_t>(GTEST_FLAG_GET(random_seed)) * 100000U;
+  std::uint32_t folded = 0;
+  for (std::uint32_t i = 0; i < programs && !::testing::Test::HasFailure(); ++i) {
+    if (compare_runs(std::string(GetParam()), i % 4 == 0 && GetParam() != "heidenhain", first + i, folder)) ++folded;
+  }
+  EXPECT_GT(folded, programs / 3);
+}
+INSTANTIATE_TEST_SUITE_P(Languages, FoldingOfRun, ::testing::ValuesIn(languages),
+                         [](const auto& p) { return std::string(p.param); });
 
 void PrintTo(const Pair& p, std::ostream* out) {
   *out << p.from << " to " << p.to << (p.lathe ? ", lathe" : ", mill");

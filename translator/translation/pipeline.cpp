@@ -6,6 +6,9 @@
 #include "translator/files/called.h"
 #include "translator/files/definitions.h"
 #include "translator/files/program_axes.h"
+#include "translator/folding/fit.h"
+#include "translator/folding/folded_lines.h"
+#include "translator/folding/unfolding.h"
 #include "translator/proving/proof.h"
 #include "translator/stream/stream.h"
 #include "translator/translation/reading.h"
@@ -130,6 +133,10 @@ RunResult run(const Input& input, const RunOptions& options, const MakeSink& mak
       return result;
     }
   }
+  if (options.may_stream && !input.in_memory() && can_reopen(input.path())) {
+    if (auto folded = run_folded(input.path(), reading.dialect(), options, make_sink, least_folded))
+      return *std::move(folded);
+  }
   Loader& loader = reading.loader();
   Diagnostics running;
   const ir::Program* program = &reading.read(result.diagnostics);
@@ -149,12 +156,21 @@ RunResult run(const Input& input, const RunOptions& options, const MakeSink& mak
   result.axis_names = names_of_axes(*program, profile);
   const auto sink = make_sink(loader.files(), result.axis_names);
   interpreter::Options run_options = options.run;
+  std::optional<FoldedLines> behind;
+  if (options.folded != nullptr) {
+    result.unfit = unfit(*program, profile, {reading.dialect().name, profile}, *options.folded);
+    behind.emplace(input.path(), reading.dialect().frontend->plain_words(), *options.folded, *program);
+    if (!result.unfit && !behind->known()) result.unfit.emplace().whole = true;
+    if (result.unfit) return result;
+    run_options.behind = &*behind;
+  }
   run_options.library = [&loader](const ir::RoutineName& name) { return loader.find(name); };
   run_options.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };
   run_options.read_written = [&loader](const std::string& name, const std::string& text, std::string& why) {
     return loader.read_written(name, text, why);
   };
   result.result = interpreter::run(*program, profile, run_options, *sink, running);
+  if (behind && result.result.reason == interpreter::EndReason::error) result.unfit.emplace().whole = true;
   for (const auto& f : result.result.written) result.written.emplace_back(loader.written_file(f.name), f.text);
   result.diagnostics.append(loader.library_diagnostics());
   // A line that the run has not come to spoils nothing.
