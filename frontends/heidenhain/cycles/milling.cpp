@@ -136,6 +136,7 @@ bool CycleBuilder::face() {
   word("length", q(218));
   word("width", q(219));
   word("mill_feed", q(207));
+  word("from_dimension", Value(1));
   if (multipass) {
     if (q(240).number < 1) return refuse("Q240 is the number of lines");
     word("step", Value(std::abs(width) / q(240).number));

@@ -53,10 +53,11 @@ bool face(MillPath& path, std::string* error) {
   if (depths.empty()) return *error = "the face has no height to be taken away", false;
   const auto [u, v] = path.place();
   path.frame(u, v, path.get("angle"));
-  // The corner nearest to the tool; the one that is dimensioned when several are.
+  // The corner nearest to the tool; the one that is dimensioned when several are, or where the cycle says so.
+  const bool dimensioned = path.get("from_dimension") != 0;
   const auto [tool_p, tool_q] = path.local();
-  const bool far_p = std::abs(tool_p - length) < std::abs(tool_p) - least_mm;
-  const bool far_q = std::abs(tool_q - width) < std::abs(tool_q) - least_mm;
+  const bool far_p = !dimensioned && std::abs(tool_p - length) < std::abs(tool_p) - least_mm;
+  const bool far_q = !dimensioned && std::abs(tool_q - width) < std::abs(tool_q) - least_mm;
   Passes passes;
   passes.swapped = way == 2 || way == 4;
   double along = length, across = width;

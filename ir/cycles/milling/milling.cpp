@@ -68,6 +68,8 @@ constexpr std::array milling_parameters = {
     MillParameter{"link_feed", feed, "between the end of the contour and its start; left out: mill_feed"},
     MillParameter{"overrun", length, "of a face pass beyond the part, along the pass"},
     MillParameter{"overrun_across", length, "of the last face pass beyond the part, across"},
+    MillParameter{"from_dimension", plain,
+                  "1: a face begins at the corner that is dimensioned, wherever the tool stands"},
     MillParameter{"pass_angle", plain, "of parallel passes, degrees; left out: rings along the contour"},
     MillParameter{"plunge_angle", plain, "of the ramp into the material, degrees; left out, 0 or 90: straight down"},
     MillParameter{"along", plain, "1 in the sense in which the outer contour is programmed, -1 in the opposite one"},
@@ -113,7 +115,8 @@ constexpr std::array shapes = {
               "plunge_feed,finish_feed,finish_infeed,finish_speed,sense,operation",
               "slots along a circle"},
     MillShape{"face", MillKind::face,
-              "u,v,length,width,angle,infeed,step,step_factor,floor_stock,mill_feed,overrun,overrun_across,variant",
+              "u,v,length,width,angle,infeed,step,step_factor,floor_stock,mill_feed,overrun,overrun_across,variant,"
+              "from_dimension",
               "face of a rectangle"},
     MillShape{"boss.rect", MillKind::boss,
               "u,v,length,width,corner,angle,infeed,wall_stock,floor_stock,mill_feed,plunge_feed,sense,variant,"
