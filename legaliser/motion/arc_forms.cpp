@@ -206,13 +206,14 @@ std::optional<double> ArcPass::angle_turned(const Arc& arc) const {
   return angle || !plane_known_ || !closes(arc) ? angle : 360;
 }
 
-std::optional<double> ArcPass::travel_across(const Arc& arc) const {
-  if (arc.start[2] && arc.end[2]) return std::fabs(*arc.end[2] - *arc.start[2]);
+std::optional<Value> ArcPass::travel_across(const Arc& arc) const {
+  if (arc.start[2] && arc.end[2]) return Value{std::fabs(*arc.end[2] - *arc.start[2])};
   for (const CoordWord& w : arc.b.motion.coords) {
     const auto counts = distance_of(w, arc.b, arc.facts);
     const auto f = to_radius(w.axis, w.scale, counts, arc.b, arc.facts, context_.source_machine);
-    if (w.axis == arc.axes.w && counts == Distance::incremental && w.value.literal() && f)
-      return std::fabs(w.value.number * *f);
+    if (w.axis != arc.axes.w || counts != Distance::incremental || !f) continue;
+    const Value travel = scale(w.value, *f);
+    return travel.literal() ? Value{std::fabs(travel.number)} : Value{call(Function::abs, {travel.expr})};
   }
   return std::nullopt;
 }
@@ -220,13 +221,14 @@ std::optional<double> ArcPass::travel_across(const Arc& arc) const {
 bool ArcPass::pitch_to_turns(Arc& arc) {
   Motion& m = arc.b.motion;
   const Value pitch = m.extra->pitch;
-  const auto angle = angle_turned(arc), travel = travel_across(arc);
-  if (!pitch.literal() || pitch.number == 0 || !angle || !travel) {
+  const auto angle = angle_turned(arc);
+  const auto travel = travel_across(arc);
+  if (!pitch.literal() || pitch.number == 0 || !angle || !travel || !travel->literal()) {
     fail(arc, "TRN-309", "a helix by its pitch, and its start or end is not known here; the target wants the turns",
          "program start, end and pitch as numbers");
     return false;
   }
-  const double revolutions = *travel / std::fabs(pitch.number);
+  const double revolutions = travel->number / std::fabs(pitch.number);
   const double turns = std::max(0.0, std::round(revolutions - *angle / 360));
   const bool nearest = context_.source_machine.option("helix.pitch_mismatch") == "nearest";
   if (!nearest && std::fabs(revolutions - turns - *angle / 360) > 0.01 * std::max(1.0, revolutions)) {
@@ -248,13 +250,14 @@ bool ArcPass::exact_pitch(Arc& arc) {
     return true;
   Motion& m = arc.b.motion;
   const Value pitch = m.extra->pitch;
-  const auto angle = angle_turned(arc), across = travel_across(arc);
-  if (!pitch.literal() || pitch.number == 0 || !angle || !across) {
+  const auto angle = angle_turned(arc);
+  const auto across = travel_across(arc);
+  if (!pitch.literal() || pitch.number == 0 || !angle || !across || !across->literal()) {
     fail(arc, "TRN-309", "a helix by its pitch that need not fit its travel, and its start or end is not known here",
          "program start, end and pitch as numbers");
     return false;
   }
-  const double travel = *across;
+  const double travel = across->number;
   auto extra = std::make_shared<MotionExtra>(*m.extra);
   if (travel == 0) {  // no helix
     extra->has_pitch = false;
@@ -279,15 +282,18 @@ bool ArcPass::turns_to_pitch(Arc& arc) {
     drop_empty_extra(m);
     return true;
   }
-  const auto angle = angle_turned(arc), travel = travel_across(arc);
-  if (!turns.literal() || !angle || !travel || *travel == 0 || !context_.target.helix_pitch) {
+  const auto angle = angle_turned(arc);
+  const auto travel = travel_across(arc);
+  if (!turns.literal() || !angle || !travel || travel->is(0) || !context_.target.helix_pitch) {
     fail(arc, "TRN-311",
          "a helix by its number of turns, and its start or end is not known here; the target wants the pitch",
          "program start, end and turns as numbers");
     return false;
   }
   extra->has_pitch = true;
-  extra->pitch = Value{*travel / (turns.number + *angle / 360)};
+  const double rounds = turns.number + *angle / 360;
+  extra->pitch = travel->literal() ? Value{travel->number / rounds}
+                                   : Value{binary(BinaryOp::divide, travel->expr, number(rounds))};
   m.extra = std::move(extra);
   return true;
 }

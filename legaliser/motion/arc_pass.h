@@ -250,7 +250,7 @@ class ArcPass {
   /// A full turn where it ends in its plane where it begins, wherever that is.
   [[nodiscard]] std::optional<double> angle_turned(const Arc& arc) const;
   /// Along the normal of the plane, without its sign.
-  [[nodiscard]] std::optional<double> travel_across(const Arc& arc) const;
+  [[nodiscard]] std::optional<Value> travel_across(const Arc& arc) const;
 
   bool pitch_to_turns(Arc& arc);
 

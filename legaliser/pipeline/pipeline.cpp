@@ -11,6 +11,7 @@
 #include "legaliser/data/missing_offsets.h"
 #include "legaliser/data/written_files.h"
 #include "legaliser/early_passes.h"
+#include "legaliser/expressions/polar_turns.h"
 #include "legaliser/frames/axis_scales.h"
 #include "legaliser/motion/balance_increments.h"
 #include "legaliser/names/declared_arrays.h"
@@ -80,6 +81,8 @@ constexpr std::array table{
          "Machine data that are given from outside become variables of the target."},
     Pass{"separate_pattern_words", passes::separate_pattern_words, PassScope::program,
          "What stands beside a pattern of points in its block gets blocks of its own."},
+    Pass{"know_polar_turns", passes::know_polar_turns, PassScope::program,
+         "Turns of an arc by a computed angle, from the constants at the head of the program."},
     Pass{"branch_block_counts", passes::branch_block_counts, PassScope::program,
          "A computed count of a block as a branch: with 0 the block moves and runs nothing."},
     Pass{"lower_modal_calls", passes::lower_modal_calls, PassScope::program, "Calls after every block with motion."},

@@ -12,21 +12,13 @@ namespace cnctrans::frontends::heidenhain {
 
 namespace {
 
-ir::RoutineName routine_name(const Item& label) {
-  ir::RoutineName name;
-  if (label.number)
-    name.number = saturate<std::int64_t>(parse_decimal(label.label).value_or(0));
-  else
-    name.text = label.label;
-  return name;
-}
-
 class Structure {
  public:
   Structure(Lowering& lowering, const Flow& flow, std::vector<std::vector<ir::Statement>> statements)
       : lowering_(lowering), flow_(flow), flat_(lowering.flat()), statements_(std::move(statements)) {}
 
   void build(ir::Routine main, ir::Program& program) {
+    main_name_ = main.name.text;
     judge_labels();
     const auto& roots = flow_.roots();
     for (std::size_t r = 1; r < roots.size(); ++r) judge(r);
@@ -63,6 +55,16 @@ class Structure {
   }
 
  private:
+  /// A label may be called like its program, which is another thing to call.
+  [[nodiscard]] ir::RoutineName routine_name(const Item& label) const {
+    ir::RoutineName name;
+    if (label.number)
+      name.number = saturate<std::int64_t>(parse_decimal(label.label).value_or(0));
+    else
+      name.text = label.label == main_name_ ? label.label + "_1" : label.label;
+    return name;
+  }
+
   struct Sub {
     int first = 0, last = 0;   ///< items, the label and LBL 0 included
     int falls_into = 0;        ///< root of the subprogram whose text goes on behind it
@@ -217,6 +219,7 @@ class Structure {
     }
   }
 
+  std::string main_name_;
   Lowering& lowering_;
   const Flow& flow_;
   const Flat& flat_;
