@@ -26,6 +26,7 @@ enum class MUse : std::uint8_t {
   contact_feed,      ///< M109, M110: F counts at the edge of the tool on arcs
   centre_feed,       ///< M111
   kept,              ///< no effect on the programmed path: kept as text
+  rotary_feed,       ///< M116: left out with a warning
   compensated,       ///< changes what the control makes of the programmed path: left out with a warning
   frames_off,        ///< M142: no shift, mirror, rotation, scale is in force behind it
   plunge_feed,       ///< M103: a share of F for what goes into the material
@@ -77,7 +78,7 @@ inline constexpr std::array m_codes{
     MRow{113, machine::MMeaning::none, ir::Order::after, MUse::kept, "M112 off"},
     MRow{114, machine::MMeaning::none, ir::Order::before, MUse::tip, "tilted axes move the linear ones along"},
     MRow{115, machine::MMeaning::none, ir::Order::after, MUse::kept, "M114 off"},
-    MRow{116, machine::MMeaning::none, ir::Order::before, MUse::kept, "feed of rotary axes in mm/min"},
+    MRow{116, machine::MMeaning::none, ir::Order::before, MUse::rotary_feed, "feed of rotary axes in mm/min"},
     MRow{117, machine::MMeaning::none, ir::Order::after, MUse::kept, "M116 off"},
     MRow{118, machine::MMeaning::none, ir::Order::before, MUse::kept, "handwheel beside the path"},
     MRow{120, machine::MMeaning::none, ir::Order::before, MUse::compensated, "contour looked ahead under compensation"},

@@ -73,9 +73,9 @@ std::string m_table() {
     const char* support = m.use == tip    ? "run with the positions of the tip (HEI-009); no other control gets it"
                           : m.use == path ? kept_there
                           : m.use == kept ? "kept as text: the path is the same"
-                          : m.use == compensated ? "left out with a warning"
-                          : m.use == retract     ? "carried with MB and a distance, in a block of its own"
-                                                 : "carried";
+                          : m.use == compensated || m.use == rotary_feed ? "left out with a warning"
+                          : m.use == retract ? "carried with MB and a distance, in a block of its own"
+                                             : "carried";
     s += "| M" + std::to_string(m.code) + " | " + std::string(m.title) + " | " +
          (m.order == ir::Order::after ? "after" : "before") + " | " + support + " |\n";
   }

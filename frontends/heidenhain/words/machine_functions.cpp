@@ -89,6 +89,12 @@ void Lowering::machine_function(const Word& w) {
         report_.note("HEI-021", w.pos, name + " does not change the programmed path; it is left out");
       }
       return;
+    case MUse::rotary_feed:
+      return report_.warn("HEI-021", w.pos,
+                          name +
+                              ": F of a rotary axis counts in mm/min where the tool stands, in degrees elsewhere; it "
+                              "is left out, the path is the same",
+                          "check the feed of the rotary moves up to M117");
     case MUse::compensated:
       return report_.warn("HEI-009", w.pos,
                           name + " acts on what the control makes of the programmed path; it is left out");

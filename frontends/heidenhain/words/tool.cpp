@@ -94,6 +94,9 @@ ir::ToolSelect Lowering::tool_of(const Word* number, const syntax::Statement& s)
   ir::ToolSelect select;
   if (number == nullptr) {
     select.name = program_.keep(s.args[0].text);
+    for (const auto& t : profile_.tools) {
+      if (t.name == select.name) select.number = ir::Value(t.number);
+    }
     return select;
   }
   select.number = value(*number);
