@@ -1,13 +1,11 @@
 // Subprograms that nothing at hand calls: most passes leave what depends on their callers as it is or refuse it. Where
-// that refuses the program, it is translated for a call in the state of power-on, with a warning.
+// that refuses the program, it is translated for a call in the state of power-on, with a warning (option
+// call.uncalled_state of the machine profile; the translator tries both for `when_needed`).
 #pragma once
 
 #include "legaliser/legalise.h"
 
 namespace cnctrans::ir::passes {
-
-/// The option of the machine profile that says so: `unknown`, `power_on`, or `when_needed` (the translator tries both).
-inline constexpr std::string_view uncalled_option = "call.uncalled_state";
 
 /// Subprograms that no statement of the program calls, by index.
 std::vector<std::size_t> uncalled_routines(const Program& program);

@@ -76,8 +76,7 @@ std::optional<RunAnswer> data_of_run(const Profile& profile, std::string_view na
 }
 
 bool is_length_datum(const Profile& profile, std::string_view name) {
-  const std::string list = profile.option("machine_data.lengths");
-  for (std::string_view rest = list; !rest.empty();) {
+  for (std::string_view rest = profile.policies.machine_data_lengths; !rest.empty();) {
     const auto bar = std::min(rest.find('|'), rest.size());
     if (fits(rest.substr(0, bar), name)) return true;
     rest.remove_prefix(std::min(bar + 1, rest.size()));

@@ -11,6 +11,7 @@
 
 #include "ir/block.h"
 #include "ir/modal.h"
+#include "machine/policies.h"
 
 namespace cnctrans::machine {
 
@@ -81,14 +82,16 @@ struct Profile {
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets;
   /// Values of machine data that only this machine knows, by the name a program reads them under ("FRO", "PLCM12").
   std::map<std::string, double> data;
-  /// Named options ("num.g02_center" = "absolute"): policies where the manual is silent. Unknown names are an error.
+  /// Options as the profile writes them ("frame.preset" = "own"); set_option (options.h) keeps `policies` with them.
   std::map<std::string, std::string> options;
+  Policies policies;
   double max_rapid = 10000;     ///< mm/min, for reports only
   double arc_tolerance = 0.02;  ///< mm: |r0 - r1| of an arc by centre
   std::int32_t call_depth = 16;
 
   [[nodiscard]] const AxisSpec* axis(ir::AxisId id) const;
   [[nodiscard]] const MCode* m_code(std::int32_t code) const;
+  /// The text of an option, for those that a language alone reads and for comparisons by name.
   [[nodiscard]] std::string option(std::string_view name, std::string_view fallback = {}) const;
 };
 

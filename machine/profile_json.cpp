@@ -265,8 +265,7 @@ void read_options(const json& object, Profile& p) {
       value = item.value().dump();
     }
     std::string error;
-    if (!check_option(item.key(), value, &error)) fail(error);
-    p.options[item.key()] = value;
+    if (!set_option(p, item.key(), value, &error)) fail(error);
   }
 }
 

@@ -4,9 +4,8 @@
 
 namespace cnctrans::machine {
 
-std::vector<std::string> tool_data_names(const Profile& profile, std::string_view option,
-                                         std::optional<std::int32_t> tool, std::optional<std::int32_t> offset) {
-  const std::string list = profile.option(std::string(option));
+std::vector<std::string> tool_data_names(std::string_view list, std::optional<std::int32_t> tool,
+                                         std::optional<std::int32_t> offset) {
   std::vector<std::string> out;
   for (std::string_view rest = list; !rest.empty();) {
     const auto bar = std::min(rest.find('|'), rest.size());

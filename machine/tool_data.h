@@ -11,10 +11,10 @@
 
 namespace cnctrans::machine {
 
-/// The names that `option` lists (tool.radius_data, tool.width_data), separated by |, with the number of the tool for
+/// The names that an option lists (tool.radius_data, tool.width_data), separated by |, with the number of the tool for
 /// #T and of its offset or edge for #D; a number that is not known becomes `*`.
-std::vector<std::string> tool_data_names(const Profile& profile, std::string_view option,
-                                         std::optional<std::int32_t> tool, std::optional<std::int32_t> offset);
+std::vector<std::string> tool_data_names(std::string_view list, std::optional<std::int32_t> tool,
+                                         std::optional<std::int32_t> offset);
 
 /// T carries out the tool change (turret, or a control set up so), and M6 has nothing left to do.
 bool changes_on_select(const Profile& machine);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,8 @@ class OffsetNumbers {
   struct Offset {
     std::string tool;  ///< number and name
     std::int32_t number = -1;
-    auto operator<=>(const Offset&) const = default;
+    bool operator==(const Offset&) const = default;
+    bool operator<(const Offset& o) const { return std::tie(tool, number) < std::tie(o.tool, o.number); }
   };
   /// The offset in force at each event of a trace.
   struct Side {

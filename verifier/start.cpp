@@ -13,11 +13,10 @@ interpreter::Position start_of(const machine::Profile& machine, const machine::W
 }
 
 void compare_zeros(Options& options, const machine::Profile& source, const machine::Profile& target) {
-  constexpr std::string_view kept = "work_offset.kept";
   const auto zero = source.power_on.work_offset;
   const bool same = zero == target.power_on.work_offset;
   options.selects_zero = zero != 0 && !same;
-  options.zero_is_open = zero == 0 && !(same && source.option(kept) == target.option(kept));
+  options.zero_is_open = zero == 0 && !(same && source.policies.work_offset_kept == target.policies.work_offset_kept);
 }
 
 }  // namespace cnctrans::verifier

@@ -135,7 +135,8 @@ bool unknown_fall(const Style& style, const ir::Motion& m) {
 
 ir::HolePoint ProgramWriter::point_in_rapid() {
   const auto* block = current_ != nullptr ? std::get_if<ir::Block>(&current_->node) : nullptr;
-  if (block == nullptr || profile().option("cycle.positioning") != "rapid") return ir::HolePoint::no;
+  if (block == nullptr || profile().policies.cycle_positioning != machine::CyclePositioning::rapid)
+    return ir::HolePoint::no;
   const ir::Facts* f = facts();
   return f != nullptr ? ir::hole_point(*block, *f) : ir::HolePoint::no;
 }

@@ -170,7 +170,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   auto value = scaled(w.axis, w.scale, w.value);
   if (!value) return refuse(no_word, w.pos, "whether this word is a radius or a diameter is not known here");
   const bool machine_units = machine && !same_dialect() && !ir::is_rotary_letter(w.axis) &&
-                             profile().option("machine_move.units") == "machine";
+                             profile().policies.machine_move_units == machine::MachineMoveUnits::machine;
   if (machine_units) {
     const auto units = known<ir::Units>(ir::Setting::units);
     if (!units)
@@ -326,7 +326,8 @@ void Writer::cycle_approach(const CycleWords& w) {
   const ir::Facts* f = facts();
   const auto height = f != nullptr ? f->position[axis] : std::nullopt;
   if (!w.retract_given || w.retract_is_reference) {
-    const bool refused = w.has_reference && profile().option("cycle.below_reference") == "refused";
+    const bool refused =
+        w.has_reference && profile().policies.cycle_below_reference == machine::CycleBelowReference::refused;
     if (height || !refused || same_dialect()) return;
     diagnostics().warning(
         "TRN-243", current().line.span,

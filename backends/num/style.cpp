@@ -205,16 +205,15 @@ const ir::Capabilities& capabilities(bool lathe, bool later, bool structured) {
 }
 
 bool structured(const machine::Profile& profile) {
-  return later_family(profile) &&
-         profile.option(facts::option::structured, facts::option_default(facts::option::structured)) == "yes";
+  return later_family(profile) && profile.option(facts::option::structured) == "yes";
 }
 
 bool centre_from_start(const machine::Profile& profile) {
-  return profile.option(facts::option::centre, facts::option_default(facts::option::centre)) == "incremental";
+  return profile.option(facts::option::centre) == "incremental";
 }
 
 bool later_family(const machine::Profile& profile) {
-  return profile.option(facts::option::family, facts::option_default(facts::option::family)) != "7xx";
+  return profile.option(facts::option::family) != "7xx";
 }
 
 bool native_hole(const ir::HoleCycle& c) {

@@ -442,7 +442,7 @@ void Writer::message(const ir::Message& m) {
 
 /// M00 stops the spindle as well, M12 the program alone (3.2.1, 3.2.13).
 void Writer::stop(const ir::Action& a, const ir::Stop& s) {
-  const bool alone = !s.optional && !same_dialect() && profile().option("stop.spindle") == "stops";
+  const bool alone = !s.optional && !same_dialect() && profile().policies.stop_spindle == machine::StopSpindle::stops;
   if (!alone) return ProgramWriter::stop(a, s);
   add(m_word(12), Rank::machine, a.pos);
 }

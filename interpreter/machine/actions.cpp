@@ -207,11 +207,13 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
       return;
     case ir::Setting::units: modal_.units_feed_too = m.feed_too; break;
     case ir::Setting::plane:
-      if (policy_.plane_resets_pole) {
+      if (profile_.policies.polar_plane_resets_pole) {
         polar_.pole = {};
         polar_.pole_set = false;
       }
-      if (policy_.plane_ends_cycle && m.value != static_cast<std::uint8_t>(modal_.plane)) cycle_.hole.reset();
+      if (profile_.policies.cycle_plane_function == machine::CyclePlaneFunction::ends &&
+          m.value != static_cast<std::uint8_t>(modal_.plane))
+        cycle_.hole.reset();
       break;
     default: break;
   }
@@ -221,8 +223,8 @@ void BlockMachine::set_modal(const ir::ModalSet& m, const ir::Block& b) {
 }
 
 void BlockMachine::set_units() {
-  if (profile_.option("machine_data.units") == "with_feed")
-    policy_.data_modal = modal_.units == ir::Units::inch && modal_.units_feed_too;
+  if (profile_.policies.machine_data_units == machine::MachineDataUnits::with_feed)
+    data_modal_ = modal_.units == ir::Units::inch && modal_.units_feed_too;
   for (const auto a : axes_) {
     auto& axis = axis_[a];
     const double length = axis.rotary ? 1 : unit();

@@ -144,7 +144,7 @@ bool BlockMachine::through_arc(const ir::Motion& m, Move& move) {
     }
   }
   const bool rises = std::abs(move.to[plane.w] - move.from[plane.w]) > same_point;
-  if (rises && profile_.option("arc.through_point") == "in_space")
+  if (rises && profile_.policies.arc_through_point == machine::ArcThroughPoint::in_space)
     return failure_.fail(code::not_carried, "an arc in space is not carried out yet");
   if (failure_.set) return false;
   if (centre_by_three_points(at(move.from, plane), middle, at(move.to, plane), move.centre, move.ccw)) return true;
@@ -159,7 +159,8 @@ bool BlockMachine::tangent_arc(Move& move) {
   const Vec start = at(move.from, plane), end = at(move.to, plane);
   if (centre_by_tangent(start, direction, end, move.centre, move.ccw)) return true;
   const Vec way = end - start;
-  if (policy_.straight_tangents && way.u * direction.u + way.v * direction.v > 0) {
+  if (profile_.policies.arc_tangent_straight == machine::ArcTangentStraight::line &&
+      way.u * direction.u + way.v * direction.v > 0) {
     move.kind = Move::Kind::linear;
     return true;
   }
@@ -178,7 +179,7 @@ Vec BlockMachine::last_direction(const ir::PlaneAxes& plane) const {
 /// Full turns: given, or from a pitch: total turns = travel / pitch, the arc itself included.
 bool BlockMachine::arc_turns(const ir::Motion& m, Move& move) {
   const auto plane = ir::plane_axes(move.plane);
-  if (policy_.pole_follows_arc) {
+  if (profile_.policies.polar_pole_follows_arc) {
     polar_.pole = move.centre;
     polar_.pole_set = true;
   }
@@ -197,7 +198,8 @@ bool BlockMachine::arc_turns(const ir::Motion& m, Move& move) {
     if (pitch < same_point) return failure_.fail(code::helix_pitch, "the pitch of the helix is zero");
     const double part = swept_angle(at(move.from, plane), at(move.to, plane), move.centre, move.ccw) / 360;
     const double turns = std::max(0.0, std::round(travel / pitch - part));
-    if (!policy_.nearest_pitch && std::abs(travel - pitch * (turns + part)) > 0.01 * pitch) {
+    if (profile_.policies.helix_pitch_mismatch != machine::HelixPitchMismatch::nearest &&
+        std::abs(travel - pitch * (turns + part)) > 0.01 * pitch) {
       return failure_.fail(code::helix_pitch, "a pitch of " + rounded(pitch, 4) + " mm does not fit a travel of " +
                                                   rounded(travel, 4) + " mm over " + rounded(part * 360, 3) +
                                                   " degrees");

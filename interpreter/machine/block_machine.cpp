@@ -23,30 +23,10 @@ BlockMachine::BlockMachine(const machine::Profile& profile, Emitter& emitter, Fa
       spindles_(profile.power_on.spindle_mode),
       tool_(profile),
       data_(profile) {
-  const auto is = [&profile](std::string_view option, std::string_view value) {
-    return profile.option(option) == value;
-  };
-  policy_.cycle_rapid = is("cycle.positioning", "rapid");
-  policy_.modal_words = is("call.modal_words", "yes");
-  policy_.cycles_in_full = is("cycle.stops", "all");
-  policy_.rotary_triggers = is("cycle.rotary_triggers", "yes");
-  policy_.keeps_programmed = is("frame.change_keeps", "programmed");
-  policy_.centre_through_frame = is("frame.rotation_centre", "scaled_and_mirrored");
-  policy_.nearest_pitch = is("helix.pitch_mismatch", "nearest");
-  policy_.machine_metric = is("machine_move.units", "machine");
-  policy_.pole_follows_arc = is("polar.pole_follows_arc", "yes");
-  policy_.pole_stays = is("polar.pole_stays", "yes");
-  policy_.polar_radius_stays = is("polar.radius", "programmed");
-  policy_.plane_resets_pole = is("polar.plane_resets_pole", "yes");
-  policy_.start_angle_stays = is("thread.start_angle", "modal");
-  policy_.straight_tangents = is("arc.tangent_straight", "line");
-  policy_.machine_absolute = is("machine_move.words", "absolute");
-  policy_.position_as_words = is("machine_position.scale", "words");
-  policy_.offsets_at_once = is("work_offset.write", "at_once");
-  policy_.preset_is_offset = is("frame.preset", "with_work_offset");
-  curve_.tolerance = std::clamp(parse_decimal(profile.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
-  policy_.plane_ends_cycle = is("cycle.plane_function", "ends");
-  policy_.data_modal = is("machine_data.units", "modal");
+  const machine::Policies& policies = profile.policies;
+  keeps_programmed_ = policies.frame_change_keeps == machine::FrameChangeKeeps::programmed;
+  data_modal_ = policies.machine_data_units == machine::MachineDataUnits::modal;
+  curve_.tolerance = std::clamp(policies.path_curve_tolerance, 1e-6, 1.0);
   for (const auto& a : profile.axes) {
     axis_[a.id].present = true;
     axis_[a.id].rotary = a.rotary;
@@ -117,7 +97,7 @@ bool BlockMachine::block(const ir::Block& b, const Span& where, bool with_cycle)
     if (!cycle_.hole || !b.has_motion || b.motion.frame != ir::FrameUse::normal) return false;
     const bool there = std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
                                    [this](const ir::CoordWord& w) { return w.axis == cycle_.axis; });
-    if (!there || profile_.option("cycle.axis_word") != "refused") return false;
+    if (!there || profile_.policies.cycle_axis_word != machine::CycleAxisWord::refused) return false;
     failure_.fail(code::bad_cycle, "a word of the tool axis in a block while a drilling cycle is active");
     return true;
   };

@@ -74,7 +74,7 @@ class BlockMachine final : public SystemData {
   [[nodiscard]] bool moved() const { return now_.moves; }
   /// The block runs a modal subprogram: it moves, or has words that do the same on this machine.
   [[nodiscard]] bool runs_modal_call(const ir::Block& b) const {
-    return now_.moves || (policy_.modal_words && path_words(b));
+    return now_.moves || (profile_.policies.call_modal_words && path_words(b));
   }
   /// A cycle that runs after every later block with path motion; null ends it.
   bool modal_cycle(const ir::CyclePtr& cycle, ir::CycleTrigger trigger, bool here);
@@ -141,16 +141,6 @@ class BlockMachine final : public SystemData {
   struct AxisState {
     bool present = false, rotary = false, diameter = false;
     double scale_absolute = 1, scale_incremental = 1;  ///< mm (radius) in one unit of a word under the modes in force
-  };
-  /// Options of the profile, looked up once.
-  struct Policies {
-    bool cycle_rapid = false, rotary_triggers = false, modal_words = false, keeps_programmed = false,
-         centre_through_frame = false;
-    bool nearest_pitch = false, machine_metric = false, pole_follows_arc = false, plane_resets_pole = false,
-         pole_stays = false, start_angle_stays = false, position_as_words = false, machine_absolute = false,
-         offsets_at_once = false, preset_is_offset = false, straight_tangents = false, polar_radius_stays = false;
-    bool data_modal = false;  ///< machine data in the units of the program
-    bool plane_ends_cycle = false, cycles_in_full = false;
   };
   struct Pending {
     Move move;
@@ -360,8 +350,9 @@ class BlockMachine final : public SystemData {
   std::uint64_t frame_serial_ = 0;
   ZeroPoints zeros_;
   FrameParts parts_;
-  Policies policy_;
-  Axes axis_feed_{};  ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
+  bool keeps_programmed_ = false;  ///< frame.change_keeps of the profile; a frame may suspend it
+  bool data_modal_ = false;        ///< machine data are in the units of the program
+  Axes axis_feed_{};               ///< of axes that move by themselves, mm/min or deg/min; 0: as fast as they go
   /// Increments behind a change of the frame, where they count from the last programmed coordinate.
   struct Increments {
     Axes from{};

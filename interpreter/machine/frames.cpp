@@ -33,7 +33,8 @@ void BlockMachine::restore_modal(const ir::ModalState& state) {
 }
 
 void BlockMachine::count_preset() {
-  parts_.count_preset(!policy_.preset_is_offset || modal_.work_offset != 0);
+  parts_.count_preset(profile_.policies.frame_preset != machine::FramePreset::with_work_offset ||
+                      modal_.work_offset != 0);
 }
 
 bool BlockMachine::rebuild_frame() {
@@ -52,7 +53,7 @@ bool BlockMachine::use_frame(const Frame& f) {
   }
   const Axes machine = frame_.apply(p_);
   const Axes seen = inverse.apply(machine);
-  const bool keeps = policy_.keeps_programmed && modal_.surface == ir::Surface::none;
+  const bool keeps = keeps_programmed_ && modal_.surface == ir::Surface::none;
   for (const auto a : axes_) {
     if (keeps && std::abs(seen[a] - p_[a]) > 1e-12 && ((increments_.pending >> a) & 1U) == 0) {
       increments_.from[a] = p_[a];
@@ -60,7 +61,7 @@ bool BlockMachine::use_frame(const Frame& f) {
     }
     p_[a] = seen[a];
   }
-  if (policy_.pole_stays && polar_.pole_set && f.linear_part() == frame_.linear_part()) {
+  if (profile_.policies.polar_pole_stays && polar_.pole_set && f.linear_part() == frame_.linear_part()) {
     const auto plane = ir::plane_axes(modal_.plane);
     Axes pole = p_;
     pole[plane.u] = polar_.pole.u;
@@ -95,9 +96,9 @@ bool BlockMachine::change_frame(const ir::FrameChange& c) {
   }
   // A frame outside of what the program puts with its own statements: increments count in it at once.
   const bool own = c.slot == ir::FrameSlot::chain || c.slot == ir::FrameSlot::preset;
-  const bool keeps = std::exchange(policy_.keeps_programmed, policy_.keeps_programmed && own);
+  const bool keeps = std::exchange(keeps_programmed_, keeps_programmed_ && own);
   const bool done = !failure_.set && rebuild_frame();
-  policy_.keeps_programmed = keeps;
+  keeps_programmed_ = keeps;
   return done;
 }
 
@@ -168,7 +169,8 @@ Frame BlockMachine::turn_of(const ir::FrameChange& c) {
   turn = rotation(plane.u, plane.v, value(c.angle));
   Axes centre{};
   for (const auto& w : c.words) centre[w.axis] = coordinate(w.axis, w.value, w.scale, true);
-  if (policy_.centre_through_frame) centre = parts_.inside_of(c.slot).apply(centre);
+  if (profile_.policies.frame_rotation_centre == machine::FrameRotationCentre::scaled_and_mirrored)
+    centre = parts_.inside_of(c.slot).apply(centre);
   const Axes turned = turn.apply(centre);
   for (std::size_t i = 0; i < 3; ++i) turn.t[i] = centre[i] - turned[i];
   return turn;
@@ -239,7 +241,8 @@ bool BlockMachine::write_frame(const ir::SystemRef& ref, std::span<const double>
 
 /// Of the row in force some controls use the new values at once, the others when it is selected again.
 bool BlockMachine::offset_written(std::int32_t row) {
-  if (!policy_.offsets_at_once || row != modal_.work_offset) return true;
+  if (profile_.policies.work_offset_write != machine::WorkOffsetWrite::at_once || row != modal_.work_offset)
+    return true;
   zeros_.load(row);
   return rebuild_frame();
 }

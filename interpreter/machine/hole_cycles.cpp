@@ -81,8 +81,8 @@ bool BlockMachine::define_cycle(const ir::CycleDefine& c) {
   // Where the tool stands before the program has moved it is the machine's affair.
   const bool placed = own != nullptr && std::abs(path_event_.to.value[axis] - own->start) > 1e-9;
   if (placed && hole != nullptr && !hole->keeps_initial && numbers &&
-      profile_.option("cycle.below_reference") == "refused" && p_[axis] < numbers->reference - 1e-9 &&
-      p_[axis] > numbers->bottom + 1e-9) {
+      profile_.policies.cycle_below_reference == machine::CycleBelowReference::refused &&
+      p_[axis] < numbers->reference - 1e-9 && p_[axis] > numbers->bottom + 1e-9) {
     return failure_.fail(code::bad_cycle,
                          "the tool stands between the reference plane and the depth where the cycle is called");
   }
@@ -143,7 +143,7 @@ bool BlockMachine::cycle_triggers(const ir::Block& b) const {
   for (const auto& w : m.coords) {
     if (w.axis == cycle_.axis) continue;
     if (w.axis == plane.u || w.axis == plane.v || w.axis == plane.w) return true;
-    if (policy_.rotary_triggers && axis_[w.axis].rotary) return true;
+    if (profile_.policies.cycle_rotary_triggers && axis_[w.axis].rotary) return true;
   }
   return m.extra && (m.extra->has_polar_angle || m.extra->has_polar_radius);
 }
@@ -183,7 +183,7 @@ bool BlockMachine::run_cycle() {
 /// The hole at the place where the tool stands.
 bool BlockMachine::run_hole() {
   std::string error;
-  cycle_.hole->told_in_full = policy_.cycles_in_full;
+  cycle_.hole->told_in_full = profile_.policies.cycle_stops == machine::CycleStops::all;
   const auto moves = ir::cycles::expand(*cycle_.hole, p_[cycle_.axis], modal_.retract_plane, &error);
   if (!error.empty()) return failure_.fail(code::not_carried, error);
   const bool taps = cycle_.hole->kind == ir::HoleKind::tap || cycle_.hole->kind == ir::HoleKind::tap_floating;

@@ -46,7 +46,7 @@ double value_of(const ir::ModalState& state, int setting) {
 
 /// A length that the program wrote is kept in mm, whatever unit is in force when it is read.
 double BlockMachine::unit_of_written(const std::string& name) const {
-  return policy_.data_modal && data_.in_mm(name) ? unit() : 1;
+  return data_modal_ && data_.in_mm(name) ? unit() : 1;
 }
 
 bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, double& out) {
@@ -63,13 +63,13 @@ bool BlockMachine::read(const ir::SystemRef& ref, std::span<const double> args, 
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length) {
     // Another name of the control may have written the same datum.
     if (const double* written = data_.tool(ref.datum, ref.axis, args)) {
-      out = *written / (policy_.data_modal ? unit() : 1);
+      out = *written / (data_modal_ ? unit() : 1);
       return true;
     }
   }
   if (ref.datum == Datum::tool_radius && args.empty() && ref.args.empty()) {
     const double radius = tool_radius();
-    out = (radius == 0 ? radius_of_world(tool_.offset()) : radius) / (policy_.data_modal ? unit() : 1);
+    out = (radius == 0 ? radius_of_world(tool_.offset()) : radius) / (data_modal_ ? unit() : 1);
     return true;
   }
   if (read_position(ref, args, out) || read_technology(ref, args, out) || read_state(ref, args, out)) return true;
@@ -92,7 +92,7 @@ bool BlockMachine::read_of_run(const ir::SystemRef& ref, std::span<const double>
       const double start = travel_.set[ref.axis];
       if ((travel_.given >> ref.axis & 1U) == 0)
         data_.assume(failure_.where, name + " before the start", start, "the program sets it: (" + name + "=0)");
-      out = (start + travel_.way[ref.axis]) / (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
+      out = (start + travel_.way[ref.axis]) / (data_modal_ && !axis_[ref.axis].rotary ? unit() : 1);
       return true;
     }
     case machine::RunDatum::next_offset: out = tool_.offset(); return true;
@@ -171,7 +171,7 @@ bool BlockMachine::read_at_rest(const std::string& name, double& out) {
 
 bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
   const bool has_axis = ref.axis < ir::axis::count_max && axis_[ref.axis].present;
-  const double length = policy_.data_modal ? unit() : 1;
+  const double length = data_modal_ ? unit() : 1;
   const auto along = [&](const Frame& f) { return (f.t[ref.axis]) / (axis_[ref.axis].rotary ? 1 : length); };
   switch (ref.datum) {
     case Datum::programmed_position:
@@ -181,9 +181,11 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
       return true;
     case Datum::machine_position:
       if (!has_axis) return false;
-      out = frame_.apply(p_)[ref.axis] / (policy_.position_as_words ? axis_[ref.axis].scale_absolute
-                                          : axis_[ref.axis].rotary  ? 1
-                                                                    : length);
+      out =
+          frame_.apply(p_)[ref.axis] / (profile_.policies.machine_position_scale == machine::MachinePositionScale::words
+                                            ? axis_[ref.axis].scale_absolute
+                                        : axis_[ref.axis].rotary ? 1
+                                                                 : length);
       return true;
     case Datum::work_offset: out = zeros_.coarse(offset_row(args), ref.axis) / length; return true;
     case Datum::active_offset: out = modal_.work_offset; return true;
@@ -227,7 +229,7 @@ bool BlockMachine::read_position(const ir::SystemRef& ref, std::span<const doubl
 bool BlockMachine::read_technology(const ir::SystemRef& ref, std::span<const double> args, double& out) const {
   const double row = args.empty() ? tool_.in_spindle() : args[0];
   const auto* tool = tool_of(profile_, row);
-  const double length = policy_.data_modal ? unit() : 1;
+  const double length = data_modal_ ? unit() : 1;
   const auto feed = [&](ir::FeedMode m) {
     const bool inch = m != ir::FeedMode::inverse_time && modal_.units == ir::Units::inch && modal_.units_feed_too;
     return feed_[static_cast<std::size_t>(m)] / (inch ? 25.4 : 1);
@@ -325,7 +327,7 @@ std::string BlockMachine::axis_name(ir::AxisId axis) const {
 bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args, double v) {
   const auto in_table = [&] {
     const bool linear = ref.axis < ir::axis::count_max && !axis_[ref.axis].rotary;
-    return v * (policy_.data_modal && linear ? unit() : 1);
+    return v * (data_modal_ && linear ? unit() : 1);
   };
   switch (ref.datum) {
     case Datum::work_offset:
@@ -360,14 +362,14 @@ bool BlockMachine::write(const ir::SystemRef& ref, std::span<const double> args,
   if (const auto answer = machine::data_of_run(profile_, datum_key(ref, args));
       answer && answer->datum == machine::RunDatum::travelled) {
     if (!check_axis(ref.axis)) return false;
-    travel_.set[ref.axis] = v * (policy_.data_modal && !axis_[ref.axis].rotary ? unit() : 1);
+    travel_.set[ref.axis] = v * (data_modal_ && !axis_[ref.axis].rotary ? unit() : 1);
     travel_.way[ref.axis] = 0;
     travel_.given |= 1U << ref.axis;
     return true;
   }
   const std::string key = datum_key(ref, args);
   const bool length = tool_length_unit(ref.datum) || machine::is_length_datum(profile_, key);
-  if (length && policy_.data_modal) v *= unit();
+  if (length && data_modal_) v *= unit();
   data_.write(key, v, length);
   if (ref.datum == Datum::tool_radius || ref.datum == Datum::tool_length)
     data_.write_tool(ref.datum, ref.axis, args, v);

@@ -8,8 +8,8 @@
 #include "ir/cycles/machining.h"
 #include "ir/cycles/milling/pocket_call.h"
 #include "ir/cycles/profile_blocks.h"
+#include "machine/cycle_context.h"
 #include "machine/tool_data.h"
-#include "machine/turning_tool.h"
 
 namespace cnctrans::interpreter {
 
@@ -68,10 +68,10 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   context.start = {p_[ir::axis::x], p_[ir::axis::z]};
   machine::tell_tool(profile_, tool_.in_spindle(), context);
   for (const std::string& name :
-       machine::tool_data_names(profile_, "tool.width_data", tool_.in_spindle(), tool_.offset())) {
+       machine::tool_data_names(profile_.policies.tool_width_data, tool_.in_spindle(), tool_.offset())) {
     const double* given = data_.by_name(name);
     if (given == nullptr) continue;
-    context.nose_width = *given * (policy_.data_modal && !data_.in_mm(name) ? unit() : 1);
+    context.nose_width = *given * (data_modal_ && !data_.in_mm(name) ? unit() : 1);
     break;
   }
   std::optional<ir::cycles::TurnProfile> contour;
@@ -96,7 +96,7 @@ bool BlockMachine::run_machining(const ir::NamedCycle& c) {
   if (!machining_moves(*cycle, *moves, taps)) return false;
   auto& now = spindles_.master();
   const bool other = now.mode != before.mode || now.value != before.value;
-  if (c.name == "part.off" && other && profile_.option("cycle.parting_after") == "restored") {
+  if (c.name == "part.off" && other && context.choices.parting_restores) {
     set_spindle_mode(before.mode, true);
     now.value = before.value;
     if (now.state != ir::SpindleState::off) emit_master();

@@ -8,6 +8,7 @@
 #include "interpreter/machine/profile_contour.h"
 #include "interpreter/trace/run_codes.h"
 #include "ir/cycles/milling/pocket_moves.h"
+#include "machine/cycle_context.h"
 #include "machine/tool_data.h"
 
 namespace cnctrans::interpreter {
@@ -20,11 +21,11 @@ using ir::cycles::MillStep;
 
 double BlockMachine::tool_radius() {
   const std::int32_t number = tool_.number();
-  auto names = machine::tool_data_names(profile_, "tool.radius_data", number, tool_.offset());
+  auto names = machine::tool_data_names(profile_.policies.tool_radius_data, number, tool_.offset());
   constexpr std::string_view of_any_tool = "TOOL_RADIUS";  // no control's own name: always in mm
   names.emplace_back(of_any_tool);
   for (const std::string& name : names) {
-    const double length = policy_.data_modal && name != of_any_tool ? unit() : 1;
+    const double length = data_modal_ && name != of_any_tool ? unit() : 1;
     if (const double* given = data_.by_name(name)) return *given * (data_.in_mm(name) ? 1 : length);
   }
   const double row = tool_.offset();
@@ -75,7 +76,7 @@ bool BlockMachine::mill_context(ir::cycles::MillContext& context) {
   context.spindle_ccw = spindles_.master().state == ir::SpindleState::ccw;
   context.plane = modal_.retract_plane;
   context.contours = &mill_contours_;
-  ir::cycles::pocket_habits([this](std::string_view name) { return profile_.option(name); }, context);
+  machine::tell_pocket(profile_.policies, context);
   return true;
 }
 
@@ -92,7 +93,8 @@ std::optional<std::vector<ir::cycles::MillMove>> BlockMachine::milling_by_assume
     if (a.tool == tool) radii.insert(radii.begin(), a.radius);
   }
   const std::size_t before = radii.size();
-  if (profile_.option("cycle.unknown_radius") == "assumed") radii.insert(radii.end(), usual.begin(), usual.end());
+  if (profile_.policies.cycle_unknown_radius == machine::CycleUnknownRadius::assumed)
+    radii.insert(radii.end(), usual.begin(), usual.end());
   bool same = !radii.empty();
   for (std::size_t k = 0; k < radii.size(); ++k) {
     context.tool_radius = radii[k];

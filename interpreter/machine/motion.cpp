@@ -38,7 +38,8 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
   if (curve_.open && !leave_curve(kind)) return false;
   if (m.explicit_code && ir::is_spline(kind)) curve_.broken = false;
   if (kind == ir::MotionKind::reference_point) {
-    if (policy_.plane_ends_cycle) cycle_.hole.reset();  // the search for home ends it as well
+    if (profile_.policies.cycle_plane_function == machine::CyclePlaneFunction::ends)
+      cycle_.hole.reset();  // the search for home ends it as well
     return reference_move(m);
   }
   if (kind == ir::MotionKind::fixed_point) return fixed_point_move(m);
@@ -49,8 +50,8 @@ bool BlockMachine::motion(const ir::Block& b, bool with_cycle) {
     return positioning_moves(m);
   }
   now_.moves = true;
-  if (cycle_.hole && policy_.cycle_rapid && !m.explicit_code && kind != ir::MotionKind::rapid && with_cycle &&
-      (now_.cycle_defined || cycle_triggers(b))) {
+  if (cycle_.hole && profile_.policies.cycle_positioning == machine::CyclePositioning::rapid && !m.explicit_code &&
+      kind != ir::MotionKind::rapid && with_cycle && (now_.cycle_defined || cycle_triggers(b))) {
     kind = ir::MotionKind::rapid;
   }
   if (ir::is_spline(kind)) return spline_point(m, kind);
@@ -244,7 +245,7 @@ bool BlockMachine::polar_end(const ir::Motion& m, Move& move) {
   double angle = radius < same_point ? 0 : std::atan2(here.v, here.u) * 180 / std::numbers::pi;
   if (x.has_polar_radius) {
     polar_.radius = radius = value(x.polar_radius) * unit() + (counts_absolutely(x.polar_mode) ? 0 : radius);
-  } else if (policy_.polar_radius_stays && polar_.radius) {
+  } else if (profile_.policies.polar_radius == machine::PolarRadius::programmed && polar_.radius) {
     radius = *polar_.radius;
   }
   if (x.has_polar_angle) angle = value(x.polar_angle) + (counts_absolutely(x.polar_angle_mode) ? 0 : angle);
@@ -293,9 +294,10 @@ bool BlockMachine::thread(const ir::Motion& m, bool variable, Move& move) {
     if (x.has_lead) thread_.lead = value(x.lead) * unit();
     if (variable) move.pitch_change = value(x.lead_change) * unit();
     if (x.has_start_angle) move.start_angle = value(x.start_angle);
-    if (policy_.start_angle_stays && x.has_start_angle) thread_.start_angle = move.start_angle;
+    if (profile_.policies.thread_start_angle == machine::ThreadStartAngle::modal && x.has_start_angle)
+      thread_.start_angle = move.start_angle;
   }
-  if (policy_.start_angle_stays) move.start_angle = thread_.start_angle;
+  if (profile_.policies.thread_start_angle == machine::ThreadStartAngle::modal) move.start_angle = thread_.start_angle;
   // No pitch and no change of it behind a thread of variable pitch: on with the pitch reached there.
   if (variable && thread_.lead == 0 && move.pitch_change == 0) thread_.lead = thread_.reached_pitch;
   move.pitch = thread_.lead;
@@ -326,12 +328,16 @@ bool BlockMachine::machine_move(const ir::Motion& m, ir::MotionKind kind) {
     return failure_.fail(code::not_carried, "moves in machine coordinates under a base frame are not carried out");
   }
   Axes machine = frame_.apply(p_);
-  const double metric = policy_.machine_metric && modal_.units == ir::Units::inch ? 1 / 25.4 : 1;
+  const double metric =
+      profile_.policies.machine_move_units == machine::MachineMoveUnits::machine && modal_.units == ir::Units::inch
+          ? 1 / 25.4
+          : 1;
   for (const auto& w : m.coords) {
     if (!check_axis(w.axis)) return false;
     const bool incremental =
         w.mode == ir::WordMode::incremental ||
-        (w.mode == ir::WordMode::modal && !policy_.machine_absolute && modal_.distance == ir::Distance::incremental);
+        (w.mode == ir::WordMode::modal && profile_.policies.machine_move_words != machine::MachineMoveWords::absolute &&
+         modal_.distance == ir::Distance::incremental);
     const double x = coordinate(w.axis, w.value, w.scale, !incremental) * (axis_[w.axis].rotary ? 1 : metric);
     if (incremental)
       machine[w.axis] += x;
@@ -387,7 +393,10 @@ bool BlockMachine::fixed_point_move(const ir::Motion& m) {
 bool BlockMachine::to_machine_points(const ir::Motion& named, const std::vector<double>& points) {
   ir::Motion to;
   to.frame = ir::FrameUse::machine;
-  const double metric = policy_.machine_metric && modal_.units == ir::Units::inch ? 1 : unit();
+  const double metric =
+      profile_.policies.machine_move_units == machine::MachineMoveUnits::machine && modal_.units == ir::Units::inch
+          ? 1
+          : unit();
   for (std::size_t i = 0; i < named.coords.size(); ++i) {
     ir::CoordWord word;
     word.axis = named.coords[i].axis;

@@ -112,7 +112,8 @@ void BlockMachine::release_pending() {
 
 /// A corner function that finds no second element. False: a fault.
 bool BlockMachine::without_corner(const std::string& why) {
-  if (profile_.option("corner.without_successor") != "left_out") return failure_.fail(code::corner_alone, why);
+  if (profile_.policies.corner_without_successor != machine::CornerWithoutSuccessor::left_out)
+    return failure_.fail(code::corner_alone, why);
   const auto& where = failure_.where;
   const auto same = [&](const auto& c) { return c.first == where; };
   if (std::none_of(corners_left_out_.begin(), corners_left_out_.end(), same))
@@ -145,7 +146,8 @@ bool BlockMachine::join(Move& next) {
   }
   if (f.none) {
     release_pending();
-    if (p.modal || p.tangential || profile_.option("corner.straight_on") != "refused") return true;
+    if (p.modal || p.tangential || profile_.policies.corner_straight_on != machine::CornerStraightOn::refused)
+      return true;
     return failure_.fail(code::corner_fit, "a corner function between two elements that meet without a corner");
   }
   const auto plane = ir::plane_axes(next.plane);
@@ -188,7 +190,7 @@ bool BlockMachine::corner_between(const Pending& p, const Element& a, const Elem
     const double s = sin_degrees(interior_angle(a, b) / 2);
     if (s > 0) leg = p.size / (2 * s);
   }
-  const bool at_arc = (a.arc || b.arc) && profile_.option("corner.chamfer_at_arc") == "yes";
+  const bool at_arc = (a.arc || b.arc) && profile_.policies.corner_chamfer_at_arc;
   return at_arc ? ir::geometry::chamfer_along(a, b, leg, f, error) : chamfer(a, b, leg, f, error);
 }
 

@@ -7,8 +7,8 @@
 namespace cnctrans::interpreter {
 
 ToolInUse::ToolInUse(const machine::Profile& profile)
-    : of_table_(profile.option("tool.bare_offset") == "table"),
-      of_edge_(profile.option("tool.bare_offset") == "edge"),
+    : of_table_(profile.policies.tool_bare_offset == machine::ToolBareOffset::table),
+      of_edge_(profile.policies.tool_bare_offset == machine::ToolBareOffset::edge),
       mill_(profile.kind == machine::Kind::mill),
       usual_plane_(profile.power_on.plane),
       came_with_t_(machine::changes_on_select(profile)) {}

@@ -85,7 +85,7 @@ bool Runner::range_in(Flow& flow, const ir::LabelRef& first, const ir::LabelRef&
 
 /// `/_N_SPF_DIR/_N_CB_SPF` as the program that it names: CB, by the parts that the machine's names may have.
 std::string Runner::bare_name(std::string name) const {
-  const std::string parts = profile_.option("call.decoration");
+  const std::string& parts = profile_.policies.call_decoration;
   if (parts.empty()) return name;
   const auto folder = name.rfind('/');
   if (folder != std::string::npos) name.erase(0, folder + 1);
@@ -118,7 +118,7 @@ Flow* Runner::callee_of(const ir::CallRoutine& c) {
   if (!written_routine(name, flow)) return nullptr;
   if (flow == nullptr) flow = routines_.find(name, *flow_);
   if (flow == nullptr && !c.optional) {
-    if (profile_.option("call.missing") == "passed_over") {
+    if (profile_.policies.call_missing == machine::CallMissing::passed_over) {
       if (c.computed)
         diagnostics_.warning(code::passed_over, failure_.where,
                              "there is no subprogram " + routine_text(name) + "; the run goes past the call");
@@ -162,7 +162,7 @@ void Runner::modal_call(const ir::ModalCall& m) {
     if (failure_.set) return;
     // A program, not a subprogram, in a program that runs so itself.
     if (callee != nullptr && in_modal_ != 0 && callee->routine->kind == ir::RoutineKind::main &&
-        profile_.option("call.modal_in_modal") == "refused") {
+        profile_.policies.call_modal_in_modal == machine::CallModalInModal::refused) {
       failure_.fail(code::modal_in_modal, "the program " + routine_text(callee->routine->name) +
                                               " is called modally within a program that is called so itself");
       return;

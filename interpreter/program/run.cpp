@@ -23,8 +23,8 @@ Span start_of(const ir::Program& program) {
 /// As the options say: calls of subprograms that are nowhere are told only, for the run goes past them; other faults
 /// too where the run stops only when it comes to one.
 Diagnostics as_options_say(const machine::Profile& profile, const Diagnostics& found) {
-  const bool passes_over = profile.option("call.missing") == "passed_over";
-  const bool when_reached = profile.option("run.faults") == "when_reached";
+  const bool passes_over = profile.policies.call_missing == machine::CallMissing::passed_over;
+  const bool when_reached = profile.policies.run_faults == machine::RunFaults::when_reached;
   Diagnostics out;
   const auto add = [&](Diagnostic d) {
     const bool missing = passes_over && d.code == code::unknown_routine;
@@ -60,11 +60,11 @@ Runner::Runner(const ir::Program& program, const machine::Profile& profile, cons
       machine_(profile, emitter_, failure_, &evaluator_, options.world ? &*options.world : nullptr),
       routines_(program, options, &variables_) {
   evaluator_.set_system(&machine_);
-  evaluator_.set_equal_within(parse_decimal(profile.option("compare.equal_within")).value_or(0));
+  evaluator_.set_equal_within(profile.policies.compare_equal_within);
   machine_.keep_cycles(options.cycles);
   machine_.find_programs(&options_.library);
   machine_.belongs_to(&program, nullptr);
-  local_levels_ = static_cast<std::size_t>(parse_decimal(profile.option("calls.local_levels")).value_or(0));
+  local_levels_ = static_cast<std::size_t>(profile.policies.calls_local_levels);
 }
 
 Result Runner::run() {

@@ -124,9 +124,10 @@ struct LeftContours {
 /// What the words of a cycle leave open and the machine decides.
 enum class GrooveDepth : std::uint8_t { smaller, absolute, increment };
 struct TurnChoices {
-  bool part_at_plus = true;      ///< the part that is cut off lies toward +Z of its reference point
-  bool parting_by_mode = false;  ///< a limit alone does not make the speed of parting off a cutting speed
-  bool parting_stays = false;    ///< the variant may leave the tool at the final depth
+  bool part_at_plus = true;       ///< the part that is cut off lies toward +Z of its reference point
+  bool parting_by_mode = false;   ///< a limit alone does not make the speed of parting off a cutting speed
+  bool parting_stays = false;     ///< the variant may leave the tool at the final depth
+  bool parting_restores = false;  ///< speed and mode of the spindle before it come back
   GrooveDepth groove_depth = GrooveDepth::smaller;
   bool groove_mirrored = false;  ///< the start of an alternating groove lies on the other side
   double groove_dwell = 0;       ///< seconds

@@ -62,9 +62,8 @@ void check_call_limits(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
   const CallGraph calls(program);
   check(program, context, calls, false, static_cast<std::size_t>(std::max(0, context.target_machine.call_depth)));
-  const auto levels = parse_decimal(context.target_machine.option("calls.local_levels"));
-  if (context.target.local_levels && levels && *levels > 0)
-    check(program, context, calls, true, static_cast<std::size_t>(*levels));
+  const double levels = context.target_machine.policies.calls_local_levels;
+  if (context.target.local_levels && levels > 0) check(program, context, calls, true, static_cast<std::size_t>(levels));
 }
 
 }  // namespace cnctrans::ir::passes

@@ -20,7 +20,7 @@ namespace {
 
 /// On this machine F, S and a bare motion code run a modal subprogram as well.
 bool words_run(const machine::Profile& machine) {
-  return machine.option("call.modal_words") == "yes";
+  return machine.policies.call_modal_words;
 }
 
 class ModalCalls {

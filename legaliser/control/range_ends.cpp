@@ -24,7 +24,7 @@ class RangeEnds {
  public:
   RangeEnds(Program& program, Routine& routine, const LegaliseContext& context)
       : program_(program), routine_(routine), editor_(program, routine, context), uses_(label_uses(program, routine)) {
-    branches_turns_ = context.target_machine.option("rotary.direction") == "in_word";
+    branches_turns_ = context.target_machine.policies.rotary_direction == machine::RotaryDirection::in_word;
   }
 
   void run() {

@@ -289,7 +289,7 @@ class Restore {
 void restore_modals(Program& program, const LegaliseContext& context) {
   const bool saves =
       std::any_of(program.routines.begin(), program.routines.end(), [](const Routine& r) { return r.saves_modals; });
-  if (saves && context.target_machine.option("call.saves_modals") != "yes") Restore(program, context).run();
+  if (saves && !context.target_machine.policies.call_saves_modals) Restore(program, context).run();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -65,10 +65,11 @@ void CyclePass::plain(Statement&& s, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   // A block that is no point, while the target's own cycle would make it one or take its words for the depth.
   const bool plane_ends = !by_call_ && active_->native && (active_->on_target || active_->maybe_on_target) &&
-                          context_.target_machine.option("cycle.plane_function") == "ends" && sets_plane(b);
-  const bool refused_word = context_.target_machine.option("cycle.axis_word") == "refused" && active_->native &&
-                            (active_->on_target || active_->maybe_on_target) && !by_call_ && b.has_motion &&
-                            b.motion.moves() && b.motion.frame == FrameUse::normal;
+                          context_.target_machine.policies.cycle_plane_function == machine::CyclePlaneFunction::ends &&
+                          sets_plane(b);
+  const bool refused_word = context_.target_machine.policies.cycle_axis_word == machine::CycleAxisWord::refused &&
+                            active_->native && (active_->on_target || active_->maybe_on_target) && !by_call_ &&
+                            b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
   if (refused_word || plane_ends) {
     pieces.push_back(off_statement(s.line, false));
     active_->on_target = active_->maybe_on_target = false;

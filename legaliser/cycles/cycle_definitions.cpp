@@ -102,7 +102,7 @@ void CyclePass::define_by_words(Statement&& s, const CycleDefine& d, Active&& a,
     active_ = std::move(a);
     return put(out, std::move(pieces), std::move(s));
   }
-  const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
+  const bool target_rapid = context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
   if (target_rapid && w && has_plane_word(b, *w) && way_to_hole(b, facts, context_) != MotionKind::rapid) {
     // The target would go there in rapid: the move, then one run of the cycle.
     if (refuse_feed_of_tap(s, a)) return out.push_back(std::move(s));

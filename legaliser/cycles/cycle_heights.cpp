@@ -175,7 +175,9 @@ std::optional<Value> CyclePass::leave_by_own_move(CyclePtr& cycle, const Active&
 
 bool CyclePass::rises_first(const Active& a, const Block& b, const Facts& facts) const {
   const auto* hole = a.native ? std::get_if<HoleCycle>(&a.native->node) : nullptr;
-  if (hole == nullptr || context_.target_machine.option("cycle.below_reference") != "refused") return false;
+  if (hole == nullptr ||
+      context_.target_machine.policies.cycle_below_reference != machine::CycleBelowReference::refused)
+    return false;
   if (!hole->reference.given || hole->reference.base != LevelBase::absolute || comes_in_two_moves(a.native, context_))
     return false;
   const auto height = in_units(a.height, b, facts);

@@ -195,7 +195,9 @@ void CyclePass::run_at_the_point(Block& b, const Facts& facts, Body& blocks) con
                                 [](const Action& a) { return a.order == Order::after || makes_event(a); });
   const bool in_plane = std::all_of(b.motion.coords.begin(), b.motion.coords.end(),
                                     [](const CoordWord& c) { return c.axis == axis::x || c.axis == axis::y; });
-  if (!runs || !rapid || late || !in_plane || context_.target_machine.option("cycle.positioning") != "rapid") return;
+  if (!runs || !rapid || late || !in_plane ||
+      context_.target_machine.policies.cycle_positioning != machine::CyclePositioning::rapid)
+    return;
   if (!b.motion.keeps_modal) by_itself(b);
   if (b.motion.kind == MotionKind::rapid) return;
   for (auto& a : call->actions) b.actions.push_back(std::move(a));

@@ -23,7 +23,7 @@ void CyclePass::put_group(Body& out, Body&& pieces, std::size_t main) {
 std::optional<Block> code_before_cycle(Block& b, const Facts& facts, const LegaliseContext& context) {
   const bool stays = b.has_motion && b.motion.explicit_code && b.motion.keeps_modal && facts.motion != b.motion.kind;
   const bool bare = b.has_motion && !b.motion.moves();
-  const bool target_rapid = context.target_machine.option("cycle.positioning") == "rapid";
+  const bool target_rapid = context.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
   if (!target_rapid || context.target.retract_plane_switch) return std::nullopt;
   if (bare && !stays) b.has_motion = false;  // it is in force
   if (!stays) return std::nullopt;

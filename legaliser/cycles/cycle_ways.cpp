@@ -82,7 +82,7 @@ bool CyclePass::refuse_two_ways(Statement& s, Body& out) const {
                               : facts.cycle_from == Facts::several_cycles && may_be_point(b, facts);
   if (!by_call_ || !either || !facts.reachable || surely_active_ || !b.has_motion || !b.motion.moves() ||
       b.motion.kind != MotionKind::modal || facts.motion == MotionKind::rapid ||
-      context_.source_machine.option("cycle.positioning") != "rapid")
+      context_.source_machine.policies.cycle_positioning != machine::CyclePositioning::rapid)
     return false;
   refuse(
       s, program_, context_, "TRN-331",
@@ -169,7 +169,7 @@ void CyclePass::feed_comes_back(const Statement& s, Block& b, const Facts& facts
 
 bool CyclePass::levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const {
   const auto* hole = std::get_if<HoleCycle>(&native->node);
-  if (hole == nullptr || context_.target_machine.option("cycle.levels") != "by_mode" ||
+  if (hole == nullptr || context_.target_machine.policies.cycle_levels != machine::CycleLevels::by_mode ||
       setting_in<Distance>(b, facts, Setting::distance) != Distance::incremental)
     return false;
   const auto absolute = [](const Level& l) { return l.given && l.base == LevelBase::absolute; };
@@ -210,7 +210,7 @@ bool CyclePass::cycle_by_another_way(const Block& b, const Facts& facts) const {
 /// A move along the tool axis, which the target takes for a word of the cycle.
 bool CyclePass::refuses_axis_word(const Block& b, const Facts& facts) const {
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
-  return context_.target_machine.option("cycle.axis_word") == "refused" &&
+  return context_.target_machine.policies.cycle_axis_word == machine::CycleAxisWord::refused &&
          (!plane || moves_along(b, plane_axes(*plane).w));
 }
 
@@ -219,7 +219,7 @@ bool CyclePass::bare_point(const Block& b, const Facts& facts) const {
   if (!plane || (has_modal_calls_ && !by_call_) || context_.target.cycle_each_call) return false;
   const AxisId w = plane_axes(*plane).w;
   if (!has_plane_word(b, w) || moves_along(b, w) || !b.motion.centers.empty() || b.motion.radius_given) return false;
-  const bool rapid = context_.target_machine.option("cycle.positioning") == "rapid";
+  const bool rapid = context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
   return !rapid || way_to_hole(b, facts, context_) == MotionKind::rapid;
 }
 

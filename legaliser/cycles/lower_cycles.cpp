@@ -100,7 +100,7 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     return write_out(std::move(s), std::move(pieces), out);
   }
   const auto kind = way_to_hole(b, facts, context_);
-  const bool target_rapid = context_.target_machine.option("cycle.positioning") == "rapid";
+  const bool target_rapid = context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
   // The target takes no motion code beside its cycle: one that stays in force has to go elsewhere.
   const bool new_code = target_rapid && active_->on_target && b.motion.explicit_code && b.motion.keeps_modal &&
                         facts.motion != b.motion.kind;

@@ -140,15 +140,16 @@ class MachineDataPass {
   /// Millimetres (radius) of the value 1 in this unit and mode; nullopt: that depends on more.
   [[nodiscard]] std::optional<double> millimetres(const SystemRef& ref, const machine::Profile& machine, Units unit,
                                                   DiameterMode mode) const {
-    const std::string units = machine.option("machine_data.units");
-    const bool modal = units == "modal" || (units == "with_feed" && with_feed_);
+    const auto units = machine.policies.machine_data_units;
+    const bool by_feed = units == machine::MachineDataUnits::with_feed;
+    const bool modal = units == machine::MachineDataUnits::modal || (by_feed && with_feed_);
     const bool position = ref.datum == Datum::machine_position;
     const auto* axis = machine.axis(ref.axis);
-    if ((!modal && !(position && machine.option("machine_position.scale") == "words")) ||
+    if ((!modal && !(position && machine.policies.machine_position_scale == machine::MachinePositionScale::words)) ||
         (axis != nullptr && axis->rotary))
       return 1;
     const double length = unit == Units::inch ? 25.4 : 1;
-    if (units == "with_feed") {
+    if (by_feed) {
       if (unit == Units::inch && without_feed_) return std::nullopt;
       return length;
     }
@@ -163,10 +164,10 @@ class MachineDataPass {
 }  // namespace
 
 void convert_machine_data(Program& program, const LegaliseContext& context) {
-  const auto same = [&](std::string_view option) {
-    return context.source_machine.option(option) == context.target_machine.option(option);
-  };
-  if (same("machine_data.units") && same("machine_position.scale")) return;
+  const auto &source = context.source_machine.policies, &target = context.target_machine.policies;
+  if (source.machine_data_units == target.machine_data_units &&
+      source.machine_position_scale == target.machine_position_scale)
+    return;
   const FactsOf facts(program, context);
   MachineDataPass pass(program, context, facts);
   for (auto& r : program.routines) {

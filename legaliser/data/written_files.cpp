@@ -102,7 +102,7 @@ class WrittenFiles {
 }  // namespace
 
 void name_written_files(Program& program, const LegaliseContext& context) {
-  if (context.target_machine.option("file.lines") == "named") WrittenFiles(program, context).run();
+  if (context.target_machine.policies.file_lines == machine::FileLines::named) WrittenFiles(program, context).run();
 }
 
 }  // namespace cnctrans::ir::passes

@@ -17,7 +17,7 @@ double band_of(const Capabilities& target) {
 }
 
 double equal_within(const machine::Profile& machine) {
-  return parse_decimal(machine.option("compare.equal_within")).value_or(0);
+  return machine.policies.compare_equal_within;
 }
 
 bool is_whole(const ExprPtr& e) {

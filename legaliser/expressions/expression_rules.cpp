@@ -138,7 +138,7 @@ ExprPtr ExpressionLowering::call_rule(const Call& c, const ExprPtr& e) {
   if (has(c.function)) {
     if (c.function == Function::ceil && !never_negative(c.args[0]) &&
         editor_.program.dialect != editor_.context.target.dialect &&
-        editor_.context.target_machine.option("round_up.negative") == "unstated") {
+        editor_.context.target_machine.policies.round_up_negative == machine::RoundUpNegative::unstated) {
       if (const auto known = constant_value(e)) return node(number(*known));
       editor_.context.diagnostics.note(
           "TRN-670", word_span(like_.span, e->pos),

@@ -131,7 +131,7 @@ class FramePass {
         const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
         // A preset that the source keeps out of force with its work offsets would act at once on the target.
         const bool kept_off = f->change->slot == FrameSlot::preset && state.preset_waits() &&
-                              context_.target_machine.option("frame.preset") != "with_work_offset";
+                              context_.target_machine.policies.frame_preset != machine::FramePreset::with_work_offset;
         auto same =
             pending_ || begun || kept_off ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
         // Where nothing is turned yet, a turn on top of it is the turn.
@@ -201,8 +201,9 @@ class FramePass {
     for (std::size_t axis = 0; axis < PlanarFrame::axes; ++axis)
       shifted = shifted || (mirrored(axis) && !(f.shift[axis] && f.shift[axis]->is(0)));
     const auto open = [&](const machine::Profile& m) {
-      const auto order = m.option("frame.mirror_order");
-      return (turned && order != "stated") || (shifted && order == "assumed");
+      const auto order = m.policies.frame_mirror_order;
+      return (turned && order != machine::FrameMirrorOrder::stated) ||
+             (shifted && order == machine::FrameMirrorOrder::assumed);
     };
     if (!open(context_.source_machine) && !open(context_.target_machine)) return;
     mirror_told_ = true;
@@ -229,7 +230,9 @@ class FramePass {
   /// A plane function while a rotation is in force: on some controls it may end it. Back in the plane of the rotation
   /// it is said again there.
   void change_plane(const Statement& s, Block& b) const {
-    const auto may_end = [](const machine::Profile& m) { return m.option("frame.plane_change") == "may_end_rotation"; };
+    const auto may_end = [](const machine::Profile& m) {
+      return m.policies.frame_plane_change == machine::FramePlaneChange::may_end_rotation;
+    };
     const bool from = may_end(context_.source_machine), to = may_end(context_.target_machine);
     if ((!from && !to) || program_.dialect == context_.target.dialect) return;
     const auto set = std::find_if(b.actions.begin(), b.actions.end(), [](const Action& a) {
@@ -283,7 +286,9 @@ class FramePass {
   /// Increments and positions in machine coordinates, by what the modes mean there on both controls. False: refused.
   bool machine_words(Statement& s, Block& b) const {
     if (b.motion.frame == FrameUse::no_programmable) return true;
-    const auto positions = [](const machine::Profile& m) { return m.option("machine_move.words") == "absolute"; };
+    const auto positions = [](const machine::Profile& m) {
+      return m.policies.machine_move_words == machine::MachineMoveWords::absolute;
+    };
     const bool from = positions(context_.source_machine), to = positions(context_.target_machine);
     const Capabilities& t = context_.target;
     for (auto& c : b.motion.coords) {

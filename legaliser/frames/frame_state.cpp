@@ -27,7 +27,7 @@ PlanarFrame FrameState::slot(FrameSlot s) const {
 }
 
 void FrameState::select(const WorkOffset& w, const machine::Profile& machine) {
-  if (machine.option("frame.preset") != "with_work_offset") return;
+  if (machine.policies.frame_preset != machine::FramePreset::with_work_offset) return;
   preset_off_ = w.off || w.index.is(0);
   preset_unsure_ = false;
 }
@@ -169,7 +169,8 @@ void FrameState::rotate(const FrameChange& c, const Facts& facts, const Block& b
       centre.shift[w.axis] = without_text(w.value);
       centre.shift_scale[w.axis] = is_diameter_axis(machine, w.axis) ? WordScale::diameter : w.scale;
     }
-    if (machine.option("frame.rotation_centre") == "scaled_and_mirrored" && centre.has_shift()) {
+    if (machine.policies.frame_rotation_centre == machine::FrameRotationCentre::scaled_and_mirrored &&
+        centre.has_shift()) {
       const PlanarFrame inner = inner_of(c.slot, machine);
       centre = compose(inner, centre);
     }

@@ -7,7 +7,7 @@ namespace cnctrans::ir::passes {
 namespace {
 
 bool outlasts(const machine::Profile& machine) {
-  return machine.option("frame.preset_outlasts") == "yes";
+  return machine.policies.frame_preset_outlasts;
 }
 bool presets(const Action& a) {
   const auto* f = std::get_if<FrameOp>(&a.data);

@@ -44,8 +44,7 @@ class PresetSteps {
 }  // namespace
 
 void settle_preset_steps(Program& program, const LegaliseContext& context) {
-  const char* keeps = "frame.change_keeps";
-  if (context.source_machine.option(keeps) == context.target_machine.option(keeps)) return;
+  if (context.source_machine.policies.frame_change_keeps == context.target_machine.policies.frame_change_keeps) return;
   const FactsOf facts(program, context);
   for (auto& r : program.routines) {
     PresetSteps steps(context, facts);

@@ -11,8 +11,6 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-constexpr std::string_view write_option = "work_offset.write", at_once = "at_once";
-
 /// The row that the statement writes; -1: the one in force; none: it writes no offset. `several`: more than one row.
 std::optional<std::int32_t> written_row(const Statement& s, bool& several) {
   const auto* a = std::get_if<Assign>(&s.node);
@@ -110,8 +108,10 @@ class Pass {
 }  // namespace
 
 void select_written_offsets(Program& program, const LegaliseContext& context) {
-  const bool from_once = context.source_machine.option(write_option) == at_once;
-  const bool to_once = context.target_machine.option(write_option) == at_once;
+  const auto at_once = [](const machine::Profile& m) {
+    return m.policies.work_offset_write == machine::WorkOffsetWrite::at_once;
+  };
+  const bool from_once = at_once(context.source_machine), to_once = at_once(context.target_machine);
   if (to_once && !from_once) return hold_written_offsets(program, context);
   if (to_once || !from_once) return;
   Pass pass(program, context);

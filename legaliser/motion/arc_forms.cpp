@@ -89,7 +89,9 @@ bool ArcPass::through_point(Arc& arc) {
 }
 
 bool ArcPass::leaves_plane(const Arc& arc, const machine::Profile& machine) const {
-  if (machine.option("arc.through_point") != "in_space" || program_.dialect == context_.target.dialect) return false;
+  if (machine.policies.arc_through_point != machine::ArcThroughPoint::in_space ||
+      program_.dialect == context_.target.dialect)
+    return false;
   const Motion& m = arc.b.motion;
   if (m.extra && (m.extra->has_turns || m.extra->has_pitch)) return true;
   const bool named =
@@ -230,7 +232,7 @@ bool ArcPass::pitch_to_turns(Arc& arc) {
   }
   const double revolutions = travel->number / std::fabs(pitch.number);
   const double turns = std::max(0.0, std::round(revolutions - *angle / 360));
-  const bool nearest = context_.source_machine.option("helix.pitch_mismatch") == "nearest";
+  const bool nearest = context_.source_machine.policies.helix_pitch_mismatch == machine::HelixPitchMismatch::nearest;
   if (!nearest && std::fabs(revolutions - turns - *angle / 360) > 0.01 * std::max(1.0, revolutions)) {
     fail(arc, "TRN-310", "the travel of the helix does not fit its pitch", "check pitch and end point");
     return false;
@@ -245,9 +247,10 @@ bool ArcPass::pitch_to_turns(Arc& arc) {
 }
 
 bool ArcPass::exact_pitch(Arc& arc) {
-  const std::string_view option = "helix.pitch_mismatch";
-  if (context_.source_machine.option(option) != "nearest" || context_.target_machine.option(option) == "nearest")
-    return true;
+  const auto nearest = [](const machine::Profile& m) {
+    return m.policies.helix_pitch_mismatch == machine::HelixPitchMismatch::nearest;
+  };
+  if (!nearest(context_.source_machine) || nearest(context_.target_machine)) return true;
   Motion& m = arc.b.motion;
   const Value pitch = m.extra->pitch;
   const auto angle = angle_turned(arc);

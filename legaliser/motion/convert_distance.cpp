@@ -23,7 +23,7 @@ class DistancePass {
   DistancePass(const Program& program, const LegaliseContext& context, const FactsOf& facts)
       : context_(context), facts_(facts) {
     keeps_differ_ =
-        context.source_machine.option("frame.change_keeps") != context.target_machine.option("frame.change_keeps");
+        context.source_machine.policies.frame_change_keeps != context.target_machine.policies.frame_change_keeps;
     if (!keeps_differ_) return;
     unmoved_.emplace(program, UnmovedAxes(context.source_machine.power_on.plane, head_selects_offset(context)));
     for (const auto& r : program.routines) {
@@ -36,7 +36,7 @@ class DistancePass {
         }
       });
     }
-    if (context.source_machine.option("frame.change_keeps") == "machine" &&
+    if (context.source_machine.policies.frame_change_keeps == machine::FrameChangeKeeps::machine &&
         (head_selects_offset(context) ||
          std::any_of(program.routines.begin(), program.routines.end(), UnmovedAxes::adds)))
       path_.emplace(program, facts, context.target_machine, context);
@@ -290,7 +290,7 @@ class DistancePass {
     if (!changes_here_ && facts.position[a]) return facts.position[a];
     if (const auto seen = path_ && !changes_here_ ? path_->number(s, a) : std::nullopt) return seen;
     if (!straight_ || (dirty_ >> a & 1U) == 0 || !shifted_.at[a]) return std::nullopt;  // a loop comes here again
-    if (context_.source_machine.option("frame.change_keeps") == "programmed") {
+    if (context_.source_machine.policies.frame_change_keeps == machine::FrameChangeKeeps::programmed) {
       const auto surface = facts.settings[static_cast<std::size_t>(Setting::surface)];
       if (!surface) return std::nullopt;
       if (*surface == static_cast<std::uint8_t>(Surface::none)) return shifted_.at[a];
@@ -311,9 +311,9 @@ class DistancePass {
   /// Where the source counts from the place of the machine in the new frame, and the target can name that place.
   bool from_place(Block& b, const Facts& facts) const {
     if (changes_here_ ||  // the place would be read before the change
-        context_.source_machine.option("frame.change_keeps") != "machine" || !context_.target.distance_per_word ||
-        b.motion.extra || b.motion.frame != FrameUse::normal || b.repeat_given != 0 || centres_follow(b) ||
-        setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
+        context_.source_machine.policies.frame_change_keeps != machine::FrameChangeKeeps::machine ||
+        !context_.target.distance_per_word || b.motion.extra || b.motion.frame != FrameUse::normal ||
+        b.repeat_given != 0 || centres_follow(b) || setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
       return false;
     std::vector<CoordWord> coords = b.motion.coords;
     for (auto& c : coords) {
@@ -431,8 +431,8 @@ class DistancePass {
 /// Where a frame change keeps the position of the machine, an increment of 0 behind it moves nothing; on the other
 /// control it would travel the difference.
 void leave_out_idle(Program& program, const LegaliseContext& context, const FactsOf& facts) {
-  if (context.source_machine.option("frame.change_keeps") != "machine" ||
-      context.target_machine.option("frame.change_keeps") == "machine")
+  if (context.source_machine.policies.frame_change_keeps != machine::FrameChangeKeeps::machine ||
+      context.target_machine.policies.frame_change_keeps == machine::FrameChangeKeeps::machine)
     return;
   bool changes = head_selects_offset(context), idle = false;
   for (const auto& r : program.routines) {

@@ -24,14 +24,7 @@ class PolePass {
   PolePass(Program& program, const LegaliseContext& context, const FactsOf& facts, const FrameSteps& frames,
            const PathValues& path)
       : program_(program), context_(context), facts_(facts), frames_(frames), path_(path) {
-    source_resets_ = context.source_machine.option("polar.plane_resets_pole") == "yes";
-    target_resets_ = context.target_machine.option("polar.plane_resets_pole") == "yes";
-    target_stays_ = context.target_machine.option("polar.pole_stays") == "yes";
-    stays_ = context.source_machine.option("polar.pole_stays") == "yes";
-    radius_stays_ = context.source_machine.option("polar.radius") == "programmed";
-    target_radius_stays_ = context.target.polar && context.target_machine.option("polar.radius") == "programmed";
     points_wanted = beside_lacking(program, context.target);
-    follows_arc_ = context.source_machine.option("polar.pole_follows_arc") == "yes";
     lines_only_ = has_lines_only(program);
   }
 
@@ -83,7 +76,7 @@ class PolePass {
     if (const auto* o = std::get_if<Opaque>(&s.node)) return !o->harmless;
     if (b == nullptr) return false;
     if (zero_counts() && b->has_motion && b->motion.extra) return true;
-    return (follows_arc_ && b->has_motion && !b->motion.centers.empty()) ||
+    return (source_.polar_pole_follows_arc && b->has_motion && !b->motion.centers.empty()) ||
            std::any_of(b->actions.begin(), b->actions.end(), [this](const Action& a) {
              const auto* m = std::get_if<ModalSet>(&a.data);
              return std::holds_alternative<PoleSet>(a.data) || (zero_counts() && moves_zero(a)) ||
@@ -91,7 +84,7 @@ class PolePass {
            });
   }
   void before(const State& state) { pole_ = state.at, set_ = state.set, stale_ = state.stale; }
-  bool zero_counts() const { return stays_ != target_stays_; }
+  bool zero_counts() const { return source_.polar_pole_stays != target_.polar_pole_stays; }
   void forget_point() {
     led_ = {};
     radius_.reset();
@@ -147,7 +140,8 @@ class PolePass {
     WordPos place;
     for (auto& a : b.actions) {
       if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane) {
-        if (source_resets_ || plane_ != static_cast<Plane>(m->value)) {  // radius and angle are about another pole now
+        if (source_.polar_plane_resets_pole ||
+            plane_ != static_cast<Plane>(m->value)) {  // radius and angle are about another pole now
           forget_radius();
         }
         plane_ = static_cast<Plane>(m->value);
@@ -171,13 +165,13 @@ class PolePass {
     }
     b.actions = std::move(actions);
     polar_arc_done_ = is_polar_arc(b, facts);
-    const bool centred = follows_arc_ && b.has_motion && !b.motion.centers.empty();
+    const bool centred = source_.polar_pole_follows_arc && b.has_motion && !b.motion.centers.empty();
     const auto from = centred ? here(facts) : std::nullopt;
     const auto mode = setting_in<Distance>(b, facts, Setting::distance);
     const auto middle = from ? centre_of(b, facts, *from, *plane_, mode, context_.source_machine) : std::nullopt;
     const bool about = polar_line(b, facts, lines_only_) || (polar_arc_done_ && b.motion.centers.empty());
     const auto whole = factors(b, facts, Distance::absolute);
-    if (about && pole_ && stale_ && !stays_ && whole) {  // the target's stayed behind
+    if (about && pole_ && stale_ && !source_.polar_pole_stays && whole) {  // the target's stayed behind
       if (context_.target.polar) b.actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, whole->u, whole->v)}));
       stale_ = false;
     } else if (about && stale_)
@@ -233,8 +227,9 @@ class PolePass {
   /// After a plane function: the pole of the source, said again. False: not known.
   bool plane_code(std::vector<Action>& actions) {
     const bool at_zero = pole_ && pole_->u == 0 && pole_->v == 0;
-    if (source_resets_) before(State{Point2{}});
-    if (!context_.target.polar || source_resets_ == target_resets_ || at_zero) return true;
+    if (source_.polar_plane_resets_pole) before(State{Point2{}});
+    if (!context_.target.polar || source_.polar_plane_resets_pole == target_.polar_plane_resets_pole || at_zero)
+      return true;
     if (!pole_) return false;
     actions.push_back(action(PoleSet{pole_words(*plane_, *pole_, 1, 1)}));
     return true;
@@ -477,8 +472,11 @@ class PolePass {
   bool say_radius_ = false;  ///< the target's last radius may be another than the present distance from the pole
   bool polar_arc_done_ = false, quiet_ = false;  ///< quiet: only following
   std::optional<Plane> plane_;
-  bool source_resets_ = false, target_resets_ = false, follows_arc_ = false, stays_ = false, target_stays_ = false,
-       radius_stays_ = false, target_radius_stays_ = false, lines_only_ = false;
+  const machine::Policies& source_ = context_.source_machine.policies;
+  const machine::Policies& target_ = context_.target_machine.policies;
+  bool radius_stays_ = source_.polar_radius == machine::PolarRadius::programmed;
+  bool target_radius_stays_ = context_.target.polar && target_.polar_radius == machine::PolarRadius::programmed;
+  bool lines_only_ = false;
 };
 
 }  // namespace

@@ -90,8 +90,10 @@ bool has_illegal_switch(const Program& program, const Capabilities& target) {
 
 /// Moves in machine coordinates: the source reads them in the machine's own unit, the target in that of the program.
 void machine_moves(Program& program, const LegaliseContext& context) {
-  const std::string option = "machine_move.units", own = "machine";
-  if (context.source_machine.option(option) != own || context.target_machine.option(option) == own) return;
+  const auto own = [](const machine::Profile& m) {
+    return m.policies.machine_move_units == machine::MachineMoveUnits::machine;
+  };
+  if (!own(context.source_machine) || own(context.target_machine)) return;
   const FactsOf facts(program, context);
   for (auto& r : program.routines) {
     for_each_statement(r.body, [&](Statement& s) {

@@ -40,8 +40,7 @@ bool curve_setting(const Action& a) {
 }
 
 CurveSteps::CurveSteps(const Program& program, const LegaliseContext& context) : context_(context) {
-  tolerance_ =
-      std::clamp(parse_decimal(context.source_machine.option("path.curve_tolerance")).value_or(0.001), 1e-6, 1.0);
+  tolerance_ = std::clamp(context.source_machine.policies.path_curve_tolerance, 1e-6, 1.0);
   for (const auto& a : context.source_machine.axes) {
     if (!a.rotary && group_.size() < 3) group_.push_back(a.id);
   }

@@ -57,7 +57,7 @@ class TurnDomain {
 }  // namespace
 
 void check_first_arcs(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
-  if (context.target_machine.option("frame.first_arc") != "absolute_centre") return;
+  if (context.target_machine.policies.frame_first_arc != machine::FrameFirstArc::absolute_centre) return;
   bool any = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&any](const Statement& s) {

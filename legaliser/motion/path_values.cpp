@@ -146,10 +146,10 @@ PathValues::PathValues(const FactsOf& facts, const machine::Profile& machine, co
     : facts_(facts),
       machine_(machine),
       frames_(frames),
-      plane_resets_(machine.option("polar.plane_resets_pole") == "yes"),
-      follows_arc_(machine.option("polar.pole_follows_arc") == "yes"),
-      radius_stays_(machine.option("polar.radius") == "programmed"),
-      pole_stays_(machine.option("polar.pole_stays") == "yes") {}
+      plane_resets_(machine.policies.polar_plane_resets_pole),
+      follows_arc_(machine.policies.polar_pole_follows_arc),
+      radius_stays_(machine.policies.polar_radius == machine::PolarRadius::programmed),
+      pole_stays_(machine.policies.polar_pole_stays) {}
 
 PathValues::State PathValues::start(const Routine& r, bool called) {
   State state;

@@ -88,7 +88,7 @@ class DirectionPass {
 }  // namespace
 
 void choose_directions(Program& program, const LegaliseContext& context) {
-  if (context.target_machine.option("rotary.direction") != "in_word") return;
+  if (context.target_machine.policies.rotary_direction != machine::RotaryDirection::in_word) return;
   DirectionPass pass(program, context);
   for (auto& r : program.routines) pass.routine(r);
 }

@@ -55,7 +55,7 @@ class SafeStart {
  private:
   /// Which zero point holds where a program selects none.
   static std::string zero_point(const machine::Profile& machine) {
-    if (machine.option("work_offset.kept") == "yes") return "the one selected last, by whatever program";
+    if (machine.policies.work_offset_kept) return "the one selected last, by whatever program";
     const auto row = machine.power_on.work_offset;
     return row == 0 ? std::string("no offset") : "offset " + std::to_string(row) + " of its table";
   }
@@ -144,7 +144,7 @@ class SafeStart {
       if (b->motion.kind != MotionKind::modal || !b->motion.moves()) continue;
       if (!b->motion.centers.empty()) return false;  // a straight line beside its centre: no code fits it
       // A hole that is reached in rapid whatever function is in force says nothing of it.
-      if (hole && context_.target_machine.option("cycle.positioning") == "rapid") return false;
+      if (hole && context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid) return false;
       b->motion.kind = context_.source_machine.power_on.motion;
       b->motion.explicit_code = true;
       return true;
@@ -178,7 +178,7 @@ class SafeStart {
   bool clears_shift() const {
     const auto slot = context_.target.frames.find(FrameSlot::shift);
     if (slot == context_.target.frames.end() || slot->second.count(FrameCombine::clear) == 0) return false;
-    const auto keeps = [](const machine::Profile& m) { return m.option("work_offset.kept") == "yes"; };
+    const auto keeps = [](const machine::Profile& m) { return m.policies.work_offset_kept; };
     return (keeps(context_.target_machine) && !keeps(context_.source_machine)) || shifts_itself();
   }
   bool shifts_itself() const {

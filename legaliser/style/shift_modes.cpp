@@ -20,7 +20,8 @@ bool sets_shift(const Block& b) {
 }  // namespace
 
 void say_shift_modes(Program& program, const LegaliseContext& context) {
-  if (context.target_machine.option("frame.shift") != "by_distance" || program.dialect == context.target.dialect)
+  if (context.target_machine.policies.frame_shift != machine::FrameShift::by_distance ||
+      program.dialect == context.target.dialect)
     return;
   const FactsOf facts(program, context);
   const CallGraph calls(program);

@@ -16,8 +16,6 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-constexpr std::string_view rapid_option = "comp.rapid";
-
 bool program_compensates(const Program& program, const machine::Profile& machine) {
   bool found = machine.power_on.comp != CompSide::off;
   for (const auto& r : program.routines) {
@@ -79,9 +77,9 @@ void check_changes(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !program_compensates(program, context.source_machine)) return;
   Program numbered = program;
   const FactsOf facts(numbered, context);
-  const bool refuses = context.target_machine.option("comp.interruptions") == "refused" &&
-                       context.source_machine.option("comp.interruptions") != "refused";
-  const bool ends = context.target_machine.option("comp.rotation") == "ended";
+  const bool refuses = context.target_machine.policies.comp_interruptions == machine::CompInterruptions::refused &&
+                       context.source_machine.policies.comp_interruptions != machine::CompInterruptions::refused;
+  const bool ends = context.target_machine.policies.comp_rotation == machine::CompRotation::ended;
   std::map<std::uint32_t, std::string_view> refused;
   for (const auto& r : numbered.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
@@ -139,11 +137,11 @@ void check_changes(Program& program, const LegaliseContext& context) {
 void check_compensation(Program& program, const LegaliseContext& context) {
   check_changes(program, context);
   check_compensation_ends(program, context);
-  const std::string source = context.source_machine.option(rapid_option),
-                    target = context.target_machine.option(rapid_option);
-  if (source == target || !program_compensates(program, context.source_machine)) return;
+  const auto source = context.source_machine.policies.comp_rapid;
+  if (source == context.target_machine.policies.comp_rapid || !program_compensates(program, context.source_machine))
+    return;
   const FactsOf facts(program, context);
-  const bool suspends = source == "suspended";
+  const bool suspends = source == machine::CompRapid::suspended;
   const auto warn = [&](const Statement& s, bool known) {
     context.diagnostics.warning("TRN-144", word_span(s.line.span, std::get<Block>(s.node).motion.code_pos),
                                 std::string("a rapid move while radius compensation is ") +

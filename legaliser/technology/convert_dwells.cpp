@@ -60,8 +60,8 @@ class DwellPass {
 
   /// Whether the operator asks for it only the machine knows, and on one of the two the spindle stands behind it.
   void tell_optional_stops(const Statement& s, const Block& b) {
-    const bool source = context_.source_machine.option("stop.spindle") == "stops";
-    const bool target = context_.target_machine.option("stop.spindle") == "stops";
+    const bool source = context_.source_machine.policies.stop_spindle == machine::StopSpindle::stops;
+    const bool target = context_.target_machine.policies.stop_spindle == machine::StopSpindle::stops;
     if (source == target) return;
     for (const auto& a : b.actions) {
       const auto* stop = std::get_if<Stop>(&a.data);

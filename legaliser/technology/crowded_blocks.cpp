@@ -103,11 +103,9 @@ void split(Editor& editor, Statement&& s, const Limits& limits, Body& out) {
 
 void split_crowded_blocks(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
-  const auto limit = [&context](std::string_view option) {
-    return static_cast<std::size_t>(
-        std::max(0.0, parse_decimal(context.target_machine.option(option, "0")).value_or(0)));
-  };
-  const Limits limits{limit("block.m_functions"), limit("block.machine_functions")};
+  const auto& machine = context.target_machine.policies;
+  const auto limit = [](double most) { return static_cast<std::size_t>(std::max(0.0, most)); };
+  const Limits limits{limit(machine.block_m_functions), limit(machine.block_machine_functions)};
   edit_blocks(program, context, [&limits](Editor& editor, Statement&& s, Body& out) {
     const auto& b = std::get<Block>(s.node);
     if (b.actions.size() > 1 && b.repeat_given == 0 && crowded(b.actions, limits)) {

@@ -5,12 +5,8 @@
 
 namespace cnctrans::ir::passes {
 
-namespace {
-constexpr const char* mixed_axes = "feed.mixed_axes";
-}
-
 bool mixed_feeds_differ(const machine::Profile& source, const machine::Profile& target) {
-  return source.option(mixed_axes) != target.option(mixed_axes);
+  return source.policies.feed_mixed_axes != target.policies.feed_mixed_axes;
 }
 
 bool moves_and_turns(const Block& block, const machine::Profile& machine) {
@@ -37,7 +33,7 @@ void check_mixed_feeds(Program& program, const LegaliseContext& context) {
       found = &s;
     });
     if (found == nullptr) continue;
-    const bool by_linear = context.source_machine.option(mixed_axes) == "linear";
+    const bool by_linear = context.source_machine.policies.feed_mixed_axes == machine::FeedMixedAxes::linear;
     context.diagnostics.warning(
         "TRN-655", found->line.span,
         by_linear ? "linear and rotary axes move together: F is the speed of the linear axes here, the target counts "

@@ -30,7 +30,7 @@ class Steps {
   using State = Step;
   Steps(const Program& program, const LegaliseContext& context, const FactsOf& facts)
       : facts_(facts),
-        rapid_points_(context.target_machine.option("cycle.positioning") == "rapid"),
+        rapid_points_(context.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid),
         rapid_at_holes_(context.target.retract_plane_switch) {
     for (const auto& r : program.routines) {
       for_each_statement(r.body, [&](const Statement& s) {

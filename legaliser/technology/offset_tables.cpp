@@ -6,7 +6,7 @@ namespace cnctrans::ir::passes {
 
 void check_offset_tables(Program& program, const LegaliseContext& context) {
   if (!offset_tables_differ(context.source_machine, context.target_machine)) return;
-  const bool edges = context.target_machine.option("tool.offset") == "edge";
+  const bool edges = context.target_machine.policies.tool_offset == machine::ToolOffset::edge;
   bool said = false;  // once a program
   for (const auto& r : program.routines) {
     OffsetNumbers numbers;

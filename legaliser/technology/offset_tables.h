@@ -9,7 +9,7 @@ namespace cnctrans::ir::passes {
 
 /// The two machines count their offsets in different ways.
 inline bool offset_tables_differ(const machine::Profile& source, const machine::Profile& target) {
-  return source.option("tool.offset") != target.option("tool.offset");
+  return source.policies.tool_offset != target.policies.tool_offset;
 }
 
 /// Offset 0 is no offset anywhere, and row 1 of a table is edge 1 of tool 1 by the usual order of the rows.

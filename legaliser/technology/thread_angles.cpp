@@ -93,9 +93,10 @@ void carry_on(Program& program, const LegaliseContext& context, const FactsOf& f
 }  // namespace
 
 void write_thread_angles(Program& program, const LegaliseContext& context) {
-  constexpr std::string_view stays = "thread.start_angle";
-  const bool from = context.source_machine.option(stays) == "modal",
-             to = context.target_machine.option(stays) == "modal";
+  const auto stays = [](const machine::Profile& m) {
+    return m.policies.thread_start_angle == machine::ThreadStartAngle::modal;
+  };
+  const bool from = stays(context.source_machine), to = stays(context.target_machine);
   if (from == to || std::none_of(program.routines.begin(), program.routines.end(), AngleDomain::touches)) return;
   const FactsOf facts(program, context);
   if (from) return carry_on(program, context, facts);

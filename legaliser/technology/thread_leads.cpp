@@ -114,7 +114,7 @@ bool has_angles(const Routine& r) {
 /// A thread that joins another (in continuous path mode) goes on in its groove: the control takes the angle of the
 /// start in the first only.
 void leave_out_joined_angles(Program& program, const LegaliseContext& context) {
-  if (context.target_machine.option("thread.start_angle") != "block") return;
+  if (context.target_machine.policies.thread_start_angle != machine::ThreadStartAngle::block) return;
   if (std::none_of(program.routines.begin(), program.routines.end(), has_angles)) return;
   const FactsOf facts(program, context);
   const JoinDomain domain(facts);
@@ -146,7 +146,7 @@ void leave_out_joined_angles(Program& program, const LegaliseContext& context) {
 
 void write_thread_leads(Program& program, const LegaliseContext& context) {
   leave_out_joined_angles(program, context);
-  if (context.target_machine.option("thread.pitch") != "each_block") return;
+  if (context.target_machine.policies.thread_pitch != machine::ThreadPitch::each_block) return;
   if (std::none_of(program.routines.begin(), program.routines.end(), LeadDomain::touches)) return;
   const FactsOf facts(program, context);
   const LeadDomain domain;

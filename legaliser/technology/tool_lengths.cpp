@@ -35,9 +35,10 @@ bool BareTool::follow(const Block& block, const LineInfo& line) {
 namespace {
 
 std::string bare_offset(const machine::Profile& machine) {
-  const std::string how = machine.option("tool.bare_offset");
-  if (how == "table") return "the offset that its tool table has for the tool";
-  return how == "edge" ? "the edge that the machine data name" : "the offset in force before, or none";
+  const auto how = machine.policies.tool_bare_offset;
+  if (how == machine::ToolBareOffset::table) return "the offset that its tool table has for the tool";
+  return how == machine::ToolBareOffset::edge ? "the edge that the machine data name"
+                                              : "the offset in force before, or none";
 }
 
 /// Warns once a program, where a tool without a D is used.
@@ -70,7 +71,7 @@ void check_planes(const Program& program, const LegaliseContext& context) {
             set->value == static_cast<std::uint8_t>(usual))
           continue;
         said = true;
-        const bool follows = context.target_machine.option("tool.length_axis") == "plane";
+        const bool follows = context.target_machine.policies.tool_length_axis == machine::ToolLengthAxis::plane;
         context.diagnostics.warning(
             "TRN-523", word_span(s.line.span, a.pos),
             follows
@@ -87,7 +88,7 @@ void check_planes(const Program& program, const LegaliseContext& context) {
 /// The source chooses the axis of the length by a function of its own: the words of the program say what cycles make of
 /// it, the length itself is the machine's.
 void check_chosen_axes(Program& program, const LegaliseContext& context) {
-  const bool follows = context.target_machine.option("tool.length_axis") == "plane";
+  const bool follows = context.target_machine.policies.tool_length_axis == machine::ToolLengthAxis::plane;
   for (auto& r : program.routines) {
     for_each_statement(r.body, [&](Statement& s) {
       auto* kept = std::get_if<Opaque>(&s.node);

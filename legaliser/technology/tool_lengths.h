@@ -10,11 +10,11 @@ namespace cnctrans::ir::passes {
 
 /// The machines give other offsets to a tool without a D (option `tool.bare_offset`).
 inline bool bare_offsets_differ(const machine::Profile& source, const machine::Profile& target) {
-  return source.option("tool.bare_offset") != target.option("tool.bare_offset");
+  return source.policies.tool_bare_offset != target.policies.tool_bare_offset;
 }
 /// On mills the length follows the plane on one of the machines only (option `tool.length_axis`).
 inline bool length_axes_differ(const machine::Profile& source, const machine::Profile& target) {
-  return source.kind == machine::Kind::mill && source.option("tool.length_axis") != target.option("tool.length_axis");
+  return source.kind == machine::Kind::mill && source.policies.tool_length_axis != target.policies.tool_length_axis;
 }
 
 /// Follows a program block by block: has the tool in the spindle come without a D?
@@ -24,7 +24,7 @@ class BareTool {
   /// `kept` of the source's option: a D that stands before the change stays there; elsewhere the change takes its own.
   /// `chosen`: a tool has been chosen before, or may have been.
   explicit BareTool(const machine::Profile& source, bool chosen = true)
-      : keeps_(source.option("tool.bare_offset") == "kept"), chosen_(chosen) {}
+      : keeps_(source.policies.tool_bare_offset == machine::ToolBareOffset::kept), chosen_(chosen) {}
   /// \return a move uses such a tool, for the first time
   bool follow(const Block& block, const LineInfo& line);
   /// The D may have been given where it can't be seen.

@@ -81,7 +81,7 @@ bool is_table_datum(const SystemRef& ref) {
 void name_tool_rows(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !context.target.system_data ||
       !offset_tables_differ(context.source_machine, context.target_machine) ||
-      context.target_machine.option("tool.offset") != "edge")
+      context.target_machine.policies.tool_offset != machine::ToolOffset::edge)
     return;
   const RowTools tools(program);
   const auto edge = [&](SystemRef& ref) {

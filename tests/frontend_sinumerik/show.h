@@ -7,6 +7,7 @@
 #include "frontends/sinumerik/program/frontend.h"
 #include "frontends/sinumerik/syntax/parse.h"
 #include "ir/text/text.h"
+#include "machine/options.h"
 
 namespace cnctrans::sinumerik::testing {
 
@@ -88,7 +89,7 @@ inline Read read(std::string text, const std::string& machine = "sinumerik-mill"
   Read out;
   std::string error;
   auto profile = machine::load(machine, &error);
-  for (const auto& [name, value] : options) profile->options[name] = value;
+  for (const auto& [name, value] : options) machine::set_option(*profile, name, value, &error);
   const SourcePtr source = SourceText::from_string(file, std::move(text));
   const FileId id = out.files.add(source);
   const frontends::ReadOptions read_options{frontends::Reader::both, &*profile};

@@ -94,7 +94,7 @@ TEST(Arc, HelixByPitch) {
   EXPECT_THAT(lines_of("block arc_cw X 0 Y 0 Z 12 centre X 5 extra pitch 4"), ElementsAre("cw Z12 c(5,0) turns2"));
   EXPECT_THAT(lines_of("block arc_cw X 0 Y 0 Z 11 centre X 5 extra pitch 4"), ElementsAre("end error RUN-014"));
   auto nearest = mill();
-  nearest.options["helix.pitch_mismatch"] = "nearest";
+  nearest.policies.helix_pitch_mismatch = machine::HelixPitchMismatch::nearest;
   EXPECT_THAT(lines_of("block arc_cw X 0 Y 0 Z 11 centre X 5 extra pitch 4", nearest),
               ElementsAre("cw Z11 c(5,0) turns2"));
 }

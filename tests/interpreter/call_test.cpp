@@ -147,7 +147,7 @@ TEST(Call, RecursionEndsWithAnError) {
   p.call_depth = 5;
   const auto r = run_text("routine main 1 {\ncall 20\n}\nroutine sub 20 {\nblock rapid X incremental 1\ncall 20\n}", p);
   EXPECT_THAT(r.lines, ElementsAre("rapid X1", "rapid X2", "rapid X3", "rapid X4", "rapid X5", "end error RUN-022"));
-  p.options["calls.local_levels"] = "2";
+  p.policies.calls_local_levels = 2;
   EXPECT_THAT(
       run_text(
           "routine main 1 {\ncall 20 new_level\n}\nroutine sub 20 {\nblock rapid X incremental 1\ncall 20 new_level\n}",

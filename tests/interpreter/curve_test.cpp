@@ -9,7 +9,7 @@ namespace {
 
 /// Steps within 1 mm: few enough to write down. x = 20 u, y = 20 u (1 - u).
 machine::Profile coarse(machine::Profile p = mill()) {
-  p.options["path.curve_tolerance"] = "1";
+  p.policies.path_curve_tolerance = 1;
   return p;
 }
 
@@ -147,7 +147,7 @@ TEST(Curve, WhatIsRefused) {
 
 TEST(Curve, TheToleranceIsThatOfTheProfile) {
   machine::Profile p = mill();
-  p.options["path.curve_tolerance"] = "0.01";
+  p.policies.path_curve_tolerance = 0.01;
   const auto r = run_lines(
       "block modal X 10\nblock polynomial coded X 0 Y 10 extra polynomial of X a2 -10 degree 2 polynomial end 2 a2 1 "
       "degree "

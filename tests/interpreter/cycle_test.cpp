@@ -85,7 +85,7 @@ TEST(Cycle, PositioningByRapidWhereTheMachineDoesSo) {
   EXPECT_THAT(lines_of("block feed 9, linear Z 2\n" + text, p),
               ElementsAre("linear Z2 F9", "linear X5 F9", "linear Z-1 F9", "rapid Z2", "linear X6 F9", "linear Z-1 F9",
                           "rapid Z2", "linear X7 F9", "linear Z-1 F9", "rapid Z2"));
-  p.options["cycle.positioning"] = "rapid";
+  p.policies.cycle_positioning = machine::CyclePositioning::rapid;
   EXPECT_THAT(lines_of("block feed 9, linear Z 2\n" + text, p),
               ElementsAre("linear Z2 F9", "rapid X5", "linear Z-1 F9", "rapid Z2", "rapid X6", "linear Z-1 F9",
                           "rapid Z2", "rapid X7", "linear Z-1 F9", "rapid Z2"));

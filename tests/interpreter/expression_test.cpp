@@ -211,7 +211,7 @@ TEST(Data, OffsetTableWrittenByTheProgram) {
       "rapid X 1";
   EXPECT_THAT(lines_of(text), ElementsAre("rapid X1", "rapid X51"));
   auto p = mill();
-  p.options["work_offset.write"] = "at_once";
+  p.policies.work_offset_write = machine::WorkOffsetWrite::at_once;
   EXPECT_THAT(lines_of(text, p), ElementsAre("rapid X51"));
 }
 

@@ -135,7 +135,7 @@ TEST(Frame, RotationCentreThroughScaleAndMirror) {
   // As written: (10,0) -> mirrored (-10,0) -> turned about (10,0): (10,-20).
   EXPECT_THAT(lines_of(text, p), ElementsAre("rapid X10 Y-20"));
   // Through the mirror the centre is (-10, 0): the point stays on it.
-  p.options["frame.rotation_centre"] = "scaled_and_mirrored";
+  p.policies.frame_rotation_centre = machine::FrameRotationCentre::scaled_and_mirrored;
   EXPECT_THAT(lines_of(text, p), ElementsAre("rapid X-10"));
 }
 
@@ -145,7 +145,8 @@ TEST(Frame, IncrementalMoveAfterAFrameChange) {
       "X 1";
   auto p = mill();
   EXPECT_THAT(lines_of(text, p), ElementsAre("rapid X10", "rapid X15", "rapid X16"));
-  p.options["frame.change_keeps"] = "programmed";  // the difference of the frames is travelled: 100 + 10 + 5
+  p.policies.frame_change_keeps =
+      machine::FrameChangeKeeps::programmed;  // the difference of the frames is travelled: 100 + 10 + 5
   EXPECT_THAT(lines_of(text, p), ElementsAre("rapid X10", "rapid X115", "rapid X116"));
 }
 

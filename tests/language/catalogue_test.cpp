@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "machine/options.h"
 #include "tests/interpreter/run_ir.h"
 #include "tests/language/markdown.h"
 #include "translator/files/registry.h"
@@ -55,7 +56,7 @@ TEST_P(Catalogue, DoesWhatItSays) {
   ASSERT_TRUE(profile) << error;
   for (const auto& o : values_of(s, "option")) {
     const auto at = o.find('=');
-    profile->options[std::string(trim(o.substr(0, at)))] = trim(o.substr(at + 1));
+    ASSERT_TRUE(machine::set_option(*profile, trim(o.substr(0, at)), trim(o.substr(at + 1)), &error)) << error;
   }
   for (const auto& o : values_of(s, "data")) {
     const auto at = o.find('=');

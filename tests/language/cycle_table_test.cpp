@@ -18,6 +18,7 @@
 #include "dialects/sinumerik/cycles.h"
 #include "ir/check/missing_features.h"
 #include "ir/cycles/pattern.h"
+#include "machine/options.h"
 #include "tests/language/markdown.h"
 #include "translator/files/registry.h"
 #include "translator/pipeline.h"
@@ -158,7 +159,8 @@ class CycleTable : public ::testing::Test {
     auto profile = machine::load(c.dialect + "-" + c.machine, &error);
     if (!profile) return error;
     for (const auto& o : values_of(s, "option"))
-      profile->options[std::string(trim(o.substr(0, o.find('='))))] = trim(o.substr(o.find('=') + 1));
+      if (!machine::set_option(*profile, trim(o.substr(0, o.find('='))), trim(o.substr(o.find('=') + 1)), &error))
+        return error;
     for (const auto& o : values_of(s, "data"))
       profile->data[std::string(trim(o.substr(0, o.find('='))))] = *parse_decimal(trim(o.substr(o.find('=') + 1)));
     for (const auto& o : values_of(s, "nose_width")) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "machine/options.h"
 #include "tests/language/markdown.h"
 
 namespace cnctrans {
@@ -22,6 +23,18 @@ void expect_support_matrix(const std::string& page, const std::string& made) {
   }
   EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), made)
       << "run this test with CNCTRANS_WRITE_DOCS=1 to write the matrix";
+}
+
+std::string option_table(std::string_view begin) {
+  std::string s = "| Option | Values | Default | Meaning |\n|---|---|---|---|\n";
+  for (const auto& o : machine::option_specs()) {
+    if (!o.name.starts_with(begin)) continue;
+    std::string values(o.values);
+    for (char& c : values) c = c == '|' ? ' ' : c;
+    s += "| `" + std::string(o.name) + "` | " + values + " | " + std::string(o.fallback) + " | " +
+         std::string(o.meaning) + " |\n";
+  }
+  return s;
 }
 
 }  // namespace cnctrans

@@ -11,7 +11,6 @@
 #include "dialects/sinumerik/g_functions.h"
 #include "dialects/sinumerik/operators.h"
 #include "ir/check/missing_features.h"
-#include "machine/options.h"
 #include "tests/language/matrix.h"
 
 namespace cnctrans {
@@ -146,23 +145,12 @@ std::string function_table() {
   return s;
 }
 
-std::string option_table() {
-  std::string s = "| Option | Values | Default | Meaning |\n|---|---|---|---|\n";
-  for (const auto& o : machine::option_specs()) {
-    if (o.name.rfind("sinumerik.", 0) != 0) continue;
-    std::string values(o.values);
-    for (char& c : values) c = c == '|' ? ' ' : c;
-    s += "| `" + std::string(o.name) + "` | " + values + " | " + std::string(o.fallback) + " | " +
-         std::string(o.meaning) + " |\n";
-  }
-  return s;
-}
-
 TEST(SupportMatrix, OfSinumerikIsTheOneOfTheTables) {
   const std::string made = "\n### G functions and named functions\n\n" + g_table() + "\n### Addresses\n\n" +
                            word_table() + "\n### Procedures\n\n" + procedure_table() +
                            "\n### Words beside the programmed path\n\n" + beside_table() + "\n### Functions\n\n" +
-                           function_table() + "\n### Options of a machine profile\n\n" + option_table() + "\n";
+                           function_table() + "\n### Options of a machine profile\n\n" + option_table("sinumerik.") +
+                           "\n";
   expect_support_matrix("sinumerik.md", made);
 }
 

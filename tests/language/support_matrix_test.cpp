@@ -4,7 +4,6 @@
 
 #include "dialects/num/gcodes.h"
 #include "dialects/num/mcodes.h"
-#include "dialects/num/options.h"
 #include "dialects/num/variables.h"
 #include "dialects/num/words.h"
 #include "ir/check/missing_features.h"
@@ -80,19 +79,10 @@ std::string statement_table() {
          reason("language.statement") + " |\n";
 }
 
-std::string option_table() {
-  std::string s = "| Option | Values | Default | Meaning |\n|---|---|---|---|\n";
-  for (const auto& o : facts::options) {
-    s += "| `" + std::string(o.name) + "` | " + (o.values == "*" ? "free" : std::string(o.values)) + " | " +
-         std::string(o.fallback) + " | " + std::string(o.title) + " |\n";
-  }
-  return s;
-}
-
 TEST(SupportMatrix, OfNumIsTheOneOfTheTables) {
   const std::string made = "\n### G functions\n\n" + g_table() + "\n### M functions\n\n" + m_table() +
                            "\n### Statements\n\n" + statement_table() + "\n### E parameters\n\n" + e_table() +
-                           "\n### Options of a machine profile\n\n" + option_table() + "\n";
+                           "\n### Options of a machine profile\n\n" + option_table("num.") + "\n";
   expect_support_matrix("num.md", made);
 }
 

@@ -174,5 +174,29 @@ TEST(Profile, OptionsFallBackToTheTable) {
   EXPECT_EQ(p.option("helix.pitch_mismatch", "nearest"), "nearest");
 }
 
+TEST(Profile, EachValueOfAnOptionIsAValueOfItsField) {
+  for (const auto& spec : option_specs()) {
+    if (spec.put == nullptr) continue;
+    Profile p;
+    std::string error;
+    EXPECT_TRUE(set_option(p, spec.name, spec.fallback, &error)) << error;
+    EXPECT_EQ(p.policies, Policies{}) << spec.name << ": what holds without the option is not the default of its field";
+    std::vector<Policies> seen;
+    std::string values = spec.values == "text" ? "A|B" : spec.values == "number" ? "1|2" : std::string(spec.values);
+    for (std::string_view rest = values; !rest.empty();) {
+      const auto bar = std::min(rest.find('|'), rest.size());
+      EXPECT_TRUE(set_option(p, spec.name, rest.substr(0, bar), &error)) << error;
+      EXPECT_EQ(std::count(seen.begin(), seen.end(), p.policies), 0) << spec.name << ' ' << rest;
+      seen.push_back(p.policies);
+      rest.remove_prefix(std::min(bar + 1, rest.size()));
+    }
+  }
+  Profile p;
+  std::string error;
+  EXPECT_FALSE(set_option(p, "frame.preset", "other", &error));
+  EXPECT_EQ(p.policies, Policies{});
+  EXPECT_TRUE(p.options.empty());
+}
+
 }  // namespace
 }  // namespace cnctrans::machine

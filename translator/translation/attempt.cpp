@@ -167,17 +167,18 @@ void by_replay(const AttemptContext& c, const ir::Program& program, const backen
 }  // namespace
 
 Attempt attempt_both(const AttemptContext& c, ir::Program program, const backends::WriteOptions& write) {
-  const std::string wanted = c.source_machine.option(ir::passes::uncalled_option, "when_needed");
+  const auto wanted = c.source_machine.policies.call_uncalled_state;
   const bool uncalled = !c.as_it_stands && !ir::passes::uncalled_routines(program).empty();
-  const bool assumed = uncalled && wanted == "power_on";
-  const bool once = !(uncalled && wanted == "when_needed") && !ir::passes::repeats_parts(program);
+  const bool assumed = uncalled && wanted == machine::CallUncalledState::power_on;
+  const bool once =
+      !(uncalled && wanted == machine::CallUncalledState::when_needed) && !ir::passes::repeats_parts(program);
   const bool small =
       !c.as_it_stands && !c.refused && c.options.unsupported == backends::Unsupported::error && is_small(program);
   if (once && !small) return attempt(c, std::move(program), write, assumed);
   Attempt first = attempt(c, program, write, assumed);
   if (!first.said.has_errors()) return first;
   bool assume = assumed;
-  if (uncalled && wanted != "unknown" && !assumed) {
+  if (uncalled && wanted != machine::CallUncalledState::unknown && !assumed) {
     Attempt second = attempt(c, program, write, true);
     if (second.said.error_count() < first.said.error_count()) {
       first = std::move(second);

@@ -103,7 +103,9 @@ std::optional<Seen> see(const AttemptContext& c, const ir::Program& source) {
   ir::number_statements(program);
   const Inputs look = inputs_of(program);
   if (look.reads_machine || std::bitset<16>(look.skips).count() > most_skip_levels) return std::nullopt;
-  const bool same_place = !look.offsets && (c.source_machine.option("frame.change_keeps") == "machine" || !look.frames);
+  const bool same_place =
+      !look.offsets &&
+      (c.source_machine.policies.frame_change_keeps == machine::FrameChangeKeeps::machine || !look.frames);
   Seen seen;
   machine::Profile elsewhere = c.source_machine;  // what depends on where the machine stands first is no fact
   for (auto& a : elsewhere.axes) a.start += 731.0625;

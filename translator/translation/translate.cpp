@@ -239,7 +239,7 @@ void Translation::settle_calls() {
 /// A subprogram of another file selects another plane while a cycle of its caller is in force.
 void Translation::end_cycles() {
   const machine::Profile& profile = reading_.profile();
-  if (profile.option("cycle.plane_function") != "ends" || same_language()) return;
+  if (profile.policies.cycle_plane_function != machine::CyclePlaneFunction::ends || same_language()) return;
   for (const ir::Statement* s : ir::end_cycles_with_plane(source_, profile.power_on)) {
     result_.diagnostics.error("TRN-620", s->line.span,
                               "whether this plane function ends the cycle in force depends on the way that leads here",

@@ -40,7 +40,7 @@ void read_m_programs(std::string_view text, Settings& s) {
 
 Settings make_settings(const machine::Profile& profile) {
   Settings s;
-  const auto option = [&profile](std::string_view name) { return profile.option(name, facts::option_default(name)); };
+  const auto option = [&profile](std::string_view name) { return profile.option(name); };
   s.lathe = profile.kind == machine::Kind::lathe;
   s.structured = option(facts::option::family) != "7xx";
   s.centre_absolute = option(facts::option::centre) != "incremental";
@@ -48,16 +48,15 @@ Settings make_settings(const machine::Profile& profile) {
   s.range_by_position = option(facts::option::range_order) == "position";
   s.mends_ranges = option(facts::option::missing_end) == "to_last_lower";
   s.m30_ends = option(facts::option::m30) == "end";
-  s.stop_ends_spindle = profile.option("stop.spindle") == "stops";
+  s.stop_ends_spindle = profile.policies.stop_spindle == machine::StopSpindle::stops;
   s.face_radius = option(facts::option::face_x) == "radius";
   s.withdraws_to_er = option(facts::option::peck_withdraw) == "ER";
   s.pecks_constant = option(facts::option::peck_law) == "constant";
-  const auto set = [&profile](std::string_view name) { return profile.option(name); };
-  s.chased = facts::thread_habits(set);
-  s.reentrant = facts::reentrant_habits(set);
-  s.plunged_by_p = facts::plunge_habits(set, true);
-  s.plunged_by_r = facts::plunge_habits(set, false);
-  s.edge_width = set(facts::option::plunged_width);
+  s.chased = facts::thread_habits(option);
+  s.reentrant = facts::reentrant_habits(option);
+  s.plunged_by_p = facts::plunge_habits(option, true);
+  s.plunged_by_r = facts::plunge_habits(option, false);
+  s.edge_width = option(facts::option::plunged_width);
   const auto unit = [&profile](std::string_view name, double fallback) {
     const auto value = parse_decimal(profile.option(name));
     return value && *value > 0 ? *value : fallback;

@@ -368,13 +368,6 @@ bool contour_pocket(MillPath& path, const MillContext& context, std::string* err
 
 }  // namespace detail
 
-void pocket_habits(const std::function<std::string(std::string_view)>& option, MillContext& context) {
-  const auto tolerance = parse_decimal(option("cycle.pocket_tolerance"));
-  if (tolerance) context.tolerance = std::clamp(*tolerance, 1e-5, 0.1);
-  context.links_at_depth = option("cycle.pocket_links") != "over";
-  context.entry_on_arc = option("cycle.pocket_entry") != "straight";
-}
-
 std::vector<PocketPoint> pocket_entries(const MillNumbers& mill, const MillContext& context, std::string* error) {
   error->clear();
   HoleNumbers levels;

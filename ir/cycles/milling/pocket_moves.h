@@ -2,7 +2,6 @@
 // middle of the area to its walls, or parallel passes, are the choice of this house.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +13,6 @@ namespace cnctrans::ir::cycles {
 
 /// A hole cycle whose `mill` has this shape runs at the places where the roughing of a pocket enters the material.
 inline constexpr std::string_view pocket_entries_shape = "pocket.entries";
-
-/// What a machine's profile says of the moves (options cycle.pocket_*). `option`: the value of one.
-void pocket_habits(const std::function<std::string(std::string_view)>& option, MillContext& context);
 
 /// Where roughing goes into the material, mm in the plane: one place for each part of the pocket that the tool can't
 /// leave. `mill`: words of the shape pocket.contour. Empty with a sentence in `error`.

@@ -14,6 +14,8 @@
 #include "ir/tool_number.h"
 #include "legaliser/data/written_data.h"
 #include "legaliser/edit/blocks.h"
+#include "machine/cycle_context.h"
+#include "machine/tool_data.h"
 
 namespace cnctrans::ir::passes {
 
@@ -297,18 +299,9 @@ void MillCycles::find_contours(const Program& program, const Routine& routine) {
 
 std::optional<double> MillCycles::radius(const Site& site, double length_unit, std::string* error, bool* none) const {
   const auto& machine = context_.source_machine;
-  std::string list = machine.option("tool.radius_data");
-  list += list.empty() ? "TOOL_RADIUS" : "|TOOL_RADIUS";
-  for (std::string_view rest = list; !rest.empty();) {
-    const auto bar = std::min(rest.find('|'), rest.size());
-    std::string name(rest.substr(0, bar));
-    rest.remove_prefix(std::min(bar + 1, rest.size()));
-    const auto put = [&](std::string_view mark, std::optional<std::int32_t> number) {
-      const auto at = name.find(mark);
-      if (at != std::string::npos) name.replace(at, 2, number ? std::to_string(*number) : std::string("*"));
-    };
-    put("#T", site.tool);
-    put("#D", site.offset);
+  auto names = machine::tool_data_names(machine.policies.tool_radius_data, site.tool, site.offset);
+  names.emplace_back("TOOL_RADIUS");
+  for (const auto& name : names) {
     if (name.find('*') != std::string::npos) {
       const auto stem = name.substr(0, name.find_first_of("[*"));
       const auto like = [&stem](const auto& item) { return item.first.starts_with(stem); };
@@ -317,7 +310,7 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
         continue;
       return *error = "which tool is in use, and its radius, is not known here", std::nullopt;
     }
-    const bool in_mm = name == "TOOL_RADIUS" || machine.option("machine_data.units") != "modal";
+    const bool in_mm = name == "TOOL_RADIUS" || machine.policies.machine_data_units != machine::MachineDataUnits::modal;
     const double scale = in_mm ? 1 : length_unit;
     if (const auto it = written_.find(name); it != written_.end()) {
       if (!it->second) return *error = "the radius of the tool is computed when the program runs", std::nullopt;
@@ -388,7 +381,7 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     leads_by_middle = lead;
     context.tool_radius = r.value_or(0);
   }
-  cycles::pocket_habits([this](std::string_view name) { return context_.source_machine.option(name); }, context);
+  machine::tell_pocket(context_.source_machine.policies, context);
   std::vector<cycles::MillContour> contours;
   if (cycles::has_contours(c)) {
     auto read = cycles::contours_in(c, error);
@@ -472,7 +465,7 @@ std::vector<cycles::PocketPoint> MillCycles::entries(const HoleCycle& c, const B
   cycles::MillContext context;
   context.tool_radius = *r;
   context.contours = &*contours;
-  cycles::pocket_habits([this](std::string_view name) { return context_.source_machine.option(name); }, context);
+  machine::tell_pocket(context_.source_machine.policies, context);
   return cycles::pocket_entries(*words, context, error);
 }
 

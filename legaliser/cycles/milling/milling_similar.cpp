@@ -101,7 +101,7 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
     Statement to = rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}});
     // Controls that go to the place of a cycle in rapid take it into the block of the cycle.
     const bool in_one = !context_.target.retract_plane_switch;
-    if (!rises && in_one && context_.target_machine.option("cycle.positioning") == "rapid") {
+    if (!rises && in_one && context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid) {
       call = std::move(std::get<Block>(to.node));
       by_itself(call);
     } else {

@@ -295,7 +295,7 @@ bool has_plane_word(const Block& b, AxisId tool_axis) {
 }
 
 bool turns_to_point(const Block& b, const machine::Profile& machine) {
-  return b.has_motion && machine.option("cycle.rotary_triggers") == "yes" &&
+  return b.has_motion && machine.policies.cycle_rotary_triggers &&
          std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
                      [](const CoordWord& c) { return is_rotary_letter(c.axis); });
 }

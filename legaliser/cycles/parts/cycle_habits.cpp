@@ -39,13 +39,14 @@ bool runs_old(const Block& b, bool point_here, bool here) {
 }
 
 std::optional<MotionKind> way_to_hole(const Block& b, const Facts& facts, const LegaliseContext& context) {
-  if (b.motion.kind == MotionKind::modal && context.source_machine.option("cycle.positioning") == "rapid")
+  if (b.motion.kind == MotionKind::modal &&
+      context.source_machine.policies.cycle_positioning == machine::CyclePositioning::rapid)
     return MotionKind::rapid;
   return motion_in(b, facts);
 }
 
 void position_rapid(Block& b, const LegaliseContext& context) {
-  if (context.source_machine.option("cycle.positioning") != "rapid" || !b.has_motion ||
+  if (context.source_machine.policies.cycle_positioning != machine::CyclePositioning::rapid || !b.has_motion ||
       b.motion.kind != MotionKind::modal)
     return;
   b.motion.kind = MotionKind::rapid;
@@ -60,9 +61,9 @@ std::optional<double> height_mm(const Block& b, const Facts& facts, AxisId w) {
 }
 
 void position_kind(Block& b, const LegaliseContext& context) {
-  const bool source_rapid = context.source_machine.option("cycle.positioning") == "rapid";
-  const bool target_rapid =
-      context.target_machine.option("cycle.positioning") == "rapid" && !context.target.modal_cycle_by_call;
+  const bool source_rapid = context.source_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
+  const bool target_rapid = context.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid &&
+                            !context.target.modal_cycle_by_call;
   if (!source_rapid || target_rapid || !b.has_motion) return;
   if (b.motion.kind != MotionKind::modal) return;
   b.motion.kind = MotionKind::rapid;

@@ -12,7 +12,7 @@
 #include "ir/tool_number.h"
 #include "legaliser/data/written_data.h"
 #include "legaliser/edit/blocks.h"
-#include "machine/turning_tool.h"
+#include "machine/cycle_context.h"
 
 namespace cnctrans::ir::passes {
 
@@ -480,7 +480,7 @@ std::optional<Body> TurnCycles::write_out(const NamedCycle& words, const Stateme
   for (const auto& move : *moves) {
     if (!writer.add(move, error)) return std::nullopt;
   }
-  if (cycle->name == "part.off" && context_.source_machine.option("cycle.parting_after") == "restored") {
+  if (cycle->name == "part.off" && context.choices.parting_restores) {
     const auto mode = setting_in<SpindleMode>(b, facts, Setting::spindle_mode);
     const bool speeds = std::any_of(moves->begin(), moves->end(), [](const auto& move) {
       return move.step == TurnStep::spindle_speed || move.step == TurnStep::spindle_cutting_speed;

@@ -8,8 +8,8 @@ namespace cnctrans::ir::passes {
 
 double TurnCycles::nose_width(const TurnState& state, double unit) const {
   const auto& machine = context_.source_machine;
-  const double scale = machine.option("machine_data.units") == "modal" ? unit : 1;
-  for (const std::string& name : machine::tool_data_names(machine, "tool.width_data", state.tool, state.offset)) {
+  const double scale = machine.policies.machine_data_units == machine::MachineDataUnits::modal ? unit : 1;
+  for (const std::string& name : machine::tool_data_names(machine.policies.tool_width_data, state.tool, state.offset)) {
     const auto stem = name.find('*') == std::string::npos ? std::string() : name.substr(0, name.find_first_of("[*"));
     const auto of_some_tool = [&stem](const auto& item) { return !stem.empty() && item.first.starts_with(stem); };
     if (std::any_of(written_.begin(), written_.end(), of_some_tool)) return 0;

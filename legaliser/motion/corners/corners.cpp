@@ -163,7 +163,9 @@ class CornerPass {
     auto& b = std::get<Block>(s.node);
     auto& c = std::get<Corner>(b.actions[action].data);
     const WordPos pos = b.actions[action].pos;
-    if (option("corner.without_successor") == "left_out" && stands_alone(s)) {
+    const auto& source = context_.source_machine.policies;
+    const bool left_out = source.corner_without_successor == machine::CornerWithoutSuccessor::left_out;
+    if (left_out && stands_alone(s)) {
       context_.diagnostics.warning(
           "TRN-462", word_span(s.line.span, pos),
           std::string(stays(s, false) ? "this block does not move in the plane and has no corner"
@@ -172,13 +174,13 @@ class CornerPass {
           "take the word out of the source");
       return take_out(s, action);
     }
-    if (option("corner.without_successor") == "left_out") tell_alone(s, pos);
+    if (left_out) tell_alone(s, pos);
     const auto angle = angle_at(body, at);
     const bool by_leg = c.kind == CornerKind::chamfer_chord && target().corners.count(c.kind) == 0;
-    const bool cut = c.kind != CornerKind::round && at_arc(body, at) && option("corner.chamfer_at_arc") == "yes" &&
-                     context_.target_machine.option("corner.chamfer_at_arc") != "yes";
+    const bool cut = c.kind != CornerKind::round && at_arc(body, at) && source.corner_chamfer_at_arc &&
+                     !context_.target_machine.policies.corner_chamfer_at_arc;
     const bool own = cut || (c.feed && !target().corner_feed);
-    if (option("corner.straight_on") != "refused") {
+    if (source.corner_straight_on != machine::CornerStraightOn::refused) {
       if (angle && straight_on(*angle)) {
         if (pos.column != 0)  // else of a corner function that stays in force
           context_.diagnostics.note("TRN-650", word_span(s.line.span, pos),
@@ -217,7 +219,7 @@ class CornerPass {
   /// Whether there is a corner follows from numbers that are not known here, and the target stops where there is none.
   /// It does so at the element behind the corner.
   void tell_unknown(const Statement& s, WordPos pos, const Statement* next) {
-    if (context_.target_machine.option("corner.straight_on") != "refused") return;
+    if (context_.target_machine.policies.corner_straight_on != machine::CornerStraightOn::refused) return;
     Span where = word_span(s.line.span, pos);
     if (next != nullptr && next->line.span.file == where.file && next->line.span.line > where.line) {
       where.end_line = next->line.span.line;
@@ -226,7 +228,7 @@ class CornerPass {
     tell_unknown_at(where);
   }
   void tell_unknown_at(const Span& where) {
-    if (context_.target_machine.option("corner.straight_on") != "refused") return;
+    if (context_.target_machine.policies.corner_straight_on != machine::CornerStraightOn::refused) return;
     context_.diagnostics.warning("TRN-651", where,
                                  "the directions before and behind this corner are not known here: where the path goes "
                                  "on tangentially, the source's control leaves the corner out and the target stops",
@@ -234,10 +236,10 @@ class CornerPass {
   }
   /// A computed size: 0 is no corner for the source, and a fault for the target.
   void tell_zero(const Statement& s, WordPos pos) {
-    const std::string_view habit = "corner.without_successor";
-    if (zero_told_ || context_.source_machine.option(habit) != "left_out" ||
-        context_.target_machine.option(habit) == "left_out")
-      return;
+    const auto leaves_out = [](const machine::Profile& m) {
+      return m.policies.corner_without_successor == machine::CornerWithoutSuccessor::left_out;
+    };
+    if (zero_told_ || !leaves_out(context_.source_machine) || leaves_out(context_.target_machine)) return;
     zero_told_ = true;
     context_.diagnostics.warning("TRN-654", word_span(s.line.span, pos),
                                  "the size of this corner is computed: where it is 0 the source has no corner, and the "
@@ -267,8 +269,6 @@ class CornerPass {
     });
   }
 
-  [[nodiscard]] std::string option(std::string_view name) const { return context_.source_machine.option(name); }
-
   /// The corner has no second element: a move outside of the plane or the end of the program comes first on every way.
   bool stands_alone(const Statement& s) const {
     if (!plane_words(s) || stays(s, false)) return true;
@@ -278,7 +278,9 @@ class CornerPass {
   /// On some way it has none.
   void tell_alone(const Statement& s, WordPos pos) {
     const auto ends = ends_.find(s.id);
-    if (ends == ends_.end() || context_.target_machine.option("corner.without_successor") == "left_out") return;
+    if (ends == ends_.end() ||
+        context_.target_machine.policies.corner_without_successor == machine::CornerWithoutSuccessor::left_out)
+      return;
     const auto tell = [this](const Span& where, std::string_view what) {
       context_.diagnostics.warning(
           "TRN-656", where,
@@ -444,11 +446,10 @@ class CornerPass {
 /// Whether there is a corner that the target can't write as it stands.
 bool wanted(const Program& program, const LegaliseContext& context) {
   const Capabilities& target = context.target;
-  const auto habit = [&](std::string_view option) {
-    return context.source_machine.option(option) != context.target_machine.option(option);
-  };
-  const bool habits =
-      habit("corner.chamfer_at_arc") || habit("corner.without_successor") || habit("corner.straight_on");
+  const auto &here = context.source_machine.policies, &there = context.target_machine.policies;
+  const bool habits = here.corner_chamfer_at_arc != there.corner_chamfer_at_arc ||
+                      here.corner_without_successor != there.corner_without_successor ||
+                      here.corner_straight_on != there.corner_straight_on;
   bool found = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {

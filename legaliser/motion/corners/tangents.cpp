@@ -125,11 +125,16 @@ class TangentPass {
     PathPoints::set_centre(m, points->plane, points->e.a, centre);
   }
 
+  [[nodiscard]] bool straight_for_the_source_alone() const {
+    const auto goes_on = [](const machine::Profile& m) {
+      return m.policies.arc_tangent_straight == machine::ArcTangentStraight::line;
+    };
+    return goes_on(context_.source_machine) && !goes_on(context_.target_machine);
+  }
+
   /// The end lies straight ahead, and the source goes there on a line where the target stops.
   bool goes_straight(const std::optional<Path>& points, const std::optional<Path>& before) const {
-    constexpr std::string_view option = "arc.tangent_straight";
-    if (context_.source_machine.option(option) != "line" || context_.target_machine.option(option) == "line")
-      return false;
+    if (!straight_for_the_source_alone()) return false;
     if (!before || !points || before->plane != points->plane) return false;
     Vec centre;
     bool ccw = false;
@@ -139,8 +144,7 @@ class TangentPass {
 
   /// Whether it does is not known here.
   void tell_unknown(const Statement& s) const {
-    constexpr std::string_view option = "arc.tangent_straight";
-    if (context_.source_machine.option(option) != "line" || context_.target_machine.option(option) == "line") return;
+    if (!straight_for_the_source_alone()) return;
     context_.diagnostics.warning("TRN-657", s.line.span,
                                  "the direction before this tangent arc, or its ends, are not known here: where its "
                                  "end lies straight ahead, the source goes there on a line and the target stops",
