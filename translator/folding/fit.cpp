@@ -28,7 +28,8 @@ enum class GoesBy : std::uint8_t { number, way, more };
 GoesBy turning(const ir::CoordWord& w, const ir::Program& program, const FoldTarget& target) {
   using ir::RotaryDirection;
   const machine::Profile& machine = target.machine;
-  if (program.dialect == target.dialect || machine.option("rotary.direction") == "in_word") return GoesBy::number;
+  if (program.dialect == target.dialect || machine.policies.rotary_direction == machine::RotaryDirection::in_word)
+    return GoesBy::number;
   const std::string dialect(target.dialect);
   const bool by_sign =
       machine.option(dialect + ".rotary_modulo").find(ir::fixed_axis_name(w.axis)) != std::string::npos ||
