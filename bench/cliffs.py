@@ -59,6 +59,7 @@ HEADS = {
 }
 for language, (first, *_) in list(HEADS.items()):
     HEADS[language].append(("rotary axes", first[1]))
+    HEADS[language].append(("increments", first[1]))
 # Where the sign of a rotary word is a direction for one side only, the words go by where the axis stands.
 BY_PLACE = {("num", "fagor"), ("num", "heidenhain")}
 TOOLS = {"heidenhain": "L Z+50 R0 FMAX\nTOOL CALL {} Z S4000\nM3\nL X+1 Y+1 R0 FMAX\nL Z+15 R0 FMAX\n",
@@ -73,21 +74,25 @@ SIGNED = re.compile(r"([XYZAC])(?=[0-9.])")
 
 def plain_text(words):
     """The same block as a Heidenhain says it: L or CC and C, with signs."""
-    places = [SIGNED.sub(r"\1+", w) for w in words[1:] if w[0] in "XYZACF"]
+    places = [SIGNED.sub(r"\1+", w) for w in words[1:] if w.lstrip("I")[0] in "XYZACF"]
     if words[0] != "G3":
         return " ".join(["L", *places])
     centre = [SIGNED.sub(r"\1+", w.replace("I", "X").replace("J", "Y")) for w in words[1:] if w[0] in "IJ"]
     return f"CC {' '.join(centre)}\nC {' '.join(places)} DR+"
 
 
-def body(language, size, seed, turns=False):
-    """Lines of a path of one or more tools, about `size` bytes; `turns`: with the words of two rotary axes."""
+def body(language, size, seed, turns=False, steps=False):
+    """Lines of a path of one or more tools, about `size` bytes; `turns`: with the words of two rotary axes, `steps`: by
+    increments."""
     r = random.Random(seed)
     numbers, arcs, every, tools = r.random() < 0.5, r.random() < 0.6, r.choice([0, 0, 500]), r.choice([0, 4000])
     space = r.choice([" ", " ", "" if language in ("fagor", "num") else " "])
     out, length, n, x, y, count = [], 0, 100, 0.0, 0.0, 0
     tool, blocks = 1, itertools.count(9)
-    a, c = 0.0, 10.0
+    a, c, before_z = 0.0, 10.0, 15.0
+    on, off = ("G91\n", "G90\n") if steps and language != "heidenhain" else ("", "")
+    out.append(on)
+    arcs = arcs and not (steps and language == "heidenhain")
     while length < size:
         words, lines = [], []
         z = -round(r.random() * 5, 3)
@@ -97,7 +102,7 @@ def body(language, size, seed, turns=False):
             rad = round(r.uniform(0.5, 9), 2)
             side = 1 if x < 0 else -1  # towards the middle
             nx, ny = round(x + 2 * side * rad, 3), y
-            if language in ("num", "heidenhain"):  # centres are places
+            if language in ("num", "heidenhain") and not steps:  # centres are places
                 centre = [f"I{x + side * rad:.3f}", f"J{y:.3f}"]
             else:
                 centre = [f"I{side * rad:g}", "J0"]
@@ -109,6 +114,12 @@ def body(language, size, seed, turns=False):
             words = ["G1", f"X{nx:.3f}", f"Y{ny:.3f}"]
         else:
             words = ["G1", f"X{nx:.3f}", f"Y{ny:.3f}", f"Z{z:.3f}"]
+        if steps:
+            mark = "I" if language == "heidenhain" else ""
+            way = {"X": nx - x, "Y": ny - y, "Z": z - before_z}
+            words = [f"{mark}{w[0]}{way[w[0]]:.3f}" if w[0] in way else w for w in words]
+        if any(w.lstrip("I")[0] == "Z" for w in words):
+            before_z = z
         if turns and words[0] != "G3":
             before = c
             a, c = (round(at + r.uniform(-0.9, 0.9) - at / 100, 3) for at in (a, c))
@@ -127,17 +138,17 @@ def body(language, size, seed, turns=False):
             lines.append(COMMENTS[language].format(f"LEVEL {count // every}"))
         if tools and count % tools == 0:
             tool += 1
-            lines.extend(TOOLS[language].format(tool % 20 + 1, 1).splitlines())
-            nx, ny = 1.0, 1.0
+            lines.extend((off + TOOLS[language].format(tool % 20 + 1, 1) + on).splitlines())
+            nx, ny, before_z = 1.0, 1.0, 15.0
         x, y = nx, ny
         text = "\n".join(lines) + "\n"
         out.append(text)
         length += len(text)
-    return "".join(out), count
+    return "".join(out) + off, count
 
 
 def program(language, head, size, seed):
-    text, count = body(language, size, seed, "rotary" in head[0])
+    text, count = body(language, size, seed, "rotary" in head[0], "increments" in head[0])
     sub = SUBS[language] if "call" in head[0] else ""
     if language == "fagor" and sub:
         return head[1] + text + TAILS[language].format("") + sub, count

@@ -103,6 +103,7 @@ void prove_as_usual(TranslateOptions& options);
 /// What a program does that its text was not folded for.
 struct Unfit {
   std::set<std::uint64_t> numbers;  ///< it jumps to these blocks
+  std::set<std::uint32_t> runs;     ///< of plain lines that are not read as they look
   std::uint32_t letters = 0;        ///< of axes whose words mean more than their number; bit 0 is A
   std::uint32_t by_way = 0;         ///< of axes whose words go by the way there
   bool whole = false;               ///< any line may matter

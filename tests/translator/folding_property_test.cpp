@@ -102,7 +102,8 @@ class Path {
     if (!rapid && words.front() != "G1") return;
     words.front() = "L";
     for (std::size_t i = 1; i < words.size(); ++i) {
-      if (words[i][0] != 'F' && words[i][1] != '-') words[i].insert(1, "+");
+      const std::size_t at = words[i][0] == 'I' ? 2 : 1;
+      if (words[i][0] != 'F' && words[i][at] != '-') words[i].insert(at, "+");
     }
     if (rapid) words.insert(words.end(), {"R0", "FMAX"});
   }
@@ -171,19 +172,41 @@ class Path {
       put({"G0", "Z50"});
       tool(between(2, 9));
     }
-    if (kind == 3 && !lathe_) {
-      const std::string x = plain_text() ? "IX" : "X", y = plain_text() ? "IY" : "Y";
-      if (!plain_text()) put({"G91"});
-      for (int i = 0; i < 30; ++i)
-        put({plain_text() ? "L" : "G1", x + number(between(1, 90)), y + number(between(1, 90))});
-      if (!plain_text()) put({"G90"});
-      put({"G1", "X10", "Y20"});
-      at_ = {10000, 20000};
-    }
+    if (kind == 3 && !lathe_) increments();
     if (kind == 4 && !plain_text()) put({"G4", language_ == "fagor" ? "K50" : "F1"});
     if (kind == 4 && plain_text()) put({"LBL " + std::to_string(label_++)});
     if (kind == 5) put({(plain_text() ? "TOOL CALL Z S" : "S") + std::to_string(between(5, 40) * 100)});
     if (kind == 6) put({chance(50) ? "M9" : "M1"});
+  }
+
+  /// A part of the path by increments, with arcs where the language has them in such lines.
+  void increments() {
+    if (!plain_text()) put({"G91"});
+    const std::string sign = plain_text() ? "I" : "";
+    const int lines = between(20, 150);
+    for (int i = 0; i < lines; ++i) {
+      std::vector<std::string> words{"G1"};
+      for (const char axis : {'X', 'Y', 'Z'}) {
+        if (chance(70) || words.size() == 1) words.push_back(sign + axis + number(between(-90, 90) * 10));
+      }
+      for (const char axis : turning_) {
+        if (chance(50)) words.push_back(sign + axis + number(between(-90, 90)));
+      }
+      if (chance(5)) words.push_back("F" + std::to_string(between(1, 20) * 50));
+      if (!plain_text() && arcs_ && chance(15)) {
+        const int r = between(2, 40) * 100;
+        const bool by_centre = chance(50);
+        words = {chance(50) ? "G2" : "G3", "X" + number(2 * r), "Y0"};
+        if (by_centre) words.insert(words.end(), {"I" + number(r), "J0"});
+        if (!by_centre) words.push_back((language_ == "sinumerik" ? "CR=" : "R") + number(r));
+      }
+      put(words);
+      if (plain_text() && chance(10)) put({"G1", "X" + number(place())});
+    }
+    if (!plain_text()) put({"G90"});
+    turned_ = {};
+    put({"G1", "X10", "Y20"});
+    at_ = {10000, 20000};
   }
 
   void line(int i) {

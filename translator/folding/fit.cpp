@@ -78,12 +78,13 @@ std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& mac
   }
   const ir::FactTable facts = ir::analyse(program, machine.power_on);
   constexpr auto distance = static_cast<std::size_t>(ir::Setting::distance);
-  found.whole = found.whole || std::any_of(folded.gaps().begin(), folded.gaps().end(), [&](const Gap& gap) {
-                  const auto it = ids.find(gap.first - 1);
-                  if (gap.stands_in) return false;
-                  return it == ids.end() || facts.before(it->second).settings[distance] !=
-                                                static_cast<std::uint8_t>(ir::Distance::absolute);
-                });
+  for (const Gap& gap : folded.gaps()) {
+    const auto it = ids.find(gap.first - 1);
+    const auto mode = gap.place.increments ? ir::Distance::incremental : ir::Distance::absolute;
+    if (!gap.stands_in &&
+        (it == ids.end() || facts.before(it->second).settings[distance] != static_cast<std::uint8_t>(mode)))
+      found.runs.insert(gap.run);
+  }
   for (const ir::AxisId id : {ir::axis::a, ir::axis::b, ir::axis::c}) {
     const std::uint32_t letter = 1U << static_cast<unsigned>(ir::fixed_axis_name(id).front() - 'A');
     const auto with_it = [letter](const Gap& gap) { return (gap.letters & letter) != 0; };
@@ -100,7 +101,8 @@ std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& mac
     else if (goes_by == GoesBy::way && !told)
       found.by_way |= letter;
   }
-  if (!found.whole && found.numbers.empty() && (found.letters | found.by_way) == 0) return std::nullopt;
+  if (!found.whole && found.numbers.empty() && found.runs.empty() && (found.letters | found.by_way) == 0)
+    return std::nullopt;
   return found;
 }
 

@@ -126,7 +126,7 @@ bool FoldedLines::each(const Span& line, const std::function<bool(const ir::Stat
   for (auto it = forms_.lower_bound({gap.run, 0}); it != forms_.end() && it->first.first == gap.run; ++it)
     forms[it->first.second] = &it->second;
   std::int8_t motion = gap.motion;
-  const PlainPlace nowhere;
+  const PlainPlace nowhere{.increments = gap.place.increments};
   SourceLine l;
   l.number = gap.first - 1;
   for (std::uint64_t from = gap.from; from < gap.to;) {
@@ -152,6 +152,7 @@ std::optional<RunResult> run_folded(const std::string& path, const Dialect& dial
   if (options.reader != frontends::Reader::scanner || std::filesystem::file_size(path, ignored) < least_size || ignored)
     return std::nullopt;
   FoldedText::Stays stays;
+  stays.as_read = true;
   constexpr int most_readings = 3;
   for (int tries = 0; tries < most_readings; ++tries) {
     const auto text = FoldedText::of(path, dialect.frontend->plain_words(), stays);
@@ -163,6 +164,7 @@ std::optional<RunResult> run_folded(const std::string& path, const Dialect& dial
     if (!result.unfit) return result;
     if (result.unfit->whole) return std::nullopt;
     stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
+    stays.runs.insert(result.unfit->runs.begin(), result.unfit->runs.end());
   }
   return std::nullopt;
 }

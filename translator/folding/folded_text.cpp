@@ -36,6 +36,14 @@ constexpr std::uint64_t all_pairs(std::size_t numbers) {
 constexpr std::uint32_t bit(char letter) {
   return 1U << static_cast<unsigned>(letter - 'A');
 }
+/// The letters of the axes: those that it moves by increments, those that it moves to places.
+constexpr std::uint32_t letters_of_increments(std::uint32_t letters) {
+  const std::uint32_t axes = letters >> increment_bits;
+  return (axes & 7U) << static_cast<unsigned>('X' - 'A') | axes >> 3U;
+}
+constexpr std::uint32_t by_place(std::uint32_t letters) {
+  return letters & letters_of_increments(all_increments);
+}
 constexpr std::uint32_t centres = bit('I') | bit('J') | bit('K'), plane_axes = bit('X') | bit('Y');
 
 }  // namespace
@@ -119,6 +127,7 @@ class TextFolder {
       in_run_ = false;
       motion_ = motion_unknown;
       forget_place();
+      place_.increments = line_.increments_after(text, place_.increments);
       return;
     }
     if (!in_run_) run_begin_ = raw.first;
@@ -140,6 +149,7 @@ class TextFolder {
     if ((line_.letters() & bit('G')) != 0) motion_said_ = {raw, before};
     if (!is_arc(motion_) && (line_.letters() & plane_axes) == plane_axes)
       anchor_ = {raw, before, line_.letters(), motion_said_};
+    increments_ = increments_ || (line_.letters() & all_increments) != 0;
     Shape* const shape = shape_of();
     const auto index = static_cast<std::uint32_t>(shape - result_.shapes_.data());
     const bool first = shape->run != run_ + 1;
@@ -169,7 +179,7 @@ class TextFolder {
     if (lines_before < run_head || shape.shown < least_samples) return true;
     if (shape.told_apart != all_pairs(line_.count()) && (unlike(line_) & ~shape.told_apart) != 0) return true;
     if (shape.seen == 2 && !stays_.more.empty() && stays_.more.contains(run_)) return true;
-    if (needs_start() && !knows_start()) return true;
+    if ((needs_start() && !knows_start()) || !keeps_sums()) return true;
     for (std::size_t i = 0; i < line_.count(); ++i) {
       const PlainNumber& n = line_.number(i);
       if (shape.spellings[i][n.form] <= n.places) return true;
@@ -180,7 +190,19 @@ class TextFolder {
   /// An arc by its centre: what it means, or how it is written, may go by where it begins. One that does not say its
   /// sense has it from the arc before it.
   [[nodiscard]] bool needs_start() const {
+    if ((line_.letters() & all_increments) != 0) return false;
     return is_arc(motion_) && ((line_.letters() & centres) != 0 || (line_.letters() & bit('G')) == 0);
+  }
+
+  /// Lines that are left out are followed: what others become goes by it.
+  [[nodiscard]] bool knows_places() const { return line_.by_way() != 0 || increments_; }
+
+  /// The increments of the gap can go into one of its lines: it is no arc, and says no place of the same axis.
+  [[nodiscard]] bool keeps_sums() const {
+    const std::uint32_t used = open_ ? used_ : 0, letters = line_.letters();
+    if (is_arc(motion_) && (letters & all_increments & ~used) != 0) return false;
+    return (by_place(letters) & letters_of_increments(used)) == 0 &&
+           (by_place(used) & letters_of_increments(letters)) == 0;
   }
 
   [[nodiscard]] bool knows_start() const {
@@ -200,7 +222,7 @@ class TextFolder {
   }
 
   void forget_place() {
-    place_ = {};
+    place_ = PlainPlace{.increments = place_.increments};
     forget_start();
   }
   void forget_start() {
@@ -233,16 +255,26 @@ class TextFolder {
       open_ = true;
       gap_ = {.first = raw.first, .run = run_, .from = raw.from, .motion = before, .place = place_};
       used_ = 0;
+      sums_ = {};
     }
     gap_.last = raw.last;
     gap_.to = raw.to;
-    if (line_.by_way() != 0) place_.follow(line_);
+    if (knows_places()) place_.follow(line_);
     const Last now =
         needs_start() ? Last{raw, anchor_.raw, anchor_.motion, anchor_.said} : Last{raw, raw, before, motion_said_};
-    const std::uint32_t letters = line_.letters() | bit('N');
+    const std::uint32_t letters = (line_.letters() & (is_arc(motion_) ? ~all_increments : ~0U)) | bit('N');
+    add_increments(line_, sums_, 1);
     for (std::uint32_t left = letters; left != 0; left &= left - 1)
       last_[static_cast<std::size_t>(std::countr_zero(left))] = now;
     used_ |= letters;
+  }
+
+  static void add_increments(const PlainLine& line, AxisNumbers& sums, int sign) {
+    if ((line.letters() & all_increments) == 0) return;
+    for (std::size_t i = 0; i < line.count(); ++i) {
+      const PlainNumber& n = line.number(i);
+      if (n.increment) sums[static_cast<std::size_t>(PlainPlace::index_of(n.letter))] += sign * signed_value(n);
+    }
   }
 
   void keep(const Raw& raw) {
@@ -268,7 +300,8 @@ class TextFolder {
     if (!open_) return;
     open_ = false;
     gap_.letters = used_;
-    const bool by_way = (used_ & line_.by_way()) != 0;
+    const bool sums = !stays_.as_read && (used_ & all_increments) != 0;
+    const bool by_way = (used_ & line_.by_way()) != 0 || sums;
     std::vector<Last> lines;
     for (std::uint32_t left = used_; left != 0; left &= left - 1) {
       Last last = last_[static_cast<std::size_t>(std::countr_zero(left))];
@@ -287,12 +320,13 @@ class TextFolder {
     Gap rest = gap_;
     const std::size_t gaps_before = result_.gaps_.size();
     PlainLine line = line_;
+    if (sums) take_kept(lines, line);
     for (const Last& l : lines) {
       if (l.raw.first < rest.first) continue;  // stays already
       if (l.begin.first > rest.first) {
         add_gap(rest, l.begin);
         for (const char letter : {'X', 'Y', 'Z', 'A', 'B', 'C'}) {
-          if ((used_ & bit(letter)) != 0)
+          if (((used_ | letters_of_increments(used_)) & bit(letter)) != 0)
             rest.place.known[static_cast<std::size_t>(PlainPlace::index_of(letter))] = false;
         }
         rest.first = l.begin.first;
@@ -301,18 +335,52 @@ class TextFolder {
         rest.goes_on = true;
       }
       const Gap kept = rest;
-      const bool comment = keep_part(rest, l.raw, line, !by_way || !rest.goes_on);
-      if (by_way && !comment && kept.goes_on) stand_in(kept, rest);
+      const bool stands = by_way && (rest.goes_on || sums);
+      const bool comment = keep_part(rest, l.raw, line, !stands);
+      if (stands && !comment) stand_in(kept, rest);
       rest.goes_on = result_.gaps_.size() != gaps_before;
     }
-    if (line_.by_way() == 0) place_ = rest.place;
+    if (!knows_places()) place_ = rest.place;
+    lost_ = lost_ || (sums && sums_ != AxisNumbers{});
   }
 
+  /// What the lines that stay move is not lost.
+  void take_kept(const std::vector<Last>& lines, PlainLine& line) {
+    std::uint64_t from = gap_.from;
+    for (const Last& l : lines) {
+      if (l.raw.from < from) continue;
+      std::string_view text = bytes(std::max(from, l.begin.from), l.raw.to);
+      from = l.raw.to;
+      SourceLine at;
+      PlainUnit unit;
+      while (line.take(text, at, unit)) {
+        if (line.scan(unit.text, motion_unknown, gap_.place) != PlainLine::Kind::other) add_increments(line, sums_, -1);
+      }
+    }
+  }
+  /// Copies from `done` on up to behind the numbers of the unit that take what would be lost.
+  void put_sums(const PlainLine& line, const char*& done) {
+    if (is_arc(line.motion_after())) return;
+    for (std::size_t i = 0; i < line.count(); ++i) {
+      const PlainNumber& n = line.number(i);
+      if (!n.increment) continue;
+      const auto axis = static_cast<std::size_t>(PlainPlace::index_of(n.letter));
+      const std::int64_t sum = std::exchange(sums_[axis], 0);
+      if (sum == 0) continue;
+      const char* begin = n.text.data();
+      if (begin[-1] == '-' || begin[-1] == '+') --begin;
+      text_.append(done, begin);
+      text_ += spelt(signed_value(n) + sum);
+      done = n.text.data() + n.text.size();
+      lost_ = lost_ || std::abs(signed_value(n) + sum) >= 100'000 * place_scale;
+    }
+  }
   /// The lines from the rest's first one to this one stay; `shown`: they are written as the others of their shape.
   /// True: nothing but comments.
   bool keep_part(Gap& rest, const Raw& last, PlainLine& line, bool shown) {
     std::string_view text = bytes(rest.from, last.to);
-    text_ += text;
+    const char* done = text.data();
+    const char* const end = done + text.size();
     SourceLine l;
     PlainUnit unit;
     l.number = rest.first - 1;
@@ -329,9 +397,11 @@ class TextFolder {
         result_.kept_.push_back(
             {unit.first, unit.last, run_, static_cast<std::uint32_t>(shape), false, rest.motion, rest.place});
       }
+      if (!shown) put_sums(line, done);
       rest.place.follow(line);
       rest.motion = line.motion_after();
     }
+    text_.append(done, end);
     rest.first = last.last + 1;
     rest.from = last.to;
     return comment;
@@ -359,12 +429,13 @@ class TextFolder {
   std::string text_;
   std::vector<std::uint32_t> numbers_;
   std::uint32_t run_ = 0, run_begin_ = 0;
-  bool in_run_ = false;
+  bool in_run_ = false, increments_ = false;
   std::int8_t motion_ = motion_unknown;
   PlainPlace place_;   ///< behind the last line that stays
   bool open_ = false;  ///< lines are being left out
   Gap gap_;
-  std::array<Last, 26> last_{};
+  std::array<Last, 32> last_{};
+  AxisNumbers sums_{};          ///< increments of the lines that are being left out
   std::uint32_t used_ = 0;      ///< letters with a line in last_
   std::vector<Last> comments_;  ///< between the lines that are being left out
   Said motion_said_;

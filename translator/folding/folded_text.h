@@ -54,6 +54,7 @@ class FoldedText {
     std::set<std::uint64_t> numbers;                           ///< by their block number
     std::set<std::uint32_t> runs;                              ///< all lines of these runs
     std::set<std::pair<std::uint32_t, std::uint32_t>> shapes;  ///< all lines of a shape in a run
+    bool as_read = false;          ///< lines stay as they are, also where increments are lost
     std::set<std::uint32_t> more;  ///< runs whose first lines of a shape are special: the second stays as well
   };
   /// nullopt: the file can't be read, or too little can be left out to be worth it.

@@ -12,17 +12,6 @@ constexpr bool is_code(char letter) {
   return std::string_view("GMTDSH%").find(letter) != std::string_view::npos;
 }
 
-/// The shortest way to write so many ten thousandths.
-std::string shortest(std::int64_t value) {
-  const bool minus = value < 0;
-  std::string digits = std::to_string(minus ? -value : value);
-  if (digits.size() < 5) digits.insert(0, 5 - digits.size(), '0');
-  digits.insert(digits.size() - 4, 1, '.');
-  while (digits.back() == '0') digits.pop_back();
-  if (digits.back() == '.') digits.pop_back();
-  return minus ? '-' + digits : digits;
-}
-
 /// A place of an axis in a line that says nothing but the centre of the arc behind it: `CC X+5 Y+3`.
 bool of_centre(std::string_view written, std::size_t at, char letter, std::string_view lead) {
   if (letter < 'X' || letter > 'Z' || lead.empty()) return false;
@@ -51,22 +40,23 @@ std::optional<LineForm::Piece> LineForm::find(const PlainLine& line, const Plain
     piece.number = i;
     if (line.number(i).letter == letter && line.number(i).text == bare) return piece;
   }
-  for (std::size_t i = 0; i < line.count(); ++i) {  // spelt anew, and a centre as a place
+  for (std::size_t i = 0; i < line.count(); ++i) {  // spelt anew, and a centre or an increment as a place
     const PlainNumber& n = line.number(i);
     if (n.letter != letter) continue;
-    if (shortest(scaled(n.text)) == bare) {
+    if (spelt(scaled(n.text)) == bare) {
       piece.number = i;
       piece.anew = true;
       return piece;
     }
-    if (letter >= 'A' && letter <= 'C' && shortest(full_turn - scaled(n.text)) == bare) {
+    if (letter >= 'A' && letter <= 'C' && spelt(full_turn - scaled(n.text)) == bare) {
       piece.number = i;
       piece.turn = true;
       return piece;
     }
-    if (letter < 'I' || letter > 'K') continue;
-    const auto axis = static_cast<std::size_t>(n.letter - 'I');
-    if (!before.known[axis] || shortest(scaled(n.text) + before.at[axis]) != bare) continue;
+    const bool centre = letter >= 'I' && letter <= 'K';
+    if (!centre && !n.increment) continue;
+    const auto axis = static_cast<std::size_t>(centre ? n.letter - 'I' : PlainPlace::index_of(n.letter));
+    if (!before.known[axis] || spelt(signed_value(n) + before.at[axis]) != bare) continue;
     piece.number = i;
     piece.axis = static_cast<std::int8_t>(axis);
     return piece;
@@ -130,7 +120,7 @@ std::optional<LineForm> LineForm::of(const PlainLine& line, const PlainPlace& be
     }
     if (!piece) return std::nullopt;
     const PlainNumber& number = line.number(piece->number);
-    if (number.minus != (bare.size() != token.size()) && shortest(scaled(number.text)) == bare) piece->anew = true;
+    if (number.minus != (bare.size() != token.size()) && spelt(scaled(number.text)) == bare) piece->anew = true;
     piece->before = std::move(fixed);
     fixed.clear();
     used[piece->number] = true;
@@ -157,8 +147,9 @@ void LineForm::write(const PlainLine& line, const PlainPlace& before, std::strin
     to = copy_short(to, p.before);
     std::string_view number = line.number(p.number).text;
     if (p.anew || p.turn || p.axis >= 0) {
-      const std::int64_t value = p.turn ? full_turn - scaled(number) : scaled(number);
-      sum = shortest(value + (p.axis >= 0 ? before.at[static_cast<std::size_t>(p.axis)] : 0));
+      const std::int64_t own = p.axis >= 0 ? signed_value(line.number(p.number)) : scaled(number);
+      const std::int64_t value = p.turn ? full_turn - own : own;
+      sum = spelt(value + (p.axis >= 0 ? before.at[static_cast<std::size_t>(p.axis)] : 0));
       number = sum;
     }
     if (p.plus && number.front() != '-') *to++ = '+';

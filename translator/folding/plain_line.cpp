@@ -52,6 +52,16 @@ std::int64_t scaled(std::string_view number) {
   return (minus ? -value : value) * unit;
 }
 
+std::string spelt(std::int64_t value) {
+  const bool minus = value < 0;
+  std::string digits = std::to_string(minus ? -value : value);
+  if (digits.size() < 5) digits.insert(0, 5 - digits.size(), '0');
+  digits.insert(digits.size() - 4, 1, '.');
+  while (digits.back() == '0') digits.pop_back();
+  if (digits.back() == '.') digits.pop_back();
+  return minus ? '-' + digits : digits;
+}
+
 std::int64_t signed_value(const PlainNumber& number) {
   return number.minus ? -scaled(number.text) : scaled(number.text);
 }
@@ -61,8 +71,9 @@ void PlainPlace::follow(const PlainLine& line) {
     const PlainNumber& n = line.number(i);
     const int axis = index_of(n.letter);
     if (axis < 0) continue;
-    at[static_cast<std::size_t>(axis)] = signed_value(n);
-    known[static_cast<std::size_t>(axis)] = n.places <= 4;
+    const auto own = static_cast<std::size_t>(axis);
+    at[own] = signed_value(n) + (n.increment ? at[own] : 0);
+    known[own] = n.places <= 4 && (known[own] || !n.increment);
   }
 }
 
@@ -71,6 +82,9 @@ PlainLine::PlainLine(const frontends::PlainWords& words)
       codes_(words.codes),
       bare_block_number_(words.bare_block_number),
       lead_(words.lead),
+      increments_(words.increments),
+      places_(words.places),
+      increment_(words.increment),
       other_blocks_(words.other_blocks),
       comments_(words.comments) {
   for (const auto& code : codes_) code_letters_ |= 1U << static_cast<unsigned>(code.text.front() - 'A');
@@ -170,6 +184,17 @@ bool PlainLine::is_comment(std::string_view line) const {
          (comments_.last == 0 || line.find(comments_.last) == line.size() - 1);
 }
 
+bool PlainLine::increments_after(std::string_view line, bool before) const {
+  const auto last = [line](std::string_view word) {
+    auto at = word.empty() ? std::string_view::npos : line.rfind(word);
+    while (at != std::string_view::npos && at + word.size() < line.size() && is_digit(line[at + word.size()]))
+      at = at == 0 ? std::string_view::npos : line.rfind(word, at - 1);
+    return at + 1;  // 0: nowhere
+  };
+  const auto increments = last(increments_), places = last(places_);
+  return increments == places ? before : increments > places;
+}
+
 char PlainLine::way_to(const PlainNumber& number, const PlainPlace& before) {
   const auto axis = static_cast<std::size_t>(PlainPlace::index_of(number.letter));
   const std::int64_t way = signed_value(number) - before.at[axis];
@@ -188,9 +213,10 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     hash = hashed(hash, c);
   };
   add(static_cast<char>('0' + motion_before));
+  if (before.increments) add('i');
   count_ = 0;
   motion_ = motion_before;
-  bool odd = false, begins = bare_block_number_, in_lead = false, has_radius = false;
+  bool odd = false, begins = bare_block_number_, in_lead = false, has_radius = false, increments = false;
   while (p != end) {
     char c = *p++;
     if (is_space(c)) {
@@ -212,11 +238,19 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
       if (code->group != 0) letters |= 1U << static_cast<unsigned>(code->group - 'A');
       continue;
     }
+    const bool by_word = c == increment_ && p != end && PlainPlace::index_of(*p) >= 0;
+    if (by_word) {
+      if (in_lead) return Kind::other;
+      add(c);
+      c = *p++;
+    }
     add(c);
     const bool place = in_lead && c >= 'X';  // of the centre
     const bool radius = c == 'C' && radius_.free && end - p > 2 && p[0] == 'R' && p[1] == '=';
     const auto meant = static_cast<char>(radius ? 'R' : place ? c - 'X' + 'I' : c);
-    letters |= 1U << static_cast<unsigned>(meant - 'A');
+    const int axis = by_word || before.increments ? PlainPlace::index_of(meant) : -1;
+    letters |= 1U << static_cast<unsigned>(axis >= 0 ? increment_bits + axis : meant - 'A');
+    increments = increments || axis >= 0;
     if (c == 'G' && codes_.empty()) {
       const char* const from = p;
       while (p != end && is_digit(*p)) ++p;
@@ -237,6 +271,7 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     if (count_ == max_numbers) return Kind::other;
     PlainNumber& number = numbers_[count_++];
     number.letter = meant;
+    number.increment = axis >= 0;
     has_radius = has_radius || number.letter == 'R';
     if (!take_number(p, end, rule, number, odd)) return Kind::other;
     number.minus = rule.sign_told && number.text.front() == '-';
@@ -244,7 +279,7 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
       add('-');
       number.text.remove_prefix(1);
     }
-    if (rule.by_way) {
+    if (rule.by_way && !number.increment) {
       const char way = way_to(number, before);
       odd = odd || way == 0;
       add(way);
@@ -256,6 +291,7 @@ PlainLine::Kind PlainLine::scan(std::string_view line, std::int8_t motion_before
     if (c == 'N' && other_blocks_ != 0 && whole_number(number.text) > other_blocks_) add('!');
     if (p != end && !is_space(*p) && !is_capital(*p)) return Kind::other;
   }
+  odd = odd || (increments && !lead_.empty() && (motion_ == 2 || motion_ == 3));
   if (n == 1 || (has_radius && motion_ != 2 && motion_ != 3)) return Kind::other;
   if (motion_ == 0 && (motion_before == rapid_with_feed || (letters & feed_word) != 0)) motion_ = rapid_with_feed;
   key_size_ = n;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/source.h"
@@ -26,6 +27,7 @@ struct PlainNumber {
   NumberForm form = 0;
   std::uint8_t places = 0;  ///< digits behind the point
   bool minus = false;       ///< told by the key
+  bool increment = false;   ///< of the place of an axis
 };
 
 /// The motion in force, as far as plain lines tell: 0 to 3 as of G0 to G3, or one of these. An F beside a rapid move
@@ -36,15 +38,21 @@ inline constexpr std::int64_t place_scale = 10000, full_turn = 360 * place_scale
 /// A plain number in ten thousandths.
 std::int64_t scaled(std::string_view number);
 
+/// The shortest way to write so many ten thousandths.
+std::string spelt(std::int64_t value);
 /// With its sign.
 std::int64_t signed_value(const PlainNumber& number);
 
 class PlainLine;
 
-/// Ten thousandths: the last number of X, Y, Z, A, B and C in this run of plain lines.
+/// Ten thousandths of X, Y, Z, A, B and C.
+using AxisNumbers = std::array<std::int64_t, 6>;
+
+/// What their last numbers in this run of plain lines come to.
 struct PlainPlace {
-  std::array<std::int64_t, 6> at{};
+  AxisNumbers at{};
   std::array<bool, 6> known{};
+  bool increments = false;  ///< numbers of axes are increments here
   /// -1: no letter of an axis.
   static constexpr int index_of(char letter) {
     return letter >= 'X' && letter <= 'Z' ? letter - 'X' : letter >= 'A' && letter <= 'C' ? letter - 'A' + 3 : -1;
@@ -58,6 +66,9 @@ struct PlainUnit {
   std::string_view text;  ///< without the last line end
   std::uint32_t first = 0, last = 0;
 };
+
+inline constexpr int increment_bits = 26;
+inline constexpr std::uint32_t all_increments = 0x3FU << increment_bits;
 
 class PlainLine {
  public:
@@ -86,7 +97,9 @@ class PlainLine {
   [[nodiscard]] const PlainNumber& number(std::size_t i) const { return numbers_[i]; }
   /// Of another line: it is nothing but a comment.
   [[nodiscard]] bool comment() const { return comment_; }
-  /// Bit 0 is A: letters of its words.
+  /// Does a line that is not plain leave increments in force?
+  [[nodiscard]] bool increments_after(std::string_view line, bool before) const;
+  /// Bit 0 is A: letters of its words; from increment_bits on: axes that it moves by increments, X the first.
   [[nodiscard]] std::uint32_t letters() const { return letters_; }
   /// Of its words: the axis stands there already, and its number is not among the others.
   [[nodiscard]] std::uint32_t still() const { return still_; }
@@ -109,7 +122,8 @@ class PlainLine {
   std::span<const frontends::PlainCode> codes_;
   std::uint32_t code_letters_ = 0;  ///< bit 0 is A: letters that codes begin with
   bool bare_block_number_;
-  std::string_view lead_;
+  std::string_view lead_, increments_, places_;
+  char increment_;
   frontends::FreeNumber radius_;
   std::uint32_t other_blocks_;
   frontends::CommentLine comments_;

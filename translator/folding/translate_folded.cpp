@@ -46,6 +46,7 @@ std::unique_ptr<FoldedTranslation> translate_folded(const std::string& path, con
     if (result.unfit) {
       if (result.unfit->whole) return nullptr;
       stays.numbers.insert(result.unfit->numbers.begin(), result.unfit->numbers.end());
+      stays.runs.insert(result.unfit->runs.begin(), result.unfit->runs.end());
       for (std::uint32_t left = result.unfit->letters; left != 0; left &= left - 1)
         words.numbers[static_cast<std::size_t>(std::countr_zero(left))] = {};
       for (std::uint32_t left = result.unfit->by_way; left != 0; left &= left - 1) {
