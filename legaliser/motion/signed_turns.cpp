@@ -53,7 +53,7 @@ class SignedTurns {
     c.direction = RotaryDirection::by_sign;
     if (backwards)
       c.value = Value(-at);
-    else if (at != to)
+    else if (at != to || std::signbit(to))  // -0 of the source is no direction
       c.value = Value(at);
   }
 
