@@ -20,10 +20,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSIONS = {"fagor": {"mill": "pim", "lathe": "pit"}, "num": {"mill": "xpi", "lathe": "xpi"},
-              "sinumerik": {"mill": "mpf", "lathe": "mpf"}}
+              "sinumerik": {"mill": "mpf", "lathe": "mpf"}, "heidenhain": {"mill": "h"}}
 START = {  # header and safe start of a snippet, as in tests/language/pairs_test.cpp
     "fagor": ("%PAIR ,MX,\n", "G17 G40 G05 G71 G90 G94\n", "G18 G40 G05 G71 G90 G95 G151 G97\n", "M30\n"),
     "num": ("%100 (PAIR)\n", "G17 G40 G71 G80 G90 G94\n", "G18 G40 G71 G90 G95 G97\n", "M02\n"),
+    "heidenhain": ("BEGIN PGM PAIR MM\n", "", "", "M30\n"),
     "sinumerik": ("; PAIR\n", "G17 G40 G64 G710 G90 G94\n", "G18 G40 G64 G710 G90 G95 DIAMON\n", "M30\n"),
 }
 AXES = "XYZABC"
@@ -204,6 +205,21 @@ class Witness:
             self.thread = False
 
 
+def without_stops(moves):
+    """A rapid move on along one axis in the same sense is one move: a hole ends at its clearance, and further up."""
+    out, at = [], dict(ZERO)
+    for move in moves:
+        way = {a: move["to"][a] - at[a] for a in AXES if abs(move["to"][a] - at[a]) > 2e-4} if "to" in move else {}
+        move = dict(move, way=way if move["kind"] == "rapid" and len(way) == 1 else {})
+        at = move.get("to", at)
+        last = out[-1]["way"] if out else {}
+        if move["way"] and last.keys() == way.keys() and all(last[a] * way[a] > 0 for a in way):
+            out[-1] = dict(out[-1], to=move["to"])
+        else:
+            out.append(move)
+    return out
+
+
 def difference(ours, theirs, unit):
     """None when the move is the same, else what differs."""
     if ours["kind"] != theirs["kind"]:
@@ -279,15 +295,15 @@ class Comparer:
         run = subprocess.run([str(self.rs274), "-t", "tools.tbl", "-v", "parameters.var", "-g", "out.ngc", "canon.txt"],
                              cwd=here, env=dict(self.environment, HOME=str(here)), capture_output=True, text=True, errors="replace", timeout=120)
         canon = (here / "canon.txt").read_text(errors="replace").splitlines()
-        w, theirs = Witness(), []
-        units = []
+        w = Witness()
         for line in canon:
             before = len(w.moves)
             w.read(line)
-            units += [w.unit] * (len(w.moves) - before)
-        theirs = w.moves
+            for move in w.moves[before:]:
+                move["unit"] = w.unit
+        ours, theirs = without_stops(ours), without_stops(w.moves)
         for n, (a, b) in enumerate(zip(ours, theirs)):
-            what = difference(a, b, units[n])
+            what = difference(a, b, b["unit"])
             if what:
                 return "different", f"move {n + 1}, source line {a['line']}: {what}"
         if not any("PROGRAM_END" in line for line in canon):
