@@ -16,5 +16,7 @@ inline Value without_text(Value v) {
   v.text = {};
   return v;
 }
+/// A leg of polar words: wave(angle), a sine or a cosine, times the radius; exact at the quarters.
+Value polar_leg(const Value& r, const Value& angle, Function wave);
 
 }  // namespace cnctrans::ir

@@ -86,21 +86,6 @@ Value distance(const Value& du, const Value& dv) {
   if (du.literal() && dv.literal()) return Value{std::hypot(du.number, dv.number)};
   return Value{call(Function::sqrt, {binary(BinaryOp::add, square(du), square(dv))})};
 }
-/// wave(angle) times the radius.
-Value leg(const Value& r, const Value& angle, Function wave) {
-  const auto q = known_number(angle);
-  if (!q) return Value{binary(BinaryOp::multiply, as_expr(r), call(wave, {angle.expr}))};
-  const double quarters = *q / 90;
-  if (quarters == std::floor(quarters)) {
-    constexpr std::array<int, 4> cosine{1, 0, -1, 0};
-    const auto quarter = static_cast<std::size_t>(quarters - 4 * std::floor(quarters / 4));
-    const int factor = cosine[wave == Function::cos ? quarter : (quarter + 3) % 4];
-    return factor == 0 ? Value{0.0} : factor > 0 ? r : negate(r);
-  }
-  const double radians = *q * std::numbers::pi / 180;
-  if (r.literal()) return Value{r.number * (wave == Function::cos ? std::cos(radians) : std::sin(radians))};
-  return Value{binary(BinaryOp::multiply, r.expr, call(wave, {number(*q)}))};
-}
 
 /// Short enough, and the same whenever it is computed while the variables are.
 bool sayable(const Value& v) {
@@ -295,8 +280,8 @@ std::optional<PolarEnd> PathValues::end(const Block& b, const Facts& facts, cons
     if (!at[axes.u] || !at[axes.v]) return std::nullopt;
     found.radius = distance(difference(*at[axes.u], middle->u), difference(*at[axes.v], middle->v));
   }
-  const auto u = kept(total(middle->u, leg(found.radius, x.polar_angle, Function::cos)));
-  const auto v = kept(total(middle->v, leg(found.radius, x.polar_angle, Function::sin)));
+  const auto u = kept(total(middle->u, polar_leg(found.radius, x.polar_angle, Function::cos)));
+  const auto v = kept(total(middle->v, polar_leg(found.radius, x.polar_angle, Function::sin)));
   if (!u || !v || !sayable(found.radius)) return std::nullopt;
   const Place at = places(facts, state);
   const auto beside = [](const std::optional<Value>& a, const Value& end) {

@@ -5,6 +5,9 @@
 #include <numbers>
 #include <set>
 
+#include "ir/edit/search.h"
+#include "ir/known_number.h"
+#include "legaliser/analysis/words.h"
 #include "legaliser/edit/editor.h"
 #include "legaliser/motion/path_values.h"
 #include "legaliser/motion/polar_words.h"
@@ -201,9 +204,109 @@ class PolarCounters {
   std::optional<VarRef> radius_, angle_;
 };
 
+/// Polar words about a pole that is the tool's own place, wherever that is, become increments: a subprogram that mills
+/// about the place of its call. Followed along straight text.
+class StepsFromTool {
+ public:
+  StepsFromTool(Program& program, const LegaliseContext& context)
+      : program_(program),
+        machine_(context.source_machine),
+        facts_(program, context),
+        places_(program, facts_, context.target_machine, context) {}
+
+  void run(Routine& r) {
+    const LabelUses uses = label_uses(program_, r);
+    seen_.reset();
+    for (auto& s : r.body) {
+      const auto labels = labels_on(s.line);
+      if (std::any_of(labels.begin(), labels.end(), [&uses](const auto& l) { return uses.is_target(l); }))
+        seen_.reset();
+      if (auto* b = std::get_if<Block>(&s.node))
+        block(s, *b);
+      else if (!std::holds_alternative<Message>(s.node) && !std::holds_alternative<Label>(s.node))
+        seen_.reset();
+    }
+  }
+
+ private:
+  /// Where the tool stands seen from the pole that the block sets at its place, or a step from there.
+  void set_pole(const PoleSet& p, const Block& b, const PlaneAxes& plane) {
+    seen_.reset();
+    if (b.has_motion || (p.at && p.at->combine != FrameCombine::compose)) return;
+    ValuePoint seen{Value{0.0}, Value{0.0}};
+    for (std::size_t k = 0; p.at && k < p.at->words.size(); ++k) {
+      const FrameWord& w = p.at->words[k];
+      if (w.axis == plane.u) seen.u = negate(w.value);
+      if (w.axis == plane.v) seen.v = negate(w.value);
+    }
+    seen_ = seen;
+  }
+
+  void block(const Statement& s, Block& b) {
+    const Facts& facts = facts_.before(s);
+    const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+    const auto* pole = plane && s.line.skip_mask == 0 ? action_in<PoleSet>(b) : nullptr;
+    if (pole != nullptr) return set_pole(*pole, b, plane_axes(*plane));
+    if (!seen_) return;
+    if (!plane || s.line.skip_mask != 0) return seen_.reset();
+    if (!leaves_place(s, facts) || full_turn(b, plane_axes(*plane))) return;
+    const auto to = end(b, facts);
+    if (to) write(s, b, facts, *to, plane_axes(*plane));
+    seen_ = to;
+  }
+  /// A circle, or turns of a helix.
+  static bool full_turn(const Block& b, const PlaneAxes& plane) {
+    const auto& x = b.motion.extra;
+    const bool in_plane = std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                                      [&plane](const CoordWord& c) { return c.axis == plane.u || c.axis == plane.v; });
+    return b.has_motion && !loses_point(b) && !b.motion.centers.empty() && !in_plane &&
+           !(x && (x->has_polar_angle || x->has_polar_radius || x->has_angle));
+  }
+  [[nodiscard]] std::optional<ValuePoint> end(const Block& b, const Facts& facts) const {
+    if (!is_polar_line(b, facts) || b.repeat_given != 0 || !b.motion.coords.empty() || loses_point(b))
+      return std::nullopt;
+    const MotionExtra& x = *b.motion.extra;
+    const auto modes = polar_modes(x, setting_in<Distance>(b, facts, Setting::distance));
+    if (!x.has_polar_radius || !x.has_polar_angle || modes.adds_radius || modes.adds_angle) return std::nullopt;
+    return ValuePoint{polar_leg(x.polar_radius, x.polar_angle, Function::cos),
+                      polar_leg(x.polar_radius, x.polar_angle, Function::sin)};
+  }
+  void write(const Statement& s, Block& b, const Facts& facts, const ValuePoint& to, const PlaneAxes& plane) const {
+    if (places_.pole(s)) return;  // axis words say the place
+    for (const auto& [axis, value] :
+         {std::pair{plane.u, subtract(to.u, seen_->u)}, {plane.v, subtract(to.v, seen_->v)}}) {
+      const auto f = to_radius(axis, WordScale::modal, Distance::incremental, b, facts, machine_);
+      if (!f) return b.motion.coords.clear();
+      CoordWord w;
+      w.axis = axis;
+      w.mode = WordMode::incremental;
+      w.value = scale(value, 1 / *f);
+      b.motion.coords.push_back(w);
+    }
+    b.motion.extra = nullptr;
+  }
+
+  Program& program_;
+  const machine::Profile& machine_;
+  const FactsOf facts_;
+  const PathStates places_;
+  std::optional<ValuePoint> seen_;
+};
+
+bool poles_at_the_tool(const Program& program) {
+  return any_action(program, [](const Action& a) {
+    const auto* p = std::get_if<PoleSet>(&a.data);
+    return p != nullptr && (!p->at || p->at->combine == FrameCombine::compose);
+  });
+}
+
 }  // namespace
 
 void count_polar_steps(Program& program, const LegaliseContext& context) {
+  if (poles_at_the_tool(program)) {
+    StepsFromTool steps(program, context);
+    for (auto& r : program.routines) steps.run(r);
+  }
   PolarCounters(program, context).run();
 }
 

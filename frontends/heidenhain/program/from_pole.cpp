@@ -1,7 +1,8 @@
 #include "frontends/heidenhain/program/from_pole.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "ir/known_number.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -26,18 +27,6 @@ bool by_increments(const ir::Motion& m) {
                      [](const ir::CoordWord& c) { return c.mode == ir::WordMode::incremental; });
 }
 
-/// radius * cos(angle) or sin(angle), as a number where the angle is one.
-ir::Value leg(const ir::Value& radius, const ir::Value& angle, ir::Function f) {
-  if (!angle.literal())
-    return ir::Value(ir::binary(ir::BinaryOp::multiply, ir::as_expr(radius), ir::call(f, {ir::as_expr(angle)})));
-  const double turned = f == ir::Function::cos ? angle.number + 90 : angle.number;
-  const double quarter = std::remainder(turned, 360) / 90;
-  constexpr double to_radians = 0.017453292519943295;
-  const double exact =
-      quarter == std::round(quarter) ? std::round(std::sin(quarter * 90 * to_radians)) : std::sin(turned * to_radians);
-  return exact == 0 ? ir::Value{0.0} : ir::scale(radius, exact);
-}
-
 /// The place of the tool at the CC, whose words are increments from it.
 std::optional<FromPole> at_pole(const Pole& pole, const ir::PlaneAxes& plane) {
   FromPole out{ir::Value{0.0}, ir::Value{0.0}};
@@ -58,8 +47,8 @@ std::optional<FromPole> from_pole(const Flat& flat, const Arrival& a) {
   if (item.kind != ItemKind::pole) {
     const ir::Motion& m = block_of(item)->motion;
     if (by_polar_words(m))
-      return FromPole{leg(m.extra->polar_radius, m.extra->polar_angle, ir::Function::cos),
-                      leg(m.extra->polar_radius, m.extra->polar_angle, ir::Function::sin)};
+      return FromPole{ir::polar_leg(m.extra->polar_radius, m.extra->polar_angle, ir::Function::cos),
+                      ir::polar_leg(m.extra->polar_radius, m.extra->polar_angle, ir::Function::sin)};
   }
   auto out = at_pole(flat.poles[static_cast<std::size_t>(a.pole)], plane);
   if (!out || item.kind == ItemKind::pole) return out;
