@@ -3,10 +3,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "ir/known_number.h"
-
-#include <string>
 
 namespace cnctrans::ir {
 
