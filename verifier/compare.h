@@ -16,14 +16,17 @@ namespace cnctrans::verifier {
 
 /// How far two values may be apart. Lengths in mm, angles in degrees, times in seconds.
 struct Tolerances {
-  double length = 0.0014;  ///< end points (3 decimals round by 0.0005 mm, 4 decimals of inches by 0.00127)
-  double center = 0.002;   ///< arc centres
+  double length = 0.001;  ///< end points (3 decimals round by 0.0005 mm)
+  double center = 0.002;  ///< arc centres
   double angle = 0.0011;
   double feed_relative = 1e-6;
   double seconds = 0.0051;  ///< a dwell unit of 0.01 s rounds by 0.005
   double speed_relative = 1e-6;
   double contour = 0.004;  ///< contours that two similar cycles leave
 };
+
+/// The same in programs with inches, whose 4 decimals round by 0.00127 mm.
+inline constexpr double length_in_inches = 0.0014;
 
 struct Options {
   Tolerances tolerances;

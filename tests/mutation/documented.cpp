@@ -45,7 +45,8 @@ constexpr std::array<Row, 12> table = {{
      "a tool that is only made ready when a T of one of the two programs changes the tool at once"},
     {small_moves, "small moves", "a move below the tolerance, on one side only"},
     {tolerances, "tolerance",
-     "Tolerances: 0.0014 mm (half of the fourth decimal of an inch) and 0.0011 degrees on end points"},
+     "Tolerances: 0.001 mm (0.0014 in programs with inches: half of their fourth decimal) and 0.0011 degrees on end "
+     "points"},
     {texts, "signs of messages", "Messages are the same text, letters and signs, as far as a target can show it"},
     {taps, "sense in a tap", "there the sense of the spindle follows from the path"},
     {unfed, "feed before any F", "The feed the target's power-on state gives such a move"},

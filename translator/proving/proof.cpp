@@ -112,6 +112,22 @@ machine::Profile with_fixed_points(const Side& source, const ProofOptions& optio
   return there;
 }
 
+bool uses_inches(const Side& side) {
+  bool found = side.profile.power_on.units == ir::Units::inch;
+  for (const auto& r : side.program.routines) {
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      if (b == nullptr) return;
+      for (const auto& a : b->actions) {
+        const auto* m = std::get_if<ir::ModalSet>(&a.data);
+        found = found || (m != nullptr && m->setting == ir::Setting::units &&
+                          static_cast<ir::Units>(m->value) == ir::Units::inch);
+      }
+    });
+  }
+  return found;
+}
+
 class Prover {
  public:
   /// `called`: they begin in the state of their caller, its zero point included.
@@ -120,6 +136,7 @@ class Prover {
         source_{source.program, source_profile_, source.loader},
         target_(target),
         options_(options) {
+    if (uses_inches(source) || uses_inches(target)) compared_.tolerances.length = verifier::length_in_inches;
     compared_.switches_length = options.target.length_comp_switch;
     compared_.stops_by_mode = options.target.exact_stop_modal;
     compared_.stops_in_block = options.target.exact_stop_block;
