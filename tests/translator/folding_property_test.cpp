@@ -50,7 +50,7 @@ class Path {
     modal_ = !plain_text() && chance(50);
     every_ = chance(50) ? between(40, 200) : 0;
     places_ = between(1, 3);
-    if (!lathe && chance(40)) turning_ = chance(50) ? "AC" : chance(50) ? "BC" : "A";
+    if (chance(40)) turning_ = lathe ? "C" : chance(50) ? "AC" : chance(50) ? "BC" : "A";
     plain_turns_ = chance(50);
   }
 
