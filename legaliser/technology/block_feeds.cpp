@@ -81,6 +81,21 @@ void write_block_feeds(Program& program, const LegaliseContext& context) {
       if (f != nullptr && !f->block_only) before = f->value;
     }
     if (!before && !known.none) return out.push_back(std::move(s));
+    if (!b.has_motion || !b.motion.moves()) {
+      // No way, and so nothing for it to say; as a word of the path it runs what is modal.
+      const bool modal = facts.before(s).modal_call > 0 || facts.before(s).cycle_active;
+      const bool beside = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+        return std::holds_alternative<SetFeed>(a.data) && !is_block_feed(a);
+      });
+      if (modal && before && !beside) {
+        own->data = SetFeed{*before, false, false};
+        own->text = {};
+      } else {
+        b.actions.erase(own);
+      }
+      settle(s);
+      return out.push_back(std::move(s));
+    }
     std::get<SetFeed>(own->data).block_only = false;
     own->text = {};
     std::erase_if(b.actions,
