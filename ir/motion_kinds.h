@@ -17,4 +17,10 @@ constexpr MotionKind left_in_force(MotionKind k) {
   return once ? MotionKind::linear : k;
 }
 
+/// Where the move ends is the machine's affair: at a place of its own, at what a probe touches, at a stop.
+constexpr bool ends_at_the_machine(MotionKind k) {
+  return k == MotionKind::reference_point || k == MotionKind::fixed_point || k == MotionKind::probe_toward ||
+         k == MotionKind::probe_away || k == MotionKind::to_stop;
+}
+
 }  // namespace cnctrans::ir

@@ -208,24 +208,12 @@ class Transfer {
     return start && !repeated ? std::optional(*start + *x) : std::nullopt;
   }
 
-  /// The motion ends where its words say.
-  static bool ends_at_words(std::optional<MotionKind> kind) {
-    switch (kind.value_or(MotionKind::probe_toward)) {
-      case MotionKind::probe_toward:
-      case MotionKind::probe_away:
-      case MotionKind::to_stop:
-      case MotionKind::reference_point:
-      case MotionKind::fixed_point: return false;
-      default: return true;
-    }
-  }
-
   void motion(const Block& b) {
     const Motion& m = b.motion;
     const auto kind = m.kind == MotionKind::modal ? f_.motion : std::optional(m.kind);
     if (m.kind != MotionKind::modal && m.keeps_modal) f_.motion = left_in_force(m.kind);
-    const bool plain = ends_at_words(kind) && m.frame == FrameUse::normal;
-    if (!plain && m.coords.empty() && kind != std::nullopt && !ends_at_words(kind)) return forget_positions();
+    const bool plain = kind && !ends_at_the_machine(*kind) && m.frame == FrameUse::normal;
+    if (m.coords.empty() && kind && ends_at_the_machine(*kind)) return forget_positions();
     const auto before = f_.position;
     if (!plain) forget(framed_.turned);  // an axis of the machine moves more than one coordinate of theirs
     for (const auto& w : m.coords) set_position(w.axis, plain ? target(w, b.repeat_given != 0) : std::nullopt);

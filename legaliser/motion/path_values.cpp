@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ir/known_number.h"
+#include "ir/motion_kinds.h"
 #include "legaliser/analysis/words.h"
 
 namespace cnctrans::ir::passes {
@@ -323,8 +324,10 @@ void PathValues::block(const Statement& s, const Block& b, State& state) const {
   State behind = state;
   actions(s, behind);
   const Place from = moved_zero ? behind.at : places(facts, state);
+  const auto kind = motion_in(b, facts);
   const bool plain = !moved_zero && !cycle && b.has_motion && b.motion.frame == FrameUse::normal &&
-                     b.repeat_given == 0 && !(b.motion.extra && !b.motion.extra->computed.empty());
+                     !(kind && ends_at_the_machine(*kind)) && b.repeat_given == 0 &&
+                     !(b.motion.extra && !b.motion.extra->computed.empty());
   const State middle = behind;
   const auto polar = plain ? end(b, facts, middle) : std::nullopt;
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);

@@ -8,6 +8,7 @@
 
 #include "interpreter/program/interpreter.h"
 #include "ir/edit/rewrite.h"
+#include "ir/motion_kinds.h"
 
 namespace cnctrans::translator {
 
@@ -20,18 +21,6 @@ class NoEvents : public interpreter::TraceSink {
  public:
   void on_event(const interpreter::Event&) override {}
 };
-
-/// Where the move ends is the machine's affair: at a place of its own, at what a probe touches, at a stop.
-constexpr bool ends_at_the_machine(ir::MotionKind kind) {
-  switch (kind) {
-    case ir::MotionKind::reference_point:
-    case ir::MotionKind::fixed_point:
-    case ir::MotionKind::probe_toward:
-    case ir::MotionKind::probe_away:
-    case ir::MotionKind::to_stop: return true;
-    default: return false;
-  }
-}
 
 /// Reads data of the machine or goes to its places, selects work offsets, changes frames on a machine whose increments
 /// add to what was programmed before.
@@ -55,7 +44,7 @@ Inputs inputs_of(const ir::Program& program) {
       if (b == nullptr) return;
       found.reads_machine =
           found.reads_machine ||
-          (b->has_motion && (b->motion.frame != ir::FrameUse::normal || ends_at_the_machine(b->motion.kind)));
+          (b->has_motion && (b->motion.frame != ir::FrameUse::normal || ir::ends_at_the_machine(b->motion.kind)));
       for (const auto& a : b->actions) {
         const auto* m = std::get_if<ir::ModalSet>(&a.data);
         found.frames = found.frames || std::holds_alternative<ir::FrameOp>(a.data);
