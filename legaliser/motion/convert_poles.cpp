@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ir/analysis/flow_states.h"
+#include "ir/motion_kinds.h"
 #include "legaliser/analysis/path_points.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/blocks.h"
@@ -216,7 +217,7 @@ class PolePass {
   /// The point of the polar words over a block without such words.
   void follow_point(const Block& b, const Facts& facts) {
     const bool plain =
-        plane_ && b.motion.frame == FrameUse::normal && !b.motion.extra && b.motion.kind != MotionKind::reference_point;
+        plane_ && b.motion.frame == FrameUse::normal && !b.motion.extra && !ends_at_the_machine(b.motion.kind);
     const bool moves = b.has_motion && b.motion.moves();
     if (loses_point(b) || (moves && !plain)) return forget_point();
     if (!moves) return;

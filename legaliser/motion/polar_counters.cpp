@@ -7,6 +7,7 @@
 
 #include "ir/edit/search.h"
 #include "ir/known_number.h"
+#include "ir/motion_kinds.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/editor.h"
 #include "legaliser/motion/path_values.h"
@@ -39,8 +40,7 @@ bool leaves_place(const Statement& s, const Facts& facts) {
   if (other_words || loses_point(*b)) return true;
   if (!b->has_motion || !b->motion.moves()) return false;
   const auto plane = setting_in<Plane>(*b, facts, Setting::plane);
-  return !plane || b->motion.extra || b->motion.kind == MotionKind::reference_point ||
-         touches_plane(*b, plane_axes(*plane));
+  return !plane || b->motion.extra || ends_at_the_machine(b->motion.kind) || touches_plane(*b, plane_axes(*plane));
 }
 
 bool is_loop(const Statement& s) {

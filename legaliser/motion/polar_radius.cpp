@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ir/motion_kinds.h"
 #include "legaliser/motion/polar_words.h"
 
 namespace cnctrans::ir::passes {
@@ -20,7 +21,7 @@ bool moves_pole(const Action& a) {
 /// The motion leads away from its place in the plane by other words than polar ones.
 bool leaves_place(const Block& b, const Facts& facts) {
   if (b.motion.frame != FrameUse::normal || b.motion.extra || !b.motion.centers.empty() ||
-      b.motion.kind == MotionKind::reference_point)
+      ends_at_the_machine(b.motion.kind))
     return true;
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
   if (!plane) return true;
