@@ -83,11 +83,13 @@ void write_block_feeds(Program& program, const LegaliseContext& context) {
     if (!before && !known.none) return out.push_back(std::move(s));
     if (!b.has_motion || !b.motion.moves()) {
       // No way, and so nothing for it to say; as a word of the path it runs what is modal.
-      const bool modal = facts.before(s).modal_call > 0 || facts.before(s).cycle_active;
+      const Facts& now = facts.before(s);
+      const bool modal = now.modal_call_runs() || now.cycle_active || !now.cycle_active_known;
       const bool beside = std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
         return std::holds_alternative<SetFeed>(a.data) && !is_block_feed(a);
       });
-      if (modal && before && !beside) {
+      if (modal && !before && !beside) return out.push_back(std::move(s));  // no F to run it by: refused
+      if (modal && !beside) {
         own->data = SetFeed{*before, false, false};
         own->text = {};
       } else {
