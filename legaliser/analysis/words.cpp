@@ -109,4 +109,14 @@ void SymbolicPosition::follow_block(const Block& b, const Facts& facts) {
   }
 }
 
+std::optional<Value> at_run(const LegaliseContext& context, Datum datum, AxisId axis) {
+  SystemRef here;
+  here.datum = datum;
+  here.axis = axis;
+  if (!context.target.system_data || !context.target.system_data(here)) return std::nullopt;
+  Expr e;
+  e.node = std::move(here);
+  return Value{std::make_shared<const Expr>(std::move(e))};
+}
+
 }  // namespace cnctrans::ir::passes

@@ -39,6 +39,9 @@ bool table_row(const FrameChange& c);
 /// mm that the ends of an arc by its radius may lie too far apart for it: such an arc is the half circle.
 inline constexpr double long_chord = 0.02;
 
+/// A coordinate of the tool that the target itself knows when it runs (`$P_EP[X]`); nullopt: it has no name for it.
+std::optional<Value> at_run(const LegaliseContext& context, Datum datum, AxisId axis);
+
 /// Two centre words name the plane.
 std::optional<Plane> plane_of_words(const Motion& m);
 

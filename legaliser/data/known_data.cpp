@@ -10,6 +10,7 @@
 #include "ir/active_units.h"
 #include "ir/analysis/block_coordinate.h"
 #include "ir/analysis/call_graph.h"
+#include "ir/axis_mask.h"
 #include "ir/edit/rewrite.h"
 #include "legaliser/analysis/feed_units.h"
 #include "legaliser/early_passes.h"
@@ -40,7 +41,7 @@ class KnownData {
     for (const Routine& r : program.routines) {
       for_each_statement(r.body, [this](const Statement& s) {
         const auto* b = std::get_if<Block>(&s.node);
-        for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) gauges_ = gauges_ || hides(b->actions[i]);
+        for (std::size_t i = 0; b != nullptr && i < b->actions.size(); ++i) hidden_ |= hidden_by(b->actions[i], s);
       });
     }
   }
@@ -65,11 +66,15 @@ class KnownData {
   }
 
  private:
-  /// Behind it the machine's place is another by more than the offsets and the shift.
-  static bool hides(const Action& a) {
-    const auto* gauge = std::get_if<ToolOffset>(&a.data);
+  /// Axes on which the machine's place behind it is another by more than the offsets and the shift.
+  [[nodiscard]] AxisMask hidden_by(const Action& a, const Statement& s) const {
     const auto* offset = std::get_if<WorkOffset>(&a.data);
-    return (gauge != nullptr && !gauge->number.is(0)) || (offset != nullptr && offset->off);
+    if (offset != nullptr && offset->off) return ~AxisMask{0};
+    const auto* gauge = std::get_if<ToolOffset>(&a.data);
+    if (gauge == nullptr || gauge->number.is(0)) return 0;
+    const auto plane = setting<Plane>(facts_.before(s), Setting::plane);
+    const bool along_one = context_.source_machine.kind == machine::Kind::mill && plane;
+    return along_one ? axis_bit(plane_axes(*plane).w) : ~AxisMask{0};
   }
   [[nodiscard]] bool sayable(const SystemRef& ref) const {
     return context_.target.system_data && context_.target.system_data(ref);
@@ -140,17 +145,27 @@ class KnownData {
     context_.diagnostics.note("TRN-132", where, ref.text + is + " here on every path: written as the number");
   }
   /// The place in the program's coordinates as the target's data give it, where these coordinates are only shifted.
+  /// A preset is one of the shifts that the data give.
   ExprPtr in_frame(const Statement& s, const ExprPtr& e, const SystemRef& ref) {
-    if (ref.datum != Datum::work_position || !context_.target.work_position) return e;
+    if (!context_.target.work_position || !stands_there(s, ref)) return e;
     const Facts& facts = facts_.before(s);
-    const PlanarFrame frame = frames_.before(s).whole(context_.source_machine);
+    const PlanarFrame frame = frames_.before(s).whole(context_.source_machine, false);
     const bool only_shifts = !frame.foreign && !frame.turns() && !frame.scales() && !frame.mirrors();
     const bool metric = setting<Units>(facts, Setting::units) == Units::metric;
-    const auto formula = only_shifts && metric && !gauges_ ? context_.target.work_position(ref.axis) : nullptr;
+    const auto formula = only_shifts && metric && (hidden_ & axis_bit(ref.axis)) == 0
+                             ? context_.target.work_position(ref.axis)
+                             : nullptr;
     if (!formula) return e;
     context_.diagnostics.note("TRN-132", word_span(s.line.span, e->pos),
                               ref.text + " is the machine's position less the offsets and the shift: written so");
     return formula;
+  }
+  /// The place of the tool, or the point of the program that it stands at.
+  [[nodiscard]] bool stands_there(const Statement& s, const SystemRef& ref) const {
+    if (ref.datum == Datum::work_position) return true;
+    const auto* spec = context_.source_machine.axis(ref.axis);
+    return ref.datum == Datum::programmed_position && spec != nullptr && !spec->diameter &&
+           setting<CompSide>(facts_.before(s), Setting::comp) == CompSide::off;
   }
   static ExprPtr renamed(const ExprPtr& e, const DataForm& own) {
     Expr copy = *e;
@@ -367,7 +382,7 @@ class KnownData {
   const Routine* routine_ = nullptr;
   std::set<std::tuple<FileId, std::uint32_t, std::uint32_t>> told_;  ///< places of notes
   bool poles_read_ = false;
-  bool gauges_ = false;  ///< the program counts with gauges of tools, or without its offsets
+  AxisMask hidden_ = 0;  ///< the program counts with gauges of tools along them, or without its offsets
   FactsOf facts_;
   FrameStates frames_;
   FeedUnits feed_domain_;

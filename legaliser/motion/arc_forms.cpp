@@ -364,7 +364,7 @@ void ArcPass::both_ends(Arc& arc, bool needed) {
     } else {
       auto start = start_of(arc, w.axis);
       if (!start && arc.distance) {
-        start = position_at_run(w.axis);
+        start = at_run(context_, Datum::programmed_position, w.axis);
         w.scale = WordScale::modal;
       }
       if ((!start || !arc.distance) && !needed) return;
@@ -378,17 +378,6 @@ void ArcPass::both_ends(Arc& arc, bool needed) {
     more.push_back(std::move(w));
   }
   for (auto& w : more) coords.insert(w.axis == arc.axis[0] ? coords.begin() : coords.end(), std::move(w));
-}
-
-/// What the target itself knows as the last programmed coordinate.
-std::optional<Value> ArcPass::position_at_run(AxisId axis) const {
-  SystemRef here;
-  here.datum = Datum::programmed_position;
-  here.axis = axis;
-  if (!context_.target.system_data || !context_.target.system_data(here)) return std::nullopt;
-  Expr e;
-  e.node = std::move(here);
-  return Value{std::make_shared<const Expr>(std::move(e))};
 }
 
 }  // namespace cnctrans::ir::passes

@@ -428,7 +428,6 @@ class ArcPass {
   /// Both end words where the target wants them. `needed`: refused where the missing one is not known, else left to the
   /// writer.
   void both_ends(Arc& arc, bool needed);
-  std::optional<Value> position_at_run(AxisId axis) const;
 
   Program& program_;
   const LegaliseContext& context_;

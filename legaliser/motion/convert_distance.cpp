@@ -225,14 +225,9 @@ class DistancePass {
 
   /// The increment added to what the target knows as the last programmed coordinate, or as the place in the frame.
   bool from_machine(CoordWord& c, Datum datum, double factor) const {
-    SystemRef here;
-    here.datum = datum;
-    here.axis = c.axis;
-    if (!context_.target.system_data || !context_.target.system_data(here)) return false;
-    Expr e;
-    e.node = std::move(here);
-    const Value step = scale(c.value, factor);
-    c.value = Value{binary(BinaryOp::add, std::make_shared<const Expr>(std::move(e)), as_expr(step))};
+    const auto here = at_run(context_, datum, c.axis);
+    if (!here) return false;
+    c.value = Value{binary(BinaryOp::add, here->expr, as_expr(scale(c.value, factor)))};
     c.mode = WordMode::modal;
     c.scale = WordScale::modal;
     return true;
