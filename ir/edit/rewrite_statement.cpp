@@ -109,18 +109,21 @@ void read_block(const Block& block, const std::function<void(const ExprPtr&)>& v
   });
 }
 
+/// A word whose expression becomes a number is a word with that number.
+bool change_value(Value& v, const std::function<ExprPtr(const ExprPtr&)>& change) {
+  if (!v.expr) return false;
+  ExprPtr made = change(v.expr);
+  const Number* number = made != v.expr ? as_number(made) : nullptr;
+  v = number != nullptr ? Value(number->value) : Value(std::move(made));
+  return true;
+}
+
 void change_cycle(CyclePtr& cycle, const std::function<ExprPtr(const ExprPtr&)>& change) {
   if (!cycle) return;
   auto copy = std::make_shared<Cycle>(*cycle);
   bool changed = false;
   visit_values(
-      *copy,
-      [&change](Value& v, const Place&) {
-        if (!v.expr) return false;
-        v.expr = change(v.expr);
-        return true;
-      },
-      changed);
+      *copy, [&change](Value& v, const Place&) { return change_value(v, change); }, changed);
   if (changed) cycle = std::move(copy);
 }
 
@@ -129,11 +132,7 @@ void change_cycle(CyclePtr& cycle, const std::function<ExprPtr(const ExprPtr&)>&
 void visit_statement(Statement& s, const StatementVisitor& visit) {
   if (auto* block = std::get_if<Block>(&s.node)) {
     if (!has_expression(*block)) return;
-    visit_values(*block, [&visit](Value& v, const Place&) {
-      if (!v.expr) return false;
-      v.expr = visit.expression(v.expr);
-      return true;
-    });
+    visit_values(*block, [&visit](Value& v, const Place&) { return change_value(v, visit.expression); });
     return;
   }
   if (auto* modal = std::get_if<ModalCall>(&s.node)) change_cycle(modal->cycle, visit.expression);

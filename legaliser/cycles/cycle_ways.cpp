@@ -156,9 +156,10 @@ bool CyclePass::tap_by_a_jump(const Facts& facts) const {
 void CyclePass::feed_comes_back(const Statement& s, Block& b, const Facts& facts) {
   if (!std::exchange(tap_feed_, false)) return;
   if (action_in<SetFeed>(b) != nullptr) return;
-  if (facts.feed) {
-    b.actions.push_back(action(SetFeed{Value{*facts.feed}, false}));
-  } else {
+  const FeedBefore before = feeds_.at(s, b, facts);
+  if (const auto word = before.word()) {
+    b.actions.push_back(action(SetFeed{*word, false}));
+  } else if (!before.none) {
     context_.diagnostics.error(
         "TRN-330", s.line.span,
         "the tap before this block has its pitch as F there, and the F that comes back behind it "
