@@ -335,17 +335,24 @@ class Comparison {
   [[nodiscard]] std::string corner_difference(const Event& a, const Event& b) const {
     const auto &there = a.stop, &here = b.stop;
     if (!cuts(a) || there.exact == here.exact) return {};
-    if (!moves_next(a_, i_) || !moves_next(b_, j_)) return {};
+    if (!has_corner(a_, i_, from_a_) || !has_corner(b_, j_, from_b_)) return {};
     const bool asked = options_.stops_by_mode || (there.in_block && options_.stops_in_block);
     if (there.exact && !asked) return {};
     const auto text = [](bool exact) { return exact ? "stops exactly at its end" : "goes on round the corner"; };
     return fmt::format("the {} move {} in the source, and {} in the translation", interpreter::name(a.kind),
                        text(there.exact), text(here.exact));
   }
-  static bool moves_next(const std::vector<const Event*>& events, std::size_t k) {
-    const auto motion = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(k) + 1, events.end(),
-                                     [](const Event* e) { return is_barrier(e->kind); });
-    return motion != events.end() && is_motion((*motion)->kind);
+  /// Another move follows, and not straight back the way that this one came: where the path turns round (the bottom of
+  /// a hole) it stands still in any case.
+  [[nodiscard]] bool has_corner(const std::vector<const Event*>& events, std::size_t k, const Position& from) const {
+    const Event& e = *events[k];
+    const auto next = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(k) + 1, events.end(),
+                                   [](const Event* n) { return is_barrier(n->kind); });
+    if (next == events.end() || !is_motion((*next)->kind)) return false;
+    const auto straight = [](const Event& m) { return m.kind == EventKind::linear || m.kind == EventKind::rapid; };
+    if (!straight(e) || !straight(**next) || (e.to.known & ~from.known) != 0) return true;
+    const Position& to = (*next)->to;
+    return !ends_agree(from, to) && !on_segment(to, e.to, from) && !on_segment(from, e.to, to);
   }
 
   /// An axis that stands with the offset of the tool on one side and without on the other stands elsewhere on a real

@@ -184,7 +184,7 @@ class Builder {
       const bool ends = k != 0 && ranges_[k - 1].ends_at(id);
       const auto called = range_of.find(id);
       if (called != range_of.end()) reach(called->second, ranges_[called->second - 1].first);
-      if (ends && !jumps(id)) continue;
+      if ((ends && !jumps(id)) || std::holds_alternative<Return>(flow_.statements[id]->node)) continue;
       if (called != range_of.end()) {
         for (const auto next : continuation_[id]) reach(k, next);
         continue;
@@ -274,7 +274,12 @@ class Builder {
       repeat(*r, next);
     } else if (const auto* c = std::get_if<CallRoutine>(&s.node)) {
       if (!c->tail) add_ids(out, next);
-    } else if (std::holds_alternative<Return>(s.node) || std::holds_alternative<End>(s.node)) {
+    } else if (const auto* back = std::get_if<Return>(&s.node)) {
+      add_id(out, 0);
+      for (const auto& range : ranges_) {  // in a pass of a repeated part it ends the repeat alone
+        if (back->values.empty() && range.first <= s.id && s.id <= range.end) add_ids(out, continuation_[range.repeat]);
+      }
+    } else if (std::holds_alternative<End>(s.node)) {
       add_id(out, 0);
     } else {
       add_ids(out, next);

@@ -70,11 +70,13 @@ void CyclePass::plain(Statement&& s, Body&& pieces, Body& out) {
   const bool refused_word = context_.target_machine.policies.cycle_axis_word == machine::CycleAxisWord::refused &&
                             active_->native && (active_->on_target || active_->maybe_on_target) && !by_call_ &&
                             b.has_motion && b.motion.moves() && b.motion.frame == FrameUse::normal;
+  const Facts& facts = facts_.before(s);
   if (refused_word || plane_ends) {
     pieces.push_back(off_statement(s.line, false));
     active_->on_target = active_->maybe_on_target = false;
+    const bool cuts = refused_word && motion_in(b, facts) != MotionKind::rapid;
+    if (facts.feed || cuts) feed_comes_back(s, std::get<Block>(pieces.back().node), facts);
   }
-  const Facts& facts = facts_.before(s);
   const auto w = tool_axis(active_->source, b, facts);
   if (w && moves_along(b, *w)) active_->height = height_after(b, facts, *w);
   put(out, std::move(pieces), std::move(s));

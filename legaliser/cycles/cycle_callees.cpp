@@ -82,7 +82,13 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
   const bool stays_active = by_call_ && active_->native;
   const auto callee = stays_active ? std::nullopt : callee_of(call);
   if (!callee || !std::holds_alternative<HoleCycle>(active_->source->node)) return false;
-  if (!moves_anywhere(program_.routines[*callee].body)) return false;
+  const Body& body = program_.routines[*callee].body;
+  if (!moves_anywhere(body)) {
+    for_each_statement(body, [this](const Statement& s) {
+      if (moves_coordinates(s)) lose_height(s);
+    });
+    return false;
+  }
   const bool unknown = facts.reachable && !facts.cycle_active_known && !surely_active_;
   if (unknown || !sure(facts)) {
     context_.diagnostics.error("TRN-331", where.span,
@@ -161,6 +167,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     copy->on_target_after = inner.active_ && inner.active_->on_target && !inner.active_->maybe_on_target;
     copy->maybe_on_target_after = inner.active_ && inner.active_->maybe_on_target;
     if (inner.active_) copy->height_after = inner.active_->height;
+    copy->left_height = inner.active_ && inner.active_->left_height;
     copy->finished = true;
   }
   call.routine = copy->routine.name;
@@ -168,7 +175,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
     active_.reset();
     return true;
   }
-  for_each_statement(program_.routines[*callee].body, [this](const Statement& s) { leave_height(s); });
+  active_->left_height = active_->left_height || copy->left_height;
   active_->on_target = copy->on_target_after;
   active_->maybe_on_target = copy->maybe_on_target_after;
   active_->height = copy->height_after;

@@ -24,7 +24,7 @@ struct CycleCallees {
     Routine routine;
     bool finished = false;
     std::optional<double> height_after;
-    bool on_target_after = false, maybe_on_target_after = false, ended_after = false;
+    bool on_target_after = false, maybe_on_target_after = false, ended_after = false, left_height = false;
   };
   std::vector<std::unique_ptr<Copy>> copies;
   int made = 0;

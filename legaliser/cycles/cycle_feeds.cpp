@@ -21,4 +21,11 @@ void CyclePass::feed_as_a_word(Active& a, const Block& b, const Facts& facts) co
   if (!hole->feed.is(*facts.feed)) a.needs.feed = hole->feed;
 }
 
+bool CyclePass::refuse_feed_of_tap(Statement& s, const Active& a) {
+  if (!a.needs.feed) return false;
+  refuse(s, program_, context_, "TRN-330", "a tap whose pitch is a feed there, with a way to the hole that is no rapid",
+         "go to the holes in rapid, or set F to pitch times speed before the cycle");
+  return true;
+}
+
 }  // namespace cnctrans::ir::passes

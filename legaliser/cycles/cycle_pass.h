@@ -92,6 +92,7 @@ class CyclePass {
     }
   }
   void bodies(Statement& s);
+  [[nodiscard]] bool begins_with_point(const Body& body) const;  ///< nothing moves or calls before it
   void walk_inside(Body& inner) {
     Body nested;
     walk(inner, nested);
@@ -285,13 +286,7 @@ class CyclePass {
   /// A tap that stands elsewhere in the text may be in force here too.
   [[nodiscard]] bool tap_by_a_jump(const Facts& facts) const;
   /// The way to the hole would be driven at the tap's feed.
-  bool refuse_feed_of_tap(Statement& s, const Active& a) {
-    if (!a.needs.feed) return false;
-    refuse(s, program_, context_, "TRN-330",
-           "a tap whose pitch is a feed there, with a way to the hole that is no rapid",
-           "go to the holes in rapid, or set F to pitch times speed before the cycle");
-    return true;
-  }
+  bool refuse_feed_of_tap(Statement& s, const Active& a);
   /// A new F, S or sense at a point would give the tap another pitch or end on one of the two controls only.
   void check_tap(const Statement& s) const;
 

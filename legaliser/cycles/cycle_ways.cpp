@@ -119,10 +119,10 @@ void CyclePass::cancel_statement(Statement&& s, Body& out) {
   tap_feed_ = tap_feed_ || tap_by_a_jump(facts_.before(s)) || (on && !by_call_ && active_->needs.feed);
   leave_off();
   active_.reset();
-  if (!on) return leave_line(std::move(s), out);
+  if (!on && !tap_feed_) return leave_line(std::move(s), out);
   if (!by_call_) {
     Block b;
-    b.actions.push_back(action(CycleCancel{}));
+    if (on) b.actions.push_back(action(CycleCancel{}));
     feed_comes_back(s, b, facts_.before(s));
     s.node = std::move(b);
   }
@@ -343,9 +343,7 @@ void CyclePass::leave_while_off(const Statement& s) const {
 }
 
 void CyclePass::branch_before_first_point(Statement& s) {
-  if (!active_ || by_call_ || active_->on_target || active_->maybe_on_target ||
-      active_->trigger != CycleTrigger::path_motion)
-    return;
+  if (!active_ || by_call_ || active_->on_target || active_->trigger != CycleTrigger::path_motion) return;
   bool back = false;
   each_label_ref(s, [&](const LabelRef& l, bool) { back = back || under_cycle_.count({l.is_number, l.text}) != 0; });
   if (back && active_->native)
@@ -353,6 +351,7 @@ void CyclePass::branch_before_first_point(Statement& s) {
                                "the cycle goes on at points further up, where the target's own is in force, and the "
                                "target has defined it at no point yet",
                                "write the modal call in front of these points");
+  if (active_->maybe_on_target) return;
   bool branch = std::holds_alternative<Jump>(s.node) || std::holds_alternative<Switch>(s.node) ||
                 std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Repeat>(s.node);
   if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && callee_of(*call)) branch = false;
@@ -427,6 +426,16 @@ static std::uint32_t last_inside(Body& body) {
 }
 
 /// Both branches begin with what is active before them; behind them holds what both say.
+bool CyclePass::begins_with_point(const Body& body) const {
+  for (const Statement& s : body) {
+    const auto* b = std::get_if<Block>(&s.node);
+    if (b != nullptr && !b->empty()) return triggers(*b, facts_.before(s));
+    if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Message>(s.node))
+      return false;
+  }
+  return true;
+}
+
 void CyclePass::bodies(Statement& s) {
   auto* i = std::get_if<If>(&s.node);
   const auto before = active_;
@@ -435,6 +444,9 @@ void CyclePass::bodies(Statement& s) {
       if (!inner.empty()) note_writes_of_loop(s.id, last_inside(inner));
       sense_.forget();  // the next pass may begin with another sense
       for_each_statement(inner, [this](const Statement& x) { leave_height(x); });  // its end is before its beginning
+      // A point further down in the body defines the target's cycle: it would be in force where the next pass begins.
+      if (active_ && active_->deferred && !by_call_ && !active_->on_target)
+        active_->single = active_->single || !begins_with_point(inner);
       walk_inside(inner);
     });
     // The next pass of a loop begins as the first one did.

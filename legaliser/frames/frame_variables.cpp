@@ -110,9 +110,11 @@ class FrameVariables {
         const FrameState state = states_.before(s);
         good = good && c != nullptr && s.line.skip_mask == 0 && c->combine != FrameCombine::preset &&
                c->slot != FrameSlot::preset && (c->kind == FrameKind::translate || c->kind == FrameKind::rotate);
+        const bool about_centre = c != nullptr && c->kind == FrameKind::rotate && !c->words.empty();
         for (const auto slot : machine_.frame_order) {
           const PlanarFrame f = state.slot(slot);
-          if (f.foreign || !f.factor || !f.mirror || (slot == FrameSlot::rotation && f.has_shift())) good = false;
+          const bool centre = slot == FrameSlot::rotation && (f.has_shift() || (about_centre && c->slot == slot));
+          if (f.foreign || !f.factor || !f.mirror || centre) good = false;
         }
         add_unknown(state);
       });

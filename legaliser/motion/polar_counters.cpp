@@ -22,7 +22,9 @@ bool is_step(const Statement& s, const Facts& facts) {
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr || !is_polar_line(*b, facts) || s.line.skip_mask != 0 || b->repeat_given != 0 || loses_point(*b))
     return false;
-  const auto modes = polar_modes(*b->motion.extra, setting_in<Distance>(*b, facts, Setting::distance));
+  const auto distance = setting_in<Distance>(*b, facts, Setting::distance);
+  const auto modes = polar_modes(*b->motion.extra, distance);
+  if (!distance && (modes.radius_modal || modes.angle_modal)) return false;
   return modes.adds_radius || modes.adds_angle;
 }
 

@@ -133,6 +133,12 @@ TEST(Cfg, RepeatRangeThatNothingFallsIntoEndsWithItsLastStatement) {
       << "a longer range comes through";
 }
 
+TEST(Cfg, AReturnInARepeatedRangeEndsTheRepeatAlone) {
+  EXPECT_EQ(edges("repeat N10 N20\nend_program\nN10 block\nreturn\nN20 block\n"), (Edges{{3}, {0}, {4}, {0, 2}, {2}}));
+  EXPECT_EQ(edges("N10 block\nN20 block\nreturn\nrepeat N10 N20\n").at(2), (std::vector<std::uint32_t>{0}))
+      << "behind the range it ends the routine";
+}
+
 TEST(Cfg, RepeatRangeThatEndsInAStructure) {
   EXPECT_EQ(edges("N10 if R[1] {\nblock\n}\nblock\nrepeat N10 N10\nblock\n"),
             (Edges{{2, 3, 5}, {3, 5}, {4}, {1}, {0}}));

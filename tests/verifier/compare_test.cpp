@@ -149,6 +149,18 @@ TEST(Compare, AnExactStopIsComparedWhereAMoveFollows) {
   EXPECT_EQ(status({stopping(10, false)}, {stopping(10, true)}, by_mode), Status::verified);
 }
 
+TEST(Compare, WhereThePathTurnsRoundThereIsNoCorner) {
+  const auto path = [](bool exact, double back) {
+    return std::vector<Event>{stopping(5, true), stopping(10, exact), linear(back)};
+  };
+  verifier::Options by_mode;
+  by_mode.stops_by_mode = true;
+  for (const double back : {5.0, 7.0, 2.0}) {  // to the start of the move, less far, further
+    EXPECT_EQ(verifier::compare(path(true, back), path(false, back), by_mode).status, Status::verified) << back;
+  }
+  EXPECT_EQ(verifier::compare(path(true, 12), path(false, 12), by_mode).status, Status::differs);
+}
+
 TEST(Compare, DwellsThatFollowEachOtherAreComparedOneByOneOrTogether) {
   const auto status = [](std::vector<Event> a, std::vector<Event> b) {
     a.push_back(linear(10));
