@@ -60,55 +60,6 @@ std::optional<Plane> plane_of_words(const Motion& m) {
   return std::nullopt;
 }
 
-void SymbolicPosition::forget(const VarRef& v) {
-  for (auto& p : at_) {
-    if (p && p->expr && reads(p->expr, v)) p.reset();
-  }
-}
-
-void SymbolicPosition::follow(const Statement& s, const Facts& facts) {
-  if (const auto* b = std::get_if<Block>(&s.node)) return follow_block(*b, facts);
-  if (std::holds_alternative<Assign>(s.node)) {
-    each_target(s, [this](const VarRef& v) { forget(v); });
-    return;
-  }
-  if (std::holds_alternative<Message>(s.node) || std::holds_alternative<Declare>(s.node) ||
-      std::holds_alternative<Jump>(s.node))
-    return;  // a jump taken goes elsewhere: labels clear
-  clear();
-}
-
-void SymbolicPosition::follow_block(const Block& b, const Facts& facts) {
-  for (const auto& a : b.actions) {
-    const auto* set = std::get_if<ModalSet>(&a.data);
-    if (std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
-        std::holds_alternative<CycleDefine>(a.data) || (set != nullptr && set->setting == Setting::units)) {
-      clear();
-    }
-  }
-  if (!b.has_motion) return;
-  const Motion& m = b.motion;
-  if (m.frame != FrameUse::normal || m.extra) return clear();
-  for (const auto& c : m.coords) {
-    if (c.axis >= at_.size()) return clear();
-    const auto distance = distance_of(c, b, facts);
-    const auto factor = to_radius(c.axis, c.scale, distance, b, facts, machine_);
-    auto& p = at_[c.axis];
-    if (!distance || !factor) {
-      p.reset();
-      continue;
-    }
-    Value v = scale(c.value, *factor);
-    v.text = {};
-    if (*distance == Distance::absolute) {
-      p = v;
-    } else if (p) {
-      p = add(*p, v);
-      p->text = {};
-    }
-  }
-}
-
 std::optional<Value> at_run(const LegaliseContext& context, Datum datum, AxisId axis) {
   SystemRef here;
   here.datum = datum;

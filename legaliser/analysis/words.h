@@ -45,19 +45,4 @@ std::optional<Value> at_run(const LegaliseContext& context, Datum datum, AxisId 
 /// Two centre words name the plane.
 std::optional<Plane> plane_of_words(const Motion& m);
 
-/// Last programmed positions along straight text, as expressions, where the dataflow has no number.
-class SymbolicPosition {
- public:
-  SymbolicPosition(const machine::Profile& machine) : machine_(machine) { clear(); }
-  void clear() { at_.fill(std::nullopt); }
-  void follow(const Statement& s, const Facts& facts);
-  [[nodiscard]] const std::optional<Value>& at(AxisId axis) const { return at_[axis]; }
-
- private:
-  void follow_block(const Block& b, const Facts& facts);
-  void forget(const VarRef& v);
-  const machine::Profile& machine_;
-  std::array<std::optional<Value>, axis::count_max> at_;  ///< absolute, radius
-};
-
 }  // namespace cnctrans::ir::passes

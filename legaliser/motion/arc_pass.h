@@ -10,6 +10,7 @@
 #include "ir/geometry/geometry.h"
 #include "legaliser/analysis/words.h"
 #include "legaliser/edit/editor.h"
+#include "legaliser/motion/path_values.h"
 #include "legaliser/motion/said_points.h"
 
 namespace cnctrans::ir::passes {
@@ -25,14 +26,12 @@ class ArcPass {
       : program_(program),
         context_(context),
         facts_(facts),
-        said_domain_(facts, context.target),
-        symbolic_(context.source_machine) {
+        said_domain_(facts, context.target) {
+    if (starts_unknown()) path_.emplace(program, facts, context.source_machine, context);
     if (program.dialect != context.target.dialect && SaidPoints::needed(program)) said_.emplace(program, said_domain_);
   }
 
   void routine(Routine& r) {
-    uses_ = label_uses(program_, r);
-    symbolic_.clear();
     Editor editor(program_, r, context_);
     walk(r.body, editor);
   }
@@ -43,23 +42,12 @@ class ArcPass {
     out.reserve(body.size());
     for (auto& s : body) {
       back_to_absolute_ = false;
-      for (const auto& l : labels_on(s.line)) {
-        if (uses_.is_target(l)) symbolic_.clear();
-      }
-      const Statement before = std::holds_alternative<Block>(s.node) && is_arc_block(s) ? s : Statement{};
-      if (std::holds_alternative<Block>(before.node) && before.id != 0) {
-        one(s);
-        symbolic_.follow(before, facts_.before(before));
-      } else {
-        symbolic_.follow(s, facts_.before(s));
-      }
+      if (std::holds_alternative<Block>(s.node) && s.id != 0 && is_arc_block(s)) one(s);
       bool nested = false;
       each_body(s, [&](Body& inner) {
         nested = true;
-        symbolic_.clear();
         walk(inner, editor);
       });
-      if (nested) symbolic_.clear();
       Body pieces{std::move(s)};
       if (!nested && back_to_absolute_)
         pieces.push_back(make_block(pieces.front().line, action(ModalSet{Setting::distance, absolute_, true, {}})));
@@ -77,6 +65,19 @@ class ArcPass {
     if (!kind) return words;
     return *kind == MotionKind::arc_cw || *kind == MotionKind::arc_ccw || *kind == MotionKind::arc_through_point ||
            *kind == MotionKind::arc_tangent;
+  }
+
+  /// The start of some arc is no number.
+  [[nodiscard]] bool starts_unknown() const {
+    bool found = false;
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        if (found || !std::holds_alternative<Block>(s.node) || !is_arc_block(s)) return;
+        const auto& at = facts_.before(s).position;
+        found = !at[axis::x] || !at[axis::y] || !at[axis::z];
+      });
+    }
+    return found;
   }
 
   /// What is known about the arc of the statement at hand.
@@ -265,10 +266,10 @@ class ArcPass {
 
   // --- centres --------------------------------------------------------------------------------------------------
 
-  /// Start of the arc along one axis in radius: a number, or what the text before says.
+  /// Start of the arc along one axis in radius: a number, or a formula that holds on every way to it.
   std::optional<Value> start_of(const Arc& arc, AxisId axis) const {
     if (arc.facts.position[axis]) return Value{*arc.facts.position[axis]};
-    return symbolic_.at(axis);
+    return path_ ? path_->place(arc.s, axis) : std::nullopt;
   }
 
   void centers(Arc& arc) {
@@ -434,8 +435,7 @@ class ArcPass {
   const FactsOf& facts_;
   const SaidPoints said_domain_;
   std::optional<FlowStates<SaidPoints>> said_;  ///< none: every point is said
-  SymbolicPosition symbolic_;
-  LabelUses uses_;
+  std::optional<PathStates> path_;  ///< none: every start is a number
   bool plane_known_ = true;
   bool back_to_absolute_ = false;  ///< the block at hand counts in increments, the ones behind it don't
 };

@@ -33,6 +33,14 @@ bool goes_with_events(const Action& a) {
   return m != nullptr && m->setting == Setting::spindle_mode;
 }
 
+/// The speed of a spindle, or what it counts in.
+bool says_speed(const Action& a, std::uint8_t spindle) {
+  const auto* speed = std::get_if<SetSpindle>(&a.data);
+  const auto* mode = std::get_if<ModalSet>(&a.data);
+  return (speed != nullptr && speed->number == spindle) ||
+         (mode != nullptr && mode->setting == Setting::spindle_mode && spindle == 1);
+}
+
 /// When the block changes the tool, and whether by a word of its own; nullopt: it does not.
 struct Change {
   Order order = Order::before;
@@ -148,7 +156,9 @@ class BlockSplitter {
     std::erase_if(b, goes_with_events);
   }
 
-  /// Without motion only the sequence of events counts: as few blocks as the target's order allows.
+  /// Without motion only the sequence of events counts: as few blocks as the target's order allows. The speed goes where
+  /// the command to its spindle goes: a spindle that turns takes a speed at once (behind a tool change S1000 M3 is one
+  /// event, not two).
   void sequence(std::vector<Action> actions, Body& pieces) {
     std::vector<Action> block;
     bool reached_after = false;
@@ -160,12 +170,31 @@ class BlockSplitter {
       block.clear();
       pieces.push_back(std::move(s));
     };
-    for (auto& a : actions) {
+    std::vector<Action> speeds;  // wait for the command to their spindle
+    const auto add = [&](Action a) {
+      if (const auto* run = std::get_if<SpindleRun>(&a.data)) {
+        const auto own = std::stable_partition(speeds.begin(), speeds.end(), [number = run->number](const Action& w) {
+          return !says_speed(w, number);
+        });
+        std::move(own, speeds.end(), std::back_inserter(block));
+        speeds.erase(own, speeds.end());
+      }
+      block.push_back(std::move(a));
+    };
+    for (auto at = actions.begin(); at != actions.end(); ++at) {
+      Action& a = *at;
+      if (std::any_of(std::next(at), actions.end(), [&a](const Action& later) {
+            const auto* run = std::get_if<SpindleRun>(&later.data);
+            return run != nullptr && run->state != SpindleState::off && says_speed(a, run->number);
+          })) {
+        speeds.push_back(std::move(a));
+        continue;
+      }
       if (apart_from_dwell(block, a, editor_.target())) cut();
       if (own_block(a, editor_.target())) {
         cut();
         a.order = Order::before;
-        block.push_back(std::move(a));
+        add(std::move(a));
         cut();
         continue;
       }
@@ -177,7 +206,7 @@ class BlockSplitter {
       } else if (reached_after && std::holds_alternative<ToolSelect>(a.data)) {
         cut();
       }
-      block.push_back(std::move(a));
+      add(std::move(a));
     }
     cut();
   }
