@@ -147,7 +147,9 @@ class FramePass {
           actions.push_back(std::move(a));
         } else if (silent && !begun) {
           continue;  // a reset of what is not there, made by the reader
-        } else if (auto moved = pending_ || begun ? std::nullopt : from_where_it_stands(s, *f->change, state)) {
+        } else if (auto moved = pending_ || begun || setting<Units>(facts_.before(s), Setting::units) != Units::metric
+                                    ? std::nullopt
+                                    : target_.preset_from_here(*f->change, state)) {
           a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*moved))};
           preset_ends_.tell(s, a, false);
           actions.push_back(std::move(a));
@@ -168,27 +170,6 @@ class FramePass {
     tell_mirror(s, state);
     settle(s);
     editor.put(out, {}, std::move(s));
-  }
-
-  /// A preset where nobody knows the place of the tool: a shift inside of all that is in force, by the coordinate that
-  /// it has less the one that it gets, leaves every point where the preset puts it: `ATRANS X=$P_EP[X]-10`.
-  std::optional<FrameChange> from_where_it_stands(const Statement& s, const FrameChange& c,
-                                                  const FrameState& after) const {
-    const bool metric = setting<Units>(facts_.before(s), Setting::units) == Units::metric;
-    if (c.combine != FrameCombine::preset || after.preset_waits() || target_.part(after).known() || !metric ||
-        !target_.can(FrameSlot::chain, FrameCombine::compose))
-      return std::nullopt;
-    FrameChange shift;
-    shift.slot = FrameSlot::chain;
-    shift.combine = FrameCombine::compose;
-    for (const auto& w : c.words) {
-      const auto* source = context_.source_machine.axis(w.axis);
-      const auto here = at_run(context_, Datum::programmed_position, w.axis);
-      if (source == nullptr || source->diameter || !here) return std::nullopt;
-      shift.words.push_back(w);
-      shift.words.back().value = subtract(*here, w.value);
-    }
-    return shift;
   }
 
   /// The action goes on with the chain that the one before it began.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "legaliser/analysis/words.h"
+
 namespace cnctrans::ir::passes {
 
 namespace {
@@ -140,6 +142,23 @@ std::optional<FrameChange> FrameTarget::as_it_is(const FrameChange& c, const Fra
   if (c.kind == FrameKind::translate && c.combine != FrameCombine::preset && shared) return std::nullopt;
   if (c.kind == FrameKind::mirror) name_all_mirrored(change, after.slot(c.slot).mirror);
   return change;
+}
+
+std::optional<FrameChange> FrameTarget::preset_from_here(const FrameChange& c, const FrameState& after) const {
+  if (c.combine != FrameCombine::preset || after.preset_waits() || part(after).known() ||
+      !can(FrameSlot::chain, FrameCombine::compose))
+    return std::nullopt;
+  FrameChange shift;
+  shift.slot = FrameSlot::chain;
+  shift.combine = FrameCombine::compose;
+  for (const auto& w : c.words) {
+    const auto* source = context_.source_machine.axis(w.axis);
+    const auto here = at_run(context_, Datum::programmed_position, w.axis);
+    if (source == nullptr || source->diameter || !here) return std::nullopt;
+    shift.words.push_back(w);
+    shift.words.back().value = subtract(*here, w.value);
+  }
+  return shift;
 }
 
 FrameTarget::Parts FrameTarget::kept_by(const FrameChange& c, const FrameState& before, const FrameState& after) const {

@@ -27,6 +27,11 @@ class FrameTarget {
   [[nodiscard]] std::optional<FrameChange> as_it_is(const FrameChange& c, const FrameState& before,
                                                     const FrameState& after, std::optional<Distance> distance) const;
 
+  /// A preset where nobody knows the place of the tool (millimetres): a shift inside of all that is in force, by the
+  /// coordinate that it has less the one that it gets, leaves every point where the preset puts it:
+  /// `ATRANS X=$P_EP[X]-10`. Empty: the place is known, or the target can't say it.
+  [[nodiscard]] std::optional<FrameChange> preset_from_here(const FrameChange& c, const FrameState& after) const;
+
   /// Parts of the canonical frame that a change leaves as they are.
   struct Parts {
     bool shift = false, turn = false, factor = false, mirror = false;

@@ -23,10 +23,7 @@ void check_radii(const Program& program, const LegaliseContext& context, const F
 class ArcPass {
  public:
   ArcPass(Program& program, const LegaliseContext& context, const FactsOf& facts)
-      : program_(program),
-        context_(context),
-        facts_(facts),
-        said_domain_(facts, context.target) {
+      : program_(program), context_(context), facts_(facts), said_domain_(facts, context.target) {
     if (starts_unknown()) path_.emplace(program, facts, context.source_machine, context);
     if (program.dialect != context.target.dialect && SaidPoints::needed(program)) said_.emplace(program, said_domain_);
   }
@@ -435,7 +432,7 @@ class ArcPass {
   const FactsOf& facts_;
   const SaidPoints said_domain_;
   std::optional<FlowStates<SaidPoints>> said_;  ///< none: every point is said
-  std::optional<PathStates> path_;  ///< none: every start is a number
+  std::optional<PathStates> path_;              ///< none: every start is a number
   bool plane_known_ = true;
   bool back_to_absolute_ = false;  ///< the block at hand counts in increments, the ones behind it don't
 };

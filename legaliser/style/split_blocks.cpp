@@ -156,9 +156,9 @@ class BlockSplitter {
     std::erase_if(b, goes_with_events);
   }
 
-  /// Without motion only the sequence of events counts: as few blocks as the target's order allows. The speed goes where
-  /// the command to its spindle goes: a spindle that turns takes a speed at once (behind a tool change S1000 M3 is one
-  /// event, not two).
+  /// Without motion only the sequence of events counts: as few blocks as the target's order allows. The speed goes
+  /// where the command to its spindle goes: a spindle that turns takes a speed at once (behind a tool change S1000 M3
+  /// is one event, not two).
   void sequence(std::vector<Action> actions, Body& pieces) {
     std::vector<Action> block;
     bool reached_after = false;
@@ -173,9 +173,8 @@ class BlockSplitter {
     std::vector<Action> speeds;  // wait for the command to their spindle
     const auto add = [&](Action a) {
       if (const auto* run = std::get_if<SpindleRun>(&a.data)) {
-        const auto own = std::stable_partition(speeds.begin(), speeds.end(), [number = run->number](const Action& w) {
-          return !says_speed(w, number);
-        });
+        const auto own = std::stable_partition(
+            speeds.begin(), speeds.end(), [number = run->number](const Action& w) { return !says_speed(w, number); });
         std::move(own, speeds.end(), std::back_inserter(block));
         speeds.erase(own, speeds.end());
       }
