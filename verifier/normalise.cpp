@@ -64,7 +64,7 @@ class StateFilter {
 /// but rapids in between: some taps turn the spindle by themselves, others take it as it runs.
 class Taps {
  public:
-  explicit Taps(const std::vector<Event>& events) { sort(events); }
+  Taps(const std::vector<Event>& events, bool keep_messages) { sort(events, keep_messages); }
   std::vector<const Event*> order;
 
  private:
@@ -91,9 +91,11 @@ class Taps {
     if (held_ != nullptr) order.push_back(held_);
     held_ = between_ = nullptr;
   }
-  void sort(const std::vector<Event>& events) {
+  void sort(const std::vector<Event>& events, bool keep_messages) {
     order.reserve(events.size());
-    for (const auto& e : events) one(e);
+    for (const auto& e : events) {
+      if (e.kind != EventKind::message || keep_messages) one(e);
+    }
     flush();
     order.erase(std::remove(order.begin(), order.end(), nullptr), order.end());
   }
@@ -191,11 +193,10 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     }
     out.erase(kept, out.end());
   };
-  const Taps taps(events);
+  const Taps taps(events, keep_messages);
   // Made ready and changed with nothing between is one command in two words.
-  const auto changed_at_once = [&order = taps.order, keep_messages](std::size_t k) {
+  const auto changed_at_once = [&order = taps.order](std::size_t k) {
     for (std::size_t n = k + 1; n < order.size(); ++n) {
-      if (order[n]->kind == EventKind::message && !keep_messages) continue;
       if (is_barrier(order[n]->kind)) return false;
       if (order[n]->kind != EventKind::tool) continue;
       if (order[n]->number != order[k]->number) return false;
@@ -213,7 +214,6 @@ std::vector<const Event*> normalise(const std::vector<Event>& events, bool keep_
     const Event& e = *taps.order[k];
     if (e.kind == EventKind::feed_stop) continue;  // timing, not path: see docs/verify.md
     if (e.kind == EventKind::offset && !keep_offsets) continue;
-    if (e.kind == EventKind::message && !keep_messages) continue;
     if (e.kind == EventKind::tool && !e.change && (!keep_selections || changed_at_once(k))) continue;
     if (e.kind == EventKind::comp && e.state != "off" && never_used(k)) continue;
     if (!filter.changes(e)) continue;

@@ -217,7 +217,6 @@ void Writer::switch_jump(const ir::Switch& s) {
 }
 
 void Writer::repeat(const ir::Repeat& r) {
-  offset_uncertain();
   if (r.has_program) return refuse("TRN-201", {}, "a range of another program can't be repeated in place here");
   const bool one_block = !r.last.text.empty() && r.first.text == r.last.text && r.first.is_number == r.last.is_number;
   const bool to_here = r.last.text.empty() && !r.last.computed;
@@ -281,7 +280,6 @@ std::string Writer::call_text(const ir::CallRoutine& c) {
 }
 
 void Writer::call(const ir::CallRoutine& c) {
-  offset_uncertain();
   std::string text = call_text(c);
   if (c.count) {
     const bool number = ir::constant_value(c.count).has_value();

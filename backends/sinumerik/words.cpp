@@ -72,79 +72,69 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
 /// After a move in machine coordinates without tool length (SUPA D0) the offset is selected again, in the first block
 /// that needs it.
 void Writer::offset_again(const ir::Block& b) {
-  if (!offset_pending_) return;
+  if (without_offset_ == nullptr) return;
   if (b.has_motion && b.motion.frame == ir::FrameUse::machine) return;
   if (!b.has_motion && !has<ir::CycleDefine>(b) && !block_has_offset_) return;
-  offset_pending_ = false;
-  if (block_has_offset_ || !offset_in_force(current().line.span)) return;
-  add(offset_word_, Rank::offset);
+  const std::string again = block_has_offset_ ? std::string() : offset_word(current().line.span);
+  without_offset_ = nullptr;
+  if (!again.empty()) add(again, Rank::offset);
 }
 
 /// The offset comes back before the program can go on elsewhere, and before a place that is reached from elsewhere.
 void Writer::before_statement(const ir::Statement& next) {
+  if (without_offset_ == nullptr) return;
   const ir::LineInfo& line = next.line;
   const bool entered =
       !line.labels.empty() || (!line.number.empty() && labels().is_target(routine_index(), line.number));
-  const auto* block = std::get_if<ir::Block>(&next.node);
   const auto* text = std::get_if<ir::Opaque>(&next.node);
-  const bool stays = block != nullptr || std::holds_alternative<ir::Assign>(next.node) ||
+  const bool stays = std::holds_alternative<ir::Block>(next.node) || std::holds_alternative<ir::Assign>(next.node) ||
                      std::holds_alternative<ir::Message>(next.node) || std::holds_alternative<ir::Label>(next.node) ||
                      std::holds_alternative<ir::Declare>(next.node) || std::holds_alternative<ir::End>(next.node) ||
                      (text != nullptr && text->harmless);
-  const bool branches = changes_branch(next);
-  if (offset_pending_ && (entered || !stays || branches)) offset_line(line.span);
-  if (entered || !stays) {
-    straight_ = false;
-    offset_uncertain();
-  }
-  if (!branches) return;
-  offset_by_branch_ = offset_by_branch_ || (in_branch() && offset_word_ != offset_before_branch_);
-  offset_before_branch_ = offset_word_;
+  if (entered || !stays || changes_branch(next)) offset_line(line.span);
 }
 
 void Writer::offset_line(const Span& span) {
-  offset_pending_ = false;
-  if (offset_in_force(span)) raw_line_in_branch(offset_word_, span);
+  if (without_offset_ == nullptr) return;
+  const std::string again = offset_word(span);
+  without_offset_ = nullptr;
+  if (!again.empty()) raw_line_in_branch(again, span);
 }
 
-/// No offset is selected since the start: D0 stays. False: as offset_in_force.
-bool Writer::stays_without_offset(const Span& where) {
-  if (!std::exchange(told_without_offset_, true)) {
-    diagnostics().warning("TRN-218", where,
-                          "behind the move in machine coordinates (D0) the target goes on without tool offset, the "
-                          "source with the one that its machine has at the start: the program selects none before "
-                          "(told once)",
-                          "select the offset in the source before such a move");
+/// The word of the offset in force before the move in machine coordinates. Empty: none was in force, or refused.
+std::string Writer::offset_word(const Span& where) {
+  if (!offsets_) {
+    offset_domain_.emplace(program());
+    offsets_.emplace(program(), *offset_domain_);
   }
-  return false;
-}
-
-/// The offset before the move in machine coordinates as `offset_word_`. False: none was in force, or refused.
-bool Writer::offset_in_force(const Span& where) {
-  const bool in_main = program().main() == &program().routines[routine_index()];
-  if (in_main && straight_ && offset_word_.empty() && !tool_selected_) return stays_without_offset(where);
+  const OffsetsInForce* found = offsets_->before(*without_offset_);
+  if (found == nullptr) return {};  // nothing comes here
+  const OffsetsInForce& in_force = *found;
+  if (in_force.words.empty() && !in_force.by_tool) {  // D0 stays
+    if (!std::exchange(told_without_offset_, true))
+      diagnostics().warning("TRN-218", where,
+                            "behind the move in machine coordinates (D0) the target goes on without tool offset, the "
+                            "source with the one that its machine has at the start: the program selects none before "
+                            "(told once)",
+                            "select the offset in the source before such a move");
+    return {};
+  }
   const char* select = "select the offset in the source after such a move";
-  bool guess = offset_by_branch_ || (several_offsets_ && !offset_certain_);
-  if (offset_word_.empty() && several_offsets_) {
+  const std::size_t ways = in_force.words.size() + (!in_force.open && in_force.at_start ? 1 : 0) +
+                           (!in_force.open && in_force.by_tool ? 1 : 0);
+  if (ways > 1) {
     refuse("TRN-218", {}, "the tool offset in force before the move in machine coordinates is not known here", select);
-    return false;
+    return {};
   }
-  if (offset_word_.empty() && only_offset_ && !in_main) {
-    guess = true;
-    offset_word_ = word("D", *only_offset_, {});
-  }
-  if (offset_word_.empty()) {
-    if (!selects_tools_) return stays_without_offset(where);
-    offset_word_ = "D1";  // what the control selects with the tool; that of the source perhaps does not
-    guess = guess || !same_dialect();
-  }
-  if (guess) {
+  if (in_force.certain() && in_force.words[0].is(0)) return {};
+  // With a tool the control selects D1; the source's perhaps does not.
+  const std::string again = in_force.words.empty() ? "D1" : word("D", in_force.words[0], {});
+  if (!in_force.certain())
     diagnostics().warning("TRN-218", where,
                           "the tool offset in force before the move in machine coordinates is not known for sure; " +
-                              offset_word_ + " is selected again here",
+                              again + " is selected again here",
                           select);
-  }
-  return true;
+  return again;
 }
 
 bool Writer::own_line(const ir::Action& a, const ir::Block& b) {
@@ -210,21 +200,13 @@ void Writer::set_feed(const ir::Action& a, const ir::SetFeed& f) {
 }
 
 void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
-  tool_selected_ = true;
   if (!t.name.empty()) return add("T=\"" + std::string(t.name) + '"', Rank::tool, a.pos);
   add(word("T", t.number, a.pos), Rank::tool, a.pos);
 }
 
 void Writer::tool_offset(const ir::Action& a, const ir::ToolOffset& t) {
   if (same_dialect() && a.text.empty()) return;  // selected by the tool change
-  std::string text = word("D", t.number, a.pos);
-  const ir::Facts* f = facts();
-  if (!t.number.is(0) && (f == nullptr || f->reachable)) {
-    offset_word_ = text;
-    offset_certain_ = true;
-    offset_by_branch_ = false;
-  }
-  add(std::move(text), Rank::offset, a.pos);
+  add(word("D", t.number, a.pos), Rank::offset, a.pos);
 }
 
 void Writer::machine_function(const ir::Action& a, const ir::MachineFunction& m) {
@@ -297,7 +279,7 @@ void Writer::frame_use(const ir::Motion& m) {
   add(own.empty() ? "SUPA" : own, Rank::frame, m.frame_pos);
   if (m.frame != ir::FrameUse::machine || block_has_offset_) return;
   add("D0", Rank::offset);
-  offset_pending_ = true;
+  without_offset_ = &current();
 }
 
 namespace {

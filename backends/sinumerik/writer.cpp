@@ -44,30 +44,6 @@ bool chooses_master(const ir::Program& program) {
   return ir::any_action(program, [](const ir::Action& a) { return std::holds_alternative<ir::MasterSpindle>(a.data); });
 }
 
-struct Offsets {
-  std::optional<double> first;
-  bool several = false;  ///< more than one offset number other than 0, or computed ones
-  bool tools = false;    ///< some tool is selected
-};
-Offsets offsets_of(const ir::Program& program) {
-  std::optional<double> first;
-  bool several = false, tools = false;
-  for (const ir::Routine& r : program.routines) {
-    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
-      const auto* b = std::get_if<ir::Block>(&s.node);
-      if (b == nullptr) return;
-      for (const ir::Action& a : b->actions) {
-        tools = tools || std::holds_alternative<ir::ToolSelect>(a.data);
-        const auto* o = std::get_if<ir::ToolOffset>(&a.data);
-        if (o == nullptr || o->number.is(0)) continue;
-        several = several || !o->number.literal() || (first && *first != o->number.number);
-        first = o->number.number;
-      }
-    });
-  }
-  return {first, several, tools};
-}
-
 }  // namespace
 
 std::string legal_name(std::string_view stem) {
@@ -84,11 +60,7 @@ Writer::Writer(const ir::Program& source, const WriteOptions& write_options, Dia
     : ProgramWriter(source, write_options, sinumerik::style, sink),
       expressions_(program(), source.dialect == sinumerik::style.dialect),
       uses_css_(uses_css(program())),
-      chooses_master_(chooses_master(program())),
-      several_offsets_(offsets_of(program()).several),
-      selects_tools_(offsets_of(program()).tools) {
-  if (const auto only = offsets_of(program()).first; only && !several_offsets_) only_offset_ = ir::Value(*only);
-}
+      chooses_master_(chooses_master(program())) {}
 
 std::string Writer::sub_name(const ir::RoutineName& name) const {
   if (!name.text.empty()) return name.text;
@@ -151,11 +123,7 @@ void Writer::write_program() {
 
 void Writer::routine_text(std::size_t index, const std::string& name) {
   start_routine(index);
-  offset_word_.clear();
-  offset_before_branch_.clear();
-  offset_by_branch_ = false;
-  offset_pending_ = offset_certain_ = tool_selected_ = false;
-  straight_ = true;
+  without_offset_ = nullptr;
   const ir::Routine& r = routine();
   const bool proc = r.has_signature || !r.parameters.empty();
   const bool title = !r.title.empty() && !same_dialect();
@@ -182,7 +150,7 @@ void Writer::routine_text(std::size_t index, const std::string& name) {
   };
   const auto last = std::find_if_not(r.body.rbegin(), r.body.rend(), remark);
   if (r.kind == ir::RoutineKind::sub && !same_dialect() && (last == r.body.rend() || !returns(*last))) {
-    if (offset_pending_) offset_line(r.body.back().line.span);
+    if (without_offset_ != nullptr) offset_line(r.body.back().line.span);
     raw_line("M17");
   }
 }
@@ -244,10 +212,8 @@ bool Writer::joins(const ir::Statement& before, const ir::Statement& next) {
 }
 
 void Writer::nested(const ir::Body& statements) {
-  offset_uncertain();
   nested_body(statements);
-  if (offset_pending_) offset_line(current().line.span);
-  offset_uncertain();
+  offset_line(current().line.span);
 }
 
 // ---- values --------------------------------------------------------------------------------------------------------

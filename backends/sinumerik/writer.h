@@ -8,6 +8,7 @@
 
 #include "backends/common/program_writer.h"
 #include "backends/sinumerik/expressions.h"
+#include "backends/sinumerik/offsets_in_force.h"
 #include "dialects/sinumerik/geometry.h"
 
 namespace cnctrans::backends::sinumerik {
@@ -114,9 +115,7 @@ class Writer final : public ProgramWriter {
   void feed_and_spindle_mode(const ir::Block& b);
   void offset_again(const ir::Block& b);
   void offset_line(const Span& span);
-  bool offset_in_force(const Span& where);
-  bool stays_without_offset(const Span& where);
-  void offset_uncertain() { offset_certain_ = false; }
+  std::string offset_word(const Span& where);
   void nested(const ir::Body& statements);
   std::string rotary_attribute(const ir::CoordWord& w);
   bool radius_on_face(ir::AxisId axis);
@@ -136,18 +135,11 @@ class Writer final : public ProgramWriter {
   bool angles_ = false;          ///< every thread says its start angle
   std::string group_code_;       ///< G94 G95 G96... of the block being written
   bool group_written_ = false;
-  bool block_has_offset_ = false;         ///< the block being written selects an offset or a tool
-  std::string offset_word_;               ///< last D written, empty: none in this routine
-  bool offset_certain_ = false;           ///< every path that leads here has selected it
-  bool several_offsets_ = false;          ///< the program selects more than one
-  bool selects_tools_ = false;            ///< the program selects tools
-  std::optional<ir::Value> only_offset_;  ///< the one offset other than 0 that the program selects
-  std::string offset_before_branch_;      ///< where the lines under the present skip mark begin
-  bool offset_by_branch_ = false;         ///< it was selected under a skip mark
+  bool block_has_offset_ = false;                  ///< the block being written selects an offset or a tool
+  const ir::Statement* without_offset_ = nullptr;  ///< the move in machine coordinates for which D0 was written
   bool told_without_offset_ = false;
-  bool offset_pending_ = false;  ///< D0 was written for a move in machine coordinates
-  bool straight_ = true;         ///< no jump, call or label since the start of the routine
-  bool tool_selected_ = false;   ///< the routine has selected a tool
+  std::optional<OffsetDomain> offset_domain_;
+  std::optional<ir::passes::FlowStates<OffsetDomain>> offsets_;  ///< made at the first such move
 };
 
 }  // namespace cnctrans::backends::sinumerik

@@ -144,20 +144,7 @@ class CyclePass {
   void join_while_on(const std::vector<LabelRef>& names);
   /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle, or the block that
   /// has switched it off.
-  void join(const Statement& s) {
-    const auto names = labels_on(s.line);
-    if (active_ && active_->native && (active_->on_target || active_->maybe_on_target))
-      for (const auto& l : names) under_cycle_.emplace(l.is_number, l.text);
-    join_while_on(names);
-    if (!active_ || by_call_) return;
-    const bool off = active_->native && active_->was_on_target && !active_->on_target;
-    if (!off && !(active_->deferred && active_->on_target)) return;
-    if (std::none_of(names.begin(), names.end(),
-                     [&](const auto& l) { return uses_.is_target(l) && (off || !behind(l)); }))
-      return;
-    active_->on_target = false;
-    active_->maybe_on_target = true;
-  }
+  void join(const Statement& s);
 
   /// All that leads to the label stands behind the point that defines the target's cycle.
   [[nodiscard]] bool behind(const LabelRef& l) const {
@@ -472,6 +459,7 @@ class CyclePass {
   SpindleSense sense_;
   FeedScale feed_scale_;
   bool by_call_ = false;
+  std::set<std::pair<bool, std::string>> left_off_;     ///< labels to which a jump comes without the target's own cycle
   std::set<std::pair<bool, std::string>> under_cycle_;  ///< labels before which the target has its own cycle in force
   bool surely_active_ = false, may_end_ = false;        ///< a copy for one cycle that does not touch it, or does
   bool written_out_ = false;

@@ -95,9 +95,9 @@ class FramePass {
           out.push_back(std::move(s));
           return;
         }
-        if (program_.dialect == context_.target.dialect ||
-            before.slot(FrameSlot::preset) == state.slot(FrameSlot::preset))
-          continue;
+        const PlanarFrame was = before.slot(FrameSlot::preset), now = state.slot(FrameSlot::preset);
+        const bool same = was == now && (now.known() || before.preset_waits() == state.preset_waits());
+        if (program_.dialect == context_.target.dialect || same) continue;
         FrameChange gone;  // what the preset holds goes, or comes back
         gone.slot = FrameSlot::preset;
         gone.kind = FrameKind::translate;

@@ -367,7 +367,8 @@ class VariableMap {
       if (reads(main, VarRef{key.first, {}, number(static_cast<double>(key.second)), {}})) list.push_back(to);
     }
     for (const auto& [key, to] : named_places_) {
-      if (!starts_old(to) || !only_declared(program_, key) || !reads(main, VarRef{key.first, key.second, nullptr, {}}))
+      if (!starts_old(to) || !may_be_read_first(program_, key) ||
+          !reads(main, VarRef{key.first, key.second, nullptr, {}}))
         continue;
       for (std::int64_t k = 0; k < use_.named.at(key).elements(); ++k) {
         list.push_back(to);

@@ -94,8 +94,8 @@ void VariableUse::say_lacking() const {
   }
 }
 
-bool only_declared(const Program& program, const std::pair<SpaceId, std::string>& key) {
-  bool declared = false, given = false;
+bool may_be_read_first(const Program& program, const std::pair<SpaceId, std::string>& key) {
+  bool declared = false, array = false, given = false;
   Span line;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
@@ -103,6 +103,7 @@ bool only_declared(const Program& program, const std::pair<SpaceId, std::string>
         for (const auto& item : d->items) {
           if (item.name != key.second) continue;
           declared = true;
+          array = !item.dimensions.empty();
           given = given || !item.initial.empty();
           line = s.line.span;
         }
@@ -112,7 +113,7 @@ bool only_declared(const Program& program, const std::pair<SpaceId, std::string>
       for (const auto& item : a->items) given = given || item.target.name == key.second;
     });
   }
-  return declared && !given;
+  return declared && !(array && given);
 }
 
 }  // namespace cnctrans::ir::passes

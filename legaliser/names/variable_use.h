@@ -56,6 +56,6 @@ struct VariableUse {
 };
 
 /// A declaration makes the variable, and neither it nor anything else in its line gives a value: it starts at 0.
-bool only_declared(const Program& program, const std::pair<SpaceId, std::string>& key);
+bool may_be_read_first(const Program& program, const std::pair<SpaceId, std::string>& key);
 
 }  // namespace cnctrans::ir::passes

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "ir/analysis/flow_states.h"
+#include "ir/edit/search.h"
 #include "ir/geometry/geometry.h"
 #include "ir/motion_kinds.h"
 #include "legaliser/analysis/words.h"
@@ -55,8 +56,11 @@ namespace {
 class WaitingCorners {
  public:
   using State = std::set<std::uint32_t>;
-  WaitingCorners(const LegaliseContext& context, const FactsOf& facts)
-      : context_(context), facts_(facts), points_(context, facts) {}
+  WaitingCorners(const Program& program, const LegaliseContext& context, const FactsOf& facts)
+      : context_(context), facts_(facts), points_(context, facts), lasting_(any_action(program, [](const Action& a) {
+          const auto* c = std::get_if<Corner>(&a.data);
+          return c != nullptr && c->modal;
+        })) {}
 
   [[nodiscard]] static State start(const Routine& /*unused*/, bool /*unused*/) { return {}; }
   void transfer(const Statement& s, State& state) const {
@@ -79,8 +83,9 @@ class WaitingCorners {
   [[nodiscard]] Going step_of(const Statement& s) const { return going_of(s, context_, facts_, points_); }
 
  private:
-  static bool has_corner(const Statement& s) {
+  [[nodiscard]] bool has_corner(const Statement& s) const {
     const auto* b = std::get_if<Block>(&s.node);
+    if (lasting_ && b != nullptr && b->has_motion) return true;
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
              const auto* c = std::get_if<Corner>(&a.data);
              return c != nullptr && !c->modal && !c->value.is(0);
@@ -89,13 +94,14 @@ class WaitingCorners {
   const LegaliseContext& context_;
   const FactsOf& facts_;
   PathPoints points_;
+  bool lasting_;  ///< a corner function stays in force somewhere: every move may have one
 };
 
 }  // namespace
 
 std::map<std::uint32_t, CornerEnds> corner_ends(const Program& program, const LegaliseContext& context,
                                                 const FactsOf& facts) {
-  const WaitingCorners domain(context, facts);
+  const WaitingCorners domain(program, context, facts);
   const FlowStates<WaitingCorners> states(program, domain);
   std::map<std::uint32_t, CornerEnds> all;
   const auto alone = [&all](const WaitingCorners::State& waiting, const Span& where) {
