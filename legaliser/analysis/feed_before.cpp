@@ -33,6 +33,12 @@ bool defines_tap(const Statement& s) {
          });
 }
 
+/// What is kept as text may give a feed, unless the path is the same without it.
+bool acts_unseen(const Statement& s) {
+  const auto* o = std::get_if<Opaque>(&s.node);
+  return o != nullptr && !o->harmless;
+}
+
 /// A domain of FlowStates: whether some way has given a feed.
 class GivenDomain {
  public:
@@ -40,7 +46,7 @@ class GivenDomain {
     bool maybe = false;
   };
   [[nodiscard]] static State start(const Routine& r, bool called) { return {called || r.kind != RoutineKind::main}; }
-  static bool gives(const Statement& s) { return std::holds_alternative<Opaque>(s.node) || says(s); }
+  static bool gives(const Statement& s) { return acts_unseen(s) || says(s); }
   static bool says(const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
@@ -71,7 +77,7 @@ class WordDomain {
   };
   [[nodiscard]] static State start(const Routine&, bool) { return {}; }
   static void transfer(const Statement& s, State& state) {
-    if (std::holds_alternative<Opaque>(s.node)) state.word.reset();
+    if (acts_unseen(s)) state.word.reset();
     if (state.word && !state.word->literal()) {
       each_target(s, [&state](const VarRef& v) {
         if (state.word && reads(state.word->expr, v)) state.word.reset();
@@ -119,7 +125,7 @@ class MinuteDomain {
     return {power_on_, std::nullopt};
   }
   static void transfer(const Statement& s, State& state) {
-    if (std::holds_alternative<Opaque>(s.node)) state = {};
+    if (acts_unseen(s)) state = {};
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return;
     const bool sure = s.line.skip_mask == 0;

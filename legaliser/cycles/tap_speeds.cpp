@@ -96,29 +96,50 @@ class TapSpeeds {
       for (const auto& l : labels_on(body[i].line)) {
         if (uses_.is_target(l)) sense_.forget();
       }
-      const Statement seen = body[i];
+      const std::size_t before = out.size();
       one(body, i, behind, out);
-      sense_.follow(seen, std::holds_alternative<Block>(seen.node) || ToolHeight::keeps(seen));
+      for (std::size_t k = before; k < out.size(); ++k)
+        sense_.follow(out[k], std::holds_alternative<Block>(out[k].node) || ToolHeight::keeps(out[k]));
     }
     body = std::move(out);
+  }
+
+  static bool cancels(const Statement& s) {
+    const auto* b = std::get_if<Block>(&s.node);
+    return b != nullptr && b->actions.size() == 1 && std::holds_alternative<CycleCancel>(b->actions.front().data);
+  }
+  /// A cycle that holds from this block on is taken back in sight, with nothing but points before, which the tool goes
+  /// to in rapid.
+  bool row_of_points(const Body& body, std::size_t from) const {
+    for (std::size_t i = from; i < body.size() && body[i].line.skip_mask == 0; ++i) {
+      const auto labels = labels_on(body[i].line);
+      const auto* b = std::get_if<Block>(&body[i].node);
+      if (b == nullptr || std::any_of(labels.begin(), labels.end(), [&](const auto& l) { return uses_.is_target(l); }))
+        return false;
+      if (cancels(body[i])) return true;
+      if (b->motion.kind != MotionKind::rapid || b->actions.size() != (i == from ? 1 : 0)) return false;
+    }
+    return false;
   }
   void one(Body& body, std::size_t i, std::optional<Block>& behind, Body& out) {
     Statement& s = body[i];
     auto* m = std::get_if<ModalCall>(&s.node);
     auto* b = std::get_if<Block>(&s.node);
     std::optional<Around> around;
+    bool over_points = m != nullptr;
     if (m != nullptr && m->cycle && ends_in_sight(body, i)) {
-      around = split(m->cycle, facts_.before(s), sense_.now());
+      around = split(m->cycle, facts_.before(s), sense_.surely());
       if (around) m->cycle = around->cycle;
     }
     for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
       auto* d = std::get_if<CycleDefine>(&b->actions[k].data);
-      if (d == nullptr || d->modal || !d->here) continue;
-      around = split(d->cycle, facts_.before(s), sense_.now());
+      if (d == nullptr || !d->here || (d->modal && !row_of_points(body, i))) continue;
+      over_points = d->modal;
+      around = split(d->cycle, facts_.before(s), sense_.surely());
       if (around) d->cycle = around->cycle;
     }
     const LineInfo like = s.line;
-    if (m != nullptr && behind) {  // the end of the one before
+    if ((m != nullptr || cancels(s)) && behind) {  // the end of the one before
       Body pieces;
       pieces.push_back(std::move(s));
       pieces.push_back(made(like, *std::exchange(behind, std::nullopt)));
@@ -131,8 +152,8 @@ class TapSpeeds {
     const std::size_t own = around->before.actions.empty() ? 0 : 1;
     if (own != 0) pieces.push_back(made(like, std::move(around->before)));
     pieces.push_back(std::move(s));
-    if (around->after && b != nullptr) pieces.push_back(made(like, *std::move(around->after)));
-    if (around->after && m != nullptr) behind = std::move(around->after);
+    if (around->after && !over_points) pieces.push_back(made(like, *std::move(around->after)));
+    if (around->after && over_points) behind = std::move(around->after);
     editor_.put_group(out, std::move(pieces), own);
   }
   /// Between a modal call and its end stand only points to which the tool goes in rapid, and nothing that turns the

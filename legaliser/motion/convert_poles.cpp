@@ -64,8 +64,7 @@ class PolePass {
 
   void routine(Routine& r, const FlowStates<PolePass>& states, const FlowStates<RadiusDomain>& radii,
                const FlowStates<PathValues>& values) {
-    radii_ = &radii;
-    values_ = &values, states_ = &states;
+    radii_ = &radii, values_ = &values, states_ = &states;
     uses_ = label_uses(program_, r);
     forget_way();
     walk(r.body);
@@ -112,15 +111,15 @@ class PolePass {
         if (s.line.skip_mask != 0 || facts_.before(s).modal_call_runs()) forget_way();
         continue;
       }
-      bool nested = false;
+      const auto* kept = std::get_if<Opaque>(&s.node);
+      bool elsewhere = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node) ||
+                       std::holds_alternative<Repeat>(s.node) || (kept != nullptr && !kept->harmless);
       each_body(s, [&](Body& inner) {
-        nested = true;
+        elsewhere = true;
         forget_way();
         walk(inner);
       });
-      const bool called = std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node);
-      const bool elsewhere = called || std::holds_alternative<Repeat>(s.node) || std::holds_alternative<Opaque>(s.node);
-      if (nested || elsewhere) forget_way();
+      if (elsewhere) forget_way();
       each_target(s, [this](const VarRef& v) {
         for (auto* value : {&radius_, &angle_}) {
           if (*value && (*value)->expr && reads((*value)->expr, v)) value->reset();
@@ -206,8 +205,8 @@ class PolePass {
   /// What is kept is counted in the unit of the program.
   void in_other_units(std::optional<Units> before, Units now) {
     if (before == now) return;
-    const double factor = now == Units::inch ? 1 / 25.4 : 25.4;
     if (!before) pole_.reset();
+    const double factor = now == Units::inch ? 1 / 25.4 : 25.4;
     if (pole_) pole_->u = clean(pole_->u * factor), pole_->v = clean(pole_->v * factor);
     if (!before || (radius_ && !radius_->literal())) return forget_point();
     led_.scale(factor);
@@ -296,30 +295,32 @@ class PolePass {
     return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra) || by_values(b, facts);
   }
 
-  /// An arc about the pole to an absolute angle: its radius is the distance of the point before, which may be a
-  /// variable's. False: not of that form, or not known.
+  /// An arc about the pole to an absolute angle, or by a step from that of computed polar words: its radius is the
+  /// distance of the point before, which may be a variable's. False: not of that form, or not known.
   bool about_pole(Block& b, const Facts& facts) {
     Motion& m = b.motion;
     MotionExtra x = *m.extra;
     const auto distance = setting_in<Distance>(b, facts, Setting::distance);
     const bool absolute = polar_absolute(x.polar_angle_mode, distance);
-    if (!m.centers.empty() || x.has_polar_radius || !absolute || distance != Distance::absolute || !plane_)
+    const auto f = factors(b, facts, Distance::absolute);
+    if (x.has_polar_radius || distance != Distance::absolute || !pole_ || !f) return false;
+    if (absolute ? !m.centers.empty() : !angle_ || !is_part_about(*pole_, b, facts, context_.source_machine))
       return false;
     std::optional<Value> r = radius_stays_ && other_pole_ ? std::nullopt : radius_;
-    const auto start = here(facts);
-    if (!r && pole_ && start) r = Value{clean(std::hypot(start->u - pole_->u, start->v - pole_->v))};
-    const auto f = factors(b, facts, Distance::absolute);
-    if (!r || !pole_ || !f) return false;
-    if (r->literal() && x.polar_angle.literal() && !stays_polar(b)) return false;  // numbers: by to_cartesian
+    if (const auto start = here(facts); !r && start)
+      r = Value{clean(std::hypot(start->u - pole_->u, start->v - pole_->v))};
+    if (!r) return false;
+    const Value q = absolute ? x.polar_angle : add(*angle_, x.polar_angle);
+    const bool stays = absolute && stays_polar(b);
+    if (r->literal() && q.literal() && !stays) return false;  // numbers: by to_cartesian
     r->text = {};
-    const Value q = x.polar_angle;
     const auto programmed = radius_;
     forget_point();
     if (r->literal() && q.literal()) led_to(around(*pole_, r->number, q.number));
     radius_ = radius_stays_ ? programmed : r;
     angle_ = q;
     angle_->text = {};
-    if (stays_polar(b)) {
+    if (stays) {
       say_polar_radius(m, *r);
       return true;
     }
@@ -484,7 +485,7 @@ class PolePass {
 
 void convert_poles(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !uses_polar(program)) return;
-  if (!context.target.polar) count_polar_steps(program, context);
+  if (!context.target.polar || !context.target.distance_per_word) count_polar_steps(program, context);
   const FactsOf facts(program, context);
   const FrameSteps frames(program, facts, context.target_machine, context);
   const PathValues path(facts, context.source_machine, frames);

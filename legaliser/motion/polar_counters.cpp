@@ -99,10 +99,11 @@ class PolarCounters {
     double radius = 0, angle = 0;
   };
 
-  /// A step whose point before is no number.
-  static bool counts_on(const Statement& s, const Facts& facts) {
+  /// A step that the target can't say, whose point before is no number.
+  [[nodiscard]] bool counts_on(const Statement& s, const Facts& facts) const {
     const auto plane = setting<Plane>(facts, Setting::plane);
     return plane && is_step(s, facts) &&
+           (!context_.target.polar || modes_of_words(*std::get<Block>(s.node).motion.extra)) &&
            !(facts.position[plane_axes(*plane).u] && facts.position[plane_axes(*plane).v]);
   }
 
@@ -305,7 +306,7 @@ bool poles_at_the_tool(const Program& program) {
 }  // namespace
 
 void count_polar_steps(Program& program, const LegaliseContext& context) {
-  if (poles_at_the_tool(program)) {
+  if (!context.target.polar && poles_at_the_tool(program)) {
     StepsFromTool steps(program, context);
     for (auto& r : program.routines) steps.run(r);
   }

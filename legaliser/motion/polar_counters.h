@@ -1,4 +1,5 @@
-// Radius and angle of polar words as two variables that count on, for a target without polar words.
+// Radius and angle of polar words as two variables that count on, for a target without polar words, or without words
+// that are increments by themselves.
 #pragma once
 
 #include "legaliser/legalise.h"

@@ -124,6 +124,16 @@ std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start
   return c;
 }
 
+bool is_part_about(Point2 pole, const Block& b, const Facts& facts, const machine::Profile& machine) {
+  constexpr double last_places = 0.001;  // degrees: a full turn, or none
+  const Value& step = b.motion.extra->polar_angle;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  const bool absolute = std::all_of(b.motion.centers.begin(), b.motion.centers.end(),
+                                    [](const CenterWord& c) { return c.mode == CenterMode::absolute; });
+  return plane && absolute && step.literal() && std::fabs(std::remainder(step.number, 360)) > last_places &&
+         centre_of(b, facts, pole, *plane, Distance::absolute, machine) == pole;
+}
+
 void turns_to_pitch(MotionExtra& x, const Block& b, const Facts& facts, AxisId normal, const ArcPoints& arc,
                     const machine::Profile& machine) {
   const auto word = std::find_if(b.motion.coords.begin(), b.motion.coords.end(),

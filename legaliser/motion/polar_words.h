@@ -78,6 +78,9 @@ inline bool polar_line(const Block& b, const Facts& facts, bool lines_only) {
 std::optional<Point2> centre_of(const Block& b, const Facts& facts, Point2 start, Plane plane,
                                 std::optional<Distance> distance, const machine::Profile& machine);
 
+/// A part of a circle by a step of the angle that is a number, about this pole, whether it names the centre or not.
+bool is_part_about(Point2 pole, const Block& b, const Facts& facts, const machine::Profile& machine);
+
 /// The points of an arc in its plane.
 struct ArcPoints {
   Point2 start, end, centre;

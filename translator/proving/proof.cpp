@@ -11,6 +11,7 @@
 #include "machine/tool_data.h"
 #include "translator/proving/coverage.h"
 #include "translator/proving/explore.h"
+#include "translator/proving/said_tools.h"
 
 namespace cnctrans::translator {
 
@@ -489,11 +490,11 @@ static machine::Profile called_alike(const machine::Profile& source, machine::Pr
 }
 
 Proof prove(const Side& source, const Side& target, const ProofOptions& options) {
-  if (!source.program.routines.empty() && source.program.main() == nullptr) {
-    const machine::Profile called = called_alike(source.profile, target.profile, !options.target.diameter_switch);
-    return Prover(source, {target.program, called, target.loader}, options, true).run();
-  }
-  return Prover(source, target, options, false).run();
+  const bool called = !source.program.routines.empty() && source.program.main() == nullptr;
+  const machine::Profile there = with_said_tools(
+      source.program,
+      called ? called_alike(source.profile, target.profile, !options.target.diameter_switch) : target.profile);
+  return Prover(source, {target.program, there, target.loader}, options, called).run();
 }
 
 }  // namespace cnctrans::translator

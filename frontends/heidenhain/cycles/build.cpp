@@ -106,6 +106,9 @@ void CycleBuilder::warn(std::string message) {
 bool CycleBuilder::only_value(std::int16_t number) {
   const auto it = cycle_.values.find(number);
   if (it == cycle_.values.end() || it->second.kind == QValue::Kind::value) return true;
+  const bool stud = cycle_.number == 256 || cycle_.number == 257;
+  const bool may_be_rapid = number == 208 || number == 253 || (number == 206 && stud);
+  if (may_be_rapid && it->second.kind == QValue::Kind::rapid) return true;
   return refuse("Q" + std::to_string(number) + " in words (FMAX, FU, FZ, PREDEF) is not carried here");
 }
 
@@ -169,10 +172,11 @@ bool CycleBuilder::feed_in(std::int16_t number) {
   return true;
 }
 
-/// Q208: 0 is the feed itself.
+/// Q208: 0 is the feed itself. In rapid the cycle is another one (drilling), or has no such feed.
 bool CycleBuilder::feed_out() {
-  if (!only_value(208) && !rapid(208)) return false;
+  if (!only_value(208)) return false;
   const Value out = q(208);
+  if (rapid(208)) return true;
   if (out.is(0)) {
     hole_.feed_out = hole_.feed;
   } else if (!out.literal()) {
@@ -238,6 +242,7 @@ bool CycleBuilder::drill() {
 
 bool CycleBuilder::ream() {
   hole_.dwell_bottom = q(211);
+  if (rapid(208)) hole_.kind = HoleKind::drill;
   return feed_in() && feed_out();
 }
 
@@ -246,7 +251,7 @@ bool CycleBuilder::bore() {
   hole_.dwell_bottom = q(211);
   hole_.orient_angle = q(336);
   if (!feed_in()) return false;
-  if (!rapid(208) && !feed_out()) return false;
+  if (!feed_out()) return false;
   const Value side = q(214);
   if (!side.literal()) return refuse("Q214 must be a number");
   constexpr double inch = 25.4;
@@ -288,11 +293,10 @@ bool CycleBuilder::universal() {
   if (!breaks.literal() || !decrement.literal()) return as_moves();
   const bool stroke = one_stroke(peck) && breaks.is(0);
   if (stroke) {
-    hole_.kind = HoleKind::bore;
+    hole_.kind = rapid(208) ? HoleKind::drill : HoleKind::bore;
     return true;
   }
   if (!decrement.is(0) || !rapid(208)) return as_moves();
-  hole_.has_feed_out = false;
   pecks(peck);
   if (breaks.is(0)) {
     hole_.kind = HoleKind::peck_full;
@@ -316,7 +320,7 @@ bool CycleBuilder::pecking() {
   if (!decrement.is(0) || !q(379).is(0) || !chip.is(0)) return as_moves();
   if (one_stroke(peck)) {
     hole_.kind = rapid(208) ? HoleKind::drill : HoleKind::bore;
-    return rapid(208) || feed_out();
+    return feed_out();
   }
   if (!rapid(208) || !ir::equal(q(258), q(259))) return as_moves();
   pecks(peck);

@@ -107,7 +107,7 @@ bool CycleBuilder::helix_bore() {
 
 bool CycleBuilder::helix_thread() {
   if (!levels() || skipped_) return skipped_;
-  if (!only_value(207) || !only_value(512) || (!only_value(253) && !rapid(253))) return false;
+  if (!only_value(207) || !only_value(512) || !only_value(253)) return false;
   if (cycle_.number == 267 && !q(358).is(0)) return refuse("countersinking at the front (Q358) is not carried");
   word("diameter", q(335));
   word("pitch", q(239));

@@ -355,7 +355,12 @@ void CycleCalls::call(std::size_t i, Statements& out) {
   } else if (m.goes_back) {
     lowering_.report().warn("HEI-019", {}, "the tool stays where the pocket ends: where it stood before is not known");
   }
-  if (!alone || out.size() == at) return;
+  if (alone) take_place(out, at);
+}
+
+/// The statement before the one `at` says nothing: its line is that one's.
+void CycleCalls::take_place(Statements& out, std::size_t at) {
+  if (out.size() == at) return;
   out[at].line = std::move(out[at - 1].line);
   out.erase(out.begin() + static_cast<std::ptrdiff_t>(at) - 1);
 }
@@ -391,7 +396,11 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
   for (auto& m : each) raise(m, item.height);
   out.push_back(std::move(item.statement));
   const ir::Statement first = out.back();
-  const bool modal = level && each.front().cycle != nullptr && !each.front().speed_after;
+  const std::size_t at = out.size();
+  const auto* hole = each.front().cycle == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&each.front().cycle->node);
+  // At feed the spindle of a tap that stops it stands between the points.
+  const bool stands = !rapid && hole != nullptr && hole->spindle_after == ir::SpindleStep::off;
+  const bool modal = level && hole != nullptr && !each.front().speed_after && !stands;
   for (std::size_t k = 0; k < places.size(); ++k) {
     ir::Block b = move(rapid ? ir::MotionKind::rapid : ir::MotionKind::linear,
                        {coordinate(plane.u, places[k].u), coordinate(plane.v, places[k].v)});
@@ -403,10 +412,12 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
     out.push_back(behind(first, std::move(b)));
     if (!modal) put(each[level ? 0 : k], plane, out);
   }
-  if (!modal) return;
-  ir::Block cancel;
-  cancel.actions.emplace_back().data = ir::CycleCancel{};
-  out.push_back(behind(first, std::move(cancel)));
+  if (modal) {
+    ir::Block cancel;
+    cancel.actions.emplace_back().data = ir::CycleCancel{};
+    out.push_back(behind(first, std::move(cancel)));
+  }
+  if (std::get<ir::Block>(first.node).empty()) take_place(out, at);
 }
 
 /// Between the points the tool goes where it stood at the call, if that is higher than the cycle's own way out.

@@ -47,6 +47,7 @@ class CycleCalls {
   Machining machining(const Item& item, const Arrival& a, const std::optional<ir::Value>& shift,
                       const CycleDefinition* overlay);
   static void raise(Machining& m, const std::optional<ir::Value>& height);
+  static void take_place(Statements& out, std::size_t at);
   [[nodiscard]] ir::Block step_block(const CycleMove& step, const ir::PlaneAxes& plane) const;
   void put(const Machining& m, const ir::PlaneAxes& plane, Statements& out) const;
   void above_first(const Item& item, const Machining& m, const ir::PlaneAxes& plane, Statements& out);

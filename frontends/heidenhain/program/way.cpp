@@ -166,8 +166,8 @@ void Way::call(const Item& item) {
     if (it == cycle->values.end() || it->second.kind != QValue::Kind::value || !it->second.value.literal()) return;
     q[k] = it->second.value.number;
   }
-  if (item.shift) return;
-  double end = q[1] + std::max(q[0], q[2]);
+  if (item.shift && !item.shift->literal()) return;
+  double end = q[1] + std::max(q[0], q[2]) + (item.shift ? item.shift->number : 0);
   if (item.at_pattern) {
     if (!before || !before->literal()) return;
     end = std::max(end, before->number());

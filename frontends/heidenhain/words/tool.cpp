@@ -124,7 +124,9 @@ bool Lowering::tool_def(const syntax::Statement& s) {
       if (known && iequals_ascii(w.address, "R") && w.has_value && w.number > 0)
         radii_[saturate<std::int64_t>(number->number)] = w.number;
     }
-    report_.note("HEI-015", s.pos, "the tool's length and radius are kept as text: the tools are those of the machine");
+    report_.note("HEI-015", s.pos,
+                 "the tool's length and radius are kept as text: milling cycles go by the radius, else the tools are "
+                 "those of the machine");
     ir::Opaque o;
     o.text = std::string(trim(text_));
     o.feature = "beside.data";

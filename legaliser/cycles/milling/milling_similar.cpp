@@ -82,7 +82,12 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   }
   std::string error;
   bool none = false;
-  if (const auto r = radius(it->second, unit, &error, &none); r && *r > 0) source.radius = *r / unit;
+  std::optional<double> r;
+  for (const auto& [name, v] : cycle.mill.words) {
+    if (name == cycles::tool_radius_word) r = known_number(v);
+  }
+  if (!r) r = radius(it->second, unit, &error, &none);
+  if (r && *r > 0) source.radius = *r / unit;
   source.sense = sense;
   source.clearance = 1 / unit;
   source.mirrors = mirrors_;

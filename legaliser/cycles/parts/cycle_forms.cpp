@@ -234,9 +234,10 @@ bool take_cancel(Block& b) {
 
 bool ToolHeight::keeps(const Statement& s) {
   const auto* m = std::get_if<ModalCall>(&s.node);
-  return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
-         std::holds_alternative<Label>(s.node) || std::holds_alternative<Declare>(s.node) ||
-         (m != nullptr && (m->cycle != nullptr || m->off));
+  const auto* kept = std::get_if<Opaque>(&s.node);
+  return (kept != nullptr && kept->harmless) || std::holds_alternative<Assign>(s.node) ||
+         std::holds_alternative<Message>(s.node) || std::holds_alternative<Label>(s.node) ||
+         std::holds_alternative<Declare>(s.node) || (m != nullptr && (m->cycle != nullptr || m->off));
 }
 
 void ToolHeight::follow(const Statement& s, const Facts& facts, const CyclePtr& ran, bool harmless,

@@ -187,6 +187,11 @@ bool only_bores(const Cycle& cycle) {
          hole->spindle_before == SpindleStep::usual && hole->spindle_after == SpindleStep::usual;
 }
 
+bool leaves_it_at_rest(const Cycle& cycle) {
+  const auto* hole = std::get_if<HoleCycle>(&cycle.node);
+  return hole != nullptr && (hole->spindle_after == SpindleStep::off || hole->spindle_after == SpindleStep::none);
+}
+
 /// The program starts its spindle before the first jump or call, in its only sense, and never stops it; or nothing in
 /// it ever starts one (a tap would).
 std::optional<SpindleState> turns_throughout(const Program& program) {
@@ -196,11 +201,13 @@ std::optional<SpindleState> turns_throughout(const Program& program) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* m = std::get_if<ModalCall>(&s.node);
       cycles_start = cycles_start || (m != nullptr && m->cycle && !only_bores(*m->cycle));
+      one = one && (m == nullptr || !m->cycle || !leaves_it_at_rest(*m->cycle));
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) return;
       for (const auto& a : b->actions) {
         const auto* d = std::get_if<CycleDefine>(&a.data);
         cycles_start = cycles_start || (d != nullptr && d->cycle && !only_bores(*d->cycle));
+        one = one && (d == nullptr || !d->cycle || !leaves_it_at_rest(*d->cycle));
         one = one && !std::holds_alternative<SpindleOrient>(a.data) && !std::holds_alternative<MasterSpindle>(a.data);
         const auto* run = std::get_if<SpindleRun>(&a.data);
         if (run == nullptr) continue;
