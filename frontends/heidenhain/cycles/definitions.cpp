@@ -124,6 +124,7 @@ bool Lowering::feed_name(std::string_view name, const ir::Value* amount, WordPos
       report_.refuse("HEI-005", pos, "FAUTO takes the feed of TOOL CALL, and the one above has none");
     else
       v.value = *tool_feed_;
+    v.of_tool_feed = true;
     return true;
   }
   if (is("PREDEF")) {
@@ -139,6 +140,7 @@ bool Lowering::feed_name(std::string_view name, const ir::Value* amount, WordPos
   v.kind = Kind::per_rev;  // by the speed of TOOL CALL, where that is a number
   if (!feed || !speed_ || !speed_->literal() || per_rev_) return true;
   v.kind = Kind::value;
+  v.of_speed = *feed;
   v.value = ir::Value(*feed * speed_->number);
   return true;
 }

@@ -30,6 +30,8 @@ bool narrow(Arrival& a, const Arrival& b) {
   same(a.from, b.from);
   a.changed = a.changed || b.changed;
   same(a.overlay, b.overlay);
+  same(a.tool, b.tool);
+  same(a.plunge, b.plunge);
   same(a.selected, b.selected);
   a.outside = a.outside || b.outside;
   a.rewritten = a.rewritten || b.rewritten;
@@ -123,6 +125,8 @@ Arrival Flow::after(int item, Arrival a) const {
     default: break;
   }
   if (i.pattern != Arrival::none) a.pattern = i.pattern;
+  if (i.tool >= 0) a.tool = i.tool;
+  if (i.plunge >= 0) a.plunge = i.plunge;
   if (i.moves || i.index >= 0 || i.at_pattern) a.moved = true;
   if (i.index >= 0) a.overlay = i.index;  // 220 and 221 have heights of their own
   if (i.selects >= 0) {

@@ -16,6 +16,7 @@
 #include "frontends/heidenhain/program/leads.h"
 #include "frontends/heidenhain/program/plunge.h"
 #include "frontends/heidenhain/program/structure.h"
+#include "frontends/heidenhain/program/tools.h"
 #include "frontends/heidenhain/syntax/reader.h"
 #include "ir/analysis/dataflow.h"
 
@@ -105,9 +106,11 @@ class HeidenhainReader {
       line(l);
     }
     lowering_.flush();
+    take_tools(lowering_, false);
     write_leads(lowering_);
     limit_plunges(lowering_);
     copy_for_cycles(lowering_);
+    take_tools(lowering_, true);
     read_areas(lowering_, *options_.profile);
     const Flow flow(lowering_.flat());
     std::vector<std::vector<ir::Statement>> statements;

@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "frontends/heidenhain/program/flow.h"
 #include "frontends/heidenhain/program/way.h"
+#include "ir/known_number.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -33,23 +35,27 @@ class PlungeLimit {
   explicit PlungeLimit(Lowering& lowering) : lowering_(lowering), flat_(lowering.flat()), way_(flat_) {}
 
   void run() {
+    const Flow flow(flat_);
     std::vector<Item> items = std::move(flat_.items);
     flat_.items.clear();
-    for (Item& item : items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      Item& item = items[i];
+      const int share = item.plunge >= 0 ? item.plunge : flow.arrivals()[i].plunge;
       way_.comes_to(item);
       const auto plane = way_.plane();
       const Place from{way_.coordinate(plane.u), way_.coordinate(plane.v), way_.coordinate(plane.w)};
       way_.step(item);
       const auto* b = std::get_if<ir::Block>(&item.statement.node);
       const bool moves = b != nullptr && b->has_motion && b->motion.kind != ir::MotionKind::rapid;
-      if (item.plunge && moves) limit(item, plane, from);
+      const bool limited = share == Arrival::several || (share >= 0 && flat_.plunges[static_cast<std::size_t>(share)]);
+      if (limited && moves) limit(item, plane, from, share);
       flat_.items.push_back(std::move(item));
     }
   }
 
  private:
   using Place = std::array<Coordinate, 3>;
-  void limit(Item& item, const ir::PlaneAxes& plane, const Place& from) {
+  void limit(Item& item, const ir::PlaneAxes& plane, const Place& from, int share) {
     auto& block = std::get<ir::Block>(item.statement.node);
     const auto& m = block.motion;
     const bool goes = std::any_of(m.coords.begin(), m.coords.end(), [&](const auto& c) { return c.axis == plane.w; });
@@ -58,14 +64,15 @@ class PlungeLimit {
     const auto u = way(plane.u, 0), v = way(plane.v, 1), down = way(plane.w, 2);
     if (down && *down >= 0) return;
     const auto f = way_.feed();
-    if (!down || !u || !v || !f || !item.plunge->literal() || m.kind != ir::MotionKind::linear) {
+    const auto percent = share < 0 ? std::nullopt : ir::known_number(*flat_.plunges[static_cast<std::size_t>(share)]);
+    if (!down || !u || !v || !f || !percent || m.kind != ir::MotionKind::linear) {
       lowering_.report().start(item.statement.line.span);
       lowering_.report().warn("HEI-009", {},
                               "M103: how steeply this block goes into the material, or its F, is not known by numbers: "
                               "the whole F counts");
       return;
     }
-    const double own = *f * item.plunge->number / 100 * std::hypot(*u, *v, *down) / -*down;
+    const double own = *f * *percent / 100 * std::hypot(*u, *v, *down) / -*down;
     if (own >= *f) return;
     if (std::any_of(block.actions.begin(), block.actions.end(), is_feed_word)) {  // F counts behind the block, too
       Item first;
@@ -94,9 +101,7 @@ class PlungeLimit {
 }  // namespace
 
 void limit_plunges(Lowering& lowering) {
-  const auto& items = lowering.flat().items;
-  if (std::any_of(items.begin(), items.end(), [](const Item& i) { return i.plunge.has_value(); }))
-    PlungeLimit(lowering).run();
+  if (!lowering.flat().plunges.empty()) PlungeLimit(lowering).run();
 }
 
 }  // namespace cnctrans::frontends::heidenhain

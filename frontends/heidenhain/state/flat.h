@@ -43,6 +43,13 @@ struct QValue {
   enum class Kind : std::uint8_t { value, rapid, tool_feed, per_rev, per_tooth, linked } kind = Kind::value;
   ir::Value value;
   Span where;
+  bool of_tool_feed = false;  ///< FAUTO: the value is F of the TOOL CALL above
+  double of_speed = 0;        ///< FU: the value is this times its S
+};
+/// What a TOOL CALL leaves behind it.
+struct ToolState {
+  std::optional<ir::Value> feed, speed;
+  std::optional<double> radius;  ///< as TOOL DEF says it, in the unit of the program
 };
 /// A numbered part of an old cycle: what stands behind `1.3`.
 struct OldPartValue {
@@ -128,9 +135,11 @@ struct Item {
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
   std::optional<ir::Value> height;                       ///< of a cycle call: of the tool, where it is known
   CycleCall call = CycleCall::none;
-  std::optional<ir::Value> shift;   ///< CYCL CALL POS: along the tool axis
-  std::optional<ir::Value> plunge;  ///< M103: percent of F for what goes into the material
-  std::vector<ir::VarRef> writes;   ///< variables
+  std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
+  int plunge = -1;                 ///< M103: index of the share that holds from here on
+  std::vector<ir::VarRef> writes;  ///< variables
+  int tool = -1;                   ///< TOOL CALL: index of what it leaves
+  bool tool_feed = false;          ///< F AUTO: its F is that of the TOOL CALL above
 };
 
 struct Flat {
@@ -140,7 +149,9 @@ struct Flat {
   std::vector<Lead> leads;
   std::vector<FreeElement> elements;
   std::vector<Pattern> patterns;
-  std::vector<std::string> programs;  ///< names in SEL PGM, each once
+  std::vector<ToolState> tools;                   ///< each once
+  std::vector<std::optional<ir::Value>> plunges;  ///< percent of F for what goes into the material; none: all of it
+  std::vector<std::string> programs;              ///< names in SEL PGM, each once
 };
 
 /// What the ways of the program bring to an item.
@@ -157,6 +168,8 @@ struct Arrival {
   int plane = 0;                  ///< ir::Plane, or several
   int pattern = none;             ///< index of the PATTERN DEF in force
   int overlay = none;             ///< index of the 220 or 221 that ran since the definition
+  int tool = none;                ///< index of what the last TOOL CALL has left
+  int plunge = none;              ///< index of the share of M103
   int selected = none;            ///< index of the name of SEL PGM
   bool selected_outside = false;  ///< a program of another file ran since
   bool outside = false;           ///< a program of another file ran since the definition

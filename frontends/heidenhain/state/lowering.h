@@ -124,6 +124,8 @@ class Lowering {
   void put_path(const PathLine& line);
   bool tool_call(const syntax::Statement& s);
   bool tool_def(const syntax::Statement& s);
+  int tool_state();
+  int plunge_share(std::optional<ir::Value> share);
   ir::ToolSelect tool_of(const syntax::Word* number, const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
   bool pole();
@@ -185,6 +187,7 @@ class Lowering {
   bool tool_called_ = false;
   int tool_axis_ = 2;                                   ///< X 0, Y 1, Z 2: of the last TOOL CALL
   std::optional<ir::Value> tool_feed_;                  ///< F of the last TOOL CALL
+  bool feed_of_tool_ = false;                           ///< F AUTO in the line at hand
   std::optional<ir::Value> speed_;                      ///< S of the last TOOL CALL
   std::optional<ir::Value> orient_;                     ///< cycle 13
   std::optional<std::pair<double, double>> free_pole_;  ///< FPOL
@@ -204,7 +207,7 @@ class Lowering {
   std::optional<double> radius_;          ///< of the tool of the last TOOL CALL, as TOOL DEF says it
   bool scaled_about_ = false;             ///< cycle 26 has a centre
   bool shortest_ = false;                 ///< M126
-  std::optional<ir::Value> plunge_;       ///< M103: percent of F for what goes into the material
+  int plunge_ = -1;                       ///< M103 in the line at hand: index of its share
   bool feed_by_fu_ = false;               ///< the last F was FU
   bool per_rev_ = false;                  ///< M136
   int waiting_ = -1;                      ///< the cycle definition that further lines complete

@@ -7,6 +7,7 @@
 #include "dialects/heidenhain/limits.h"
 #include "dialects/heidenhain/sentences.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "ir/edit/search.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -52,6 +53,9 @@ Item& Lowering::put(ItemKind kind, ir::StatementNode node) {
   }
   first_ = false;
   item.tool_radius = radius_;
+  const auto* block = std::get_if<ir::Block>(&node);
+  if (block != nullptr && feed_of_tool_ && ir::action_in<ir::SetFeed>(*block) != nullptr)
+    item.tool_feed = std::exchange(feed_of_tool_, false);
   item.statement.node = std::move(node);
   return item;
 }
@@ -116,7 +120,8 @@ bool Lowering::line(const syntax::Block& block, const Span& where, std::string_v
   out_.clear();
   call_ = CycleCall::none;
   end_text_ = {};
-  rapid_ = false;
+  rapid_ = feed_of_tool_ = false;
+  plunge_ = -1;
   angle_.reset();
   angle_incremental_ = false;
   sense_ = 0;

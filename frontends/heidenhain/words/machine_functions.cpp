@@ -80,7 +80,7 @@ void Lowering::machine_function(const Word& w) {
       return;
     case MUse::retract: return;
     case MUse::untilted: untilted_ = true; return;
-    case MUse::plunge_feed: plunge_.reset(); return;  // the share stands behind it
+    case MUse::plunge_feed: plunge_ = plunge_share(std::nullopt); return;  // it stands behind it
     case MUse::shortest: shortest_ = true; return;
     case MUse::kept:
       if (code == 127) shortest_ = false;

@@ -109,6 +109,7 @@ bool Lowering::feed(const Word& w) {
     } else {
       if (std::exchange(feed_by_fu_, false)) mode(per_rev_ ? ir::FeedMode::per_rev : ir::FeedMode::per_minute);
       act(w, ir::SetFeed{*tool_feed_});
+      feed_of_tool_ = true;
     }
     return true;
   }
@@ -280,8 +281,18 @@ std::size_t Lowering::with_own_words(std::size_t at) {
   const bool own_feed = (code == 103 || code == 128) && is(next, "F");
   const bool own = own_feed || (code == 120 && is(next, "LA")) || (code == 124 && is(next, "T")) ||
                    (code == 118 && axis_of(next.address) != ir::axis::none);
-  if (code == 103 && own) plunge_ = value(next);
+  if (code == 103 && own) plunge_ = plunge_share(value(next));
   return own ? 1 : 0;
+}
+
+/// Index of a share of F (M103).
+int Lowering::plunge_share(std::optional<ir::Value> share) {
+  auto& all = flat_.plunges;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].has_value() == share.has_value() && (!share || ir::equal(*all[k], *share))) return static_cast<int>(k);
+  }
+  all.push_back(std::move(share));
+  return static_cast<int>(all.size()) - 1;
 }
 
 /// Words that change no position: kept as text. False: the word is none of them.

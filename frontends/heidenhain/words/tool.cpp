@@ -82,11 +82,27 @@ bool Lowering::tool_call(const syntax::Statement& s) {
     (changes ? after : out_).actions.push_back(std::move(set));
   }
   if (report_.refused()) return false;
-  if (!out_.empty() || after.empty()) put(std::move(out_));
+  const int state = tool_state();
+  if (!out_.empty() || after.empty()) put(std::move(out_)).tool = state;
   if (after.empty()) return true;
   Item& item = put(std::move(after));
+  item.tool = state;
   item.statement.line.joined = false;
   return true;
+}
+
+/// Index of what holds behind the TOOL CALL at hand.
+int Lowering::tool_state() {
+  const auto same = [](const std::optional<ir::Value>& a, const std::optional<ir::Value>& b) {
+    return a.has_value() == b.has_value() && (!a || ir::equal(*a, *b));
+  };
+  auto& all = flat_.tools;
+  const auto it = std::find_if(all.begin(), all.end(), [&](const ToolState& t) {
+    return same(t.feed, tool_feed_) && same(t.speed, speed_) && t.radius == radius_;
+  });
+  const auto index = static_cast<int>(it - all.begin());
+  if (it == all.end()) all.push_back({tool_feed_, speed_, radius_});
+  return index;
 }
 
 /// By its number, or by the name that the sentence gives.
