@@ -41,6 +41,7 @@ class SurfacePass {
     auto* b = std::get_if<Block>(&s.node);
     SurfaceSet* set = b != nullptr ? action_in<SurfaceSet>(*b) : nullptr;
     if (b != nullptr) resume(s, *b);
+    if (b != nullptr) refuse_turning(s, *b);
     if (set == nullptr) {
       if (b != nullptr && target().surfaces == SurfaceForm::c_with_plane) under_plane(s, *b);
       if (b != nullptr && target().surface_needs_radius) keep_radius(s, *b);
@@ -182,6 +183,16 @@ class SurfacePass {
       b.motion.kind = *kind;
   }
 
+  /// The spindle is the C axis there.
+  void refuse_turning(const Statement& s, const Block& b) const {
+    const auto* define = action_in<CycleDefine>(b);
+    const auto* turned = define != nullptr && define->cycle ? std::get_if<NamedCycle>(&define->cycle->node) : nullptr;
+    if (turned != nullptr && cycles::find_machining(turned->name) != nullptr &&
+        setting<Surface>(facts_.before(s), Setting::surface) != Surface::none)
+      report(s, "TRN-452", "a turning or threading cycle while the face or the cylinder is in force",
+             "end the work with the C axis before it");
+  }
+
   /// Senses of turning under a surface: only in its own plane.
   void under_plane(Statement& s, Block& b) {
     const Facts& facts = facts_.before(s);
@@ -202,11 +213,10 @@ class SurfacePass {
                        });
     if (turns && plane != plane_of(*surface))
       report(s, "TRN-452", "an arc, a corner or radius compensation outside of the plane of the face or the cylinder");
-    const auto* define = action_in<CycleDefine>(b);
-    const auto* turned = define != nullptr && define->cycle ? std::get_if<NamedCycle>(&define->cycle->node) : nullptr;
-    if (turned != nullptr && cycles::find_machining(turned->name) != nullptr)
-      report(s, "TRN-452", "a turning or threading cycle while the face or the cylinder is in force",
-             "end the work with the C axis before it");
+    const auto* spindle = action_in<SpindleRun>(b);
+    if (spindle != nullptr && spindle->number == 1)
+      report(s, "TRN-452", "M3, M4 and M5 end the work with the C axis on the target",
+             "write the command of the spindle before or behind it");
     if (arc && *surface == Surface::cylinder && (!b.motion.centers.empty() || b.motion.extra))
       report(s, "TRN-452", "an arc by its centre on the cylinder: the letter of the centre is that of both axes there",
              "write the arc by its radius");
