@@ -144,6 +144,13 @@ ReadFirst::Seen ReadFirst::search(std::size_t routine, const VarRef& v, const st
     for (const auto& site : calls_.sites()) {
       if (found.reads || site.statement != &s || !site.callee) continue;
       if (site.level == CallLevel::new_level && !follows_new_level_) continue;
+      if (const auto* c = std::get_if<CallRoutine>(&s.node); c != nullptr && c->has_range) {  // entered somewhere
+        for_each_statement(program_.routines[*site.callee].body, [&](const Statement& inner) {
+          bool own = false;
+          found.reads = found.reads || statement_reads(inner, v, own);
+        });
+        continue;
+      }
       const Seen callee = search(*site.callee, v, key);
       found.reads = callee.reads;
       written = written || (certain_call(s) && !callee.passes);

@@ -70,4 +70,11 @@ std::optional<Value> at_run(const LegaliseContext& context, Datum datum, AxisId 
   return Value{std::make_shared<const Expr>(std::move(e))};
 }
 
+bool positions_alone(const Block& b) {
+  return b.has_motion && !b.motion.coords.empty() && b.motion.centers.empty() && !b.motion.extra &&
+         b.motion.frame == FrameUse::normal &&
+         std::all_of(b.motion.coords.begin(), b.motion.coords.end(),
+                     [](const CoordWord& c) { return c.positioning == Positioning::alone; });
+}
+
 }  // namespace cnctrans::ir::passes

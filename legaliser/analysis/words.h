@@ -21,6 +21,9 @@ inline std::optional<Distance> distance_of(const CoordWord& c, const Block& b, c
   return setting_in<Distance>(b, facts, Setting::distance);
 }
 
+/// All words of the block are of axes that move by themselves and that the block waits for.
+bool positions_alone(const Block& b);
+
 /// 0.5 for a diameter, 1 for a radius: the word's value times this is the radius. nullopt: not known here.
 std::optional<double> to_radius(AxisId axis, WordScale scale, std::optional<Distance> distance, const Block& b,
                                 const Facts& facts, const machine::Profile& machine);

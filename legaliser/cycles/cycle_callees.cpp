@@ -82,9 +82,13 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
   const bool stays_active = by_call_ && active_->native;
   const auto callee = stays_active ? std::nullopt : callee_of(call);
   if (!callee || !std::holds_alternative<HoleCycle>(active_->source->node)) return false;
-  const Body& body = program_.routines[*callee].body;
-  if (!moves_anywhere(body)) {
-    for_each_statement(body, [this](const Statement& s) {
+  if (const Body& body = program_.routines[*callee].body; !moves_anywhere(body)) {
+    for_each_statement(body, [&](const Statement& s) {
+      const auto* b = std::get_if<Block>(&s.node);
+      const auto* offset = b != nullptr ? action_in<WorkOffset>(*b) : nullptr;
+      if (offset != nullptr && offset->off && (active_->on_target || active_->maybe_on_target))
+        context_.diagnostics.error("TRN-331", where.span, std::string(offset_ends),
+                                   "cancel the cycle before the call and define it again behind it");
       if (moves_coordinates(s)) lose_height(s);
     });
     return false;

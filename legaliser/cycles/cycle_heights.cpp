@@ -94,10 +94,9 @@ bool CyclePass::refuse_other_levels(Statement& s, Body& out) const {
   if (!other && !ends) return false;
   refuse(
       s, program_, context_, "TRN-331",
-      ends
-          ? "the work offset ends while a cycle is active: whether its levels go along is not the same on every control"
-          : "the scale, the shift or the mirror along the tool changes while a cycle is active: whether its levels go "
-            "along is not the same on every control",
+      ends ? std::string(offset_ends)
+           : "the scale, the shift or the mirror along the tool changes while a cycle is active: whether its levels go "
+             "along is not the same on every control",
       "cancel the cycle before this block and define it again behind it");
   out.push_back(std::move(s));
   return true;

@@ -17,6 +17,9 @@
 
 namespace cnctrans::ir::passes {
 
+inline constexpr std::string_view offset_ends =
+    "the work offset ends while a cycle is active: whether its levels go along is not the same on every control";
+
 class CyclePass {
  public:
   CyclePass(Program& program, Routine& routine, const LegaliseContext& context, const FactsOf& facts,
@@ -83,6 +86,13 @@ class CyclePass {
     bool told = true;                      ///< what is to be said of its reference plane, at its first point
   };
 
+  /// How the cycle stands on the ways to a label.
+  struct Left {
+    bool on = false, off = false;  ///< the target's own is in force, or is not
+    bool left_height = false;
+    std::optional<double> height;
+  };
+
   void walk(Body& body, Body& out) {
     out.reserve(body.size());
     for (auto& s : body) {
@@ -141,7 +151,6 @@ class CyclePass {
   /// Points of a cycle by call that depend on the way are right as long as the target has every cycle.
   void report_unsure() const;
 
-  void join_while_on(const std::vector<LabelRef>& names);
   /// A way that comes in at a label has perhaps not passed the point that defines the target's cycle, or the block that
   /// has switched it off.
   void join(const Statement& s);
@@ -152,12 +161,12 @@ class CyclePass {
     return !uses_.computed && it != first_use_.end() && it->second > active_->defined_in;
   }
 
-  void leave_while_on(Statement& s);
+  void leave(Statement& s);
   void end_elsewhere(const Statement& s);  ///< a subprogram has ended the cycle, on every way
   void one(Statement&& s, Body& out) {
     end_elsewhere(s);
     join(s);
-    leave_while_on(s);
+    leave(s);
     const Statement seen = std::holds_alternative<Block>(s.node) ? s : made(s.line, Label{});
     if (height_.enter(s)) sense_.forget();
     sense_.within(s);
@@ -451,7 +460,7 @@ class CyclePass {
   MillCycles milling_;
   std::vector<ProfileUse> uses_of_profiles_;
   std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
-  std::set<std::pair<bool, std::string>> left_on_;  ///< labels of jumps made while the target's cycle is in force
+  std::map<std::pair<bool, std::string>, Left> left_;  ///< label: what jumps made while a cycle is active take there
   std::map<std::pair<bool, std::string>, std::uint32_t> last_use_;  ///< label: the last statement that leads to it
   std::vector<std::pair<std::uint32_t, VarRef>> writes_;            ///< by the statements of this routine
   std::uint32_t last_id_ = 0;
@@ -459,7 +468,6 @@ class CyclePass {
   SpindleSense sense_;
   FeedScale feed_scale_;
   bool by_call_ = false;
-  std::set<std::pair<bool, std::string>> left_off_;     ///< labels to which a jump comes without the target's own cycle
   std::set<std::pair<bool, std::string>> under_cycle_;  ///< labels before which the target has its own cycle in force
   bool surely_active_ = false, may_end_ = false;        ///< a copy for one cycle that does not touch it, or does
   bool written_out_ = false;

@@ -53,16 +53,6 @@ bool CyclePass::refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& 
   return true;
 }
 
-/// A jump while the target's own cycle is in force takes it along to its label; or goes there without it.
-void CyclePass::leave_while_on(Statement& s) {
-  if (!active_) return;
-  const bool on = active_->on_target || active_->maybe_on_target;
-  const bool off = active_->native && !by_call_ && !active_->on_target;
-  each_label_ref(s, [&](const LabelRef& l, bool is_end) {
-    if (!is_end && !l.computed && on) left_on_.emplace(l.is_number, l.text);
-    if (!is_end && !l.computed && off) left_off_.emplace(l.is_number, l.text);
-  });
-}
 void CyclePass::end_elsewhere(const Statement& s) {
   const Facts& facts = facts_.before(s);
   if (!active_ || surely_active_ || !facts.reachable || !facts.cycle_active_known || facts.cycle_active) return;
@@ -70,30 +60,6 @@ void CyclePass::end_elsewhere(const Statement& s) {
   active_.reset();
   tap_feed_ = false;  // it comes back where the cycle ends
 }
-void CyclePass::join(const Statement& s) {
-  const auto names = labels_on(s.line);
-  if (active_ && active_->native && (active_->on_target || active_->maybe_on_target))
-    for (const auto& l : names) under_cycle_.emplace(l.is_number, l.text);
-  join_while_on(names);
-  if (!active_ || by_call_) return;
-  const bool off = active_->native && active_->was_on_target && !active_->on_target;
-  const bool on = active_->on_target, late = on && active_->deferred;
-  const bool without = std::any_of(names.begin(), names.end(), [&](const LabelRef& l) {
-    return (on && left_off_.count({l.is_number, l.text}) != 0) || (uses_.is_target(l) && (off || (late && !behind(l))));
-  });
-  if (!without) return;
-  active_->on_target = false;
-  active_->maybe_on_target = true;
-}
-
-void CyclePass::join_while_on(const std::vector<LabelRef>& names) {
-  if (!active_ || active_->on_target) return;
-  const bool on = std::any_of(names.begin(), names.end(), [this](const LabelRef& l) {
-    return left_on_.count({l.is_number, l.text}) != 0;
-  });
-  active_->maybe_on_target = active_->maybe_on_target || on;
-}
-
 bool CyclePass::refuse_two_ways(Statement& s, Body& out) const {
   const auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);

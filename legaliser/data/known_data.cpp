@@ -292,25 +292,32 @@ class KnownData {
   static std::optional<double> in_mode(std::optional<double> value, const Facts& facts, Setting s, Mode mode) {
     return setting<Mode>(facts, s) == mode ? value : std::nullopt;
   }
+  /// What a word of the axis says of 1 mm.
+  [[nodiscard]] std::optional<double> said(const Facts& facts, AxisId a) const {
+    const auto* spec = context_.source_machine.axis(a);
+    if (spec == nullptr || !spec->diameter) return 1;
+    const auto mode = setting<DiameterMode>(facts, Setting::diameter);
+    return mode ? std::optional(*mode == DiameterMode::radius ? 1.0 : 2.0) : std::nullopt;
+  }
   /// As a word of the axis would say it.
   [[nodiscard]] std::optional<double> position(const Facts& facts, AxisId a) const {
-    const auto* spec = context_.source_machine.axis(a);
-    if (spec == nullptr || a >= facts.position.size() || !facts.position[a]) return std::nullopt;
-    if (!spec->diameter) return facts.position[a];
-    const auto mode = setting<DiameterMode>(facts, Setting::diameter);
-    if (!mode) return std::nullopt;
-    return *facts.position[a] * (*mode == DiameterMode::radius ? 1 : 2);
+    if (context_.source_machine.axis(a) == nullptr || a >= facts.position.size() || !facts.position[a])
+      return std::nullopt;
+    const auto factor = said(facts, a);
+    return factor ? std::optional(*facts.position[a] * *factor) : std::nullopt;
   }
 
   /// A coordinate of the pole, where every way brings the same.
   std::optional<Value> pole(const Statement& s, const SystemRef& ref) {
     const bool first = ref.datum == Datum::pole_first;
-    if ((!first && ref.datum != Datum::pole_second) ||
-        setting<Units>(facts_.before(s), Setting::units) != Units::metric)
+    const Facts& facts = facts_.before(s);
+    const auto plane = setting<Plane>(facts, Setting::plane);
+    if ((!first && ref.datum != Datum::pole_second) || !plane || setting<Units>(facts, Setting::units) != Units::metric)
       return std::nullopt;
-    const auto at = path().pole(s);
+    const auto factor = said(facts, first ? plane_axes(*plane).u : plane_axes(*plane).v);
+    const auto at = factor ? path().pole(s) : std::nullopt;
     if (!at) return std::nullopt;
-    return first ? at->u : at->v;
+    return scale(first ? at->u : at->v, *factor);
   }
 
   const PathStates& path() {

@@ -56,7 +56,7 @@ class ArcPass {
 
   bool is_arc_block(const Statement& s) const {
     const auto& b = std::get<Block>(s.node);
-    if (!b.has_motion || !b.motion.moves()) return false;
+    if (!b.has_motion || !b.motion.moves() || positions_alone(b)) return false;
     const auto kind = motion_in(b, facts_.before(s));
     const bool words = !b.motion.centers.empty() || b.motion.radius_given;
     if (!kind) return words;

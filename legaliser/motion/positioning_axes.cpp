@@ -15,14 +15,6 @@ namespace {
 bool sets_axis_feed(const Assign::Item& i) {
   return i.to_system && i.system.datum == Datum::axis_feed;
 }
-/// All words of the block are of axes that move by themselves and that the block waits for.
-bool positions_alone(const Block& b) {
-  return b.has_motion && !b.motion.coords.empty() && b.motion.centers.empty() && !b.motion.extra &&
-         b.motion.frame == FrameUse::normal &&
-         std::all_of(b.motion.coords.begin(), b.motion.coords.end(),
-                     [](const CoordWord& c) { return c.positioning == Positioning::alone; });
-}
-
 bool has_positioning(const Program& program) {
   bool found = false;
   for (const auto& r : program.routines) {

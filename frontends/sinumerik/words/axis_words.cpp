@@ -208,9 +208,10 @@ bool StatementLowering::master_spindle(const std::vector<Expr>& args, WordPos po
   const bool plain = args.empty() || (args.size() == 1 && args[0].kind == ExprKind::number && args[0].number >= 1 &&
                                       args[0].number <= 31);
   if (!plain) return refuse("language.statement", pos, "SETMS() of a computed spindle is not carried yet");
-  if (c_.skippable)
+  const auto chosen = args.empty() ? std::uint8_t{1} : static_cast<std::uint8_t>(args[0].number);
+  if (c_.skippable && chosen != c_.master_spindle)
     return refuse("language.statement", pos, "SETMS in a block that can be left out is not carried yet");
-  c_.master_spindle = args.empty() ? std::uint8_t{1} : static_cast<std::uint8_t>(args[0].number);
+  c_.master_spindle = chosen;
   c_.warning("SIN-026", pos,
              "the master spindle holds for the words that follow in this program; called programs are read with "
              "spindle 1",

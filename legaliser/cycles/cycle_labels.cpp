@@ -1,0 +1,41 @@
+// What jumps that are made while a cycle is active take to their labels.
+#include "legaliser/cycles/cycle_pass.h"
+
+namespace cnctrans::ir::passes {
+
+void CyclePass::leave(Statement& s) {
+  if (!active_) return;
+  const bool on = active_->on_target || active_->maybe_on_target;
+  const bool off = active_->native && !by_call_ && !active_->on_target;
+  each_label_ref(s, [&](const LabelRef& l, bool is_end) {
+    if (is_end || l.computed) return;
+    Left& left = left_.try_emplace({l.is_number, l.text}, Left{on, off, false, active_->height}).first->second;
+    left.on = left.on || on;
+    left.off = left.off || off;
+    left.left_height = left.left_height || active_->left_height;
+    if (left.height != active_->height) left.height.reset();
+  });
+}
+
+void CyclePass::join(const Statement& s) {
+  if (!active_) return;
+  const bool on = active_->on_target, late = on && active_->deferred;
+  const bool off = active_->native && active_->was_on_target && !on;
+  bool with = false, without = false;
+  for (const auto& l : labels_on(s.line)) {
+    if (active_->native && (on || active_->maybe_on_target)) under_cycle_.emplace(l.is_number, l.text);
+    without = without || (uses_.is_target(l) && (off || (late && !behind(l))));
+    const auto left = left_.find({l.is_number, l.text});
+    if (left == left_.end()) continue;
+    with = with || left->second.on;
+    without = without || (on && left->second.off);
+    active_->left_height = active_->left_height || left->second.left_height;
+    if (active_->height != left->second.height) active_->height.reset();
+  }
+  if (!on) active_->maybe_on_target = active_->maybe_on_target || with;
+  if (by_call_ || !without) return;
+  active_->on_target = false;
+  active_->maybe_on_target = true;
+}
+
+}  // namespace cnctrans::ir::passes
