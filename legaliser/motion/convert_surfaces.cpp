@@ -102,7 +102,8 @@ class SurfacePass {
     const bool said = std::any_of(b.actions.begin(), b.actions.end(),
                                   [](const Action& a) { return std::holds_alternative<WorkOffset>(a.data); });
     if (target().surface_clears_frames && !said) {
-      if (!facts.work_offset || frames_ || !setting<Surface>(facts, Setting::surface)) {
+      const bool perhaps = !setting<Surface>(facts, Setting::surface) && facts.work_offset == 0;  // it may be on
+      if (!facts.work_offset || frames_ || perhaps) {
         report(s, "TRN-451",
                frames_ ? "the target deselects the programmable frame here, and the program builds one"
                        : "the target deselects the work offset here, and the one in force is not known",
