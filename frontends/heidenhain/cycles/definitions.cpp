@@ -214,12 +214,14 @@ void Lowering::flush() {
   } else if (called) {
     if (cycle.row != nullptr && cycle.row->contours != facts::Contours::none) {
       cycle.labels = contour_labels_;
+      relies(AlongText::contours);
       const bool train = cycle.row->name == "path";
       const int data = train ? train_data_ : cycle.row->contours == facts::Contours::areas ? contour_data_ : -1;
       if (data >= 0) {
         for (const auto& [q, v] : flat_.cycles[static_cast<std::size_t>(data)].values) cycle.values.emplace(q, v);
       }
-      if (!train) train_data_ = -1;
+      relies(train ? AlongText::train : AlongText::data);
+      if (!train) train_data_ = -1, sets(AlongText::train);
     }
     put(ItemKind::cycle, ir::Block{}).index = index;
   } else {

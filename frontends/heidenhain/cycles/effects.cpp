@@ -48,6 +48,7 @@ const ir::Value* last_value(const CycleDefinition& cycle, int part) {
 
 /// 7 shift, 8 mirror, 10 rotation, 11 and 26 scale.
 void Lowering::frame_cycle(const CycleDefinition& cycle) {
+  relies(AlongText::tilt);
   ir::Block b;
   const auto add = [&](ir::FrameChange c) {
     const bool slot =
@@ -193,6 +194,7 @@ void Lowering::effect(const CycleDefinition& cycle) {
     }
     if (cycle.number == 20 || cycle.number == 270) {
       (cycle.number == 20 ? contour_data_ : train_data_) = static_cast<int>(&cycle - flat_.cycles.data());
+      sets(cycle.number == 20 ? AlongText::data : AlongText::train);
       return;
     }
     return report_.keep("HEI-018", {}, "cycle " + std::to_string(cycle.number) + " is not carried yet",
@@ -225,6 +227,7 @@ void Lowering::effect(const CycleDefinition& cycle) {
         }
       }
       if (contour_labels_.empty()) report_.refuse("HEI-016", {}, "cycle 14 has no labels");
+      contours_set();
       return;
     case OldKind::tolerance:
       return report_.carry("HEI-021", {}, "cycle 32 smooths the path; the programmed path stays; kept as text",
@@ -255,6 +258,7 @@ void Lowering::effect(const CycleDefinition& cycle) {
 /// TRANS DATUM AXIS X+10: the slot of cycle 7.
 void Lowering::trans_datum(const syntax::Statement& s) {
   const auto& words = block_->words;
+  relies(AlongText::tilt);
   if (tilt_)
     return report_.keep("HEI-022", s.pos, "TRANS DATUM in a tilted plane is not carried", "motion.transformation",
                         "write cycle 7");

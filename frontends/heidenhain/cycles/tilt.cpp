@@ -65,6 +65,7 @@ std::optional<Matrix> frame_of(Vector x, Vector z) {
 
 /// The frame of the tilt and of the shift behind it.
 void Lowering::put_tilt() {
+  tilt_set();
   const auto frame = [](ir::FrameKind kind, ir::FrameCombine combine) {
     ir::FrameChange c;
     c.slot = ir::FrameSlot::chain;
@@ -150,6 +151,7 @@ bool Lowering::tilt(std::array<ir::Value, 3> angles, bool named) {
   bool any = false;
   for (const auto& a : angles) any = any || !a.is(0);
   if (!any && !tilt_) {
+    relies(AlongText::tilt);
     report_.carry("HEI-021", {}, "no tilted plane is in force: kept as text", "motion.transformation");
     return true;
   }
@@ -262,6 +264,7 @@ bool Lowering::plane(const syntax::Statement& s) {
     case TiltForm::axial: angles = {get("A"), get("B"), get("C")}; break;
     case TiltForm::reset: break;
     case TiltForm::relative: {
+      relies(AlongText::tilt);
       if (!tilt_) {
         angles = {get("SPA"), get("SPB"), get("SPC")};
         break;

@@ -32,11 +32,23 @@ bool narrow(Arrival& a, const Arrival& b) {
   same(a.overlay, b.overlay);
   same(a.tool, b.tool);
   same(a.plunge, b.plunge);
+  for (std::size_t k = 0; k < along_text; ++k) same(a.text[k], b.text[k]);
   same(a.selected, b.selected);
   a.outside = a.outside || b.outside;
   a.rewritten = a.rewritten || b.rewritten;
   a.selected_outside = a.selected_outside || b.selected_outside;
   return !(a == before);
+}
+
+/// The plane that the item selects.
+std::optional<int> plane_in(const Item& i) {
+  std::optional<int> plane;
+  const auto* b = std::get_if<ir::Block>(&i.statement.node);
+  for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
+    const auto* set = std::get_if<ir::ModalSet>(&b->actions[k].data);
+    if (set != nullptr && set->setting == ir::Setting::plane) plane = set->value;
+  }
+  return plane;
 }
 
 }  // namespace
@@ -56,6 +68,7 @@ Flow::Flow(const Flat& flat) : flat_(flat) {
   roots_.emplace_back();
   for (const int c : called) roots_.emplace_back().start = c;
   for (std::size_t r = 0; r < roots_.size(); ++r) reach(roots_[r], r != 0);
+  find_sets();
   run();
 }
 
@@ -110,6 +123,9 @@ void Flow::reach(Root& root, bool sub) const {
 Arrival Flow::after(int item, Arrival a) const {
   const Item& i = flat_.items[static_cast<std::size_t>(item)];
   follow_from_pole(flat_, item, a);
+  for (std::size_t k = 0; k < along_text; ++k) {
+    if (i.sets[k] >= 0) a.text[k] = i.sets[k];
+  }
   switch (i.kind) {
     case ItemKind::cycle:
       a.cycle = i.index;
@@ -139,13 +155,54 @@ Arrival Flow::after(int item, Arrival a) const {
   } else if (i.call == CycleCall::ends || i.at_pattern || (i.call == CycleCall::once && i.moves)) {
     a.modal = 0;
   }
-  if (const auto* b = std::get_if<ir::Block>(&i.statement.node)) {
-    for (const auto& action : b->actions) {
-      const auto* set = std::get_if<ir::ModalSet>(&action.data);
-      if (set != nullptr && set->setting == ir::Setting::plane) a.plane = set->value;
+  if (const auto plane = plane_in(i)) a.plane = *plane;
+  return a;
+}
+
+void Flow::find_sets() {
+  const auto add = [](Sets& to, const Sets& from) {
+    to.tool = to.tool || from.tool;
+    to.plunge = to.plunge || from.plunge;
+    to.plane = to.plane || from.plane;
+    to.pattern = to.pattern || from.pattern;
+    for (std::size_t k = 0; k < along_text; ++k) to.text[k] = to.text[k] || from.text[k];
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Root& root : roots_) {
+      const Sets before = root.sets;
+      for (std::size_t at = 0; at < flat_.items.size(); ++at) {
+        if (!root.reached[at]) continue;
+        const Item& i = flat_.items[at];
+        Sets own{i.tool >= 0, i.plunge >= 0, plane_in(i).has_value(), i.pattern != Arrival::none, {}};
+        for (std::size_t k = 0; k < along_text; ++k) own.text[k] = i.sets[k] >= 0;
+        add(root.sets, own);
+        const auto callee = i.kind == ItemKind::call ? root_of(i) : std::nullopt;
+        if (callee) add(root.sets, roots_[*callee].sets);
+      }
+      changed = changed || !(root.sets == before);
     }
   }
-  return a;
+}
+
+std::optional<std::size_t> Flow::root_of(const Item& call) const {
+  const int start = label(call);
+  for (std::size_t r = 1; r < roots_.size() && start >= 0; ++r) {
+    if (roots_[r].start == start) return r;
+  }
+  return std::nullopt;
+}
+
+/// What a call leaves: what its subprogram does not set is what it was.
+Arrival Flow::behind_call(const Arrival& before, Arrival out, const Sets& sets) {
+  if (!sets.tool) out.tool = before.tool;
+  if (!sets.plunge) out.plunge = before.plunge;
+  if (!sets.plane) out.plane = before.plane;
+  if (!sets.pattern) out.pattern = before.pattern;
+  for (std::size_t k = 0; k < along_text; ++k) {
+    if (!sets.text[k]) out.text[k] = before.text[k];
+  }
+  return out;
 }
 
 /// Every root by itself: what its callers bring to it, and what it leaves behind.
@@ -153,8 +210,6 @@ void Flow::run() {
   const std::size_t count = flat_.items.size();
   arrivals_.assign(count, Arrival{});
   if (count == 0) return;
-  std::map<int, std::size_t> root_of;
-  for (std::size_t r = 1; r < roots_.size(); ++r) root_of[roots_[r].start] = r;
   std::vector<std::vector<Arrival>> states(roots_.size(), std::vector<Arrival>(count));
   std::vector<Arrival> exits(roots_.size());
   states[0][0].reached = true;
@@ -169,10 +224,12 @@ void Flow::run() {
         Arrival out = after(item, here);
         if (i.kind == ItemKind::sub_end && r != 0) changed = narrow(exits[r], out) || changed;
         if (i.kind == ItemKind::call) {
-          const auto callee = root_of.find(label(i));
-          if (callee == root_of.end()) continue;
-          changed = narrow(states[callee->second][static_cast<std::size_t>(callee->first)], here) || changed;
-          out = exits[callee->second];
+          const auto callee = root_of(i);
+          if (!callee) continue;
+          Arrival enters = here;
+          enters.text = out.text;  // set in lines that are no items
+          changed = narrow(states[*callee][static_cast<std::size_t>(roots_[*callee].start)], enters) || changed;
+          out = behind_call(enters, exits[*callee], roots_[*callee].sets);
         }
         for (const int n : next(item, r != 0)) {
           if (static_cast<std::size_t>(n) < count && narrow(states[r][static_cast<std::size_t>(n)], out))

@@ -1,7 +1,9 @@
 // What the ways through a program bring to its items.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +19,19 @@ class Flow {
   [[nodiscard]] const std::vector<Arrival>& arrivals() const { return arrivals_; }
   /// Index of the item of a label; -1: it is nowhere.
   [[nodiscard]] int label(const Item& use) const;
+  /// What else comes behind a call than before it.
+  struct Sets {
+    bool tool = false, plunge = false, plane = false, pattern = false;
+    std::array<bool, along_text> text{};
+    bool operator==(const Sets&) const = default;
+  };
   /// The labels that are called as subprograms, in the order of the text, and what their ways reach.
   struct Root {
     int start = 0;              ///< item of the label; 0 of the main program
     std::vector<bool> reached;  ///< by item
     std::vector<int> ends;      ///< items of LBL 0 that end it
     bool runs_out = false;      ///< a way comes to the end of the text or of the program
+    Sets sets;                  ///< what its ways set, with those of the subprograms that they call
   };
   /// [0]: the main program.
   [[nodiscard]] const std::vector<Root>& roots() const { return roots_; }
@@ -33,6 +42,9 @@ class Flow {
   [[nodiscard]] Arrival after(int item, Arrival a) const;
   [[nodiscard]] std::vector<int> next(int item, bool sub) const;
   void reach(Root& root, bool sub) const;
+  void find_sets();
+  [[nodiscard]] std::optional<std::size_t> root_of(const Item& call) const;
+  static Arrival behind_call(const Arrival& before, Arrival out, const Sets& sets);
   void run();
 
   const Flat& flat_;

@@ -17,6 +17,7 @@
 #include "frontends/heidenhain/program/plunge.h"
 #include "frontends/heidenhain/program/structure.h"
 #include "frontends/heidenhain/program/tools.h"
+#include "frontends/heidenhain/program/ways_of_text.h"
 #include "frontends/heidenhain/syntax/reader.h"
 #include "ir/analysis/dataflow.h"
 
@@ -106,6 +107,7 @@ class HeidenhainReader {
       line(l);
     }
     lowering_.flush();
+    check_ways_of_text(lowering_);
     take_tools(lowering_, false);
     write_leads(lowering_);
     limit_plunges(lowering_);

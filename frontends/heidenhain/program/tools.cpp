@@ -64,17 +64,18 @@ void take_tools(Lowering& lowering, bool all) {
       continue;
     }
     lowering.report().start(item.statement.line.span);
-    lowering.report().refuse("HEI-005", {},
-                             several ? "which TOOL CALL gives the feed here depends on the way"
-                                     : "the TOOL CALL from which the way comes gives no feed or speed",
-                             "write F as a number");
+    constexpr std::string_view feature = "feed.of_the_tool";
+    lowering.report().keep("HEI-005", {},
+                           several ? "which TOOL CALL gives the feed here depends on the way"
+                                   : "the TOOL CALL from which the way comes gives no feed or speed",
+                           feature, "write F as a number");
     if (item.kind == ItemKind::cycle) {
       flat.cycles[static_cast<std::size_t>(item.index)].refused = true;
       continue;
     }
     ir::Opaque kept;
     kept.text = "F AUTO";
-    kept.feature = "text.unread";
+    kept.feature = feature;
     item.statement.node = std::move(kept);
   }
 }

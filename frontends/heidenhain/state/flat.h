@@ -2,6 +2,7 @@
 // complete beside them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -114,6 +115,11 @@ struct Pattern {
   std::vector<Figure> figures;
 };
 
+/// What holds along the text and decides how a line is read: the tilted plane, the contours (14) and data (20, 270) of
+/// the SL cycles, FU, and M126.
+enum class AlongText : std::uint8_t { tilt, contours, data, train, per_rev, shortest };
+inline constexpr std::size_t along_text = 6;
+
 struct Item {
   ItemKind kind = ItemKind::plain;
   ir::Statement statement;
@@ -135,11 +141,14 @@ struct Item {
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
   std::optional<ir::Value> height;                       ///< of a cycle call: of the tool, where it is known
   CycleCall call = CycleCall::none;
-  std::optional<ir::Value> shift;  ///< CYCL CALL POS: along the tool axis
-  int plunge = -1;                 ///< M103: index of the share that holds from here on
-  std::vector<ir::VarRef> writes;  ///< variables
-  int tool = -1;                   ///< TOOL CALL: index of what it leaves
-  bool tool_feed = false;          ///< F AUTO: its F is that of the TOOL CALL above
+  std::optional<ir::Value> shift;                 ///< CYCL CALL POS: along the tool axis
+  int plunge = -1;                                ///< M103: index of the share that holds from here on
+  std::vector<ir::VarRef> writes;                 ///< variables
+  int tool = -1;                                  ///< TOOL CALL: index of what it leaves
+  std::array<std::int16_t, along_text> before{};  ///< by AlongText: the state with which it was read
+  std::array<std::int16_t, along_text> sets{-1, -1, -1, -1, -1, -1};  ///< the state from here on; -1: as before
+  std::array<bool, along_text> relies{};                              ///< `before` has decided what the item is
+  bool tool_feed = false;                                             ///< F AUTO: its F is that of the TOOL CALL above
 };
 
 struct Flat {
@@ -158,22 +167,23 @@ struct Flat {
 struct Arrival {
   static constexpr int none = -1, several = -2;
   bool reached = false;
-  int cycle = none;               ///< index of the definition in force
-  int pole = none;                ///< of the CC in force
-  bool moved = false;             ///< since that CC
-  bool written = false;           ///< a variable, since that CC
-  int from = none;                ///< the item that says where the tool stands seen from that CC
-  bool changed = false;           ///< a variable, since that item
-  int modal = 0;                  ///< M89: 0 off, 1 on, several
-  int plane = 0;                  ///< ir::Plane, or several
-  int pattern = none;             ///< index of the PATTERN DEF in force
-  int overlay = none;             ///< index of the 220 or 221 that ran since the definition
-  int tool = none;                ///< index of what the last TOOL CALL has left
-  int plunge = none;              ///< index of the share of M103
-  int selected = none;            ///< index of the name of SEL PGM
-  bool selected_outside = false;  ///< a program of another file ran since
-  bool outside = false;           ///< a program of another file ran since the definition
-  bool rewritten = false;         ///< a parameter of the cycle was assigned since its definition
+  int cycle = none;                    ///< index of the definition in force
+  int pole = none;                     ///< of the CC in force
+  bool moved = false;                  ///< since that CC
+  bool written = false;                ///< a variable, since that CC
+  int from = none;                     ///< the item that says where the tool stands seen from that CC
+  bool changed = false;                ///< a variable, since that item
+  int modal = 0;                       ///< M89: 0 off, 1 on, several
+  int plane = 0;                       ///< ir::Plane, or several
+  int pattern = none;                  ///< index of the PATTERN DEF in force
+  int overlay = none;                  ///< index of the 220 or 221 that ran since the definition
+  int tool = none;                     ///< index of what the last TOOL CALL has left
+  int plunge = none;                   ///< index of the share of M103
+  std::array<int, along_text> text{};  ///< by AlongText; 0 at the start
+  int selected = none;                 ///< index of the name of SEL PGM
+  bool selected_outside = false;       ///< a program of another file ran since
+  bool outside = false;                ///< a program of another file ran since the definition
+  bool rewritten = false;              ///< a parameter of the cycle was assigned since its definition
   bool operator==(const Arrival&) const = default;
 };
 

@@ -126,6 +126,32 @@ class Lowering {
   bool tool_def(const syntax::Statement& s);
   int tool_state();
   int plunge_share(std::optional<ir::Value> share);
+  /// The plane that is turned, and the shift behind the turn.
+  struct Tilt {
+    std::array<ir::Value, 3> angles;
+    std::map<ir::AxisId, ir::Value> shift;
+    std::vector<ir::FrameChange> inner;  ///< mirror, rotation and scale behind the turn
+  };
+  /// What holds where a subprogram is called: so is its text read, which stands behind the program end.
+  struct Held {
+    std::optional<Tilt> tilt;
+    std::set<ir::FrameKind> outer;
+    std::vector<std::string> contour_labels;
+    std::int16_t tilt_id = 0, contours_id = 0;
+    int contour_data = -1, train_data = -1;
+    bool feed_by_fu = false, per_rev = false, shortest = false;
+    std::optional<ir::Value> tool_feed, speed, orient;
+    std::optional<double> radius;
+  };
+  using Along = std::array<std::int16_t, along_text>;
+  [[nodiscard]] Along along() const;
+  void mark_along(Item& item);
+  void sets(AlongText k) { sets_[static_cast<std::size_t>(k)] = true; }
+  void relies(AlongText k) { relies_[static_cast<std::size_t>(k)] = true; }
+  void contours_set();
+  void tilt_set();
+  [[nodiscard]] Held held() const;
+  void hold(const Held& h);
   ir::ToolSelect tool_of(const syntax::Word* number, const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
   bool pole();
@@ -194,13 +220,14 @@ class Lowering {
   std::vector<std::string> contour_labels_;             ///< cycle 14
   int contour_data_ = -1;                               ///< the definition of cycle 20
   int train_data_ = -1;                                 ///< of cycle 270
-  /// The plane that is turned, and the shift behind the turn.
-  struct Tilt {
-    std::array<ir::Value, 3> angles;
-    std::map<ir::AxisId, ir::Value> shift;
-    std::vector<ir::FrameChange> inner;  ///< mirror, rotation and scale behind the turn
-  };
   std::optional<Tilt> tilt_;
+  /// The state of each AlongText, with a number for each that has been there; what the line at hand sets of it, and on
+  /// what it relies.
+  std::array<bool, along_text> sets_{}, relies_{};
+  std::array<std::int16_t, along_text> before_{};
+  std::map<std::string, std::int16_t> tilts_, contours_;
+  std::int16_t tilt_id_ = 0, contours_id_ = 0;
+  std::map<std::string, Held> called_;    ///< by the label, at its first call
   std::set<ir::AxisId> rotary_moved_;     ///< rotary axes in the blocks above
   std::set<ir::FrameKind> outer_;         ///< mirror, rotation and scale that were programmed outside of a tilt
   std::map<std::int64_t, double> radii_;  ///< TOOL DEF n R

@@ -53,6 +53,7 @@ Item& Lowering::put(ItemKind kind, ir::StatementNode node) {
   }
   first_ = false;
   item.tool_radius = radius_;
+  mark_along(item);
   const auto* block = std::get_if<ir::Block>(&node);
   if (block != nullptr && feed_of_tool_ && ir::action_in<ir::SetFeed>(*block) != nullptr)
     item.tool_feed = std::exchange(feed_of_tool_, false);
@@ -282,6 +283,10 @@ bool Lowering::label(const syntax::Statement& s) {
   Item& item = put(ends ? ItemKind::sub_end : ItemKind::label, std::move(node));
   item.label = probe.label;
   item.number = probe.number;
+  const auto calls = called_.find((item.number ? "N" : "T") + item.label);
+  const std::size_t count = flat_.items.size();
+  const ItemKind above = count < 2 ? ItemKind::plain : flat_.items[count - 2].kind;
+  if (calls != called_.end() && (above == ItemKind::end || above == ItemKind::sub_end)) hold(calls->second);
   return true;
 }
 
@@ -321,6 +326,7 @@ bool Lowering::call_label(const syntax::Statement& s) {
     Item& item = put(ItemKind::call, std::move(call));
     item.label = probe.label;
     item.number = probe.number;
+    called_.emplace((item.number ? "N" : "T") + item.label, held());
     return true;
   }
   ir::Repeat repeat;

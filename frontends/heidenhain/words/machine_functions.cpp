@@ -81,9 +81,12 @@ void Lowering::machine_function(const Word& w) {
     case MUse::retract: return;
     case MUse::untilted: untilted_ = true; return;
     case MUse::plunge_feed: plunge_ = plunge_share(std::nullopt); return;  // it stands behind it
-    case MUse::shortest: shortest_ = true; return;
+    case MUse::shortest:
+      shortest_ = true;
+      sets(AlongText::shortest);
+      return;
     case MUse::kept:
-      if (code == 127) shortest_ = false;
+      if (code == 127) shortest_ = false, sets(AlongText::shortest);
       if (code == 129 || code == 115) act(w, ir::SurfaceSet{ir::Surface::none, {}});
       if (code != 127 && code != 129 && code != 115) {
         report_.note("HEI-021", w.pos, name + " does not change the programmed path; it is left out");

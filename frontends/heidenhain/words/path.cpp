@@ -91,6 +91,7 @@ void Lowering::axis_word(const Word& w, ir::AxisId axis, bool incremental) {
   c.value = value(w);
   c.pos = w.pos;
   if (ir::is_rotary_letter(axis)) rotary_moved_.insert(axis);
+  if (ir::is_rotary_letter(axis)) relies(AlongText::shortest);
   if (shortest_ && ir::is_rotary_letter(axis) && !incremental) c.direction = ir::RotaryDirection::shortest;
 }
 
@@ -103,6 +104,7 @@ bool Lowering::feed(const Word& w) {
   const auto mode = [&](ir::FeedMode m) {
     act(w, ir::ModalSet{ir::Setting::feed_mode, static_cast<std::uint8_t>(m), true, ir::FeedMemory::shared});
   };
+  if (is(w, "F") || is(w, "FAUTO") || is(w, "FU") || is(w, "FZ")) relies(AlongText::per_rev), sets(AlongText::per_rev);
   if (is(w, "FAUTO")) {
     if (!tool_feed_) {
       report_.refuse("HEI-005", w.pos, "FAUTO takes the feed of TOOL CALL, and the one above has none", "write F");
@@ -285,16 +287,6 @@ std::size_t Lowering::with_own_words(std::size_t at) {
   return own ? 1 : 0;
 }
 
-/// Index of a share of F (M103).
-int Lowering::plunge_share(std::optional<ir::Value> share) {
-  auto& all = flat_.plunges;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].has_value() == share.has_value() && (!share || ir::equal(*all[k], *share))) return static_cast<int>(k);
-  }
-  all.push_back(std::move(share));
-  return static_cast<int>(all.size()) - 1;
-}
-
 /// Words that change no position: kept as text. False: the word is none of them.
 bool Lowering::kept_word(const PathLine& line, const Word& w) {
   const bool by_radius = is(w, "R") && !w.has_value && !w.number_text.empty();  // R+ and R- of a move of one axis
@@ -367,6 +359,7 @@ bool Lowering::path_motion(const PathLine& line) {
 
 void Lowering::put_path(const PathLine& line) {
   const bool moves = out_.has_motion;
+  if (untilted_) relies(AlongText::tilt);
   const auto tilted = untilted_ ? std::exchange(tilt_, std::nullopt) : std::nullopt;
   if (tilted) put_tilt();
   const bool only_ends = !end_text_.empty() && out_.empty() && call_ == CycleCall::none;
