@@ -24,8 +24,8 @@ bool is_read(const ir::Opaque& o) {
 
 class Checker {
  public:
-  Checker(const ir::Program& program, const Options& options, Diagnostics& diagnostics)
-      : program_(program), routines_(program, options, nullptr), diagnostics_(diagnostics) {}
+  Checker(const ir::Program& program, const Options& options, Diagnostics& diagnostics, Faults faults)
+      : program_(program), routines_(program, options, nullptr), diagnostics_(diagnostics), faults_(faults) {}
 
   std::vector<ir::RoutineName> run() {
     auto* main = routines_.main();
@@ -104,6 +104,7 @@ class Checker {
         break;
       }
       case Op::fault:
+        if (std::exchange(faults_, Faults::told) == Faults::told) break;
         diagnostics_.error(code::opaque, in.statement != nullptr ? in.statement->line.span : in.fault->span,
                            fault_text(*in.fault), "the program is not run");
         break;
@@ -257,6 +258,7 @@ class Checker {
   const ir::Program& program_;
   Routines routines_;
   Diagnostics& diagnostics_;
+  Faults faults_;
   std::map<Flow*, std::vector<bool>> seen_;
   std::vector<const Flow*> order_;  ///< as they are reached first
   struct Missing {
@@ -270,9 +272,9 @@ class Checker {
 
 }  // namespace
 
-std::vector<ir::RoutineName> check_program(const ir::Program& program, const Options& options,
-                                           Diagnostics& diagnostics) {
-  return Checker(program, options, diagnostics).run();
+std::vector<ir::RoutineName> check_program(const ir::Program& program, const Options& options, Diagnostics& diagnostics,
+                                           Faults faults) {
+  return Checker(program, options, diagnostics, faults).run();
 }
 
 }  // namespace cnctrans::interpreter

@@ -106,9 +106,12 @@ class BlockRunner {
   std::unique_ptr<State> state_;
 };
 
+/// Statements that the reader has given an error for: the first that is reached is the reason why nothing is run, or
+/// none is told of again.
+enum class Faults : std::uint8_t { first, told };
 /// Statically visible faults: jumps and ranges to labels that are not there, calls of unknown routines, bad nesting.
 /// The routines that are called and that nobody has: one error each, at the first call.
-std::vector<ir::RoutineName> check_program(const ir::Program& program, const Options& options,
-                                           Diagnostics& diagnostics);
+std::vector<ir::RoutineName> check_program(const ir::Program& program, const Options& options, Diagnostics& diagnostics,
+                                           Faults faults = Faults::first);
 
 }  // namespace cnctrans::interpreter

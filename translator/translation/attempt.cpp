@@ -172,8 +172,7 @@ Attempt attempt_both(const AttemptContext& c, ir::Program program, const backend
   const bool assumed = uncalled && wanted == machine::CallUncalledState::power_on;
   const bool once =
       !(uncalled && wanted == machine::CallUncalledState::when_needed) && !ir::passes::repeats_parts(program);
-  const bool small =
-      !c.as_it_stands && !c.refused && c.options.unsupported == backends::Unsupported::error && is_small(program);
+  const bool small = !c.as_it_stands && c.options.unsupported == backends::Unsupported::error && is_small(program);
   if (once && !small) return attempt(c, std::move(program), write, assumed);
   Attempt first = attempt(c, program, write, assumed);
   if (!first.said.has_errors()) return first;

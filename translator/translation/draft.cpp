@@ -131,17 +131,20 @@ bool is_unread_word(const ir::Statement& s) {
          std::holds_alternative<ir::OpaqueWord>(b->actions.front().data) && b->actions.front().order != ir::Order::with;
 }
 
+/// The block of such a word as one that is kept whole.
+void keep_unread_word(ir::Statement& s) {
+  if (!is_unread_word(s)) return;
+  ir::Opaque o;
+  o.text = std::string(std::get<ir::OpaqueWord>(std::get<ir::Block>(s.node).actions.front().data).word);
+  s.node = std::move(o);
+}
+
 /// What a reader could not read is taken to leave everything as it was: what follows is not blamed for it.
 void keep_states(ir::Program& work) {
   for (auto& r : work.routines) {
     ir::for_each_statement(r.body, [](ir::Statement& s) {
-      if (is_unread_word(s)) {
-        ir::Opaque o;
-        o.text = std::string(std::get<ir::OpaqueWord>(std::get<ir::Block>(s.node).actions.front().data).word);
-        s.node = std::move(o);
-      } else if (auto* o = std::get_if<ir::Opaque>(&s.node); o != nullptr && !o->harmless) {
-        o->feature.clear();
-      }
+      keep_unread_word(s);
+      if (auto* o = std::get_if<ir::Opaque>(&s.node); o != nullptr && !o->harmless) o->feature.clear();
     });
   }
 }
@@ -183,6 +186,20 @@ std::vector<Span> lines_of(std::vector<Span> places) {
       std::unique(places.begin(), places.end(), [](const Span& a, const Span& b) { return line_of(a) == line_of(b); }),
       places.end());
   return places;
+}
+
+void pass_over_unread(ir::Program& work, const Diagnostics& read) {
+  std::set<std::pair<FileId, std::uint32_t>> lines;
+  for (const auto& d : read.all()) {
+    if (d.severity == Severity::error) lines.insert(line_of(d.span));
+  }
+  for (auto& r : work.routines) {
+    ir::for_each_statement(r.body, [&lines](ir::Statement& s) {
+      if (lines.count(line_of(s.line.span)) == 0) return;
+      keep_unread_word(s);
+      if (auto* o = std::get_if<ir::Opaque>(&s.node)) o->harmless = true;
+    });
+  }
 }
 
 std::vector<ToDo> put_placeholders(ir::Program& work, const ir::LegaliseContext& context) {

@@ -258,7 +258,8 @@ void Translation::check_calls() {
     return named ? &outside : found;
   };
   Diagnostics found;
-  missing_ = interpreter::check_program(source_, checks, found);
+  checks.fault = [&loader](FileId f, std::uint32_t from, std::uint32_t to) { return loader.fault(f, from, to); };
+  missing_ = interpreter::check_program(source_, checks, found, interpreter::Faults::told);
   result_.diagnostics.append(same_language() ? as_warnings(found) : found);
 }
 
@@ -287,6 +288,7 @@ bool Translation::write() {
   write.main_stem = source.stem();
   write.taken = options_.taken;
   if (options_.names != nullptr) name_program(options_.names->map, work_, write);
+  if (refused()) pass_over_unread(work_, result_.diagnostics);
   const AttemptContext context{*to_, reading_.profile(), *target_profile_, options_, as_it_stands(), refused()};
   Attempt written =
       options_.draft && !same_language() ? draft(context, write) : attempt_both(context, std::move(work_), write);
