@@ -22,7 +22,7 @@ const ModalSet* set_of(const Action& a, Setting s) {
 /// A block that the reader could not take: its words may hold an F.
 bool unread(const Statement& s) {
   const auto* o = std::get_if<Opaque>(&s.node);
-  return o != nullptr && !o->harmless;
+  return o != nullptr && (!o->harmless || o->feature == "text.unread");
 }
 /// A corner is cut at the feed in force, whatever the motion functions before and behind it.
 bool corner_at_feed(const Action& a) {
@@ -189,7 +189,10 @@ bool FeedDomain::cuts(const Block& b, const Facts& facts) {
 }
 
 void FeedDomain::transfer(const Statement& s, FeedState& state) const {
-  if (unread(s)) unknown(state);
+  if (unread(s)) {
+    unknown(state);
+    for (auto& slot : state.slots) slot.same = true;  // the target gets the same words, or the line is refused
+  }
   const auto* b = std::get_if<Block>(&s.node);
   if (b == nullptr) return;
   const Facts& facts = facts_.before(s);

@@ -197,7 +197,10 @@ void pass_over_unread(ir::Program& work, const Diagnostics& read) {
     ir::for_each_statement(r.body, [&lines](ir::Statement& s) {
       if (lines.count(line_of(s.line.span)) == 0) return;
       keep_unread_word(s);
-      if (auto* o = std::get_if<ir::Opaque>(&s.node)) o->harmless = true;
+      auto* o = std::get_if<ir::Opaque>(&s.node);
+      if (o == nullptr) return;
+      o->harmless = true;
+      o->feature = "text.unread";
     });
   }
 }
