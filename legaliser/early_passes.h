@@ -5,6 +5,8 @@
 
 namespace cnctrans::ir::passes {
 
+/// What the reader keeps as text is refused at its line.
+void settle_kept_text(Program& program, const LegaliseContext& context);
 /// More calls in each other than the target takes.
 void check_call_limits(Program& program, const LegaliseContext& context);
 /// Positions in the coordinates of a transformation that the target is not given.

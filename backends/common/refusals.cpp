@@ -129,7 +129,8 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
     add(std::string(trim(o.text)), Rank::head);
     return;
   }
-  if (o.harmless && o.feature.empty()) return;  // says nothing to another control
+  const bool told = o.feature == "text.unread";
+  if (o.harmless && (o.feature.empty() || told)) return;  // says nothing to another control
   if (o.harmless) {
     diagnostics_.note("TRN-205", current_->line.span,
                       "'" + o.text + "' has no counterpart and no effect on the part; it is kept as a remark");
@@ -146,12 +147,8 @@ void ProgramWriter::opaque(const ir::Opaque& o) {
     refusal_moves_ = false;
     return;
   }
-  refuse(
-      "TRN-205", {}, "'" + (source.empty() ? o.text : source) + "' is not translated",
-      o.feature == "beside.coupling"
-          ? "couple the axes by hand with the target's own function and the factor of the follower: the moves of the "
-            "program name the leading axis only"
-          : "translate the line by hand before the program is run: what follows is written as if it stood there");
+  refuse("TRN-205", {}, "'" + (source.empty() ? o.text : source) + "' is not translated",
+         std::string(ir::not_translated_hint(o.feature)));
 }
 
 /// The structured statement being written, with all that it encloses. Without a text it is refused already.

@@ -82,6 +82,13 @@ std::span<const MissingFeature> missing_features() {
   return features;
 }
 
+std::string_view not_translated_hint(std::string_view key) {
+  if (key == "beside.coupling")
+    return "couple the axes by hand with the target's own function and the factor of the follower: the moves of the "
+           "program name the leading axis only";
+  return "translate the line by hand before the program is run: what follows is written as if it stood there";
+}
+
 const MissingFeature* find_missing_feature(std::string_view key) {
   for (const auto& f : features) {
     if (f.key == key) return &f;

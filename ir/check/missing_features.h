@@ -19,6 +19,8 @@ struct MissingFeature {
   bool of_one_machine = false;
 };
 std::span<const MissingFeature> missing_features();
+/// What a person does with a line of that feature that a translation refuses.
+std::string_view not_translated_hint(std::string_view key);
 /// The entry; nullptr when there is none.
 const MissingFeature* find_missing_feature(std::string_view key);
 /// The entry; an unknown key is a programming error and aborts in debug builds.

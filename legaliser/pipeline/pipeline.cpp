@@ -29,6 +29,8 @@ namespace {
 constexpr std::array table{
     Pass{"move_headings", passes::move_headings, PassScope::program,
          "Comments above the header of a routine go below it, where the target has no place for them above."},
+    Pass{"settle_kept_text", passes::settle_kept_text, PassScope::program,
+         "What the reader keeps as text is refused at its line; a chosen axis of the tool's length becomes a remark."},
     Pass{"refuse_transformations", passes::refuse_transformations, PassScope::program,
          "Positions in the coordinates of a transformation of the machine are refused where they begin."},
     Pass{"check_spindle_limits", passes::check_spindle_limits, PassScope::program,

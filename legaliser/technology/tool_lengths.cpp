@@ -85,29 +85,6 @@ void check_planes(const Program& program, const LegaliseContext& context) {
   }
 }
 
-/// The source chooses the axis of the length by a function of its own: the words of the program say what cycles make of
-/// it, the length itself is the machine's.
-void check_chosen_axes(Program& program, const LegaliseContext& context) {
-  const bool follows = context.target_machine.policies.tool_length_axis == machine::ToolLengthAxis::plane;
-  for (auto& r : program.routines) {
-    for_each_statement(r.body, [&](Statement& s) {
-      auto* kept = std::get_if<Opaque>(&s.node);
-      if (kept == nullptr || kept->feature != "motion.length_axis") return;
-      const std::string text(trim(kept->text));
-      context.diagnostics.warning("TRN-523", s.line.span,
-                                  "'" + text +
-                                      "' chooses the axis of the tool's length, which the target can't: there " +
-                                      (follows ? "the length goes to the axis across the plane"
-                                               : "the length stays along the axis of the tool"),
-                                  "check along which axis the tool stands, and select its axis on the target");
-      CommentText remark;
-      remark.text = program.keep("!! TRN-523 " + text);
-      s.line.comments.push_back(remark);
-      kept->feature.clear();
-    });
-  }
-}
-
 }  // namespace
 
 void BareTool::tell(const LegaliseContext& context) const {
@@ -120,7 +97,6 @@ void BareTool::tell(const LegaliseContext& context) const {
 
 void check_tool_lengths(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
-  check_chosen_axes(program, context);
   if (bare_offsets_differ(context.source_machine, context.target_machine)) check_bare_tools(program, context);
   if (length_axes_differ(context.source_machine, context.target_machine)) check_planes(program, context);
 }

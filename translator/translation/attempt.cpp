@@ -13,6 +13,24 @@ namespace {
 
 using ir::passes::Copies;
 
+/// Nothing is refused but lines that the reader keeps as text.
+bool only_kept_text(const Diagnostics& said) {
+  const auto& all = said.all();
+  return std::all_of(all.begin(), all.end(),
+                     [](const Diagnostic& d) { return d.severity != Severity::error || d.code == "TRN-205"; });
+}
+
+/// What the writer can't say beside such lines: the list of errors is whole.
+void add_errors_of_other_lines(const Diagnostics& written, Diagnostics& said) {
+  std::set<std::pair<FileId, std::uint32_t>> lines;
+  for (const auto& d : said.all()) {
+    if (d.severity == Severity::error) lines.emplace(d.span.file, d.span.line);
+  }
+  for (const auto& d : written.all()) {
+    if (d.severity == Severity::error && lines.count({d.span.file, d.span.line}) == 0) said.add(d);
+  }
+}
+
 Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOptions write, bool assume,
                 const Copies& copies = {}, const ir::passes::SeenFacts* seen = nullptr) {
   Attempt out;
@@ -33,10 +51,15 @@ Attempt attempt(const AttemptContext& c, ir::Program work, backends::WriteOption
   ir::passes::write_copies(work, copies, context);
   if (!c.as_it_stands) ir::legalise(work, context);
   const bool refused = out.said.has_errors() && c.options.unsupported == backends::Unsupported::error;
-  if (c.refused || refused) return out;  // the writer would only say the same again
+  if (c.refused || (refused && !only_kept_text(out.said))) return out;  // the writer would only say the same again
   write.profile = &c.target_machine;
   write.uncalled = uncalled;
-  out.files = c.to.backend->write(work, write, out.said);
+  Diagnostics written;
+  auto files = c.to.backend->write(work, write, refused ? written : out.said);
+  if (refused)
+    add_errors_of_other_lines(written, out.said);
+  else
+    out.files = std::move(files);
   return out;
 }
 

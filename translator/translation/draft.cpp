@@ -11,6 +11,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/edit/rewrite.h"
 #include "legaliser/data/given_data.h"
+#include "legaliser/edit/refuse.h"
 
 namespace cnctrans::translator {
 
@@ -131,20 +132,17 @@ bool is_unread_word(const ir::Statement& s) {
          std::holds_alternative<ir::OpaqueWord>(b->actions.front().data) && b->actions.front().order != ir::Order::with;
 }
 
-/// The block of such a word as one that is kept whole.
-void keep_unread_word(ir::Statement& s) {
-  if (!is_unread_word(s)) return;
-  ir::Opaque o;
-  o.text = std::string(std::get<ir::OpaqueWord>(std::get<ir::Block>(s.node).actions.front().data).word);
-  s.node = std::move(o);
-}
-
 /// What a reader could not read is taken to leave everything as it was: what follows is not blamed for it.
-void keep_states(ir::Program& work) {
+template <class Change>
+void each_kept(ir::Program& work, const Change& change) {
   for (auto& r : work.routines) {
-    ir::for_each_statement(r.body, [](ir::Statement& s) {
-      keep_unread_word(s);
-      if (auto* o = std::get_if<ir::Opaque>(&s.node); o != nullptr && !o->harmless) o->feature.clear();
+    ir::for_each_statement(r.body, [&change](ir::Statement& s) {
+      if (is_unread_word(s)) {
+        ir::Opaque o;
+        o.text = std::string(std::get<ir::OpaqueWord>(std::get<ir::Block>(s.node).actions.front().data).word);
+        s.node = std::move(o);
+      }
+      if (auto* o = std::get_if<ir::Opaque>(&s.node); o != nullptr && !o->harmless) change(*o);
     });
   }
 }
@@ -188,25 +186,12 @@ std::vector<Span> lines_of(std::vector<Span> places) {
   return places;
 }
 
-void pass_over_unread(ir::Program& work, const Diagnostics& read) {
-  std::set<std::pair<FileId, std::uint32_t>> lines;
-  for (const auto& d : read.all()) {
-    if (d.severity == Severity::error) lines.insert(line_of(d.span));
-  }
-  for (auto& r : work.routines) {
-    ir::for_each_statement(r.body, [&lines](ir::Statement& s) {
-      if (lines.count(line_of(s.line.span)) == 0) return;
-      keep_unread_word(s);
-      auto* o = std::get_if<ir::Opaque>(&s.node);
-      if (o == nullptr) return;
-      o->harmless = true;
-      o->feature = "text.unread";
-    });
-  }
+void pass_over_unread(ir::Program& work) {
+  each_kept(work, ir::passes::pass_over);
 }
 
 std::vector<ToDo> put_placeholders(ir::Program& work, const ir::LegaliseContext& context) {
-  keep_states(work);
+  each_kept(work, [](ir::Opaque& o) { o.feature.clear(); });
   return Placeholders(work, context).run();
 }
 

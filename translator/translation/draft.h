@@ -20,9 +20,9 @@ inline constexpr std::string_view placeholder_mark = "TODO_";
 /// conditions and loops keep their form. One error and one thing to do for each.
 std::vector<ToDo> put_placeholders(ir::Program& work, const ir::LegaliseContext& context);
 
-/// Statements on lines with an error leave everything as it was: nothing will be written, and what follows is looked at
-/// as if they were mended.
-void pass_over_unread(ir::Program& work, const Diagnostics& read);
+/// What is kept as text leaves everything as it was: nothing will be written, and what follows is looked at as if it
+/// were mended.
+void pass_over_unread(ir::Program& work);
 /// What has to be decided: the errors by their cause, and what the writer left out besides. `calls`: for each missing
 /// routine the places of its calls.
 std::vector<ToDo> to_do_of(std::vector<ToDo> placeholders, const Diagnostics& read, const Diagnostics& written,

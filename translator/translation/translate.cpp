@@ -288,7 +288,7 @@ bool Translation::write() {
   write.main_stem = source.stem();
   write.taken = options_.taken;
   if (options_.names != nullptr) name_program(options_.names->map, work_, write);
-  if (refused()) pass_over_unread(work_, result_.diagnostics);
+  if (refused()) pass_over_unread(work_);
   const AttemptContext context{*to_, reading_.profile(), *target_profile_, options_, as_it_stands(), refused()};
   Attempt written =
       options_.draft && !same_language() ? draft(context, write) : attempt_both(context, std::move(work_), write);
