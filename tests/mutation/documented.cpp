@@ -131,11 +131,26 @@ class Reduced {
       else
         ++k;
     }
-    for (std::size_t k = 0; k < items.size(); ++k) {  // where the tool does not go on, it stops in any case
-      if (k + 1 == items.size() || !moves(items[k + 1].e.kind)) items[k].e.stop = {};
+    for (std::size_t k = 0; k < items.size(); ++k) {  // where the tool does not go on, or back, it stops in any case
+      if (k + 1 == items.size() || !moves(items[k + 1].e.kind) || turns_round(k)) items[k].e.stop = {};
     }
   }
   std::vector<Item> items;
+  /// The next move goes straight back along this one.
+  [[nodiscard]] bool turns_round(std::size_t k) const {
+    const auto straight = [](EventKind kind) { return kind == EventKind::linear || kind == EventKind::rapid; };
+    if (k == 0 || !moves(items[k - 1].e.kind) || !straight(items[k].e.kind) || !straight(items[k + 1].e.kind))
+      return false;
+    double along = 0, way = 0, back = 0;
+    for (std::size_t a = 0; a < items[k].e.to.value.size(); ++a) {
+      const double there = items[k].e.to.value[a] - items[k - 1].e.to.value[a];
+      const double then = items[k + 1].e.to.value[a] - items[k].e.to.value[a];
+      along += there * then;
+      way += there * there;
+      back += then * then;
+    }
+    return along < 0 && along * along > way * back * (1 - 1e-9);
+  }
   /// With nothing but rapid moves in between.
   [[nodiscard]] bool leads_to_cycle(std::size_t k) const {
     while (k < items.size() && items[k].run == nullptr && items[k].e.kind == EventKind::rapid) ++k;
