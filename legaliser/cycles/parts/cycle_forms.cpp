@@ -116,6 +116,8 @@ HoleCycle with_absolute_levels(const HoleCycle& c, const Block& b, const Facts& 
   note_base(out.surface, bases.surface);
   out.reference = resolved(c.reference, bases);
   note_base(out.reference, bases.reference);
+  out.surface = resolved(out.surface, bases);  // it may lie below the reference plane by a distance
+  note_base(out.surface, bases.surface);
   out.bottom = resolved(c.bottom, bases);
   out.retract = resolved(c.retract, bases);
   if (!out.retract.given) {
