@@ -90,7 +90,10 @@ class Comparison {
       // A move below the tolerance may exist on one side only (rounded away).
       if (passed_over(a, from_a_, from_b_)) return take_a();
       if (passed_over(b, from_b_, from_a_)) return take_b();
-      return differ(fmt::format("{} there, {} here", interpreter::name(a.kind), interpreter::name(b.kind)), i_, j_);
+      const bool stops = b.kind == EventKind::end && !b.text.empty();
+      return differ(fmt::format("{} there, {} here{}{}", interpreter::name(a.kind), interpreter::name(b.kind),
+                                stops ? ": " : "", stops ? b.text : std::string()),
+                    i_, j_);
     }
     if (is_motion(a.kind)) return step_motion(a, b);
     if (a.kind == EventKind::dwell) return step_dwell();
@@ -211,6 +214,7 @@ class Comparison {
       const Event& e = *b_[std::min(j, b_.size() - 1)];
       d.target_file = e.file;
       d.target_line = e.line;
+      d.target_code = e.code;
     }
     verdict_.status = Status::differs;
     return false;

@@ -78,6 +78,7 @@ struct Difference {
   FileId source_file = 0, target_file = 0;
   std::uint32_t source_line = 0, target_line = 0;
   std::size_t source_event = 0, target_event = 0;
+  std::string target_code{};  ///< of the error that ends the translation's run there
 };
 
 /// What of the source the replay has come to.

@@ -249,6 +249,9 @@ void Writer::motion_extra(const ir::Motion& m, const ir::MotionExtra& e) {
   // In an arc R is the arc's radius: about the pole the angle alone says the end (10.3).
   const auto kind = m.kind != ir::MotionKind::modal || facts() == nullptr ? m.kind : facts()->motion.value_or(m.kind);
   const bool arc = kind == ir::MotionKind::arc_cw || kind == ir::MotionKind::arc_ccw;
+  const bool thread = kind == ir::MotionKind::thread || kind == ir::MotionKind::thread_variable;
+  if (thread && (e.has_polar_radius || e.has_polar_angle || e.has_line_angle))
+    return refuse(no_word, m.code_pos, "Q is the start angle of a thread here: its end has to be given by its axes");
   if (e.has_polar_radius && (!arc || same_dialect())) add(word("R", e.polar_radius, m.code_pos), Rank::motion_code);
   if (e.has_polar_angle) add(word("Q", e.polar_angle, m.code_pos), Rank::motion_code);
   if (e.has_line_angle) add(word("Q", e.line_angle, m.code_pos), Rank::motion_code);

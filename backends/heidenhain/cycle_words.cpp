@@ -70,6 +70,10 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
   const auto before = hole != nullptr && hole->has_speed ? own_speed(*hole) : std::nullopt;
   if (refused()) return;
+  if (side_) {  // it begins or ends before the cycle runs
+    add(take_waiting(), Rank::head);
+    next_line();
+  }
   add("CYCL CALL", Rank::head);
   if (before) {
     next_line();

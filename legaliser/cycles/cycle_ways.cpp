@@ -229,7 +229,7 @@ static void refuse_given_back(const Span& where, const LegaliseContext& context)
 }
 
 void CyclePass::leave_off() const {
-  if (active_ && !active_->on_target && !active_->maybe_on_target) callees_.left_off.insert(active_->from);
+  if (active_ && !active_->on_target) callees_.left_off.insert(active_->from);
 }
 
 void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& context) {
@@ -242,12 +242,14 @@ void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& c
            std::any_of(callees.copies.begin(), callees.copies.end(),
                        [routine](const auto& c) { return c->original == routine; });
   };
+  std::vector<Span> refused;
   for (const auto& [routine, where, from] : callees.points) {
-    if (among(callees.left_off, from) && !for_others(routine))
-      context.diagnostics.error("TRN-331", where,
-                                "a cycle that another part of the program defines may be active here, and the target "
-                                "has none in force: it is written out there, or defined at a point that is not passed",
-                                "define the cycle again before this block");
+    if (!among(callees.left_off, from) || for_others(routine)) continue;
+    refused.push_back(where);
+    context.diagnostics.error("TRN-331", where,
+                              "a cycle that another part of the program defines may be active here, and the target "
+                              "has none in force: it is written out there, or defined at a point that is not passed",
+                              "define the cycle again before this block");
   }
   for (const auto& [where, from] : callees.feeds) {
     if (among(callees.bound_taps, from))
@@ -257,10 +259,10 @@ void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& c
                                 "end the cycle before the change and define it again");
   }
   for (const auto& [routine, where] : callees.disturbed) {
-    if (callees.entered.count(routine) != 0)
+    if (callees.entered.count(routine) != 0 && std::find(refused.begin(), refused.end(), where) == refused.end())
       context.diagnostics.error("TRN-331", where,
-                                "the subprogram is called while a cycle may still be in force, and this block is no "
-                                "point of it: the target's modal cycle runs here",
+                                "the subprogram is called while a cycle may still be in force, and the target's would "
+                                "make another move or hole of this block",
                                 "cancel the cycle before the call");
   }
 }
@@ -297,7 +299,7 @@ void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
   });
   if (feed) callees_.feeds.emplace_back(s.line.span, facts.cycle_from);
   const bool moves = b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal;
-  if (!by_call_ || active_ || point || !(moves || disturbs_call(*b))) return;
+  if (active_ || (by_call_ ? point || !(moves || disturbs_call(*b)) : !point || bare_point(*b, facts))) return;
   if (here < program_.routines.size()) callees_.disturbed.emplace_back(here, s.line.span);
 }
 

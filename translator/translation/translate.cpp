@@ -6,6 +6,7 @@
 
 #include "base/saturate.h"
 #include "base/text.h"
+#include "interpreter/trace/run_codes.h"
 #include "ir/analysis/cycle_ends.h"
 #include "ir/analysis/dataflow.h"
 #include "legaliser/data/given_data.h"
@@ -393,6 +394,16 @@ void Translation::prove() {
     result_.target_trace = std::move(proof.target.events);
   }
   if (result_.verdict.good()) return;
+  if (const auto& d = result_.verdict.difference; d.target_code == interpreter::code::arc_radii) {
+    Span arc;
+    arc.file = d.source_file;
+    arc.line = arc.end_line = d.source_line;
+    arc.column = arc.end_column = 1;
+    result_.diagnostics.warning("TRN-317", arc,
+                                "the replay stops at this arc on the target, and the source's control takes it: " +
+                                    d.what.substr(d.what.find(": ") + 2),
+                                "correct its end or its centre, or write the arc by its radius");
+  }
   result_.held_back = options_.strict || result_.verdict.differs() || !twice.empty();
   const auto weighed = [this](const Diagnostics& said) { return result_.held_back ? said : as_warnings(said); };
   const Diagnostics running = weighed(proof.source.diagnostics);
