@@ -82,6 +82,10 @@ std::string tap_difference(const CyclePasses& source, const CyclePasses& target,
   const auto in = strokes_of(source, false);
   for (const bool back : {false, true}) {
     const auto of_source = strokes_of(source, back), of_target = strokes_of(target, back);
+    for (const auto* strokes : {&of_source, &of_target}) {
+      const auto other = [strokes](const Event* e) { return e->pitch * strokes->front()->pitch < 0; };
+      if (std::any_of(strokes->begin(), strokes->end(), other)) return "a tap has strokes of both hands";
+    }
     if (of_source.empty()) continue;
     for (const Event* e : of_target) {
       // A tap of one speed leaves the hole as it came in.

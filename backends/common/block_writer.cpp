@@ -18,20 +18,19 @@ void ProgramWriter::block(const ir::Block& b) {
     refuse("TRN-202", {}, "the repetition of a block has no counterpart here");
     return;
   }
-  for (const ir::Action& a : b.actions) {
-    if (!before_motion(a.order)) continue;
-    const bool alone = own_line(a, b);
-    if (alone) next_line();
-    action(a);
-    if (refused()) return;
-    if (alone) next_line();
-  }
+  const auto write = [&](bool before) {
+    for (const ir::Action& a : b.actions) {
+      if (before_motion(a.order) != before || refused()) continue;
+      const bool alone = own_line(a, b);
+      if (alone) next_line();
+      action(a);
+      if (alone && !refused()) next_line();
+    }
+  };
+  write(true);
+  if (refused()) return;
   if (b.has_motion) motion(b.motion);
-  for (const ir::Action& a : b.actions) {
-    if (before_motion(a.order) || refused()) continue;
-    if (own_line(a, b)) next_line();
-    action(a);
-  }
+  write(false);
 }
 
 bool ProgramWriter::own_line(const ir::Action& a, const ir::Block& b) {

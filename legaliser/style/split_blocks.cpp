@@ -84,6 +84,17 @@ bool apart_from_dwell(const std::vector<Action>& actions, const Action& next, co
                                       (speaks(next) && std::any_of(actions.begin(), actions.end(), dwells)));
 }
 
+/// Without motion: the source commands its spindle before it changes the tool (at the end of the block), and the target
+/// would change the tool first. Whether the spindle turns at the change is no matter of style.
+bool spindle_before_change(const std::vector<Action>& actions, const LegaliseContext& context) {
+  const auto change = std::find_if(actions.begin(), actions.end(),
+                                   [](const Action& a) { return std::holds_alternative<ToolChange>(a.data); });
+  return change != actions.end() && is_after(change->order) &&
+         !is_after(target_order(*change, context.target_machine)) &&
+         std::any_of(actions.begin(), actions.end(),
+                     [](const Action& a) { return std::holds_alternative<SpindleRun>(a.data) && !is_after(a.order); });
+}
+
 class BlockSplitter {
  public:
   BlockSplitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
@@ -107,6 +118,14 @@ class BlockSplitter {
       pieces.push_back(Statement{});
       sequence(std::move(late_), pieces);
     } else {
+      if (spindle_before_change(actions, editor_.context)) {
+        std::vector<Action> first;
+        for (auto& a : actions) {
+          if (!is_tool_word(a) && !is_after(a.order)) first.push_back(std::move(a));
+        }
+        std::erase_if(actions, [](const Action& a) { return !is_tool_word(a) && !is_after(a.order); });
+        sequence(std::move(first), pieces);
+      }
       sequence(std::move(actions), pieces);
       at = pieces.size() - 1;
       block.actions = std::move(std::get<Block>(pieces[at].node).actions);
@@ -231,6 +250,7 @@ bool needs_split(const Block& block, const Program& program, const LegaliseConte
     const bool theirs = is_after(target_order(a, context.target_machine));
     if (moving && theirs != is_after(a.order)) return true;
     if (!moving && reached_after && !theirs) return true;
+    if (!moving && spindle_before_change(block.actions, context)) return true;
     reached_after = reached_after || theirs || std::holds_alternative<Dwell>(a.data);
   }
   return alone && others > 1;

@@ -168,10 +168,41 @@ class Gears {
   const machine::MCode* m_ = nullptr;  ///< of the profile; none: not a gear range there
 };
 
+/// A range that the machine of the target lacks: its control chooses one.
+void leave_missing_ranges(Program& program, const LegaliseContext& context) {
+  const auto& codes = context.target_machine.m_codes;
+  const auto gear = [](const machine::MCode& m) { return m.meaning == machine::MMeaning::gear; };
+  if (std::none_of(codes.begin(), codes.end(), gear)) return;
+  const auto has = [&](std::int32_t range) {
+    const bool there = std::any_of(codes.begin(), codes.end(),
+                                   [&](const machine::MCode& m) { return gear(m) && m.argument == range; });
+    return there && (range > 0 || context.target.gear_needed);  // elsewhere the code of range 0 means the choice
+  };
+  for (auto& r : program.routines) {
+    for_each_statement(r.body, [&](Statement& s) {
+      auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr) return;
+      for (auto& a : b->actions) {
+        auto* g = std::get_if<SpindleGear>(&a.data);
+        if (g == nullptr || g->automatic || g->number != 1 || has(g->gear)) continue;
+        context.diagnostics.warning("TRN-391", word_span(s.line.span, a.pos),
+                                    "the target has no gear range " + std::to_string(g->gear) +
+                                        ": its control chooses one by the speed, or the "
+                                        "range in force stays",
+                                    "write the range that the speeds behind this block need");
+        g->automatic = true;
+        a.text = {};
+      }
+    });
+  }
+}
+
 }  // namespace
 
 void choose_gears(Program& program, const LegaliseContext& context) {
-  if (!context.target.gear_needed || program.dialect == context.target.dialect) return;
+  if (program.dialect == context.target.dialect) return;
+  leave_missing_ranges(program, context);
+  if (!context.target.gear_needed) return;
   Gears(program, context).run();
 }
 
