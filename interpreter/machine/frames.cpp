@@ -20,6 +20,8 @@ bool BlockMachine::set_work_offset(const ir::WorkOffset& w) {
 }
 
 void BlockMachine::restore_modal(const ir::ModalState& state) {
+  event_.file = failure_.where.file;  // what it changes shows where the routine ends
+  event_.line = failure_.where.line;
   const bool other_offset = state.work_offset != modal_.work_offset;
   const ir::Surface surface = modal_.surface;
   set_comp(state.comp);

@@ -294,7 +294,8 @@ bool has_plane_word(const Block& b, AxisId tool_axis) {
   for (const auto& c : b.motion.coords) {
     if (c.axis != tool_axis && !is_rotary_letter(c.axis)) return true;
   }
-  return b.motion.extra != nullptr;
+  const auto* x = b.motion.extra.get();  // the lead of a thread leads nowhere
+  return x != nullptr && (!x->has_lead || x->has_polar_radius || x->has_polar_angle || x->has_line_angle);
 }
 
 bool turns_to_point(const Block& b, const machine::Profile& machine) {
