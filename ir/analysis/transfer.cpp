@@ -277,7 +277,12 @@ class Transfer {
   /// Ends that follow from angles, radii and turns are not computed here.
   void extra(const MotionExtra& x, const Motion& m) {
     const auto plane = setting(Setting::plane);
-    const bool in_plane = x.has_polar_radius || x.has_polar_angle || x.has_line_angle || x.has_angle;
+    // An opening angle beside the end, without a centre: the centre follows.
+    const auto ends_by_words = [&](const PlaneAxes& axes) {
+      return m.centers.empty() && (has_word(m, axes.u) || has_word(m, axes.v));
+    };
+    const bool opens = x.has_angle && !(plane && ends_by_words(plane_axes(static_cast<Plane>(*plane))));
+    const bool in_plane = x.has_polar_radius || x.has_polar_angle || x.has_line_angle || opens;
     const bool along_normal = x.has_pitch;
     if (!in_plane && !along_normal) return;
     if (!plane) {

@@ -85,11 +85,7 @@ class PolePass {
   }
   void before(const State& state) { pole_ = state.at, set_ = state.set, stale_ = state.stale; }
   bool zero_counts() const { return source_.polar_pole_stays != target_.polar_pole_stays; }
-  void forget_point() {
-    led_ = {};
-    radius_.reset();
-    angle_.reset();
-  }
+  void forget_point() { led_ = {}, radius_.reset(), angle_.reset(); }
   /// The pole is another one: where the source takes the radius programmed last, that is no distance from it.
   void forget_radius() {
     if (!radius_stays_) radius_.reset();
@@ -282,17 +278,20 @@ class PolePass {
   /// An angle about the centre: with its radius every target has it, else axis words. False: not known.
   bool polar_arc(Block& b, const Facts& facts) {
     const MotionExtra& x = *b.motion.extra;
+    const auto distance = setting_in<Distance>(b, facts, Setting::distance);
+    auto programmed = x.has_polar_radius ? std::optional(x.polar_radius) : radius_;
+    if (x.has_polar_radius && !polar_absolute(x.polar_mode, distance)) programmed.reset();
     const bool sayable = stays_polar(b) && (context_.target.distance_per_word || !modes_of_words(x));
     if (b.motion.centers.empty() && x.has_polar_radius && x.has_polar_angle && sayable) {
-      const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-      const bool absolute = polar_absolute(x, distance);
       forget_point();
-      if (absolute && pole_ && x.polar_angle.literal() && x.polar_radius.literal())
+      if (polar_absolute(x, distance) && pole_ && x.polar_angle.literal() && x.polar_radius.literal())
         led_to(around(*pole_, x.polar_radius.number, x.polar_angle.number));
-      if (absolute) radius_ = x.polar_radius;
+      radius_ = programmed;
       return true;
     }
-    return about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra) || by_values(b, facts);
+    const bool done = about_pole(b, facts) || to_cartesian(b, facts, *b.motion.extra) || by_values(b, facts);
+    if (radius_stays_) radius_ = programmed;
+    return done;
   }
 
   /// An arc about the pole to an absolute angle, or by a step from that of computed polar words: its radius is the
@@ -314,10 +313,9 @@ class PolePass {
     const bool stays = absolute && stays_polar(b);
     if (r->literal() && q.literal() && !stays) return false;  // numbers: by to_cartesian
     r->text = {};
-    const auto programmed = radius_;
     forget_point();
     if (r->literal() && q.literal()) led_to(around(*pole_, r->number, q.number));
-    radius_ = radius_stays_ ? programmed : r;
+    radius_ = r;
     angle_ = q;
     angle_->text = {};
     if (stays) {

@@ -56,13 +56,17 @@ std::optional<Change> tool_change(const Block& b) {
   return found;
 }
 
+/// When the target makes it.
+Order theirs(const Change& change, const LegaliseContext& context) {
+  return change.by_m ? target_order(action(ToolChange{}), context.target_machine) : Order::before;
+}
+
 /// The words of a tool change stay together; beside a move they need a block of their own where the target changes
 /// at another time, and an M code for it always has one when another language is written (chapter 4).
 bool change_leaves(const Block& b, const Program& program, const LegaliseContext& context) {
   const auto change = tool_change(b);
   if (!change || !has_motion(b)) return false;
-  const Order theirs = change->by_m ? target_order(action(ToolChange{}), context.target_machine) : Order::before;
-  if (is_after(change->order) != is_after(theirs)) return true;
+  if (is_after(change->order) != is_after(theirs(*change, context))) return true;
   return change->by_m && program.dialect != context.target.dialect;
 }
 
@@ -86,12 +90,10 @@ bool apart_from_dwell(const std::vector<Action>& actions, const Action& next, co
 
 /// Without motion: the source commands its spindle before it changes the tool (at the end of the block), and the target
 /// would change the tool first. Whether the spindle turns at the change is no matter of style.
-bool spindle_before_change(const std::vector<Action>& actions, const LegaliseContext& context) {
-  const auto change = std::find_if(actions.begin(), actions.end(),
-                                   [](const Action& a) { return std::holds_alternative<ToolChange>(a.data); });
-  return change != actions.end() && is_after(change->order) &&
-         !is_after(target_order(*change, context.target_machine)) &&
-         std::any_of(actions.begin(), actions.end(),
+bool spindle_before_change(const Block& b, const LegaliseContext& context) {
+  const auto change = tool_change(b);
+  return change && is_after(change->order) && !is_after(theirs(*change, context)) &&
+         std::any_of(b.actions.begin(), b.actions.end(),
                      [](const Action& a) { return std::holds_alternative<SpindleRun>(a.data) && !is_after(a.order); });
 }
 
@@ -103,6 +105,7 @@ class BlockSplitter {
     auto& block = std::get<Block>(main_.node);
     const bool moving = has_motion(block);
     if (moving && change_leaves(block, editor_.program, editor_.context)) change_ = tool_change(block);
+    const bool spindle_first = !moving && spindle_before_change(block, editor_.context);
     std::vector<Action> actions = std::move(block.actions);
     block.actions.clear();
     // A limit of the speed holds before the speed does.
@@ -118,7 +121,7 @@ class BlockSplitter {
       pieces.push_back(Statement{});
       sequence(std::move(late_), pieces);
     } else {
-      if (spindle_before_change(actions, editor_.context)) {
+      if (spindle_first) {
         std::vector<Action> first;
         for (auto& a : actions) {
           if (!is_tool_word(a) && !is_after(a.order)) first.push_back(std::move(a));
@@ -238,6 +241,7 @@ class BlockSplitter {
 bool needs_split(const Block& block, const Program& program, const LegaliseContext& context) {
   if (change_leaves(block, program, context)) return true;
   const bool moving = has_motion(block);
+  if (!moving && spindle_before_change(block, context)) return true;
   bool reached_after = false;
   std::size_t others = block.has_motion ? 1 : 0;
   bool alone = false;
@@ -250,7 +254,6 @@ bool needs_split(const Block& block, const Program& program, const LegaliseConte
     const bool theirs = is_after(target_order(a, context.target_machine));
     if (moving && theirs != is_after(a.order)) return true;
     if (!moving && reached_after && !theirs) return true;
-    if (!moving && spindle_before_change(block.actions, context)) return true;
     reached_after = reached_after || theirs || std::holds_alternative<Dwell>(a.data);
   }
   return alone && others > 1;
