@@ -1,4 +1,6 @@
 // The height from which a cycle starts, where the controls go another way to its planes.
+#include <cmath>
+
 #include "ir/known_number.h"
 #include "legaliser/cycles/cycle_pass.h"
 #include "legaliser/edit/blocks.h"
@@ -36,14 +38,16 @@ bool CyclePass::below_retract_plane(const Block& b, const Facts& facts) const {
     return true;
   if (hole == nullptr || !hole->retract.given) return false;
   const auto fixed = [](const Level& l) { return l.base == LevelBase::absolute && l.value.literal(); };
-  if (!fixed(hole->retract) || !fixed(hole->reference) || !stands_by_itself(*hole)) return false;
-  const double retract = hole->retract.value.number, reference = hole->reference.value.number;
-  const double to = fixed(hole->bottom) ? hole->bottom.value.number : reference;
+  if (!fixed(hole->retract) || !stands_by_itself(*hole)) return false;
+  const auto reference = fixed(hole->reference) ? std::optional(hole->reference.value.number) : std::nullopt;
+  const double retract = hole->retract.value.number;
+  const double to = fixed(hole->bottom) ? hole->bottom.value.number : reference.value_or(-HUGE_VAL);
   const double up = retract > to ? 1 : -1;
+  // A computed reference plane is taken to lie below: that of the retract would be another one.
+  const bool apart = !reference || (retract - *reference) * up > 1e-9;
   // It has gone to a height that only the run knows, and the target may come over its retract plane.
-  if (!height && (moves_tool || active_->left_height))
-    return hole->approach_by_retract && (retract - reference) * up > 1e-9;
-  return height && (retract - *height) * up > 1e-9 && (retract - reference) * up > 1e-9;
+  if (!height && (moves_tool || active_->left_height)) return hole->approach_by_retract && apart;
+  return height && (retract - *height) * up > 1e-9 && apart;
 }
 
 bool CyclePass::follow_retract_plane(const Block& b, const Facts& facts) {

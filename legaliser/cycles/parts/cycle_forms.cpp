@@ -290,11 +290,9 @@ void ToolHeight::follow_block(const Statement& s, const Facts& facts, const Cycl
 }
 
 bool has_plane_word(const Block& b, AxisId tool_axis) {
-  if (!b.has_motion) return false;
-  for (const auto& c : b.motion.coords) {
-    if (c.axis != tool_axis && !is_rotary_letter(c.axis)) return true;
-  }
-  const auto* x = b.motion.extra.get();  // the lead of a thread leads nowhere
+  const auto in_plane = [=](const CoordWord& c) { return c.axis != tool_axis && !is_rotary_letter(c.axis); };
+  if (b.has_motion && std::any_of(b.motion.coords.begin(), b.motion.coords.end(), in_plane)) return true;
+  const auto* x = b.has_motion ? b.motion.extra.get() : nullptr;  // the lead of a thread leads nowhere
   return x != nullptr && (!x->has_lead || x->has_polar_radius || x->has_polar_angle || x->has_line_angle);
 }
 

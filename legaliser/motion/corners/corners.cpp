@@ -189,9 +189,11 @@ class CornerPass {
         return take_out(s, action);
       }
       if (!angle && !by_leg && !own) tell_unknown(s, pos, following(body, at));  // else it is refused below
-      const auto ends = angle ? ends_.end() : ends_.find(s.id);
-      if (ends != ends_.end() && following(body, at) == nullptr) {  // a caller, or the way behind a jump, goes on
-        for (const auto& where : ends->second.behind) tell_unknown_at(where);
+      const Statement* next = following(body, at);
+      const bool sure = angle && next != nullptr && going_of(*next, context_, facts_, points_) == Going::along;
+      if (const auto ends = ends_.find(s.id); !sure && ends != ends_.end()) {
+        for (const auto& where : ends->second.behind)  // the next one may stand still, or others go on
+          if (next == nullptr || !(where == next->line.span)) tell_unknown_at(where);
       }
     }
     if (!c.value.literal()) tell_zero(s, pos);
