@@ -26,6 +26,8 @@ void fold_range_ends(Program& program, const LegaliseContext& context);
 /// A routine that saves the modal state of its caller writes it back before its returns, for a target without that.
 void restore_modals(Program& program, const LegaliseContext& context);
 
+/// Work offsets that are off while nothing counts in them, for a target that always has one.
+void drop_unused_offsets(Program& program, const LegaliseContext& context);
 /// A work offset that the program writes counts at once on some controls: others are told to select it again.
 void select_written_offsets(Program& program, const LegaliseContext& context);
 /// The other way round: a writing that counts from the next selection on stands right before it.

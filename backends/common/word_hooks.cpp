@@ -89,7 +89,9 @@ void ProgramWriter::corner(const ir::Action& a, const ir::Corner& /*c*/) {
 void ProgramWriter::tangential_end(const ir::Action& a, const ir::TangentialEnd& /*t*/) {
   refuse(no_word, a.pos, "a tangential entry or exit has no counterpart here");
 }
-void ProgramWriter::surface_set(const ir::Action& a, const ir::SurfaceSet& /*s*/) {
+/// Its end alone, where none is on: nothing to say.
+void ProgramWriter::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
+  if (s.surface == ir::Surface::none) return;
   refuse(no_word, a.pos, "work with the C axis on the face or the cylinder has no counterpart here");
 }
 void ProgramWriter::opaque_word(const ir::Action& a, const ir::OpaqueWord& w) {

@@ -239,8 +239,7 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
 
 /// G15 R unrolls the cylinder, G16 XC chooses the face; another plane and M3, M4, M5 end both (6.15).
 void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
-  if (s.surface == ir::Surface::none) return;
-  if (!lathe_) return ProgramWriter::surface_set(a, s);
+  if (!lathe_ || s.surface == ir::Surface::none) return ProgramWriter::surface_set(a, s);
   if (s.surface == ir::Surface::face) {
     add(std::string(g(Use::c_axis)), Rank::setting, a.pos);
     further_line(a.pos);

@@ -51,10 +51,7 @@ void Writer::shift(const ir::Action& a, const ir::FrameChange& c) {
 
 /// G21 the face, G22 the cylinder on which X stands, G20 the axes again (12.6).
 void Writer::surface_set(const ir::Action& a, const ir::SurfaceSet& s) {
-  if (profile().kind != machine::Kind::lathe) {
-    if (s.surface != ir::Surface::none) ProgramWriter::surface_set(a, s);  // its end alone: nothing to say
-    return;
-  }
+  if (profile().kind != machine::Kind::lathe) return ProgramWriter::surface_set(a, s);
   const std::string_view code = s.surface == ir::Surface::face       ? "G21"
                                 : s.surface == ir::Surface::cylinder ? "G22"
                                                                      : "G20";

@@ -45,6 +45,8 @@ constexpr std::array table{
          "An end of a repeated part that is jumped to gets a name of its own."},
     Pass{"say_known_frames", passes::say_known_frames, PassScope::program,
          "Frames as values, base frames and turned settable frames, where they are known, as the programmable frame."},
+    Pass{"drop_unused_offsets", passes::drop_unused_offsets, PassScope::program,
+         "Work offsets that are off while nothing counts in them are left out for a target that always has one."},
     Pass{"normalise_returns", passes::normalise_returns, PassScope::program,
          "Early returns, and the end of the program inside a subprogram."},
     Pass{"mark_range_ends", passes::mark_range_ends, PassScope::program,
