@@ -1,4 +1,6 @@
 // Modal calls, points without the cycle, and taps in pecks, in the cycle pass.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -70,10 +72,17 @@ void CyclePass::position(Statement&& s, Body& out) {
 }
 
 void CyclePass::no_moves(Statement&& s, const std::string& why, Body& out) {
-  refuse(s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + why,
-         why.find("radius of the tool") != std::string::npos || why.find("which tool") != std::string::npos
-             ? "give the radius of the tool: --tools FILE, the profile's \"tools\", or --set TOOL_RADIUS=5"
-             : "give the cycle's words and the place before it as numbers");
+  constexpr std::string_view radius =
+      "give the radius of the tool: --tools FILE, the profile's \"tools\", or --set TOOL_RADIUS=5";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> hints{
+      {{"radius of the tool", radius},
+       {"which tool", radius},
+       {"width of the grooving tool", "give the width of the tool: --tools FILE, or \"nose_width\" in the profile"}}};
+  const auto known = std::find_if(hints.begin(), hints.end(),
+                                  [&why](const auto& h) { return why.find(h.first) != std::string::npos; });
+  refuse(
+      s, program_, context_, "TRN-330", "a cycle that the target lacks can't be written out: " + why,
+      std::string(known != hints.end() ? known->second : "give the cycle's words and the place before it as numbers"));
   late_.clear();
   out.push_back(std::move(s));
 }
