@@ -92,6 +92,8 @@ struct Capabilities {
   std::int64_t label_max = 99999999;
   std::string label_prefix = "LAB";  ///< identifier labels that a pass makes: LAB1, LAB20
   bool duplicate_labels = false;
+  /// The name of the target that a label or subprogram gets; empty: none of it can be. Unset: every name will do.
+  std::function<std::string(std::string_view)> plain_name;
 
   // expressions
   ExpressionForm expressions = ExpressionForm::full;

@@ -2,6 +2,9 @@
 
 #include "backends/sinumerik/cycles.h"
 #include "backends/sinumerik/expressions.h"
+#include "backends/sinumerik/writer.h"
+#include "base/text.h"
+#include "dialects/sinumerik/addresses.h"
 #include "dialects/sinumerik/limits.h"
 #include "dialects/sinumerik/operators.h"
 #include "dialects/sinumerik/variables.h"
@@ -31,6 +34,10 @@ void statements(ir::Capabilities& c) {  // reference-language 6, 7, 8
   c.statement_joins_words = false;
   c.searches = {ir::Search::forward, ir::Search::backward, ir::Search::forward_then_backward};
   c.identifier_labels = true;
+  c.plain_name = [](std::string_view name) {
+    std::string plain = legal_name(to_upper_ascii(name));
+    return ::cnctrans::sinumerik::is_reserved(plain) ? std::string{} : plain;
+  };
   c.number_labels = true;
   c.duplicate_labels = true;
   c.arguments = ir::ArgumentForm::positional;

@@ -45,7 +45,7 @@ bool BlockMachine::find_pocket_entries() {
   };
   const ToolInUse here = tool_;
   tool_.pretend(number("tool", tool_.number()), number("offset", tool_.offset()));
-  context.tool_radius = tool_radius();
+  context.tool_radius = cycle_.mill.tool_radius.value_or(tool_radius());
   tool_ = here;
   if (context.tool_radius <= 0)
     return failure_.fail(code::bad_cycle,

@@ -110,8 +110,28 @@ class RoutineNames {
     references();
   }
 
+  /// Names that the target can't write become plain ones, or numbers.
+  void plain_names() {
+    if (!context_.target.plain_name) return;
+    for (const auto& r : program_.routines) used_.insert(r.name.text.empty() ? r.name.number : digits_of(r.name.text));
+    for (auto& r : program_.routines) {
+      if (r.kind != RoutineKind::sub || r.name.text.empty() || given_name(r.name)) continue;
+      RoutineName to{-1, context_.target.plain_name(r.name.text)};
+      if (to.text == r.name.text) continue;
+      if (to.text.empty() || program_.find(to) != nullptr) to = RoutineName{free_number(), {}};
+      used_.insert(to.number);
+      changes_.emplace_back(r.name, to);
+      if (context_.report != nullptr)
+        context_.report->renamed.push_back({Renamed::Kind::routine, shown(r.name), shown(to), {}});
+      r.name = to;
+    }
+    references();
+    changes_.clear();
+  }
+
   /// Names that the map gives in a target which has names: those only.
   void run_named() {
+    plain_names();
     if (context_.names == nullptr) return;
     for (auto& r : program_.routines) {
       if (r.kind != RoutineKind::sub) continue;

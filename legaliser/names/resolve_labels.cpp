@@ -155,13 +155,16 @@ class LabelPass {
   // --- names ----------------------------------------------------------------------------------------------------
 
   bool takes(const Mark& m) const {
-    if (!m.label.is_number) return target_.identifier_labels;
+    if (!m.label.is_number) return target_.identifier_labels && plain(m.label.text) == m.label.text;
     if (m.range && target_.repeat_needs_identifiers && target_.identifier_labels && is_range_of_repeat(m)) return false;
     if (!target_.number_labels) return false;
     std::int64_t n = 0;
     const auto& t = m.label.text;
     const auto r = std::from_chars(t.data(), t.data() + t.size(), n);
     return r.ec == std::errc{} && n <= target_.label_max;
+  }
+  [[nodiscard]] std::string plain(const std::string& name) const {
+    return target_.plain_name ? target_.plain_name(name) : name;
   }
   bool is_range_of_repeat(const Mark& m) const {
     return std::any_of(uses_.begin(), uses_.end(),
@@ -212,7 +215,7 @@ class LabelPass {
         used != used_marks_.end() && std::any_of(used->second.begin(), used->second.end(),
                                                  [&](std::size_t o) { return &marks_[o] != &m && !marks_[o].renamed; });
     if (!m.label.is_number) {
-      if (!target_.identifier_labels || duplicate || first_of_used) m.renamed = LabelRef{};
+      if (!takes(m) || duplicate || first_of_used) m.renamed = LabelRef{};
       return;
     }
     if (first_of_used || !takes(m)) m.renamed = LabelRef{};
@@ -225,6 +228,10 @@ class LabelPass {
       }
       const std::string wanted = target_.label_prefix + m.label.text;
       if (!taken(LabelRef{wanted, false, nullptr})) return LabelRef{wanted, false, nullptr};
+    }
+    if (!m.label.is_number && target_.identifier_labels) {
+      const LabelRef wanted{plain(m.label.text), false, nullptr};
+      if (!wanted.text.empty() && !taken(wanted)) return wanted;
     }
     LabelRef fresh = editor.fresh_label();
     while (taken(fresh)) fresh = editor.fresh_label();

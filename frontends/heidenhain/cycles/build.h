@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,10 +48,11 @@ struct CycleContext {
   std::vector<CycleMove>* moves = nullptr;
   /// The speed that is in force again behind the cycle, where it leaves another.
   std::optional<ir::Value>* speed_after = nullptr;
-  std::optional<double> tool_radius;  ///< mm
-  std::optional<ir::Value> height;    ///< of the tool at the call, where it is known
-  std::size_t area = 0;               ///< which of the pockets of cycle 14
-  bool inch = false;                  ///< the unit of the program; lengths of the control itself are mm
+  std::optional<double> tool_radius;                           ///< mm
+  const std::map<std::int64_t, double>* tool_radii = nullptr;  ///< of TOOL DEF, in the unit of the program
+  std::optional<ir::Value> height;                             ///< of the tool at the call, where it is known
+  std::size_t area = 0;                                        ///< which of the pockets of cycle 14
+  bool inch = false;  ///< the unit of the program; lengths of the control itself are mm
 };
 
 /// Null: the cycle is skipped (depth 0), was refused (see `report`), or is told by its moves.

@@ -92,6 +92,9 @@ bool CycleBuilder::area() {
     hole_.has_feed = true;
     if (!q(13).literal()) return refuse("Q13 must be the number of a tool");
     word("tool", q(13));
+    const auto said = context_.tool_radii->find(static_cast<std::int64_t>(q(13).number));
+    if (said != context_.tool_radii->end())
+      word(ir::cycles::tool_radius_word, Value(said->second * (context_.inch ? 25.4 : 1)));
   }
   word("operation", Value(rough || floor || drills ? 1 : 2));
   if (!floor) word("infeed", magnitude(q(10)));

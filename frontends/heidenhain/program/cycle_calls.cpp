@@ -187,6 +187,7 @@ CycleCalls::Machining CycleCalls::machining(const Item& item, const Arrival& a, 
   context.height = item.height;
   context.moves = &out.moves;
   constexpr double inch = 25.4;
+  context.tool_radii = &lowering_.tool_radii();
   if (item.tool_radius) context.tool_radius = *item.tool_radius * (lowering_.inch() ? inch : 1);
   context.speed_after = &out.speed_after;
   context.value = [&](std::int16_t q) {

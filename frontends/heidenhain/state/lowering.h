@@ -76,6 +76,8 @@ class Lowering {
   [[nodiscard]] const std::set<std::int64_t>& own_reads() const { return reads_; }
   [[nodiscard]] const std::set<std::int64_t>& own_writes() const { return writes_; }
   /// Values that GLOBAL DEF gives to a parameter, in the order of the text.
+  /// Of TOOL DEF, in the unit of the program.
+  [[nodiscard]] const std::map<std::int64_t, double>& tool_radii() const { return radii_; }
   [[nodiscard]] const std::map<std::int16_t, std::vector<ir::Value>>& globals() const { return globals_; }
   /// Texts that the file uses: QS10.
   [[nodiscard]] const std::set<std::string>& texts() const { return texts_; }

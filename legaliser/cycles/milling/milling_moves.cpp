@@ -459,7 +459,7 @@ std::vector<cycles::PocketPoint> MillCycles::entries(const HoleCycle& c, const B
   site.tool = number("tool");
   site.offset = number("offset");
   bool none = false;
-  const auto r = radius(site, unit, error, &none);
+  const auto r = words->tool_radius ? words->tool_radius : radius(site, unit, error, &none);
   const auto contours = r ? cycles::contours_in(c, error) : std::nullopt;
   if (!contours) return {};
   cycles::MillContext context;

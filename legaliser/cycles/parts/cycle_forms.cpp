@@ -52,10 +52,6 @@ void note_base(const Level& l, std::optional<Value>& base) {
   if (l.given && l.base == LevelBase::absolute) base = l.value;
 }
 
-}  // namespace
-
-namespace {
-
 /// Dwells in another unit: `scale` seconds.
 HoleCycle rescaled(HoleCycle c, double scale_to) {
   const double factor = c.dwell_scale / scale_to;
