@@ -129,48 +129,70 @@ class Grid {
   [[nodiscard]] PocketPoint place(std::size_t k) const {
     return {u_ + size_ * static_cast<double>(k % nu_), v_ + size_ * static_cast<double>(k / nu_), 0};
   }
-  /// Calls `f` with every cell within `r` of the way from a to b.
-  template <class F>
-  void along(const PocketPoint& a, const PocketPoint& b, double r, F f) {
-    if (r <= 0) return;
-    const auto first = [](double from, double by) {
-      return static_cast<std::size_t>(std::max(0.0, std::ceil(from / by)));
-    };
-    const auto last = [](double to, double by, std::size_t n) {
-      return static_cast<std::ptrdiff_t>(std::min(std::floor(to / by), static_cast<double>(n) - 1));
-    };
-    const double du = b.u - a.u, dv = b.v - a.v, whole = du * du + dv * dv;
-    for (std::ptrdiff_t j = static_cast<std::ptrdiff_t>(first(std::min(a.v, b.v) - r - v_, size_)),
-                        jn = last(std::max(a.v, b.v) + r - v_, size_, nv_);
-         j <= jn; ++j) {
-      for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(first(std::min(a.u, b.u) - r - u_, size_)),
-                          in = last(std::max(a.u, b.u) + r - u_, size_, nu_);
-           i <= in; ++i) {
-        const double pu = u_ + size_ * static_cast<double>(i) - a.u, pv = v_ + size_ * static_cast<double>(j) - a.v;
-        const double k = whole > 0 ? std::clamp((pu * du + pv * dv) / whole, 0.0, 1.0) : 0;
-        const double away_u = pu - k * du, away_v = pv - k * dv;
-        if (away_u * away_u + away_v * away_v <= r * r)
-          f(height_[static_cast<std::size_t>(j) * nu_ + static_cast<std::size_t>(i)]);
-      }
-    }
-  }
   void cut(const PocketMove& m, double r) {
-    for (std::size_t k = 1; k < m.points.size(); ++k) {
-      const double w = std::max(m.points[k - 1].w, m.points[k].w);
-      along(m.points[k - 1], m.points[k], r, [w](double& h) { h = std::min(h, w); });
-    }
+    each_step(m, [&](const PocketPoint& a, const PocketPoint& b, double /*low*/, double high) {
+      along(a, b, r, [high](double& h) { h = std::min(h, high); });
+    });
   }
   /// Some cell under the way stands higher than the tool comes.
   bool hits(const PocketMove& m, double r, double room) {
     bool hit = false;
-    for (std::size_t k = 1; k < m.points.size() && !hit; ++k) {
-      const double w = std::min(m.points[k - 1].w, m.points[k].w);
-      along(m.points[k - 1], m.points[k], r, [&](const double& h) { hit = hit || h > w + room; });
-    }
+    each_step(m, [&](const PocketPoint& a, const PocketPoint& b, double low, double /*high*/) {
+      if (!hit) along(a, b, r, [&](const double& h) { hit = hit || h > low + room; });
+    });
     return hit;
   }
 
  private:
+  /// Calls `f` with the steps of the move and the heights between which each lies. Chords of an arc that are shorter
+  /// than half a cell are taken together.
+  template <class F>
+  void each_step(const PocketMove& m, F f) const {
+    const PocketPoint* from = &m.points.front();
+    double low = from->w, high = from->w;
+    for (std::size_t k = 1; k < m.points.size(); ++k) {
+      const PocketPoint& to = m.points[k];
+      low = std::min(low, to.w);
+      high = std::max(high, to.w);
+      if (k + 1 < m.points.size() && std::hypot(to.u - from->u, to.v - from->v) < size_ / 2) continue;
+      f(*from, to, low, high);
+      from = &to;
+      low = high = to.w;
+    }
+  }
+  /// Calls `f` with every cell within `r` of the way from a to b: row by row, since they lie side by side.
+  template <class F>
+  void along(const PocketPoint& a, const PocketPoint& b, double r, F f) {
+    if (r <= 0) return;
+    const auto first = [](double from, double by) {
+      return static_cast<std::ptrdiff_t>(std::max(0.0, std::ceil(from / by)));
+    };
+    const auto last = [](double to, double by, std::size_t n) {
+      return static_cast<std::ptrdiff_t>(std::min(std::floor(to / by), static_cast<double>(n) - 1));
+    };
+    const double du = b.u - a.u, dv = b.v - a.v, length = std::hypot(du, dv);
+    const PocketPoint aside{length > 0 ? -dv / length * r : 0, length > 0 ? du / length * r : 0, 0};
+    const std::ptrdiff_t end = last(std::max(a.v, b.v) + r - v_, size_, nv_);
+    for (std::ptrdiff_t j = first(std::min(a.v, b.v) - r - v_, size_); j <= end; ++j) {
+      const double v = v_ + size_ * static_cast<double>(j);
+      double from = std::numeric_limits<double>::infinity(), to = -from;
+      const auto take = [&](double u) { from = std::min(from, u), to = std::max(to, u); };
+      for (const PocketPoint* p : {&a, &b}) {  // the tool at both ends
+        const double square = r * r - (v - p->v) * (v - p->v);
+        if (square < 0) continue;
+        take(p->u - std::sqrt(square));
+        take(p->u + std::sqrt(square));
+      }
+      for (const double side : {-1.0, 1.0}) {  // the walls that it leaves between them
+        const double k = dv != 0 ? (v - a.v - side * aside.v) / dv : -1;
+        if (k >= 0 && k <= 1) take(a.u + side * aside.u + k * du);
+      }
+      if (from > to) continue;
+      const auto row = height_.begin() + j * static_cast<std::ptrdiff_t>(nu_);
+      for (std::ptrdiff_t i = first(from - u_, size_), in = last(to - u_, size_, nu_); i <= in; ++i) f(row[i]);
+    }
+  }
+
   double u_, v_, size_ = 1;
   std::size_t nu_ = 0, nv_ = 0;
   std::vector<double> height_;
