@@ -24,7 +24,8 @@ void ProgramWriter::block(const ir::Block& b) {
       const bool alone = own_line(a, b);
       if (alone) next_line();
       action(a);
-      if (alone && !refused()) next_line();
+      // What comes later than on the target may share its line with what follows: M5 M0.
+      if (alone && !refused() && (before || !ProgramWriter::own_line(a, b))) next_line();
     }
   };
   write(true);

@@ -121,7 +121,7 @@ TEST(ProgramWriter, ActionsWithoutCounterpartAreRefused) {
                                         ir::Corner{},
                                         ir::TangentialEnd{},
                                         ir::OpaqueWord{},
-                                        ir::SurfaceSet{},
+                                        ir::SurfaceSet{ir::Surface::face, {}},
                                         ir::SplineAxes{},
                                         ir::SetSpindle{2, {}},
                                         ir::SpindleRun{2, {}},
