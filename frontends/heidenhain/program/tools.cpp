@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontends/heidenhain/program/ways_of_text.h"
+
 namespace cnctrans::frontends::heidenhain {
 
 namespace facts = dialects::heidenhain;
@@ -69,14 +71,7 @@ void take_tools(Lowering& lowering, bool all) {
                            several ? "which TOOL CALL gives the feed here depends on the way"
                                    : "the TOOL CALL from which the way comes gives no feed or speed",
                            feature, "write F as a number");
-    if (item.kind == ItemKind::cycle) {
-      flat.cycles[static_cast<std::size_t>(item.index)].refused = true;
-      continue;
-    }
-    ir::Opaque kept;
-    kept.text = "F AUTO";
-    kept.feature = feature;
-    item.statement.node = std::move(kept);
+    give_up(flat, item, "F AUTO", feature);
   }
 }
 

@@ -33,18 +33,18 @@ bool say_unit(Item& item, int arrival, bool per_rev) {
   return true;
 }
 
-void give_up(Flat& flat, Item& item, const char* feature) {
+}  // namespace
+
+void give_up(Flat& flat, Item& item, const char* text, std::string_view feature) {
   if (item.kind == ItemKind::cycle) {
     flat.cycles[static_cast<std::size_t>(item.index)].refused = true;
     return;
   }
   ir::Opaque kept;
-  kept.text = "depends on the way";
+  kept.text = text;
   kept.feature = feature;
   item.statement.node = std::move(kept);
 }
-
-}  // namespace
 
 void check_ways_of_text(Lowering& lowering) {
   Flat& flat = lowering.flat();
@@ -70,7 +70,7 @@ void check_ways_of_text(Lowering& lowering) {
                                             ? ": what holds here depends on the way"
                                             : ": a call brings something else than the text above has"),
           kinds[k].feature, "write it in the subprogram, or call it under one alone");
-      give_up(flat, item, kinds[k].feature);
+      give_up(flat, item, "depends on the way", kinds[k].feature);
       break;
     }
   }

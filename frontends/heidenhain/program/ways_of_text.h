@@ -8,4 +8,7 @@ namespace cnctrans::frontends::heidenhain {
 
 void check_ways_of_text(Lowering& lowering);
 
+/// What depends on the way is kept as `text`; of a cycle its calls say nothing more.
+void give_up(Flat& flat, Item& item, const char* text, std::string_view feature);
+
 }  // namespace cnctrans::frontends::heidenhain
