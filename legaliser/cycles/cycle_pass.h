@@ -433,6 +433,10 @@ class CyclePass {
   /// A tap in pecks as one tap a peck, each back to the reference plane; nullopt: the target has none. `differs`: what
   /// is not the same.
   std::optional<Explosion> tap_strokes(const HoleCycle& c, const Statement& s, const Block& b, std::string* differs);
+  /// A tap at the middle of the work as the tapping form of the target's axial drilling cycle (lathes). `sense`: of the
+  /// spindle there. nullopt: the target has none, or something is not known.
+  std::optional<Explosion> axial_tap(const HoleCycle& c, const Statement& s, const Block& b,
+                                     std::optional<SpindleState> sense);
   /// A pocket as the target's own cycle, by other passes. True: done.
   bool put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pieces, std::optional<double> height,
                           bool last_resort, Body& out);

@@ -1,4 +1,4 @@
-// Modal calls, points without the cycle, and taps in pecks, in the cycle pass.
+// Modal calls, points without the cycle, and taps as several blocks, in the cycle pass.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -106,37 +106,110 @@ void CyclePass::tell_reference(const Active& a, const LineInfo& where) const {
       "knows, and above it the controls move otherwise or stop");
 }
 
-std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statement& s, const Block& b,
-                                                std::string* differs) {
-  if ((c.kind != HoleKind::tap && c.kind != HoleKind::tap_floating) || c.pecks.law == PeckLaw::none)
-    return std::nullopt;
-  const Facts facts = facts_for_tap(s, b);
+namespace {
+
+/// A tap in numbers where it stands, and the unit of its lengths in mm.
+struct TapHere {
+  cycles::HoleNumbers numbers;
+  double unit = 1, retract = 0;
+
+  [[nodiscard]] Value length(double mm) const { return Value(std::round(mm / unit * 1e9) / 1e9); }
+};
+
+/// `height` in mm, of the tool at the definition. nullopt: not known in full.
+std::optional<TapHere> tap_here(const HoleCycle& c, const Block& b, const Facts& facts, std::optional<double> height) {
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
-  const auto w = cycle_axis(c, b, facts);
-  if (!units || !w || distance != Distance::absolute) return std::nullopt;
-  const double unit = *units == Units::inch ? 25.4 : 1;
+  if ((c.kind != HoleKind::tap && c.kind != HoleKind::tap_floating) || !units || distance != Distance::absolute)
+    return std::nullopt;
+  TapHere t;
+  t.unit = *units == Units::inch ? 25.4 : 1;
   cycles::HoleContext context;
-  context.length_unit = context.level_unit = context.feed_unit = unit;
-  context.height = active_->defined_at.value_or(active_->height.value_or(std::nan("")));
+  context.length_unit = context.level_unit = context.feed_unit = t.unit;
+  context.height = height.value_or(std::nan(""));
   const auto literal = [](const Value& v) { return v.literal() ? std::optional(v.number) : constant_value(v.expr); };
   std::string error;
   const auto n = cycles::resolve(c, context, literal, &error);
   const auto plane = setting_in<RetractPlane>(b, facts, Setting::retract_plane).value_or(RetractPlane::initial);
   if (!n || std::isnan(cycles::retract_level(*n, plane))) return std::nullopt;
-  const auto level = [unit](double mm) {
+  t.numbers = *n;
+  t.retract = cycles::retract_level(*n, plane);
+  return t;
+}
+
+/// The pitch is what feed and speed give, and the spindle turns on as it did before.
+bool by_feed_and_sense(const HoleCycle& c) {
+  return c.pitch.is(0) && c.spindle_before == SpindleStep::usual && c.spindle_bottom == SpindleStep::usual &&
+         c.spindle_after == SpindleStep::usual && !c.orient_first && !c.has_speed && !c.has_speed_out && !c.has_feed &&
+         !c.has_feed_out && !c.dwell_in_revolutions && c.dwell_top.is(0);
+}
+
+}  // namespace
+
+std::optional<Explosion> CyclePass::axial_tap(const HoleCycle& c, const Statement& s, const Block& b,
+                                              std::optional<SpindleState> sense) {
+  if (c.pecks.law != PeckLaw::none || (sense != SpindleState::cw && sense != SpindleState::ccw)) return std::nullopt;
+  const Facts facts = facts_for_tap(s, b);
+  const auto t = tap_here(c, b, facts, active_->defined_at ? active_->defined_at : active_->height);
+  const bool moves_x = moves_along(b, axis::x);
+  const auto x = moves_x ? height_after(b, facts, axis::x) : height_mm(b, facts, axis::x);
+  const bool plain = setting_in<CompSide>(b, facts, Setting::comp) == CompSide::off;
+  if (!t || !plain || cycle_axis(c, b, facts) != axis::z || x != 0.0) return std::nullopt;
+  std::vector<TapForm> forms = tap_forms(c, b, facts, sense, feed_scale_);
+  forms.insert(forms.begin(), TapForm{c, {}});
+  const auto form =
+      std::find_if(forms.begin(), forms.end(), [](const TapForm& f) { return by_feed_and_sense(f.cycle); });
+  if (form == forms.end()) return std::nullopt;
+  const cycles::HoleNumbers& n = t->numbers;
+  const bool follows = c.kind == HoleKind::tap;
+  NamedCycle tap;
+  tap.name = "turn.drill";
+  tap.words = {{"x", Value(0.0)},
+               {"z", t->length(n.reference)},
+               {"depth", t->length(n.reference - n.bottom)},
+               {"peck", Value(0.0)}};
+  if (n.dwell_bottom > 0) tap.words.emplace_back("dwell", Value(std::round(n.dwell_bottom * 1e11) / 1e9));
+  if (follows) tap.words.emplace_back("factor", Value(2.0));
+  const auto cycle = std::make_shared<const Cycle>(Cycle{std::move(tap)});
+  if (!context_.target.native_cycle(*cycle)) return std::nullopt;
+  LineInfo like;
+  like.span = s.line.span;
+  like.skip_mask = s.line.skip_mask;
+  Explosion out;
+  const auto& feed = form->needs.feed;
+  if (feed) out.blocks.push_back(make_block(like, action(SetFeed{*feed, false})));
+  out.blocks.push_back(single_run(like, cycle));
+  if (follows) out.blocks.push_back(make_block(like, action(SpindleRun{facts.master.value_or(1), *sense})));
+  if (std::fabs(t->retract - n.reference) > 1e-9)
+    out.blocks.push_back(made(like, straight_move(MotionKind::rapid, axis::z, t->length(t->retract))));
+  if (feed && facts.feed && !feeds_.at(s, b, facts).none)
+    out.blocks.push_back(make_block(like, action(SetFeed{Value{*facts.feed}, false})));
+  out.end_height = t->retract;
+  return out;
+}
+
+std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statement& s, const Block& b,
+                                                std::string* differs) {
+  if (c.pecks.law == PeckLaw::none) return std::nullopt;
+  const Facts facts = facts_for_tap(s, b);
+  const auto w = cycle_axis(c, b, facts);
+  const auto t = tap_here(c, b, facts, active_->defined_at ? active_->defined_at : active_->height);
+  if (!t || !w) return std::nullopt;
+  const cycles::HoleNumbers& n = t->numbers;
+  const double unit = t->unit;
+  const auto level = [&t](double mm) {
     Level l;
-    l.value = Value(std::round(mm / unit * 1e9) / 1e9);
+    l.value = t->length(mm);
     l.given = true;
     return l;
   };
-  const auto sizes = cycles::peck_sizes(*n, std::fabs(n->reference - n->bottom));
+  const auto sizes = cycles::peck_sizes(n, std::fabs(n.reference - n.bottom));
   constexpr std::size_t most_strokes = 100;
   if (sizes.size() > most_strokes) return std::nullopt;
   HoleCycle one = c;
   one.pecks = Pecks{};
   one.surface = Level{};
-  one.reference = one.retract = level(n->reference);
+  one.reference = one.retract = level(n.reference);
   one.approach_by_retract = false;
   LineInfo like;
   like.span = s.line.span;
@@ -144,29 +217,26 @@ std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statem
   Explosion out;
   TapNeeds needs;
   needs.scale = feed_scale_;
-  double z = n->reference;
+  double z = n.reference;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    z -= n->up * sizes[i];
-    one.bottom = level(i + 1 < sizes.size() ? z : n->bottom);
+    z -= n.up * sizes[i];
+    one.bottom = level(i + 1 < sizes.size() ? z : n.bottom);
     auto cycle = std::make_shared<Cycle>();
     cycle->node = one;
-    const auto form = native_form(cycle, b, facts, context_, n->reference / unit, sense_.now(), &needs);
+    const auto form = native_form(cycle, b, facts, context_, n.reference / unit, sense_.now(), &needs);
     if (!form) return std::nullopt;
     if (i == 0 && needs.feed) out.blocks.push_back(make_block(like, action(SetFeed{*needs.feed, false})));
     out.blocks.push_back(single_run(like, *form));
   }
   *differs = needs.differs;
-  if (n->lift > 0)
+  if (n.lift > 0)
     *differs += (differs->empty() ? "" : ", ") + std::string("each peck comes back to the reference plane, not by ") +
-                shortest(n->lift / unit);
-  const double retract = cycles::retract_level(*n, plane);
-  if (std::fabs(retract - n->reference) > 1e-9) {
-    Block up = straight_move(MotionKind::rapid, *w, level(retract).value);
-    out.blocks.push_back(made(like, std::move(up)));
-  }
+                shortest(n.lift / unit);
+  if (std::fabs(t->retract - n.reference) > 1e-9)
+    out.blocks.push_back(made(like, straight_move(MotionKind::rapid, *w, t->length(t->retract))));
   if (needs.feed && facts.feed && !feeds_.at(s, b, facts).none)
     out.blocks.push_back(make_block(like, action(SetFeed{Value{*facts.feed}, false})));
-  out.end_height = retract;
+  out.end_height = t->retract;
   return out;
 }
 

@@ -195,7 +195,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
                                sense_.now(), sense_.surely(), &error);
   else if (hole == nullptr)
     error = "cycles of this kind are not carried yet";
-  else if ((moves = tap_strokes(*hole, s, b, &differs)))
+  else if ((moves = tap_strokes(*hole, s, b, &differs)) || (moves = axial_tap(*hole, s, b, sense)))
     error.clear();
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
     moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
