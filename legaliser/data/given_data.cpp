@@ -93,8 +93,20 @@ std::string name_of_datum(const SystemRef& ref, const Program& program) {
   return s->index.empty() ? s->name : s->name + '[' + s->index + ']';
 }
 
+/// A row of the work offsets that the target lacks: place_missing_offsets() gives it variables, or refuses it.
+static bool is_placed_later(const SystemRef& ref, const Capabilities& target) {
+  const auto row = ref.args.size() == 1 ? constant_value(ref.args[0]) : std::nullopt;
+  if (ref.datum != Datum::work_offset || target.work_offset_rows != 1 || !row || *row <= 1 || !target.data_form)
+    return false;
+  SystemRef only = ref;
+  only.args[0] = number(1);
+  const auto own = target.data_form(only);
+  return own && own->writable;
+}
+
 bool has_name(const SystemRef& ref, const LegaliseContext& context) {
   const auto& target = context.target;
+  if (is_placed_later(ref, target)) return true;
   if (ref.given || (target.system_data && target.system_data(ref))) return true;
   const auto own = target.data_form ? target.data_form(ref) : std::nullopt;  // it is written with that name later on
   return own && own->writable;

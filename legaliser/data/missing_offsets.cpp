@@ -9,8 +9,10 @@
 #include <set>
 
 #include "base/saturate.h"
+#include "base/text.h"
 #include "ir/edit/rewrite.h"
 #include "legaliser/analysis/facts.h"
+#include "legaliser/data/given_data.h"
 #include "legaliser/edit/editor.h"
 
 namespace cnctrans::ir::passes {
@@ -37,7 +39,8 @@ class MissingOffsets {
 
   void run() {
     look();
-    if (rows_.empty() || *rows_.rbegin() <= only_row || !good_ || program_.main() == nullptr) return;
+    if (rows_.empty() || *rows_.rbegin() <= only_row) return;
+    if (!good_ || program_.main() == nullptr) return refuse_data();
     std::set<std::int32_t> used;
     if (!uses_data_) used = rows_of_moves();
     if (used.size() == 1 && used.contains(*rows_.rbegin()) && rows_.size() == 1) return rename();
@@ -117,6 +120,31 @@ class MissingOffsets {
            });
   }
 
+  /// What is read or written of a row that gets no place.
+  void refuse_data() const {
+    const auto lacks = [](const SystemRef& ref) {
+      return ref.datum == Datum::work_offset && row_of(ref).value_or(only_row) > only_row;
+    };
+    for (const auto& r : program_.routines) {
+      for_each_statement(r.body, [&](const Statement& s) {
+        const SystemRef* found = nullptr;
+        each_expression(s, [&](const ExprPtr& e) {
+          walk(e, [&](const ExprPtr& x) {
+            const auto* ref = row_datum(x);
+            if (ref != nullptr && lacks(*ref)) found = ref;
+          });
+        });
+        const auto* a = std::get_if<Assign>(&s.node);
+        for (std::size_t i = 0; a != nullptr && i < a->items.size(); ++i) {
+          if (a->items[i].to_system && lacks(a->items[i].system)) found = &a->items[i].system;
+        }
+        if (found != nullptr)
+          context_.diagnostics.error("TRN-122", s.line.span,
+                                     "the target has no counterpart of " + quoted(name_of_datum(*found, program_)),
+                                     "work with one work offset, or with shifts");
+      });
+    }
+  }
   void rename() {
     const std::int32_t row = *rows_.begin();
     const Statement* first = nullptr;
@@ -149,7 +177,7 @@ class MissingOffsets {
     const auto main = static_cast<std::size_t>(program_.main() - program_.routines.data());
     Editor head(program_, program_.routines[main], context_);
     const LineInfo where = first_selection();
-    if (!take(head, where)) return;
+    if (!take(head, where)) return refuse_data();
     const FactsOf facts(program_, context_);
     const bool from_start = starts_with_another(facts, program_.routines[main].body);
     for (auto& r : program_.routines) {
