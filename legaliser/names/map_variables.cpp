@@ -77,7 +77,8 @@ class VariableMap {
           places_[{space, n}] = *place;
           given = shifts.insert(*constant_index(*place) - n).second || given;
         }
-        if (used.empty() && (given || !numbered.computed || &segment != &widest(segments))) continue;
+        const bool stands_for_all = numbered.computed && numbered.used.empty() && &segment == &widest(segments);
+        if (used.empty() && (given || !stands_for_all)) continue;
         place_segment(space, segment, std::move(used), shifts);
       }
       if (numbered.computed) computed_index(space, numbered, shifts);
