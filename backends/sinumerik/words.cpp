@@ -1,4 +1,5 @@
 // Word blocks: actions and motion (reference-language 14, 15).
+#include <algorithm>
 #include <cmath>
 
 #include "backends/sinumerik/cycles.h"
@@ -49,6 +50,7 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
   const auto feed_before = setting(Setting::feed_mode);
   const auto spindle_before = uses_css_ ? setting(Setting::spindle_mode) : code_value(ir::SpindleMode::rpm);
   if (!feed) feed = feed_before;
+  if (!feed && !needs_feed_mode(b)) feed = code_value(ir::FeedMode::per_rev);
   if (!spindle) spindle = spindle_before;
   if (!feed || !spindle) {
     return refuse("TRN-217", {}, "feed mode and spindle mode are one group here, and the one in force is not known",
@@ -67,6 +69,18 @@ void Writer::feed_and_spindle_mode(const ir::Block& b) {
   if (again && feed_mode != ir::FeedMode::per_rev) group_written_ = true;
   if (group_code_.empty())
     refuse("TRN-202", {}, "inverse-time feed with constant cutting speed has no counterpart here");
+}
+
+/// The feed mode counts for this block, or for what is behind it before the program says one.
+bool Writer::needs_feed_mode(const ir::Block& b) {
+  const bool feeds = std::any_of(b.actions.begin(), b.actions.end(), [](const ir::Action& a) {
+    return std::holds_alternative<ir::SetFeed>(a.data) || std::holds_alternative<ir::CycleDefine>(a.data);
+  });
+  if (feeds || (b.has_motion && b.motion.kind != ir::MotionKind::rapid)) return true;
+  if (!calls_) calls_.emplace(program());
+  if (!needs_) needs_.emplace(program(), *calls_);
+  using ir::passes::ModalGroup;
+  return needs_->behind(routine_index(), current(), {ModalGroup::Kind::setting, Setting::feed_mode});
 }
 
 /// After a move in machine coordinates without tool length (SUPA D0) the offset is selected again, in the first block

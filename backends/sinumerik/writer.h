@@ -10,6 +10,7 @@
 #include "backends/sinumerik/expressions.h"
 #include "backends/sinumerik/offsets_in_force.h"
 #include "dialects/sinumerik/geometry.h"
+#include "legaliser/analysis/modal_needs.h"
 
 namespace cnctrans::backends::sinumerik {
 
@@ -113,6 +114,7 @@ class Writer final : public ProgramWriter {
   std::string attribute_word(std::string_view address, std::string_view attribute, const ir::Value& v, WordPos pos);
   std::string cycle_text(const ir::Cycle& cycle, WordPos pos);
   void feed_and_spindle_mode(const ir::Block& b);
+  bool needs_feed_mode(const ir::Block& b);
   void offset_again(const ir::Block& b);
   void offset_line(const Span& span);
   std::string offset_word(const Span& where);
@@ -138,6 +140,8 @@ class Writer final : public ProgramWriter {
   bool block_has_offset_ = false;                  ///< the block being written selects an offset or a tool
   const ir::Statement* without_offset_ = nullptr;  ///< the move in machine coordinates for which D0 was written
   bool told_without_offset_ = false;
+  std::optional<ir::passes::CallGraph> calls_;
+  std::optional<ir::passes::ModalNeeds> needs_;  ///< made where a mode is not known
   std::optional<OffsetDomain> offset_domain_;
   std::optional<ir::passes::FlowStates<OffsetDomain>> offsets_;  ///< made at the first such move
 };

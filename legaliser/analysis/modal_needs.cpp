@@ -61,7 +61,14 @@ const ControlFlow& ModalNeeds::flow(std::size_t routine) {
 }
 
 ModalNeeds::Effect ModalNeeds::effect(const Block& b, const ModalGroup& group) {
-  const bool acts = b.has_motion || std::any_of(b.actions.begin(), b.actions.end(), depends);
+  // A rapid has no feed, and the speed of a spindle counts in its own mode.
+  const bool of_feed = group.kind == ModalGroup::Kind::setting && group.setting == Setting::feed_mode;
+  const bool moves = b.has_motion && !(of_feed && b.motion.kind == MotionKind::rapid);
+  const bool acts = moves || std::any_of(b.actions.begin(), b.actions.end(), [of_feed](const Action& a) {
+                      const bool spindle =
+                          std::holds_alternative<SetSpindle>(a.data) || std::holds_alternative<SpindleRun>(a.data);
+                      return depends(a) && !(of_feed && spindle);
+                    });
   switch (group.kind) {
     case ModalGroup::Kind::setting:
       if (sets_setting(b, group.setting)) return Effect::sets;
