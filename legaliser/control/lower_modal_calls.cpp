@@ -135,12 +135,16 @@ class ModalCalls {
       on_target_.reset();
       from_ = 0;
     }
-    if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) inside(*call, s);
+    const auto* call = std::get_if<CallRoutine>(&s.node);
+    const bool moves_inside = call != nullptr && may_move(program_, calls_, *call);
+    if (moves_inside && active_) inside(s);
+    if (moves_inside && !active_ && some_written_out_ && !surely_on(s)) return depends_on_way(std::move(s), out);
     auto* b = std::get_if<Block>(&s.node);
     if (b != nullptr && by_another_way(s, *b)) return depends_on_way(std::move(s), out);
     const bool called_under = !active_ && !on_target_ && brought_by_caller(s);
     if (b != nullptr && pattern_in(*b) == nullptr &&
-        ((on_target_ && cycle_beside(*b, true)) || (called_under && action_in<CycleDefine>(*b) != nullptr)))
+        ((on_target_ && cycle_beside(*b, true)) || (called_under && action_in<CycleDefine>(*b) != nullptr) ||
+         ends_call_too(s, *b)))
       return refused(std::move(s), out, "TRN-561",
                      "a canned cycle beside a modal subprogram: the target has one of them at a time",
                      "end the modal subprogram before the cycle");
@@ -198,8 +202,7 @@ class ModalCalls {
     out.push_back(std::move(s));
   }
   /// The moves of a called subprogram run the modal one as well, and nothing is written there.
-  void inside(const CallRoutine& call, const Statement& s) const {
-    if (!may_move(program_, calls_, call)) return;
+  void inside(const Statement& s) const {
     context_.diagnostics.error("TRN-381", s.line.span,
                                "the moves of this subprogram would run the modal one too, which the target calls only "
                                "where it is written",
@@ -346,7 +349,7 @@ class ModalCalls {
     from_ = m.off ? 0 : s.id;
     if (m.off) {
       if (!active_) {
-        if (m.here && cycle_stays(s, out)) return;
+        if (m.here && cycle_stays(s, out)) return on_target_.reset();
         on_target_.reset();
         if (take_back_on(s, out)) return leave_line(std::move(s), out);
         out.push_back(std::move(s));
@@ -446,24 +449,23 @@ class ModalCalls {
   /// become moves, which would run the modal subprogram.
   bool cycle_beside(const Block& b, bool modal) const {
     const auto* define = action_in<CycleDefine>(b);
-    return define != nullptr && define->modal == modal && context_.target.modal_cycle_by_call &&
-           program_.dialect != context_.target.dialect;
+    return define != nullptr && define->modal == modal && calls_are_cycles_;
+  }
+  /// The end of a cycle, where the target's word for it ends the modal subprogram of some way as well.
+  bool ends_call_too(const Statement& s, const Block& b) const {
+    const Facts& facts = facts_.before(s);
+    return calls_are_cycles_ && action_in<CycleCancel>(b) != nullptr && (on_target_ || brought_by_caller(s)) &&
+           (facts.cycle_active || !facts.cycle_active_known);
   }
   bool never_modal(const CallRoutine& call) const {
-    const bool ends_itself = context_.target.modal_cycle_by_call && program_.dialect != context_.target.dialect &&
-                             defines_cycle(program_, calls_, call);
-    return ends_itself || shares_level_too(calls_, call);
-  }
-  static void leave_line(Statement&& s, Body& out) {
-    if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
-    s.node = Label{};
-    out.push_back(std::move(s));
+    return (calls_are_cycles_ && defines_cycle(program_, calls_, call)) || shares_level_too(calls_, call);
   }
 
   Program& program_;
   const LegaliseContext& context_;
   const CallGraph& calls_;
   const FactsOf& facts_;
+  const bool calls_are_cycles_ = context_.target.modal_cycle_by_call && program_.dialect != context_.target.dialect;
   const FlowStates<ModalCallInForce> in_force_;
   const std::set<std::size_t> by_main_;
   ReadFirst reads_first_;

@@ -36,6 +36,12 @@ bool any_action_of(const Statement& s, const Test& test) {
 
 }  // namespace
 
+void leave_line(Statement&& s, Body& out) {
+  if (s.line.number.empty() && s.line.labels.empty() && s.line.comments.empty()) return;
+  s.node = Label{};
+  out.push_back(std::move(s));
+}
+
 bool starts_modal_calls(const Program& program) {
   bool found = false;
   for (const auto& r : program.routines) {

@@ -8,6 +8,8 @@
 
 namespace cnctrans::ir::passes {
 
+/// Of a statement that says nothing any more its labels and remarks stay.
+void leave_line(Statement&& s, Body& out);
 /// Some modal call of a subprogram begins.
 bool starts_modal_calls(const Program& program);
 /// The routine begins or ends a modal call.
