@@ -105,12 +105,12 @@ void CyclePass::define_by_words(Statement&& s, const CycleDefine& d, Active&& a,
   const bool target_rapid = context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
   if (target_rapid && w && has_plane_word(b, *w) && way_to_hole(b, facts, context_) != MotionKind::rapid) {
     // The target would go there in rapid: the move, then one run of the cycle.
-    if (refuse_feed_of_tap(s, a)) return out.push_back(std::move(s));
     if (old_may) pieces.push_back(off_statement(s.line, false));
-    const LineInfo like = s.line;
     const std::size_t main = pieces.size();
+    Statement run = single_run(s.line, a.native);
+    const Block way = b;
     pieces.push_back(std::move(s));
-    pieces.push_back(single_run(like, a.native));
+    run_alone(std::move(run), a, way, facts, pieces);
     if (d.modal) active_ = std::move(a);
     return put_group(out, std::move(pieces), main);
   }
@@ -236,10 +236,6 @@ void CyclePass::define_by_call(Statement&& s, const CycleDefine& d, Active&& a, 
 void CyclePass::define_each(Statement&& s, const CycleDefine& d, Active&& a, Body&& pieces, Body& out) {
   auto& b = std::get<Block>(s.node);
   a.single = true;
-  if (d.here && refuse_feed_of_tap(s, a)) {
-    out.push_back(std::move(s));
-    return;
-  }
   const LineInfo like = s.line;
   if (d.here) position_rapid(b, context_);
   const CyclePtr native = a.native;
@@ -247,15 +243,19 @@ void CyclePass::define_each(Statement&& s, const CycleDefine& d, Active&& a, Bod
     const auto w = tool_axis(d.cycle, b, facts_.before(s));
     if (w && moves_along(b, *w)) a.height = height_after(b, facts_.before(s), *w);
   }
+  const Active now = a;
   if (d.modal) active_ = std::move(a);
-  if (d.here && b.empty()) {
-    b.actions.push_back(action(CycleDefine{native, false, true, CycleTrigger::plane_axis_word}));
-    return put(out, std::move(pieces), std::move(s));
-  }
   if (!d.here) return put(out, std::move(pieces), std::move(s));
-  const std::size_t main = pieces.size();
-  pieces.push_back(std::move(s));
-  pieces.push_back(single_run(like, native));
+  const Facts& facts = facts_.before(s);
+  const Block way = b;
+  Statement run = single_run(like, native);
+  if (way.empty()) {
+    b.actions.push_back(action(CycleDefine{native, false, true, CycleTrigger::plane_axis_word}));
+    run = std::move(s);
+  }
+  const std::size_t main = pieces.size() + (way.empty() && now.needs.feed ? 1U : 0U);
+  if (!way.empty()) pieces.push_back(std::move(s));
+  run_alone(std::move(run), now, way, facts, pieces);
   put_group(out, std::move(pieces), main);
 }
 

@@ -21,11 +21,15 @@ void CyclePass::feed_as_a_word(Active& a, const Block& b, const Facts& facts) co
   if (!hole->feed.is(*facts.feed)) a.needs.feed = hole->feed;
 }
 
-bool CyclePass::refuse_feed_of_tap(Statement& s, const Active& a) {
-  if (!a.needs.feed) return false;
-  refuse(s, program_, context_, "TRN-330", "a tap whose pitch is a feed there, with a way to the hole that is no rapid",
-         "go to the holes in rapid, or set F to pitch times speed before the cycle");
-  return true;
+void CyclePass::run_alone(Statement&& run, const Active& a, const Block& way, const Facts& facts, Body& pieces) {
+  const LineInfo like = run.line;
+  const auto f = [&](const Value& v) { pieces.push_back(make_block(like, action(SetFeed{v, false}))); };
+  if (a.needs.feed) f(*a.needs.feed);
+  pieces.push_back(std::move(run));
+  if (!a.needs.feed) return;
+  const auto* own = action_in<SetFeed>(way);
+  if (own != nullptr) return f(own->value);
+  if (facts.feed) f(Value(*facts.feed));
 }
 
 }  // namespace cnctrans::ir::passes

@@ -281,8 +281,8 @@ class CyclePass {
   void feed_comes_back(const Statement& s, Block& b, const Facts& facts);
   /// A tap that stands elsewhere in the text may be in force here too.
   [[nodiscard]] bool tap_by_a_jump(const Facts& facts) const;
-  /// The way to the hole would be driven at the tap's feed.
-  bool refuse_feed_of_tap(Statement& s, const Active& a);
+  /// One run behind the way to the hole, which has another F than the tap.
+  static void run_alone(Statement&& run, const Active& a, const Block& way, const Facts& facts, Body& pieces);
   /// A new F, S or sense at a point would give the tap another pitch or end on one of the two controls only.
   void check_tap(const Statement& s) const;
 

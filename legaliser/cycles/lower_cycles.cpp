@@ -153,16 +153,14 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     return put(out, std::move(pieces), std::move(s));
   }
   // Moved there in another way than the target's cycle does: the move, then one run of the cycle.
-  if (refuse_feed_of_tap(s, *active_)) {
-    out.push_back(std::move(s));
-    return;
-  }
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
   position_rapid(b, context_);
   const std::size_t main = pieces.size();
+  const Block way = b;
   pieces.push_back(std::move(s));
-  pieces.push_back(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native));
+  run_alone(apart ? under_absolute(like, active_->native, false) : single_run(like, active_->native), *active_, way,
+            facts, pieces);
   if (apart) pieces.push_back(make_block(like, distance_set(Distance::incremental)));
   put_group(out, std::move(pieces), main);
 }
