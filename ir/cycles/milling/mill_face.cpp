@@ -55,7 +55,7 @@ bool face(MillPath& path, std::string* error) {
   path.frame(u, v, path.get("angle"));
   // The corner nearest to the tool; the one that is dimensioned when several are, or where the cycle says so.
   const bool dimensioned = path.get("from_dimension") != 0;
-  const auto [tool_p, tool_q] = path.local();
+  const auto [tool_p, tool_q] = dimensioned ? std::pair{0.0, 0.0} : path.local();
   const bool far_p = !dimensioned && std::abs(tool_p - length) < std::abs(tool_p) - least_mm;
   const bool far_q = !dimensioned && std::abs(tool_q - width) < std::abs(tool_q) - least_mm;
   Passes passes;
