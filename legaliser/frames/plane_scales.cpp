@@ -1,7 +1,11 @@
 // A scale of two axes for a target that scales all of them: where the third axis can be followed in the text, its words
-// are divided by the factor, so that scaling leaves it as it is (equivalences 17.1).
+// are divided by the factor, so that scaling leaves it as it is (equivalences 17.1). A subprogram that is called under
+// the scale has a copy with divided words.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "ir/edit/rewrite.h"
 #include "legaliser/early_passes.h"
@@ -42,6 +46,7 @@ class PlaneScales {
         if (auto* op = scale_in(r.body[i])) complete(r.body, i, *op);
       }
     }
+    for (auto& c : copies_) add(std::move(c));
   }
 
  private:
@@ -58,6 +63,7 @@ class PlaneScales {
   void complete(Body& body, std::size_t at, FrameOp& op) {
     const auto two = scale_of_two(*op.change, context_.source_machine);
     if (!two || body[at].line.skip_mask != 0) return;
+    slot_ = op.change->slot;
     std::size_t end = at + 1;
     while (end < body.size() && !ends(body[end])) {
       if (!can_follow(body[end], two->other)) return;
@@ -66,10 +72,17 @@ class PlaneScales {
     if (end == body.size() && !main_) return;  // the scale goes on in the caller
     auto change = std::make_shared<FrameChange>(*op.change);
     FrameWord word = change->words.front();
-    word.axis = two->other;
-    word.pos = {};
-    change->words.push_back(word);
+    if (slot_ == FrameSlot::chain) {
+      word.axis = two->other;
+      word.pos = {};
+      change->words.push_back(word);
+    } else {
+      word.axis = axis::x;
+      change->words = {word};
+      change->uniform_scale = true;
+    }
     op.change = std::move(change);
+    if (two->factor == 1) return;
     bool divided = false;
     for (std::size_t i = at + 1; i < end; ++i) divided = divide(body[i], *two) || divided;
     if (!divided) return;
@@ -81,13 +94,13 @@ class PlaneScales {
   }
 
   /// Another programmable frame takes the place of the scale, or the program ends.
-  static bool ends(const Statement& s) {
+  [[nodiscard]] bool ends(const Statement& s) const {
     if (std::holds_alternative<End>(s.node)) return true;
     const auto* b = std::get_if<Block>(&s.node);
     if (b == nullptr) return false;
-    return std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+    return std::any_of(b->actions.begin(), b->actions.end(), [this](const Action& a) {
       const auto* op = std::get_if<FrameOp>(&a.data);
-      return op != nullptr && op->change && op->change->slot == FrameSlot::chain &&
+      return op != nullptr && op->change && op->change->slot == slot_ &&
              (op->change->combine == FrameCombine::clear || op->change->combine == FrameCombine::replace);
     });
   }
@@ -97,24 +110,48 @@ class PlaneScales {
       if (uses_.is_target(l) || uses_.computed) return false;
     }
     if (const auto* b = std::get_if<Block>(&s.node)) return s.line.skip_mask == 0 && can_follow_block(*b, other);
+    if (const auto* call = std::get_if<CallRoutine>(&s.node)) return can_follow_call(*call, other);
     if (const auto* f = std::get_if<For>(&s.node)) return can_follow_body(f->body, other);
     if (const auto* w = std::get_if<While>(&s.node)) return can_follow_body(w->body, other);
     if (const auto* u = std::get_if<Until>(&s.node)) return can_follow_body(u->body, other);
     if (const auto* i = std::get_if<If>(&s.node))
       return can_follow_body(i->then_body, other) && can_follow_body(i->else_body, other);
+    const auto* repeat = std::get_if<Repeat>(&s.node);
+    const bool stays = std::holds_alternative<Return>(s.node) || std::holds_alternative<Jump>(s.node) ||
+                       (repeat != nullptr && !repeat->has_program);
+    if (!open_.empty() && stays) return true;  // all of the subprogram is divided
     return std::holds_alternative<Assign>(s.node) || std::holds_alternative<Message>(s.node) ||
            std::holds_alternative<Declare>(s.node) || std::holds_alternative<Label>(s.node);
   }
   bool can_follow_body(const Body& body, AxisId other) const {
     return std::all_of(body.begin(), body.end(), [&](const Statement& s) { return !ends(s) && can_follow(s, other); });
   }
-  static bool can_follow_block(const Block& b, AxisId other) {
+  [[nodiscard]] std::optional<std::size_t> callee_of(const CallRoutine& call) const {
+    if (call.computed || call.has_range || call.tail || call.optional) return std::nullopt;
+    for (std::size_t i = 0; i < program_.routines.size(); ++i) {
+      const Routine& r = program_.routines[i];
+      if (r.name == call.routine && r.kind != RoutineKind::main) return i;
+    }
+    return std::nullopt;
+  }
+  bool can_follow_call(const CallRoutine& call, AxisId other) const {
+    const auto callee = callee_of(call);
+    if (!callee || std::count(open_.begin(), open_.end(), *callee) != 0) return false;
+    open_.push_back(*callee);
+    const LabelUses outer = std::exchange(uses_, LabelUses{});
+    const bool can = can_follow_body(program_.routines[*callee].body, other);
+    uses_ = outer;
+    open_.pop_back();
+    return can;
+  }
+  [[nodiscard]] bool can_follow_block(const Block& b, AxisId other) const {
     for (const auto& a : b.actions) {
       const auto* m = std::get_if<ModalSet>(&a.data);
       if ((m != nullptr && m->setting == Setting::plane) || std::holds_alternative<CycleDefine>(a.data)) return false;
       const auto* op = std::get_if<FrameOp>(&a.data);
-      if (op != nullptr && (!op->change || op->change->kind == FrameKind::scale ||
-                            op->change->slot != FrameSlot::chain || op->change->rotation_axis != axis::none))
+      if (op != nullptr &&
+          (!op->change || op->change->kind == FrameKind::scale ||
+           (slot_ == FrameSlot::chain && op->change->slot != slot_) || op->change->rotation_axis != axis::none))
         return false;
       if (op != nullptr && op->change->kind == FrameKind::rotate && !op->change->has_angle) return false;
     }
@@ -129,8 +166,9 @@ class PlaneScales {
   }
 
   /// True when a word was divided.
-  static bool divide(Statement& s, const TwoAxes& two) {
+  bool divide(Statement& s, const TwoAxes& two) {
     bool done = false;
+    if (auto* call = std::get_if<CallRoutine>(&s.node)) return divide_called(*call, two);
     each_body(s, [&](Body& inner) {
       for (auto& x : inner) done = divide(x, two) || done;
     });
@@ -144,7 +182,8 @@ class PlaneScales {
     };
     for (auto& a : b->actions) {
       auto* op = std::get_if<FrameOp>(&a.data);
-      if (op == nullptr || op->change->kind != FrameKind::translate) continue;
+      const bool inside = op != nullptr && op->change->kind == FrameKind::translate && op->change->slot == slot_;
+      if (!inside) continue;
       auto change = std::make_shared<FrameChange>(*op->change);
       for (auto& w : change->words) {
         if (w.axis == two.other) part(w.value);
@@ -158,9 +197,67 @@ class PlaneScales {
     return done;
   }
 
+  /// The call is one of a copy whose words are divided.
+  bool divide_called(CallRoutine& call, const TwoAxes& two) {
+    const std::size_t original = *callee_of(call);
+    auto same = std::find_if(copies_.begin(), copies_.end(), [&](const Copy& c) {
+      return c.original == original && c.two.factor == two.factor && c.two.other == two.other;
+    });
+    if (same == copies_.end()) {
+      Copy copy{original, two, program_.routines[original], false};
+      copy.routine.name = free_name(copy.routine.name);
+      for (auto& s : copy.routine.body) copy.divided = divide(s, two) || copy.divided;
+      copies_.push_back(std::move(copy));
+      same = copies_.end() - 1;
+    }
+    if (same->divided) call.routine = same->routine.name;
+    return same->divided;
+  }
+  [[nodiscard]] RoutineName free_name(const RoutineName& of) const {
+    RoutineName name = of;
+    const auto taken = [&] {
+      const auto is = [&name](const Routine& r) { return r.name == name; };
+      return std::any_of(program_.routines.begin(), program_.routines.end(), is) ||
+             std::any_of(copies_.begin(), copies_.end(), [&](const Copy& c) { return is(c.routine); });
+    };
+    for (int n = 1; taken(); ++n) {
+      if (of.text.empty())
+        name.number = of.number + n;
+      else
+        name.text = of.text + "_" + std::to_string(n);
+    }
+    return name;
+  }
+  struct Copy {
+    std::size_t original = 0;
+    TwoAxes two;
+    Routine routine;
+    bool divided = false;
+  };
+  /// An original that nothing calls any more gives its place to its copy.
+  void add(Copy&& copy) {
+    if (!copy.divided) return;
+    const RoutineName original = program_.routines[copy.original].name;
+    bool called = false;
+    const auto look = [&](Body& body) {
+      for_each_statement(body, [&](Statement& s) {
+        const auto* c = std::get_if<CallRoutine>(&s.node);
+        const auto* m = std::get_if<ModalCall>(&s.node);
+        called = called || (c != nullptr && (c->computed || c->routine == original)) || m != nullptr;
+      });
+    };
+    for (auto& r : program_.routines) look(r.body);
+    for (auto& c : copies_) look(c.routine.body);
+    if (called) return program_.routines.push_back(std::move(copy.routine));
+    program_.routines[copy.original] = std::move(copy.routine);
+  }
+
   Program& program_;
   const LegaliseContext& context_;
-  LabelUses uses_;
+  mutable LabelUses uses_;
+  mutable std::vector<std::size_t> open_;  ///< routines that are being followed
+  std::vector<Copy> copies_;
+  FrameSlot slot_ = FrameSlot::chain;  ///< of the scale at hand
   bool main_ = false;
 };
 
