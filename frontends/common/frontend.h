@@ -33,6 +33,12 @@ struct ReadOptions {
   TextLook look = {};  ///< of a stream; empty: there is nothing to look through
   /// The other programs of the run, the main one first, where a file is read for those that call it; may be null.
   const std::vector<const ir::Program*>* callers = {};
+  struct Text {
+    SourcePtr source;  ///< null: there is none
+    FileId file = 0;
+  };
+  /// The text of a program that can be called; empty: nobody knows.
+  std::function<Text(std::string_view name)> called_text = {};
   /// A program of this name (capitals) is there to be called; empty: nobody knows.
   std::function<bool(std::string_view name)> has_program = {};
 };

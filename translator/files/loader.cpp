@@ -191,8 +191,7 @@ const ir::Program* Loader::read_source(const SourcePtr& source, Diagnostics& dia
   const FileId id = files_.add(source);
   if (source->encoding() != Encoding::utf8) note_encoding(source->text(), 1, id, diagnostics);
   if (mains_.empty()) note_added_axes(profile_, id, diagnostics);
-  frontends::ReadOptions options{reader_, &profile_, &definitions()};
-  options.has_program = [this](std::string_view name) { return has_file(name); };
+  const frontends::ReadOptions options = read_options();
   Diagnostics said;
   frontends::ReadStats own;
   frontends::ReadStats& read = stats != nullptr ? *stats : own;
@@ -272,16 +271,33 @@ bool Loader::has_file(std::string_view capitals) {
                      [capitals](const Candidate& c) { return c.stem == capitals; });
 }
 
-bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
-  if (c.unreadable) return false;
-  if (!c.source) {
-    std::string error;
-    c.source = SourceText::open(c.path, &error);
-    if (!c.source) {
-      c.unreadable = true;
-      return false;
-    }
+frontends::ReadOptions::Text Loader::called_text(std::string_view capitals) {
+  list_candidates();
+  for (Candidate& c : candidates_) {
+    if (c.stem != capitals || !open(c)) continue;
+    if (!c.id) c.id = files_.add(c.source);
+    return {c.source, *c.id};
   }
+  return {};
+}
+
+frontends::ReadOptions Loader::read_options() {
+  frontends::ReadOptions options{reader_, &profile_, &definitions()};
+  options.has_program = [this](std::string_view name) { return has_file(name); };
+  options.called_text = [this](std::string_view name) { return called_text(name); };
+  return options;
+}
+
+bool Loader::open(Candidate& c) {
+  if (c.unreadable || c.source) return !c.unreadable;
+  std::string error;
+  c.source = SourceText::open(c.path, &error);
+  c.unreadable = !c.source;
+  return !c.unreadable;
+}
+
+bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
+  if (!open(c)) return false;
   if (c.program) return true;
   const std::string wanted = name.text.empty() ? std::to_string(name.number) : name.text;
   const std::string_view bytes = c.source->bytes();
@@ -296,8 +312,8 @@ ir::Program* Loader::load(Candidate& c) {
     const bool alone = !by_callers_ && dialect_.frontend->reads_by_callers();  // it is read once more
     if (!c.id) c.id = files_.add(c.source);
     const FileId id = *c.id;
-    frontends::ReadOptions options{reader_, &profile_, &definitions(), {}, &callers_};
-    options.has_program = [this](std::string_view name) { return has_file(name); };
+    frontends::ReadOptions options = read_options();
+    options.callers = &callers_;
     if (c.source->encoding() != Encoding::utf8) note_encoding(c.source->text(), 1, id, c.diagnostics);
     c.program = std::make_unique<ir::Program>(dialect_.frontend->read(c.source, id, options, c.diagnostics, nullptr));
     c.program->texts->hold(c.source);
@@ -313,12 +329,7 @@ Loader::Candidate* Loader::locate(const ir::RoutineName& name) {
     if (may_hold(c, name) && load(c)->find(name) != nullptr) return &c;
   }
   for (auto& c : candidates_) {
-    if (!stem_names(c.stem, name, dialect_.numbered_stem) || c.unreadable) continue;
-    if (!c.source) {
-      std::string error;
-      c.source = SourceText::open(c.path, &error);
-      if (!c.source) continue;
-    }
+    if (!stem_names(c.stem, name, dialect_.numbered_stem) || !open(c)) continue;
     ir::Program* p = load(c);
     // The file is the routine: its first routine answers to the stem's name.
     if (!p->routines.empty() && p->routines.front().name.empty()) p->routines.front().name = name;

@@ -79,8 +79,13 @@ class Loader {
     std::optional<FileId> id = {};
   };
   void list_candidates();
+  /// False: it can't be read.
+  static bool open(Candidate& c);
   /// There is a file of this name in the folders.
   bool has_file(std::string_view capitals);
+  /// What a reader may ask while it reads.
+  [[nodiscard]] frontends::ReadOptions read_options();
+  frontends::ReadOptions::Text called_text(std::string_view capitals);
   ir::Program* load(Candidate& c);
   /// The file that has the routine; null: none.
   Candidate* locate(const ir::RoutineName& name);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "frontends/heidenhain/program/way.h"
+#include "frontends/heidenhain/ways/way.h"
 #include "interpreter/machine/profile_contour.h"
 
 namespace cnctrans::frontends::heidenhain {

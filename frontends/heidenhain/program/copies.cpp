@@ -7,19 +7,17 @@
 #include <utility>
 #include <vector>
 
-#include "base/text.h"
-#include "frontends/heidenhain/program/flow.h"
+#include "frontends/heidenhain/program/fresh_labels.h"
 #include "frontends/heidenhain/program/tools.h"
+#include "frontends/heidenhain/ways/flow.h"
 
 namespace cnctrans::frontends::heidenhain {
 
 namespace {
 
-constexpr int most_copies = 64;
-
 class Copies {
  public:
-  explicit Copies(Lowering& lowering) : lowering_(lowering), flat_(lowering.flat()) {}
+  explicit Copies(Lowering& lowering) : lowering_(lowering), flat_(lowering.flat()), labels_(lowering) {}
 
   /// True: a subprogram was copied, and the ways are others now.
   bool once() {
@@ -54,7 +52,7 @@ class Copies {
     std::vector<Item> behind;
     for (auto it = std::next(calls.begin()); it != calls.end(); ++it) {
       std::vector<Item> copy = text;
-      rename(copy);
+      labels_.rename(copy);
       if (by_tool) own_definitions(copy);
       for (const int c : it->second) {
         item(c).label = copy.front().label;
@@ -71,13 +69,26 @@ class Copies {
                        std::make_move_iterator(behind.end()));
     return true;
   }
-  /// The cycle that a block of its text calls is not known; and the tool whose feed it takes.
+  /// The cycle that a block of its text calls is not known; and the tool whose feed it takes. So are those of a
+  /// subprogram that it calls.
   std::pair<bool, bool> asks(const Flow& flow, const Root& root) {
+    std::set<int> seen;
+    return asks(flow, root, seen);
+  }
+  std::pair<bool, bool> asks(const Flow& flow, const Root& root, std::set<int>& seen) {
     std::pair<bool, bool> out;
+    if (!seen.insert(root.start).second) return out;
     for (int i = root.start; !root.ends.empty() && i <= root.ends.front(); ++i) {
       const Arrival& a = flow.arrivals()[static_cast<std::size_t>(i)];
-      out.first = out.first || (item(i).call != CycleCall::none && a.reached && a.cycle == Arrival::several);
-      out.second = out.second || (a.reached && a.tool == Arrival::several && asks_tool(flat_, item(i), a));
+      const bool cycles = a.reached && a.cycle == Arrival::several, tools = a.reached && a.tool == Arrival::several;
+      out.first = out.first || (item(i).call != CycleCall::none && cycles);
+      out.second = out.second || (tools && asks_tool(flat_, item(i), a));
+      if (item(i).kind != ItemKind::call || (!cycles && !tools)) continue;
+      for (const Root& inner : flow.roots()) {
+        if (&inner == &flow.roots().front() || inner.start != flow.label(item(i))) continue;
+        const auto more = asks(flow, inner, seen);
+        out = {out.first || (more.first && cycles), out.second || (more.second && tools)};
+      }
     }
     return out;
   }
@@ -115,49 +126,9 @@ class Copies {
       return !called || (c.row != nullptr && c.number == first.number);
     });
   }
-  /// The labels of a copy, and what leads to them, get names of their own.
-  void rename(std::vector<Item>& copy) {
-    std::map<std::pair<std::string, bool>, std::string> names;
-    for (Item& i : copy) {
-      if (i.kind != ItemKind::label) continue;
-      const std::string now = i.number ? free_number() : free_name(i.label);
-      names[{i.label, i.number}] = now;
-      i.label = now;
-      auto& line = i.statement.line;
-      line.labels.clear();
-      if (i.number)
-        line.number = lowering_.keep(now);
-      else
-        line.labels.push_back(lowering_.keep(now));
-    }
-    for (Item& i : copy) {
-      const auto name = names.find({i.label, i.number});
-      if (name == names.end() || i.kind == ItemKind::label) continue;
-      i.label = name->second;
-      if (auto* jump = std::get_if<ir::Jump>(&i.statement.node)) jump->target.text = name->second;
-      if (auto* repeat = std::get_if<ir::Repeat>(&i.statement.node)) repeat->first.text = name->second;
-    }
-  }
-  void find_taken() {
-    if (!taken_.empty()) return;
-    for (const Item& i : flat_.items) taken_.insert(i.label);
-  }
-  std::string free_number() {
-    find_taken();
-    int n = 1;
-    while (!taken_.insert(std::to_string(n)).second) ++n;
-    return std::to_string(n);
-  }
-  std::string free_name(const std::string& of) {
-    find_taken();
-    int n = 2;
-    while (!taken_.insert(of + "_" + std::to_string(n)).second) ++n;
-    return of + "_" + std::to_string(n);
-  }
-
   Lowering& lowering_;
   Flat& flat_;
-  std::set<std::string> taken_;
+  FreshLabels labels_;
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frontends/heidenhain/cycles/build.h"
-#include "frontends/heidenhain/program/flow.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "frontends/heidenhain/ways/flow.h"
 
 namespace cnctrans::frontends::heidenhain {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "frontends/heidenhain/program/cycle_calls.h"
-#include "frontends/heidenhain/program/from_pole.h"
 #include "frontends/heidenhain/state/datum.h"
+#include "frontends/heidenhain/ways/from_pole.h"
 
 namespace cnctrans::frontends::heidenhain {
 

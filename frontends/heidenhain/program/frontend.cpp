@@ -4,11 +4,15 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "base/text.h"
 #include "dialects/heidenhain/variables.h"
 #include "frontends/common/block_start.h"
+#include "frontends/heidenhain/program/again.h"
 #include "frontends/heidenhain/program/areas.h"
 #include "frontends/heidenhain/program/copies.h"
 #include "frontends/heidenhain/program/cycle_feeds.h"
@@ -100,13 +104,7 @@ class HeidenhainReader {
     look.final_eol = lines.empty() || lines.back().has_eol;
     program_.files.push_back(std::move(look));
     look_at_callers();
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      SourceLine l = lines[k];
-      while (k + 1 < lines.size() && goes_on(l.text, lines[k + 1].text))
-        l.text = program_.keep(std::string(l.text) + ' ' + std::string(trim(lines[++k].text)));
-      line(l);
-    }
-    lowering_.flush();
+    read_all();
     check_ways_of_text(lowering_);
     take_tools(lowering_, false);
     write_leads(lowering_);
@@ -137,6 +135,91 @@ class HeidenhainReader {
   }
 
  private:
+  void read_all() {
+    read_lines(*source_, 1, source_->last_line());
+    names_.insert(to_upper_ascii(source_->stem()));
+    texts_[file_] = source_;
+    Again again;
+    again.look_into = [this](const std::string& name) -> const Shared& { return look_into(name); };
+    again.read_program = [this](const Item& call, const std::string& name) {
+      const auto& text = called_.at(name);
+      texts_[text.file] = text.source;
+      once_more(call, Span{text.file, 1, 1, 1, 1}, Span{text.file, text.source->last_line(), 1, 1, 1});
+    };
+    again.read = [this](const Item& call, const Span& first, const Span& last) { once_more(call, first, last); };
+    read_again(lowering_, again);
+  }
+  void read_lines(const SourceText& source, std::uint32_t first, std::uint32_t last) {
+    const auto& lines = source.lines();
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      SourceLine l = lines[k];
+      while (k + 1 < lines.size() && goes_on(l.text, lines[k + 1].text))
+        l.text = program_.keep(std::string(l.text) + ' ' + std::string(trim(lines[++k].text)));
+      if (l.number >= first && l.number <= last) line(l);
+    }
+    lowering_.flush();
+  }
+  /// What was said of a line is not said again.
+  void once_more(const Item& call, const Span& first, const Span& last) {
+    const SourcePtr text = texts_.at(first.file);
+    program_.texts->hold(text);
+    const FileId own = std::exchange(file_, first.file);
+    const ReadStats counted = stats_;
+    const Diagnostics said = std::exchange(diagnostics_, Diagnostics{});
+    if (first.file == own)
+      lowering_.read_as_at(call);
+    else
+      lowering_.open_program(call, first);
+    read_lines(*text, first.line, last.line);
+    lowering_.close_program();
+    const Diagnostics more = std::exchange(diagnostics_, said);
+    for (const auto& d : more.all()) {
+      if (std::find(said.all().begin(), said.all().end(), d) == said.all().end()) diagnostics_.add(d);
+    }
+    stats_ = counted;
+    file_ = own;
+  }
+  /// Long programs are toolpaths, which take nothing from their caller.
+  const Shared& look_into(const std::string& name) {
+    constexpr std::size_t longest = 1U << 20U;
+    const auto [it, fresh] = looked_.try_emplace(name);
+    if (!fresh || !options_.called_text || names_.count(name) != 0) return it->second;
+    const auto text = options_.called_text(name);
+    if (!text.source || text.source->bytes().size() > longest) return it->second;
+    called_[name] = text;
+    Diagnostics unsaid;
+    ReadStats uncounted;
+    HeidenhainReader probe(text.source, text.file, options_, unsaid, uncounted);
+    probe.names_ = names_;
+    it->second = probe.shared(lowering_.inch());
+    return it->second;
+  }
+  Shared shared(bool inch) {
+    read_all();
+    Shared out;
+    const Flat& flat = lowering_.flat();
+    const Flow flow(flat);
+    out.readable = lowering_.inch() == inch;
+    out.known = true;
+    for (std::size_t i = 0; i < flat.items.size(); ++i) {
+      const Item& item = flat.items[i];
+      const Arrival& a = flow.arrivals()[i];
+      const auto* end = std::get_if<ir::End>(&item.statement.node);
+      const bool stays = item.kind != ItemKind::sub_end && (end == nullptr || end->returns_from_sub);
+      out.readable = out.readable && (stays || item.statement.line.span.file != file_);
+      if (!a.reached) continue;
+      const bool runs =
+          item.call != CycleCall::none || item.at_pattern || (item.kind == ItemKind::plain && item.index >= 0);
+      out.cycle = out.cycle || (runs && a.cycle == Arrival::none);
+      out.pattern = out.pattern || (item.at_pattern && a.pattern == Arrival::none);
+      out.pole = out.pole || ((item.by_pole || item.polar) && a.pole == Arrival::none);
+      out.known = out.known && (item.kind != ItemKind::program || item.defines_none);
+      out.defines = out.defines || item.kind == ItemKind::cycle;
+      out.moves = out.moves || item.moves;
+      for (std::size_t k = 0; k < along_text; ++k) out.text[k] = out.text[k] || (item.relies[k] && a.text[k] == 0);
+    }
+    return out;
+  }
   /// Each file has its own unit.
   void look_at_callers() {
     const auto* all = options_.callers;
@@ -207,6 +290,10 @@ class HeidenhainReader {
   LineReader reader_;
   Lowering lowering_;
   syntax::Block syntax_;
+  std::set<std::string> names_;  ///< of this program and of those that are being looked into
+  std::map<std::string, Shared> looked_;
+  std::map<std::string, ReadOptions::Text> called_;
+  std::map<FileId, SourcePtr> texts_;
   std::uint16_t blank_ = 0;
   bool first_line_ = true, din_iso_ = false;
 };

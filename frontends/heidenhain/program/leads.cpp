@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "frontends/heidenhain/program/free_contour.h"
-#include "frontends/heidenhain/program/way.h"
+#include "frontends/heidenhain/ways/way.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -38,6 +38,7 @@ class LeadWriter {
 
   void run() {
     std::vector<Item> items = std::move(flat_.items);
+    way_.read_ahead_in(items);
     flat_.items.clear();
     for (std::size_t i = 0; i < items.size(); ++i) {
       way_.comes_to(items[i]);

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "frontends/heidenhain/program/flow.h"
-#include "frontends/heidenhain/program/way.h"
+#include "frontends/heidenhain/ways/flow.h"
+#include "frontends/heidenhain/ways/way.h"
 #include "ir/known_number.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -37,6 +37,7 @@ class PlungeLimit {
   void run() {
     const Flow flow(flat_);
     std::vector<Item> items = std::move(flat_.items);
+    way_.read_ahead_in(items);
     flat_.items.clear();
     for (std::size_t i = 0; i < items.size(); ++i) {
       Item& item = items[i];

@@ -168,9 +168,8 @@ class Structure {
           refuse("HEI-025", "the subprogram " + item.label + " is not carried");
           continue;
         }
-        ir::CallRoutine call;
-        call.routine = routine_name(flat_.items[static_cast<std::size_t>(to)]);
-        statements_[i].front().node = std::move(call);
+        std::get<ir::CallRoutine>(statements_[i].front().node).routine =
+            routine_name(flat_.items[static_cast<std::size_t>(to)]);
         continue;
       }
       if (here != there) {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "frontends/heidenhain/program/flow.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "frontends/heidenhain/ways/flow.h"
 
 namespace cnctrans::frontends::heidenhain {
 

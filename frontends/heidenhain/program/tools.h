@@ -2,8 +2,8 @@
 // elsewhere (a subprogram behind the program end).
 #pragma once
 
-#include "frontends/heidenhain/program/flow.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "frontends/heidenhain/ways/flow.h"
 
 namespace cnctrans::frontends::heidenhain {
 

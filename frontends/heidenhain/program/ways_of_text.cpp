@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "frontends/heidenhain/program/flow.h"
+#include "frontends/heidenhain/ways/flow.h"
 
 namespace cnctrans::frontends::heidenhain {
 

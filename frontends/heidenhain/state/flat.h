@@ -119,6 +119,7 @@ struct Pattern {
 /// the SL cycles, FU, and M126.
 enum class AlongText : std::uint8_t { tilt, contours, data, train, per_rev, shortest };
 inline constexpr std::size_t along_text = 6;
+using Along = std::array<std::int16_t, along_text>;
 
 struct Item {
   ItemKind kind = ItemKind::plain;
@@ -141,14 +142,16 @@ struct Item {
   std::optional<std::pair<ir::Value, ir::Value>> place;  ///< CYCL CALL: of the tool in the plane, where it is known
   std::optional<ir::Value> height;                       ///< of a cycle call: of the tool, where it is known
   CycleCall call = CycleCall::none;
-  std::optional<ir::Value> shift;                 ///< CYCL CALL POS: along the tool axis
-  int plunge = -1;                                ///< M103: index of the share that holds from here on
-  std::vector<ir::VarRef> writes;                 ///< variables
-  int tool = -1;                                  ///< TOOL CALL: index of what it leaves
-  std::array<std::int16_t, along_text> before{};  ///< by AlongText: the state with which it was read
-  std::array<std::int16_t, along_text> sets{-1, -1, -1, -1, -1, -1};  ///< the state from here on; -1: as before
-  std::array<bool, along_text> relies{};                              ///< `before` has decided what the item is
-  bool tool_feed = false;                                             ///< F AUTO: its F is that of the TOOL CALL above
+  std::optional<ir::Value> shift;         ///< CYCL CALL POS: along the tool axis
+  int plunge = -1;                        ///< M103: index of the share that holds from here on
+  std::vector<ir::VarRef> writes;         ///< variables
+  int tool = -1;                          ///< TOOL CALL: index of what it leaves
+  bool defines_none = false;              ///< CALL PGM: the program is known to define no cycle
+  int held = -1;                          ///< of a call: index of what holds at it (Lowering)
+  Along before{};                         ///< by AlongText: the state with which it was read
+  Along sets{-1, -1, -1, -1, -1, -1};     ///< the state from here on; -1: as before
+  std::array<bool, along_text> relies{};  ///< `before` has decided what the item is
+  bool tool_feed = false;                 ///< F AUTO: its F is that of the TOOL CALL above
 };
 
 struct Flat {

@@ -69,8 +69,14 @@ class Lowering {
   void unread(ir::LineInfo line, std::string_view text);
   /// What waits for further lines is complete.
   void flush();
+  /// The lines of a subprogram follow once more: what holds at this call holds in them.
+  void read_as_at(const Item& call) { read_as_ = call.held; }
+  /// The lines of the program that the item calls follow, until the second of these: they are a subprogram.
+  void open_program(const Item& call, const Span& where);
+  void close_program() { part_ = false; }
 
   [[nodiscard]] Flat& flat() { return flat_; }
+  [[nodiscard]] const Flat& flat() const { return flat_; }
   [[nodiscard]] Report& report() { return report_; }
   /// Q parameters that the program reads or writes outside of cycle definitions.
   [[nodiscard]] const std::set<std::int64_t>& own_reads() const { return reads_; }
@@ -140,19 +146,18 @@ class Lowering {
     std::set<ir::FrameKind> outer;
     std::vector<std::string> contour_labels;
     std::int16_t tilt_id = 0, contours_id = 0;
-    int contour_data = -1, train_data = -1;
+    int contour_data = -1, train_data = -1, tool_axis = 2;
     bool feed_by_fu = false, per_rev = false, shortest = false;
     std::optional<ir::Value> tool_feed, speed, orient;
     std::optional<double> radius;
   };
-  using Along = std::array<std::int16_t, along_text>;
   [[nodiscard]] Along along() const;
   void mark_along(Item& item);
   void sets(AlongText k) { sets_[static_cast<std::size_t>(k)] = true; }
   void relies(AlongText k) { relies_[static_cast<std::size_t>(k)] = true; }
   void contours_set();
   void tilt_set();
-  [[nodiscard]] Held held() const;
+  int held();
   void hold(const Held& h);
   ir::ToolSelect tool_of(const syntax::Word* number, const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
@@ -208,6 +213,8 @@ class Lowering {
   bool global_ = false;  ///< lines of a GLOBAL DEF are being read
   std::string name_;
   bool inch_ = false, began_ = false, ended_ = false;
+  int read_as_ = -1;                     ///< index of what holds at the label of the next line
+  bool part_ = false;                    ///< the line is one of a called program that is read as a subprogram
   std::optional<ir::Units> outer_unit_;  ///< where the unit changes with the file
   bool mixed_units_ = false;
 
@@ -229,7 +236,8 @@ class Lowering {
   std::array<std::int16_t, along_text> before_{};
   std::map<std::string, std::int16_t> tilts_, contours_;
   std::int16_t tilt_id_ = 0, contours_id_ = 0;
-  std::map<std::string, Held> called_;    ///< by the label, at its first call
+  std::vector<Held> held_;                ///< at each call
+  std::map<std::string, int> called_;     ///< by the label: index of what holds at its first call
   std::set<ir::AxisId> rotary_moved_;     ///< rotary axes in the blocks above
   std::set<ir::FrameKind> outer_;         ///< mirror, rotation and scale that were programmed outside of a tilt
   std::map<std::int64_t, double> radii_;  ///< TOOL DEF n R

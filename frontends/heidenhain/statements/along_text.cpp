@@ -19,7 +19,7 @@ std::int16_t number_of(std::map<std::string, std::int16_t>& known, const std::st
 
 }  // namespace
 
-Lowering::Along Lowering::along() const {
+Along Lowering::along() const {
   const auto per_rev = static_cast<std::int16_t>(!feed_by_fu_ ? 0 : per_rev_ ? 2 : 1);
   return {tilt_id_,
           contours_id_,
@@ -64,9 +64,11 @@ void Lowering::tilt_set() {
   tilt_id_ = number_of(tilts_, key);
 }
 
-Lowering::Held Lowering::held() const {
-  return {tilt_,       outer_,   contour_labels_, tilt_id_,   contours_id_, contour_data_, train_data_,
-          feed_by_fu_, per_rev_, shortest_,       tool_feed_, speed_,       orient_,       radius_};
+/// Index of what holds here.
+int Lowering::held() {
+  held_.push_back({tilt_, outer_, contour_labels_, tilt_id_, contours_id_, contour_data_, train_data_, tool_axis_,
+                   feed_by_fu_, per_rev_, shortest_, tool_feed_, speed_, orient_, radius_});
+  return static_cast<int>(held_.size()) - 1;
 }
 
 void Lowering::hold(const Held& h) {
@@ -77,6 +79,7 @@ void Lowering::hold(const Held& h) {
   contours_id_ = h.contours_id;
   contour_data_ = h.contour_data;
   train_data_ = h.train_data;
+  tool_axis_ = h.tool_axis;
   feed_by_fu_ = h.feed_by_fu;
   per_rev_ = h.per_rev;
   shortest_ = h.shortest;
@@ -85,6 +88,16 @@ void Lowering::hold(const Held& h) {
   orient_ = h.orient;
   radius_ = h.radius;
   before_ = along();
+}
+
+void Lowering::open_program(const Item& call, const Span& where) {
+  part_ = true;
+  line_ = ir::LineInfo{};
+  line_.span = where;
+  line_.labels.push_back(program_.keep(call.label));
+  first_ = true;
+  put(ItemKind::label, ir::Label{}).label = call.label;
+  hold(held_[static_cast<std::size_t>(call.held)]);
 }
 
 /// Index of a share of F (M103).

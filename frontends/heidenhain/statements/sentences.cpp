@@ -211,6 +211,10 @@ bool Lowering::sentence(const syntax::Statement& s) {
 }
 
 bool Lowering::begin(const syntax::Statement& s) {
+  if (part_) {
+    if (!line_.comments.empty()) put(ir::Block{});
+    return true;
+  }
   std::string_view rest = trim(std::string_view(s.text));
   const auto blank = rest.find_last_of(" \t");
   const std::string_view unit = blank == std::string_view::npos ? rest : rest.substr(blank + 1);
@@ -246,6 +250,10 @@ void Lowering::put_unit(ir::Units unit) {
 }
 
 bool Lowering::finish_program(const syntax::Statement&) {
+  if (part_) {
+    put(ItemKind::sub_end, ir::Block{}).label = "0";
+    return true;
+  }
   if (outer_unit_) put_unit(*outer_unit_);
   ir::End end;
   end.text = "END PGM";
@@ -286,7 +294,9 @@ bool Lowering::label(const syntax::Statement& s) {
   const auto calls = called_.find((item.number ? "N" : "T") + item.label);
   const std::size_t count = flat_.items.size();
   const ItemKind above = count < 2 ? ItemKind::plain : flat_.items[count - 2].kind;
-  if (calls != called_.end() && (above == ItemKind::end || above == ItemKind::sub_end)) hold(calls->second);
+  const int again = std::exchange(read_as_, -1);
+  const int as = again >= 0 || calls == called_.end() ? again : calls->second;
+  if (as >= 0 && (above == ItemKind::end || above == ItemKind::sub_end)) hold(held_[static_cast<std::size_t>(as)]);
   return true;
 }
 
@@ -326,7 +336,8 @@ bool Lowering::call_label(const syntax::Statement& s) {
     Item& item = put(ItemKind::call, std::move(call));
     item.label = probe.label;
     item.number = probe.number;
-    called_.emplace((item.number ? "N" : "T") + item.label, held());
+    item.held = held();
+    called_.emplace((item.number ? "N" : "T") + item.label, item.held);
     return true;
   }
   ir::Repeat repeat;
@@ -361,7 +372,7 @@ Item& Lowering::call_routine(const std::string& name) {
   call.routine.text = name;
   call.level = ir::CallLevel::new_level;
   const std::size_t at = flat_.items.size();
-  put(ItemKind::program, std::move(call));
+  put(ItemKind::program, std::move(call)).held = held();
   if (inch_) put_unit(ir::Units::inch);
   return flat_.items[at];
 }

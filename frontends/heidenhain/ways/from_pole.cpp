@@ -1,4 +1,4 @@
-#include "frontends/heidenhain/program/from_pole.h"
+#include "frontends/heidenhain/ways/from_pole.h"
 
 #include <algorithm>
 

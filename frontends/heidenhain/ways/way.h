@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "frontends/heidenhain/state/flat.h"
 #include "frontends/heidenhain/state/term.h"
@@ -15,6 +16,8 @@ namespace cnctrans::frontends::heidenhain {
 class Way {
  public:
   explicit Way(const Flat& flat);
+  /// Where the items stand while those of the program are rewritten.
+  void read_ahead_in(const std::vector<Item>& items) { ahead_ = &items; }
 
   /// Before the next item: where lines before it that may be skipped lead is not known.
   void comes_to(const Item& item);
@@ -46,10 +49,14 @@ class Way {
   void set_pole(const Pole& pole);
   void note_call(const Item& item);
   bool enter(const Item& label);
+  bool stay_in_loop(const Item& label);
+  void leave_open(const Item& item);
+  bool join(const Way& other);
   [[nodiscard]] std::optional<Pair> centre_of(const Item& item, const std::optional<Pair>& end) const;
   [[nodiscard]] std::optional<Pair> chord(const ir::Motion& m) const;
 
   const Flat& flat_;
+  const std::vector<Item>* ahead_;
   std::set<std::string> targets_;  ///< labels to which something leads
   using Place = std::array<std::optional<Term>, 9>;
   Place at_;
@@ -58,6 +65,8 @@ class Way {
     int left = 0;         ///< calls that stand further on in the text
     bool jumped = false;  ///< a jump or a repeat leads here, too
     bool some = false;
+    bool before = false;              ///< something leads here that stands before the label
+    std::size_t first = 0, last = 0;  ///< the items of the label, and of the last jump or repeat that leads back here
     std::optional<bool> rapid;
     std::optional<double> feed;
     Place at;

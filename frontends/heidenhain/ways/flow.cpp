@@ -1,9 +1,9 @@
-#include "frontends/heidenhain/program/flow.h"
+#include "frontends/heidenhain/ways/flow.h"
 
 #include <algorithm>
 
-#include "frontends/heidenhain/program/from_pole.h"
-#include "frontends/heidenhain/program/way.h"
+#include "frontends/heidenhain/ways/from_pole.h"
+#include "frontends/heidenhain/ways/way.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -137,7 +137,10 @@ Arrival Flow::after(int item, Arrival a) const {
       a.pole = i.index;
       a.moved = a.written = false;
       return a;
-    case ItemKind::program: a.outside = a.selected_outside = a.moved = a.written = true; return a;
+    case ItemKind::program:
+      a.outside = a.outside || !i.defines_none;
+      a.selected_outside = a.moved = a.written = true;
+      return a;
     default: break;
   }
   if (i.pattern != Arrival::none) a.pattern = i.pattern;
@@ -165,6 +168,7 @@ void Flow::find_sets() {
     to.plunge = to.plunge || from.plunge;
     to.plane = to.plane || from.plane;
     to.pattern = to.pattern || from.pattern;
+    to.cycle = to.cycle || from.cycle;
     for (std::size_t k = 0; k < along_text; ++k) to.text[k] = to.text[k] || from.text[k];
   };
   for (bool changed = true; changed;) {
@@ -174,7 +178,9 @@ void Flow::find_sets() {
       for (std::size_t at = 0; at < flat_.items.size(); ++at) {
         if (!root.reached[at]) continue;
         const Item& i = flat_.items[at];
-        Sets own{i.tool >= 0, i.plunge >= 0, plane_in(i).has_value(), i.pattern != Arrival::none, {}};
+        Sets own{
+            i.tool >= 0, i.plunge >= 0, plane_in(i).has_value(), i.pattern != Arrival::none, i.kind == ItemKind::cycle,
+            {}};
         for (std::size_t k = 0; k < along_text; ++k) own.text[k] = i.sets[k] >= 0;
         add(root.sets, own);
         const auto callee = i.kind == ItemKind::call ? root_of(i) : std::nullopt;
@@ -199,6 +205,7 @@ Arrival Flow::behind_call(const Arrival& before, Arrival out, const Sets& sets) 
   if (!sets.plunge) out.plunge = before.plunge;
   if (!sets.plane) out.plane = before.plane;
   if (!sets.pattern) out.pattern = before.pattern;
+  if (!sets.cycle) out.cycle = before.cycle;
   for (std::size_t k = 0; k < along_text; ++k) {
     if (!sets.text[k]) out.text[k] = before.text[k];
   }

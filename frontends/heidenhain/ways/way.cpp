@@ -1,6 +1,7 @@
-#include "frontends/heidenhain/program/way.h"
+#include "frontends/heidenhain/ways/way.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ir/geometry/geometry.h"
@@ -30,12 +31,16 @@ std::string label_key(const Item& item) {
   return (item.number ? "N" : "T") + item.label;
 }
 
-Way::Way(const Flat& flat) : flat_(flat) {
-  for (const Item& i : flat.items) {
+Way::Way(const Flat& flat) : flat_(flat), ahead_(&flat.items) {
+  for (std::size_t at = 0; at < flat.items.size(); ++at) {
+    const Item& i = flat.items[at];
+    if (i.kind == ItemKind::label) calls_[label_key(i)].first = at;
     if (i.kind != ItemKind::call && i.kind != ItemKind::repeat && i.kind != ItemKind::jump) continue;
     targets_.insert(label_key(i));
     auto& calls = calls_[label_key(i)];
     i.kind == ItemKind::call ? void(++calls.left) : void(calls.jumped = true);
+    calls.before = calls.before || i.kind == ItemKind::call || calls.first == 0;
+    calls.last = at;
   }
 }
 
@@ -78,6 +83,60 @@ bool Way::enter(const Item& label) {
   return true;
 }
 
+/// Only what both know; true when that is less.
+bool Way::join(const Way& other) {
+  bool changed = false;
+  const auto both = [&changed](auto& mine, const auto& theirs, const auto& same) {
+    if (!mine || (theirs && same(*mine, *theirs))) return;
+    mine.reset();
+    changed = true;
+  };
+  const auto equal = [](const auto& a, const auto& b) { return a == b; };
+  constexpr double noise = 1e-9;
+  const auto term = [](const Term& a, const Term& b) {
+    return a.literal() && b.literal() && std::fabs(a.number() - b.number()) < noise;
+  };
+  const auto pair = [&term](const Pair& a, const Pair& b) { return term(a.u, b.u) && term(a.v, b.v); };
+  for (std::size_t i = 0; i < at_.size(); ++i) both(at_[i], other.at_[i], term);
+  both(pole_, other.pole_, pair);
+  both(direction_, other.direction_, pair);
+  both(side_, other.side_, equal);
+  both(rapid_, other.rapid_, equal);
+  both(feed_, other.feed_, equal);
+  return changed;
+}
+
+/// Behind an element whose path is not known yet: an approach ends where its words say, and so does DEP LCT.
+void Way::leave_open(const Item& item) {
+  const Lead* lead = item.lead >= 0 ? &flat_.leads[static_cast<std::size_t>(item.lead)] : nullptr;
+  const bool ends = lead != nullptr && (!lead->departure || lead->form == dialects::heidenhain::LeadForm::line_arc);
+  if (!ends) forget();
+  direction_.reset();
+  rapid_.reset();
+  side_.reset();
+  if (lead != nullptr && lead->departure) side_ = 0;
+  if (lead != nullptr && !lead->departure && lead->side != 0) side_ = lead->side;
+}
+
+/// At the label of a loop: what each round of it leaves as it was. False: other ways lead here.
+bool Way::stay_in_loop(const Item& label) {
+  const Calls& loop = calls_[label_key(label)];
+  if (dead_ || loop.before || !loop.jumped) return false;
+  for (bool changed = true; changed;) {
+    changed = false;
+    Way round = *this;
+    for (std::size_t i = loop.first + 1; i <= loop.last; ++i) {
+      const Item& item = (*ahead_)[i];
+      round.step(item);
+      if (item.lead >= 0 || item.free >= 0) round.leave_open(item);
+      const bool leads = item.kind == ItemKind::repeat || item.kind == ItemKind::jump;
+      if (leads && label_key(item) == label_key(label)) changed = join(round) || changed;
+      if (round.plane_ != plane_) return false;
+    }
+  }
+  return true;
+}
+
 std::optional<Pair> Way::point() const {
   const auto p = plane();
   if (!at_[p.u] || !at_[p.v]) return std::nullopt;
@@ -95,7 +154,7 @@ void Way::step(const Item& item) {
     case ItemKind::label:
       if (targets_.count(label_key(item)) == 0) return;
       cycle_ = -1;
-      if (enter(item)) return;
+      if (enter(item) || stay_in_loop(item)) return;
       forget();
       side_.reset();
       rapid_.reset();
