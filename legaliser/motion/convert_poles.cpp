@@ -483,7 +483,7 @@ class PolePass {
 
 void convert_poles(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect || !uses_polar(program)) return;
-  if (!context.target.polar || !context.target.distance_per_word) count_polar_steps(program, context);
+  count_polar_steps(program, context);
   const FactsOf facts(program, context);
   const FrameSteps frames(program, facts, context.target_machine, context);
   const PathValues path(facts, context.source_machine, frames);

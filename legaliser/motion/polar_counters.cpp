@@ -28,6 +28,18 @@ bool is_step(const Statement& s, const Facts& facts) {
   return modes.adds_radius || modes.adds_angle;
 }
 
+/// A part of a circle about the pole, by an angle that counts from the point before.
+bool is_arc_step(const Statement& s, const Facts& facts) {
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr || !is_polar_arc(*b, facts) || s.line.skip_mask != 0 || b->repeat_given != 0 || loses_point(*b))
+    return false;
+  const MotionExtra& x = *b->motion.extra;
+  const auto modes = polar_modes(x, setting_in<Distance>(*b, facts, Setting::distance));
+  constexpr double turn = 360 - 1e-9;
+  return modes.adds_angle && !modes.angle_modal && !x.has_polar_radius && x.polar_angle.literal() &&
+         std::fabs(x.polar_angle.number) < turn && !(x.has_turns && !x.turns.is(0));
+}
+
 /// The place in the plane may be another one behind it, or what it is counted from.
 bool leaves_place(const Statement& s, const Facts& facts) {
   if (const auto* o = std::get_if<Opaque>(&s.node)) return !o->harmless;
@@ -36,7 +48,7 @@ bool leaves_place(const Statement& s, const Facts& facts) {
   if (b == nullptr) return false;
   const bool other_words = std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
     const auto* m = std::get_if<ModalSet>(&a.data);
-    return std::holds_alternative<PoleSet>(a.data) || std::holds_alternative<CycleDefine>(a.data) ||
+    return std::holds_alternative<PoleSet>(a.data) ||
            (m != nullptr && (m->setting == Setting::plane || m->setting == Setting::units));
   });
   if (other_words || loses_point(*b)) return true;
@@ -102,9 +114,30 @@ class PolarCounters {
   /// A step that the target can't say, whose point before is no number.
   [[nodiscard]] bool counts_on(const Statement& s, const Facts& facts) const {
     const auto plane = setting<Plane>(facts, Setting::plane);
-    return plane && is_step(s, facts) &&
-           (!context_.target.polar || modes_of_words(*std::get<Block>(s.node).motion.extra)) &&
-           !(facts.position[plane_axes(*plane).u] && facts.position[plane_axes(*plane).v]);
+    if (!plane || (facts.position[plane_axes(*plane).u] && facts.position[plane_axes(*plane).v])) return false;
+    if (is_arc_step(s, facts)) return about_pole(s, plane_axes(*plane)) && by_radius(s, facts, plane_axes(*plane));
+    const Capabilities& target = context_.target;
+    return is_step(s, facts) &&
+           (!target.polar || (!target.distance_per_word && modes_of_words(*std::get<Block>(s.node).motion.extra)));
+  }
+  /// No axis of the plane counts diameters.
+  [[nodiscard]] bool by_radius(const Statement& s, const Facts& facts, const PlaneAxes& plane) const {
+    const auto& b = std::get<Block>(s.node);
+    const auto whole = [&](AxisId a) {
+      return to_radius(a, WordScale::modal, Distance::absolute, b, facts, context_.source_machine) == 1.0;
+    };
+    return whole(plane.u) && whole(plane.v);
+  }
+  /// The centre of the arc is the pole.
+  [[nodiscard]] bool about_pole(const Statement& s, const PlaneAxes& plane) const {
+    const auto pole = places_ == nullptr ? std::nullopt : places_->pole(s);
+    const auto& centers = std::get<Block>(s.node).motion.centers;
+    return std::all_of(centers.begin(), centers.end(), [&](const CenterWord& c) {
+      if (c.mode != CenterMode::absolute || !c.value.literal()) return false;
+      if (places_ == nullptr) return true;
+      const Value* at = !pole ? nullptr : c.axis == plane.u ? &pole->u : c.axis == plane.v ? &pole->v : nullptr;
+      return at != nullptr && at->literal() && at->number == c.value.number;
+    });
   }
 
   /// The statements behind which the variables may begin: the last one that leaves its place before a loop with such a
@@ -193,10 +226,47 @@ class PolarCounters {
     };
     count(*radius_, x.has_polar_radius, modes.adds_radius, x.polar_radius);
     count(*angle_, x.has_polar_angle, modes.adds_angle, x.polar_angle);
+    if (is_polar_arc(b, facts_->before(s))) {  // its own angle stays the step
+      end_as_words(s, b);
+      return editor.put(out, std::move(pieces), std::move(s));
+    }
     x.has_polar_radius = x.has_polar_angle = true;
     x.polar_mode = x.polar_angle_mode = WordMode::absolute;
     b.motion.extra = std::make_shared<const MotionExtra>(std::move(x));
     editor.put(out, std::move(pieces), std::move(s));
+  }
+
+  /// X = pole + r * cos q, Y = pole + r * sin q; beside increments, where the target has one mode for all words, the
+  /// way from the place before.
+  void end_as_words(const Statement& s, Block& b) const {
+    const auto plane = plane_axes(*setting<Plane>(facts_->before(s), Setting::plane));
+    const auto pole = places_->pole(s);
+    MotionExtra x = *b.motion.extra;
+    const Value now{variable(*angle_)}, before = subtract(now, x.polar_angle);
+    const bool steps = !context_.target.distance_per_word &&
+                       std::any_of(b.motion.coords.begin(), b.motion.coords.end(),
+                                   [](const CoordWord& c) { return c.mode == WordMode::incremental; });
+    x.has_polar_angle = false;
+    x.polar_angle = Value{};
+    x.polar_angle_mode = WordMode::modal;
+    b.motion.extra = x.has_turns || x.has_pitch ? std::make_shared<const MotionExtra>(std::move(x)) : nullptr;
+    b.motion.centers.clear();
+    const Value radius{variable(*radius_)};
+    for (const bool first : {true, false}) {
+      const Function wave = first ? Function::cos : Function::sin;
+      const Value to = polar_leg(radius, now, wave), from = polar_leg(radius, before, wave);
+      const Value& middle = first ? pole->u : pole->v;
+      CoordWord end;
+      end.axis = first ? plane.u : plane.v;
+      end.mode = steps ? WordMode::incremental : WordMode::absolute;
+      end.value = steps ? subtract(to, from) : add(middle, to);
+      b.motion.coords.push_back(std::move(end));
+      CenterWord centre;
+      centre.axis = first ? plane.u : plane.v;
+      centre.mode = steps ? CenterMode::from_start : CenterMode::absolute;
+      centre.value = steps ? negate(from) : middle;
+      b.motion.centers.push_back(std::move(centre));
+    }
   }
 
   Program& program_;

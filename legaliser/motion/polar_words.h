@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <set>
 
+#include "ir/cycles/hole.h"
 #include "ir/program.h"
 #include "legaliser/analysis/words.h"
 
@@ -112,7 +113,7 @@ bool touches_plane(const Block& b, const PlaneAxes& axes);
 /// A hole along the normal of the plane leaves the tool over its point.
 inline bool leaves_point(const CycleDefine& d) {
   const auto* hole = d.cycle ? std::get_if<HoleCycle>(&d.cycle->node) : nullptr;
-  return hole != nullptr && hole->axis == axis::none && hole->kind != HoleKind::mill;
+  return hole != nullptr && hole->axis == axis::none && cycles::ends_over_its_place(*hole);
 }
 /// The full turns of a helix as its travel per turn; nothing happens where the travel along `normal` or the sense is
 /// not known.
