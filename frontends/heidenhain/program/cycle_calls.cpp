@@ -122,10 +122,9 @@ const CycleDefinition* CycleCalls::in_force(const Item& item, const Arrival& a) 
   report.start(item.statement.line.span);
   if (!a.reached) return nullptr;
   if (a.cycle == Arrival::none) {
-    report.refuse(
-        "HEI-017", {},
-        "a cycle is called, and no CYCL DEF stands before it in this file; that of a calling program is not carried",
-        "define it in this file");
+    report.refuse("HEI-017", {},
+                  "a cycle is called, and no CYCL DEF stands before it in this file or in one at hand that calls it",
+                  "define it in this file, or give the program that calls this one");
     return nullptr;
   }
   if (a.outside && !std::exchange(outside_told_, true)) {
