@@ -222,6 +222,10 @@ std::string_view LineWindowReader::next() {
   return {s.buffer.data(), s.given};
 }
 
+void LineWindowReader::give_back(std::size_t bytes) {
+  state_->given -= bytes;
+}
+
 const std::string& LineWindowReader::read_error() const {
   return state_->error;
 }

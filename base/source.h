@@ -110,6 +110,8 @@ class LineWindowReader {
   /// The next window: whole lines, ending with a line end except at the end of the file. Empty at the end. The view is
   /// valid until the next call. A line longer than the window makes the window grow.
   std::string_view next();
+  /// So many bytes at the end of the last window (whole lines) come again, at the begin of the next one.
+  void give_back(std::size_t bytes);
   /// Why `next()` came to an early end; empty when it did not. To be asked after the last window.
   [[nodiscard]] const std::string& read_error() const;
   [[nodiscard]] std::size_t bytes_read() const;

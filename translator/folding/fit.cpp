@@ -65,7 +65,7 @@ std::optional<Unfit> unfit(const ir::Program& given, const machine::Profile& mac
     for (const auto* labels : {&uses.targets, &uses.ends}) {
       for (const auto& [is_number, text] : *labels) {
         const auto number = block_number(text);
-        if (number && !folded.numbers().contains(*number)) found.numbers.insert(*number);
+        if (number && folded.may_lose(*number)) found.numbers.insert(*number);
       }
     }
   }

@@ -136,7 +136,7 @@ bool FoldedLines::each(const Span& line, const std::function<bool(const ir::Stat
     from += text.size();
     PlainUnit unit;
     while (line_.take(text, l, unit)) {
-      if (line_.scan(unit.text, motion, nowhere) != PlainLine::Kind::plain) return false;
+      if (line_.scan(unit.text, motion, nowhere, unit.room) != PlainLine::Kind::plain) return false;
       motion = line_.motion_after();
       const std::int32_t shape = index_.find(line_, folded_.shapes());
       if (shape < 0 || forms[static_cast<std::size_t>(shape)] == nullptr) return false;

@@ -10,7 +10,7 @@ namespace cnctrans::translator {
 
 namespace {
 
-constexpr std::size_t window_size = 1U << 20U;
+constexpr std::size_t window_size = 1U << 20U, most_marks = 4096;
 /// Lines of a run before the first one may be left out, and samples of a shape in all.
 constexpr std::uint32_t run_head = 4, least_samples = 2;
 
@@ -75,11 +75,15 @@ class TextFolder {
     SourceLine line;
     PlainUnit unit;
     for (std::string_view window = reader.next(); !window.empty(); window = reader.next()) {
+      if (const std::string_view whole = line_.whole_units(window); !whole.empty() && whole.size() != window.size()) {
+        reader.give_back(window.size() - whole.size());
+        window = whole;
+      }
       window_ = window;
       while (line_.take(window, line, unit)) {
         const auto from = base_ + static_cast<std::uint64_t>(unit.text.data() - window_.data());
         const auto to = base_ + (window_.size() - window.size());
-        take({unit.first, unit.last, from, to}, unit.text);
+        take({unit.first, unit.last, from, to}, unit);
       }
       base_ += window_.size();
       if (lost_ || (text_.size() > base_ / 2 && base_ > 4 * window_size)) return false;
@@ -111,9 +115,10 @@ class TextFolder {
     Said said;                            ///< the motion in force at `begin`
   };
 
-  void take(const Raw& raw, std::string_view text) {
+  void take(const Raw& raw, const PlainUnit& unit) {
+    const std::string_view text = unit.text;
     std::int8_t before = motion_;
-    auto kind = line_.scan(text, before, place_);
+    auto kind = line_.scan(text, before, place_, unit.room);
     if (kind == PlainLine::Kind::other) {
       if (line_.comment()) {  // changes nothing: the lines around it may stay away
         if (open_)
@@ -137,7 +142,7 @@ class TextFolder {
       close_gap();
       forget_place();
       before = motion_unknown;
-      kind = line_.scan(text, before, place_);
+      kind = line_.scan(text, before, place_, unit.room);
     }
     motion_ = line_.motion_after();
     if (kind == PlainLine::Kind::odd) {
@@ -156,6 +161,7 @@ class TextFolder {
     if (first) {
       shape->run = run_ + 1;
       shape->seen = 0;
+      shape->left_out = false;
     }
     ++shape->seen;
     const bool whole = asked_for || (!stays_.runs.empty() && stays_.runs.contains(run_)) ||
@@ -170,6 +176,7 @@ class TextFolder {
       if (tells) result_.kept_.push_back({raw.first, raw.last, run_, index, first, before, place_});
       place_.follow(line_);
     } else {
+      if (!std::exchange(shape->left_out, true)) result_.left_out_shapes_.emplace(run_, index);
       leave_out(raw, before);
     }
   }
@@ -211,14 +218,12 @@ class TextFolder {
   }
 
   /// A jump leads here, by the number of the block: the place and the motion of the lines before need not hold.
-  [[nodiscard]] bool is_asked_for() const {
-    if (stays_.numbers.empty()) return false;
-    for (std::size_t i = 0; i < line_.count(); ++i) {
-      const PlainNumber& n = line_.number(i);
-      if (n.letter == 'N' && stays_.numbers.contains(static_cast<std::uint64_t>(scaled(n.text) / place_scale)))
-        return true;
-    }
-    return false;
+  bool is_asked_for() {
+    const auto number = line_.block_number();
+    if (!number) return false;
+    result_.least_block_ = std::min(result_.least_block_, *number);
+    result_.last_block_ = std::max(result_.last_block_, *number);
+    return !stays_.numbers.empty() && stays_.numbers.contains(*number);
   }
 
   void forget_place() {
@@ -256,6 +261,9 @@ class TextFolder {
       gap_ = {.first = raw.first, .run = run_, .from = raw.from, .motion = before, .place = place_};
       used_ = 0;
       sums_ = {};
+      follows_ = knows_places();
+    } else if (raw.from >= next_mark_) {
+      mark(raw.from, before);
     }
     gap_.last = raw.last;
     gap_.to = raw.to;
@@ -267,6 +275,18 @@ class TextFolder {
     for (std::uint32_t left = letters; left != 0; left &= left - 1)
       last_[static_cast<std::size_t>(std::countr_zero(left))] = now;
     used_ |= letters;
+  }
+
+  /// Near each other in a short file, and never very many.
+  void mark(std::uint64_t from, std::int8_t before) {
+    auto& marks = result_.marks_;
+    marks.push_back({from, before, place_, follows_});
+    if (marks.size() == most_marks) {
+      for (std::size_t i = 0; 2 * i < marks.size(); ++i) marks[i] = marks[2 * i];
+      marks.resize(marks.size() / 2);
+      between_marks_ *= 2;
+    }
+    next_mark_ = from + between_marks_;
   }
 
   static void add_increments(const PlainLine& line, AxisNumbers& sums, int sign) {
@@ -449,7 +469,9 @@ class TextFolder {
   std::string_view window_;
   std::uint64_t base_ = 0;  ///< of the window
   FilePart again_;
-  bool lost_ = false;  ///< the file is not what it was
+  std::uint64_t next_mark_ = 0, between_marks_ = 1024;
+  bool follows_ = false;  ///< the place is known in the whole gap
+  bool lost_ = false;     ///< the file is not what it was
 };
 
 std::optional<FoldedText> FoldedText::of(const std::string& path, const frontends::PlainWords& words,

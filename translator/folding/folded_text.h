@@ -33,6 +33,7 @@ struct Shape {
   std::uint32_t run = 0;  ///< the one that seen counts in
   std::uint32_t seen = 0;
   std::uint32_t shown = 0;       ///< lines that stay and are not the first of their run
+  bool left_out = false;         ///< one at least, in the run
   std::uint64_t told_apart = 0;  ///< pairs of numbers that differ in one of them
   /// For each number: the spellings that stay, with their most digits behind the point + 1.
   std::vector<std::array<std::uint8_t, number_forms>> spellings;
@@ -60,6 +61,15 @@ class FoldedText {
   /// nullopt: the file can't be read, or too little can be left out to be worth it.
   static std::optional<FoldedText> of(const std::string& path, const frontends::PlainWords& words, const Stays& stays);
 
+  /// A line that is left out where a new stretch of the file begins: what is written there can be begun here.
+  struct Mark {
+    std::uint64_t from = 0;
+    std::int8_t motion = motion_unknown;
+    PlainPlace place;
+    bool knows_place = false;
+  };
+
+  [[nodiscard]] const std::vector<Mark>& marks() const { return marks_; }
   [[nodiscard]] const SourcePtr& text() const { return text_; }
   [[nodiscard]] const std::vector<Gap>& gaps() const { return gaps_; }
   [[nodiscard]] const std::vector<KeptLine>& kept() const { return kept_; }
@@ -68,16 +78,25 @@ class FoldedText {
   [[nodiscard]] std::uint32_t last_line() const { return last_line_; }
   /// Of axes whose words go by the way there; bit 0 is A.
   [[nodiscard]] std::uint32_t by_way() const { return by_way_; }
-  /// Blocks that stay because of their number.
-  [[nodiscard]] const std::set<std::uint64_t>& numbers() const { return numbers_; }
+  /// A plain line may have this block number, and does not stay because of it.
+  [[nodiscard]] bool may_lose(std::uint64_t block) const {
+    return block >= least_block_ && block <= last_block_ && !numbers_.contains(block);
+  }
+  /// Are lines of the shape left out in the run?
+  [[nodiscard]] bool leaves_out(std::uint32_t run, std::uint32_t shape) const {
+    return left_out_shapes_.contains({run, shape});
+  }
 
  private:
   friend class TextFolder;
   SourcePtr text_;
   std::vector<Gap> gaps_;
+  std::vector<Mark> marks_;  ///< in the order of the file
   std::vector<KeptLine> kept_;
   std::vector<Shape> shapes_;
-  std::set<std::uint64_t> numbers_;
+  std::set<std::uint64_t> numbers_;  ///< blocks that stay because of their number
+  std::uint64_t least_block_ = UINT64_MAX, last_block_ = 0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> left_out_shapes_;  ///< run, shape
   std::uint64_t left_out_ = 0;
   std::uint32_t by_way_ = 0;
   std::uint32_t last_line_ = 0;

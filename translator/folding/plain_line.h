@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/source.h"
 #include "frontends/common/frontend.h"
@@ -65,6 +67,7 @@ struct PlainPlace {
 struct PlainUnit {
   std::string_view text;  ///< without the last line end
   std::uint32_t first = 0, last = 0;
+  bool room = false;  ///< eight bytes behind it are there
 };
 
 inline constexpr int increment_bits = 26;
@@ -73,6 +76,7 @@ inline constexpr std::uint32_t all_increments = 0x3FU << increment_bits;
 class PlainLine {
  public:
   static constexpr std::size_t max_key = 40, max_numbers = 10, max_code = 4;
+  static constexpr std::size_t key_room = max_key + 16;  ///< the last word of a key may be longer than a code
   enum class Kind : std::uint8_t {
     plain,
     odd,   ///< nothing but such words, with a number that has to be looked at
@@ -87,8 +91,9 @@ class PlainLine {
   /// Of a piece of text, what ends with a whole unit.
   [[nodiscard]] std::string_view whole_units(std::string_view text) const;
 
-  /// Looks at the text of a unit. What follows is about it, where it is plain.
-  Kind scan(std::string_view line, std::int8_t motion_before, const PlainPlace& before);
+  /// Looks at the text of a unit. What follows is about it, where it is plain. `room`: its end and eight bytes can be
+  /// read behind it.
+  Kind scan(std::string_view line, std::int8_t motion_before, const PlainPlace& before, bool room = false);
 
   [[nodiscard]] std::string_view key() const { return {key_.data(), key_size_}; }
   [[nodiscard]] std::uint32_t hash() const { return hash_; }
@@ -96,7 +101,7 @@ class PlainLine {
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const PlainNumber& number(std::size_t i) const { return numbers_[i]; }
   /// Of another line: it is nothing but a comment.
-  [[nodiscard]] bool comment() const { return comment_; }
+  [[nodiscard]] bool comment() const;
   /// Does a line that is not plain leave increments in force?
   [[nodiscard]] bool increments_after(std::string_view line, bool before) const;
   /// Bit 0 is A: letters of its words; from increment_bits on: axes that it moves by increments, X the first.
@@ -104,6 +109,10 @@ class PlainLine {
   /// Of its words: the axis stands there already, and its number is not among the others.
   [[nodiscard]] std::uint32_t still() const { return still_; }
   [[nodiscard]] std::int8_t motion_after() const { return motion_; }
+  /// By which a jump may ask for the line; a number without a letter is none.
+  [[nodiscard]] std::optional<std::uint64_t> block_number() const {
+    return bare_block_number_ ? std::nullopt : std::optional<std::uint64_t>(block_);
+  }
   /// Letters of axes whose words go by the way there.
   [[nodiscard]] std::uint32_t by_way() const { return by_way_; }
 
@@ -111,10 +120,16 @@ class PlainLine {
   /// By which way the axis comes to the number: `<`, `>`, `~` where it stands there; 0: not known, or half a turn and
   /// more.
   static char way_to(const PlainNumber& number, const PlainPlace& before);
-  bool take_number(const char*& p, const char* end, const frontends::FreeNumber& rule, PlainNumber& number, bool& odd);
+
+  struct Cursor;
+  Cursor begin(std::string_view line, bool room);
+  void add(Cursor& at, char c);
+  bool take_code(Cursor& at);
+  bool take_motion(Cursor& at);
+  bool take_word(char c, const PlainPlace& before, Cursor& at);
+  static bool take_number(Cursor& at, const frontends::FreeNumber& rule, PlainNumber& number);
 
   [[nodiscard]] const frontends::PlainCode* code_at(const char* at, const char* end) const;
-  [[nodiscard]] bool is_comment(std::string_view line) const;
   [[nodiscard]] bool is_lead(std::string_view line) const;
   [[nodiscard]] std::string_view without_number(std::string_view line) const;
 
@@ -127,11 +142,13 @@ class PlainLine {
   frontends::FreeNumber radius_;
   std::uint32_t other_blocks_;
   frontends::CommentLine comments_;
-  bool comment_ = false;
-  std::array<char, max_key> key_{};
+  std::string_view line_;
+  std::vector<char> copy_;
+  std::array<char, key_room> key_{};
   std::size_t key_size_ = 0, count_ = 0;
   std::array<PlainNumber, max_numbers> numbers_{};
   std::uint32_t hash_ = 0, letters_ = 0, still_ = 0, by_way_ = 0;
+  std::optional<std::uint32_t> block_;
   std::int8_t motion_ = motion_unknown;
 };
 

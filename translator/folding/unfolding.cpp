@@ -4,13 +4,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "translator/folding/file_part.h"
-
 namespace cnctrans::translator {
 
 namespace {
 
-constexpr std::size_t piece_size = 1U << 20U, kept_samples = 4;
+constexpr std::size_t kept_samples = 4;
 
 /// Where the lines of an output are.
 struct OutputLines {
@@ -43,45 +41,6 @@ std::string_view unit_text(const SourceText& source, std::uint32_t first, std::u
 struct Became {
   std::uint32_t output = 0, line = 0, count = 0;
   bool scattered = false;  ///< not one behind the other
-};
-
-/// Collects finished lines, with their block numbers where the language has them.
-class Lines {
- public:
-  Lines(std::unique_ptr<backends::BlockNumbers> numbers, std::string_view eol)
-      : numbers_(std::move(numbers)), eol_(eol) {}
-
-  /// Whole lines, with their ends.
-  void add(std::string_view lines) {
-    if (numbers_ == nullptr) {
-      text += lines;
-      return;
-    }
-    SourceLine l;
-    while (take_line(lines, l)) number(l.text);
-  }
-  void add(const LineForm& form, const PlainLine& line, const PlainPlace& before) {
-    if (numbers_ == nullptr) {
-      form.write(line, before, text);
-      text += eol_;
-      return;
-    }
-    written_.clear();
-    form.write(line, before, written_);
-    add(written_);
-  }
-
-  std::string text;
-
- private:
-  void number(std::string_view line) {
-    numbers_->write(line, text);
-    text += eol_;
-  }
-
-  std::unique_ptr<backends::BlockNumbers> numbers_;
-  std::string_view eol_;
-  std::string written_;
 };
 
 }  // namespace
@@ -167,6 +126,7 @@ bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, Folde
         if (!first) shown.emplace(k.run, k.shape);
         continue;
       }
+      if (!folded_.leaves_out(k.run, k.shape)) continue;  // no other line is written like this one
       if (!first) {
         odd.emplace(k.run, k.shape);
       } else if (!shown.contains({k.run, k.shape}) && !stays.more.contains(k.run)) {
@@ -203,69 +163,12 @@ bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, Folde
   for (auto& p : places_)
     std::sort(p.begin(), p.end(),
               [](const Place& x, const Place& y) { return x.at != y.at ? x.at < y.at : x.gap < y.gap; });
+  uses_places_ = line_.by_way() != 0 || std::any_of(forms_.begin(), forms_.end(),
+                                                    [](const Form& f) { return f.form && f.form->uses_place(); });
   stays.runs.insert(bad.begin(), bad.end());
   stays.more.insert(special.begin(), special.end());
   stays.shapes.insert(odd.begin(), odd.end());
   return bad.empty() && special.empty() && odd.empty();
-}
-
-bool Unfolding::write(std::size_t output, std::string_view bytes, const TextSink& sink) const {
-  FilePart file;
-  if (!places_[output].empty() && !file.open(path_)) return false;
-  const bool crlf = bytes.find("\r\n") != std::string_view::npos;
-  const std::string_view eol = crlf ? "\r\n" : "\n";
-  PlainLine line(words_);
-  const bool places = line.by_way() != 0 || std::any_of(forms_.begin(), forms_.end(),
-                                                        [](const Form& f) { return f.form && f.form->uses_place(); });
-  Lines out(numbers_(), eol);
-  std::size_t done = 0, last = 0;
-  std::int8_t motion = motion_unknown;
-  PlainPlace at;
-  for (const Place& place : places_[output]) {
-    const Gap& gap = folded_.gaps()[place.gap];
-    out.add(bytes.substr(done, place.at - done));
-    done = place.at + place.size;
-    // Where it goes on from another one the state is what that one left, and the lines between them.
-    std::size_t before = place.gap;
-    const bool follows = gap.goes_on && place.at != 0 && last + 1 == place.gap;
-    while (!follows && folded_.gaps()[before].goes_on) --before;
-    const Gap& start = folded_.gaps()[before];
-    std::uint64_t from = follows ? folded_.gaps()[last].to : start.from;
-    if (!follows) {
-      motion = start.motion;
-      at = start.place;
-    }
-    last = place.gap;
-    while (from < gap.to) {
-      const bool own = from >= gap.from;
-      const std::uint64_t stop = own ? gap.to : gap.from;
-      std::string_view text = file.read(from, std::min(stop, from + piece_size));
-      if (text.empty()) return false;
-      const bool all = from + text.size() >= stop;
-      if (!all && (text = line.whole_units(text)).empty()) return false;
-      from += text.size();
-      SourceLine l;
-      PlainUnit unit;
-      while (line.take(text, l, unit)) {
-        const auto kind = line.scan(unit.text, motion, at);
-        if (!own && kind == PlainLine::Kind::other && line.comment()) continue;
-        if (kind != PlainLine::Kind::plain) return false;
-        if (own) {
-          const std::int32_t shape = index_.find(line, folded_.shapes());
-          if (shape < 0 || !forms_[static_cast<std::size_t>(shape)].form) return false;
-          out.add(*forms_[static_cast<std::size_t>(shape)].form, line, at);
-        }
-        if (places) at.follow(line);
-        motion = line.motion_after();
-      }
-      if (out.text.size() >= piece_size) {
-        if (!sink(out.text)) return false;
-        out.text.clear();
-      }
-    }
-  }
-  out.add(bytes.substr(done));
-  return sink(out.text);
 }
 
 }  // namespace cnctrans::translator

@@ -57,8 +57,9 @@ class Unfolding {
   /// Holds every line that stayed against what was written for it, in all outputs. False: `stays` says which lines
   /// have to stay besides; when it is as before, no folding helps.
   bool learn(const std::vector<OutputText>& outputs, FileId file, FoldedText::Stays& stays);
-  /// The output with all its lines. False: the sink, or the file is not what it was.
-  bool write(std::size_t output, std::string_view bytes, const TextSink& sink) const;
+  /// The output with all its lines, made in parts of so many bytes of the file and more. False: the sink, or the file
+  /// is not what it was.
+  bool write(std::size_t output, std::string_view bytes, const TextSink& sink, std::size_t part = 1U << 19U) const;
 
  private:
   /// Behind this byte of an output the lines of a gap belong, in place of so many bytes.
@@ -82,11 +83,16 @@ class Unfolding {
     std::optional<LineForm> form;
     std::vector<Sample> samples;
   };
+  struct Part;
+  [[nodiscard]] std::vector<Part> parts_of(std::size_t output, std::size_t least) const;
+  [[nodiscard]] std::optional<std::string> lines_of(std::size_t output, std::string_view bytes, const Part& part) const;
+
   [[nodiscard]] bool explains(const LineForm& form, const Sample& sample);
   [[nodiscard]] bool take(Form& form, Sample sample);
   std::vector<Form> forms_;  ///< by shape
   ShapeIndex index_;
   std::vector<std::vector<Place>> places_;  ///< by output
+  bool uses_places_ = false;                ///< what a line becomes may go by where it begins
 };
 
 /// What translating a file by its folded text came to.
